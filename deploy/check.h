@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that can be known to be wrong before a module runs: files, ABI, machine, symbols, schedule, and from the
+// access map who reads and writes which variable. Used by `indurop check` and by the node before it starts.
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "deploy/config.h"
+#include "schema/elf.h"
+#include "schema/schema.h"
+#include "scheduler/period_table.h"
+
+namespace indurop::deploy {
+
+struct ModuleFacts {
+  schema::ModuleFile file;
+  schema::Schema schema;
+};
+
+struct VariableUse {
+  std::string name;
+  std::vector<std::string> readers;  // module names in execution order
+  std::vector<std::string> writers;
+};
+
+struct CheckResult {
+  std::vector<Diagnostic> diagnostics;
+  scheduler::PeriodTable table;            // periodic modules, indices into `periodic`
+  std::vector<std::size_t> periodic;       // indices into Config::modules
+  std::vector<std::size_t> sporadic;       // by priority
+  std::vector<std::size_t> non_real;
+  std::vector<ModuleFacts> facts;          // one per Config::modules
+  schema::Schema schema;                   // of all modules together
+  std::vector<VariableUse> uses;           // by variable name
+  [[nodiscard]] bool ok() const noexcept;  // no errors; warnings allowed
+};
+
+struct CheckOptions {
+  bool files = true;    // look at the module files; false: schedule only (plan works without built modules)
+  bool adjust = false;  // --adjust: apply the proposed periods to the configuration instead of an error
+};
+
+CheckResult check_config(Config& config, const CheckOptions& options);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// module.xml as data (chapter, Figures 1 and 9), every value with the place it was written at.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scheduler/run_block.h"
+
+namespace indurop::deploy {
+
+using Nanos = std::chrono::nanoseconds;
+
+struct Place {
+  int line = 0;
+  int column = 0;
+};
+
+struct Property {
+  std::string name;
+  std::string value;
+};
+
+// How a process module comes back after it died. max restarts within window, then escalation.
+struct Restart {
+  Nanos delay{std::chrono::milliseconds(100)};
+  std::uint32_t max = 3;
+  Nanos window{std::chrono::seconds(60)};
+  enum class Escalate { StopModule, StopNode } escalate = Escalate::StopModule;
+};
+
+// A value written to a variable when the module faults: <failsafe variable="PLC_ROBOT::O0">0</failsafe>.
+struct FailSafe {
+  std::string variable;
+  std::string value;
+  Place place;
+};
+
+struct Module {
+  std::string name;                  // <name> or file name; unique
+  std::filesystem::path file;        // absolute, relative ones taken from the XML file's directory
+  std::string file_as_written;
+  scheduler::ModuleType type = scheduler::ModuleType::Thread;
+  scheduler::Operation operation = scheduler::Operation::Periodic;
+  Nanos period{};
+  Nanos offset{};
+  Nanos deadline{};                  // 0: none given (sporadic: required; periodic: the period)
+  Nanos budget{};                    // 0: default (10 periods, at least 5 ms); kNoBudget: off
+  int priority = 0;
+  int core = -1;                     // -1: the node's
+  scheduler::OverrunPolicy overrun = scheduler::OverrunPolicy::Skip;
+  bool after_base = false;           // sporadic: <position>after-base</position>
+  int signal = 0;                    // legacy process: POSIX signal number each release, 0: none
+  std::vector<std::string> arguments;
+  std::vector<std::string> reads;    // <access> by name (channel): variables read / written
+  std::vector<std::string> writes;
+  Restart restart;
+  std::vector<FailSafe> failsafe;
+  std::vector<Property> properties;
+  Place place;                       // of <module>
+};
+inline constexpr Nanos kNoBudget{-1};
+
+struct SpinSetting {
+  enum class Mode { Auto, Off, Fixed } mode = Mode::Auto;
+  Nanos fixed{};
+};
+
+struct Config {
+  std::filesystem::path file;
+  std::vector<Module> modules;       // in file order
+  std::optional<Nanos> minimum_period;  // <minimum_period>; default kDefaultMinimumPeriod
+  std::optional<SpinSetting> spin;
+  int core = -1;                     // -1: the last one this process may use
+};
+inline constexpr Nanos kDefaultMinimumPeriod{std::chrono::microseconds(50)};
+
+struct Diagnostic {
+  enum class Severity { Error, Warning, Note } severity = Severity::Error;
+  std::string file;
+  Place place;
+  std::string text;  // what, and what to do
+};
+// "module.xml:12:5: error: ..." ; line and column left out when 0.
+std::string to_string(const Diagnostic& diagnostic);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The schedule of a configuration for people and programs: Table 3 as text, stable JSON, and a timing diagram (SVG)
+// like Figure 2.
+
+#pragma once
+
+#include <string>
+
+#include "deploy/check.h"
+#include "deploy/config.h"
+
+namespace indurop::deploy {
+
+std::string plan_table(const Config& config, const CheckResult& check);
+std::string plan_csv(const Config& config, const CheckResult& check);
+// {"basic_period_ns","macro_period_ns","slots":[{"slot","time_ns","modules":[names in order]}],"sporadic":[...],
+//  "non_real":[...]}
+std::string plan_json(const Config& config, const CheckResult& check);
+std::string plan_svg(const Config& config, const CheckResult& check);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies in shared memory for one variable, and the table through which a module finds it.
+// Shared by generated headers, libindurop and the store: changing anything here means a new kVersion.
+
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace indurop::abi {
+
+inline constexpr std::uint32_t kVersion = 1;
+
+enum class Kind : std::uint32_t {
+  Scalar = 0,  // one value of 1, 2, 4 or 8 bytes, an atomic at the entry's first byte
+  Ring = 1,    // RingHeader followed by kSlots versions of the value
+};
+
+inline constexpr std::size_t kSlots = 4;
+inline constexpr std::size_t kAlign = 64;  // every entry and every slot starts on a cache line
+
+// Part of the value a commit changed; lets a small write to a large variable copy only what differs.
+struct DirtyRange {
+  std::uint32_t offset;
+  std::uint32_t length;
+};
+
+// Head of a variable of Kind::Ring. Version `seq` is in slot `seq % kSlots`. A writer holds `lock`, prepares
+// slot (seq + 1) % kSlots, then stores seq + 1. A writer that dies leaves a slot nobody was told about.
+struct RingHeader {
+  std::atomic<std::uint64_t> seq;
+  pthread_mutex_t lock;                     // robust, priority inheriting, process shared
+  std::atomic<std::uint64_t> lost_writes;   // writes given up because the lock was not free in time
+  std::uint64_t reserved0;
+  DirtyRange dirty[kSlots];                 // what the commit that made this slot's version changed
+  std::uint32_t value_size;
+  std::uint32_t slot_stride;
+  std::uint64_t reserved1[3];
+};
+static_assert(sizeof(pthread_mutex_t) <= 40, "store layout assumes glibc's 64-bit mutex or smaller");
+static_assert(sizeof(RingHeader) == 128 && std::is_standard_layout_v<RingHeader>);
+
+constexpr std::size_t slot_stride(std::size_t value_size) noexcept {
+  return (value_size + kAlign - 1) / kAlign * kAlign;
+}
+constexpr std::size_t entry_size(Kind kind, std::size_t value_size) noexcept {
+  return kind == Kind::Scalar ? kAlign : sizeof(RingHeader) + kSlots * slot_stride(value_size);
+}
+
+// One row per declared variable in every .so or executable that includes a generated header. `entry` is
+// filled in when the module is loaded and again when the store is replaced; it is never null after that.
+struct Ref {
+  std::uint64_t name_hash;  // fnv1a64 of the full name, "knu::Robot::joints"
+  std::uint64_t type_hash;  // fnv1a64 of the canonical type text
+  void* entry;
+  const void* initial;      // value_size bytes, or null for all zero
+  std::uint32_t value_size;
+  Kind kind;
+  const char* name;
+};
+
+constexpr std::uint64_t fnv1a64(const char* text, std::size_t length) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (std::size_t i = 0; i < length; ++i) {
+    hash = (hash ^ static_cast<unsigned char>(text[i])) * 0x100000001b3ULL;
+  }
+  return hash;
+}
+
+}  // namespace indurop::abi
+
+// Services of libindurop for the inline code of generated headers. C names: the same symbol for every compiler.
+extern "C" {
+
+// Makes `count` rows known and binds them: to the store this process is attached to, else to private memory
+// holding the initial values. Called by a constructor of each module before its own static objects.
+void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::uint32_t abi_version);
+void indurop_unregister_refs(indurop::abi::Ref* refs);
+
+// Takes the writer's lock and returns the slot to fill for bytes [offset, offset + length), everything else in
+// it already equal to the current version; null if the lock could not be had in time (counted). Real-time safe.
+void* indurop_begin_write(indurop::abi::RingHeader* ring, std::uint32_t offset, std::uint32_t length) noexcept;
+// The same for changes anywhere in the value: the slot returned is a copy of the current version.
+void* indurop_begin_edit(indurop::abi::RingHeader* ring) noexcept;
+void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept;
+void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept;
+
+// Copies part of the current version when the lock-free way failed 16 times. Real-time safe.
+void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
+                       std::uint32_t length) noexcept;
+
+// Throws std::out_of_range naming variable, index and bound.
+[[noreturn]] void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading and writing one variable in shared memory: atomics for scalars, a ring of versions for the rest.
+// Every access leaves one record in the ELF section .indurop.access, so that the platform knows, before
+// anything runs, who reads and who writes what. No syscall, no allocation.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+
+#include <cstring>
+
+namespace indurop::detail {
+
+inline constexpr std::uint32_t kRead = 1;
+inline constexpr std::uint32_t kWrite = 2;
+
+#define INDUROP_ALWAYS_INLINE [[gnu::always_inline]] inline
+
+// Record layout: u32 low half of the name hash, u32 high half, u32 direction. Not loaded at run time.
+template <class Tag, std::uint32_t Direction>
+INDUROP_ALWAYS_INLINE void record_access() noexcept {
+  asm volatile(".pushsection .indurop.access,\"\",%%progbits\n\t.long %c0,%c1,%c2\n\t.popsection"
+               :
+               : "i"(static_cast<std::uint32_t>(Tag::kNameHash)),
+                 "i"(static_cast<std::uint32_t>(Tag::kNameHash >> 32U)), "i"(Direction));
+}
+
+// Bytes move between private memory and a slot that a writer may be changing; the caller throws the copy away
+// if that happened. ThreadSanitizer cannot know that, so it is shown relaxed atomics instead of memcpy.
+INDUROP_ALWAYS_INLINE void copy_from_shared(void* to, const void* from, std::size_t size) noexcept {
+#ifdef __SANITIZE_THREAD__
+  auto* t = static_cast<unsigned char*>(to);
+  const auto* f = static_cast<const unsigned char*>(from);
+  for (std::size_t i = 0; i < size; ++i) {
+    t[i] = __atomic_load_n(f + i, __ATOMIC_RELAXED);
+  }
+#else
+  std::memcpy(to, from, size);
+#endif
+}
+INDUROP_ALWAYS_INLINE void copy_to_shared(void* to, const void* from, std::size_t size) noexcept {
+#ifdef __SANITIZE_THREAD__
+  auto* t = static_cast<unsigned char*>(to);
+  const auto* f = static_cast<const unsigned char*>(from);
+  for (std::size_t i = 0; i < size; ++i) {
+    __atomic_store_n(t + i, f[i], __ATOMIC_RELAXED);
+  }
+#else
+  std::memcpy(to, from, size);
+#endif
+}
+
+INDUROP_ALWAYS_INLINE unsigned char* slot(abi::RingHeader* ring, std::uint64_t seq, std::size_t stride) noexcept {
+  return reinterpret_cast<unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
+}
+
+template <class T, std::size_t Size>
+INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
+  T value;
+  constexpr int kTries = 16;
+  for (int i = 0; i < kTries; ++i) {
+    const std::uint64_t before = ring->seq.load(std::memory_order_acquire);
+    copy_from_shared(&value, slot(ring, before, abi::slot_stride(Size)) + offset, sizeof(T));
+    std::atomic_thread_fence(std::memory_order_acquire);
+    // The slot is written again only after three more commits: two are harmless.
+    if (ring->seq.load(std::memory_order_relaxed) - before <= abi::kSlots - 2) [[likely]] {
+      return value;
+    }
+  }
+  indurop_read_slow(ring, &value, offset, sizeof(T));
+  return value;
+}
+
+template <class T>
+INDUROP_ALWAYS_INLINE void ring_write(abi::RingHeader* ring, std::uint32_t offset, const T& value) noexcept {
+  if (void* to = indurop_begin_write(ring, offset, sizeof(T))) [[likely]] {
+    copy_to_shared(static_cast<unsigned char*>(to) + offset, &value, sizeof(T));
+    indurop_commit_write(ring);
+  }
+}
+
+// Reads, changes and writes one part of the value while no other writer can; returns the new part.
+template <class T, std::size_t Size, class Change>
+INDUROP_ALWAYS_INLINE T ring_modify(abi::RingHeader* ring, std::uint32_t offset, Change change) noexcept {
+  void* to = indurop_begin_write(ring, offset, sizeof(T));
+  T value;
+  if (to == nullptr) [[unlikely]] {
+    return ring_read<T, Size>(ring, offset);
+  }
+  const std::uint64_t now = ring->seq.load(std::memory_order_relaxed);
+  copy_from_shared(&value, slot(ring, now, abi::slot_stride(Size)) + offset, sizeof(T));
+  value = change(value);
+  copy_to_shared(static_cast<unsigned char*>(to) + offset, &value, sizeof(T));
+  indurop_commit_write(ring);
+  return value;
+}
+
+}  // namespace indurop::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors as values: what a call that can fail for outside reasons returns. No heap for the error, copyable.
+
+#pragma once
+
+#include <utility>
+#include <variant>
+
+namespace indurop {
+
+// Kinds of failure, append-only: numbers appear in logs and JSON.
+enum class Errc : int {
+  Ok = 0,
+  InvalidArgument = 1,   // the caller's value is outside what the function documents
+  NotFound = 2,          // no such name, file, node or module
+  AlreadyExists = 3,     // name in use
+  PermissionDenied = 4,  // the operating system refused
+  Overflow = 5,          // a result does not fit its type
+  Timeout = 6,           // not done within the stated time
+  Busy = 7,              // held by somebody else
+  Corrupt = 8,           // checksum, magic or structure wrong
+  VersionMismatch = 9,   // ABI or layout differs
+  TypeMismatch = 10,     // variable or function has another type
+  NoSpace = 11,          // memory or disk full
+  Dead = 12,             // the process that should answer is gone
+  System = 13,           // another errno, see sys_errno
+  OutOfRange = 14,       // index or value beyond its declared bounds
+  Unsupported = 15,      // not available on this machine
+};
+
+const char* to_string(Errc code) noexcept;
+
+struct Error {
+  Errc code = Errc::Ok;
+  int sys_errno = 0;        // 0 if no system call was involved
+  const char* where = "";   // static text: what was being done
+};
+
+// Either a value or an Error. value() requires ok().
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  Result(Error error) : state_(error) {}         // NOLINT(google-explicit-constructor)
+  [[nodiscard]] bool ok() const noexcept { return state_.index() == 0; }
+  explicit operator bool() const noexcept { return ok(); }
+  [[nodiscard]] T& value() & { return *std::get_if<0>(&state_); }
+  [[nodiscard]] const T& value() const& { return *std::get_if<0>(&state_); }
+  [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&state_)); }
+  T* operator->() { return std::get_if<0>(&state_); }
+  T& operator*() { return *std::get_if<0>(&state_); }
+  [[nodiscard]] const Error& error() const { return *std::get_if<1>(&state_); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+// Result without a value.
+class [[nodiscard]] Status {
+ public:
+  Status() = default;
+  Status(Error error) : error_(error) {}  // NOLINT(google-explicit-constructor)
+  [[nodiscard]] bool ok() const noexcept { return error_.code == Errc::Ok; }
+  explicit operator bool() const noexcept { return ok(); }
+  [[nodiscard]] const Error& error() const noexcept { return error_; }
+
+ private:
+  Error error_;
+};
+
+}  // namespace indurop

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shared variables used like global variables (chapter, Figures 4, 5, 7, 13). The generated header builds each
+// variable from the shapes here: Leaf (number, bool, enum), Text (char array), ArrayRef, and one generated union
+// per struct. A shape is an address, not a value: `auto v = joints[0]` keeps referring to the variable.
+
+#pragma once
+
+#include <indurop/detail/access.h>
+#include <indurop/string.h>
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+// The type of a shared variable: INDUROP_TYPEOF(joints)::value_type v = joints[0]; (Figures 4 and 5)
+#define INDUROP_TYPEOF(variable) std::remove_cvref_t<decltype(variable)>
+
+namespace indurop {
+
+// Where inside its variable a shape points: the bytes that array indices have added. Every shape begins with it,
+// so all members of a generated union share one word.
+struct Place {
+  std::uint32_t bytes;
+};
+
+// Template argument of every generated union: makes namespace indurop associated, so lock(...) is found.
+struct Adl {};
+
+namespace detail {
+
+struct Make {};  // marks the constructors that only indexing and generated code call
+
+template <class T>
+concept Shape = requires(const T& shape) {
+  typename T::whole_type;
+  typename T::tag_type;
+  { shape.get() };
+};
+
+template <class T>
+INDUROP_ALWAYS_INLINE decltype(auto) value_of(const T& argument) noexcept {
+  if constexpr (Shape<T>) {
+    return argument.get();
+  } else {
+    return static_cast<const T&>(argument);
+  }
+}
+
+template <class Tag>
+INDUROP_ALWAYS_INLINE abi::RingHeader* ring_of() noexcept {
+  return static_cast<abi::RingHeader*>(Tag::ref().entry);
+}
+
+template <class Tag, class T>
+INDUROP_ALWAYS_INLINE T load(std::uint32_t offset) noexcept {
+  record_access<Tag, kRead>();
+  if constexpr (Tag::kKind == abi::Kind::Scalar) {
+    T value;
+    __atomic_load(static_cast<T*>(Tag::ref().entry), &value, __ATOMIC_ACQUIRE);
+    return value;
+  } else {
+    return ring_read<T, Tag::kSize>(ring_of<Tag>(), offset);
+  }
+}
+
+template <class Tag, class T>
+INDUROP_ALWAYS_INLINE void store(std::uint32_t offset, const T& value) noexcept {
+  record_access<Tag, kWrite>();
+  if constexpr (Tag::kKind == abi::Kind::Scalar) {
+    T copy = value;
+    __atomic_store(static_cast<T*>(Tag::ref().entry), &copy, __ATOMIC_RELEASE);
+  } else {
+    ring_write(ring_of<Tag>(), offset, value);
+  }
+}
+
+template <class Tag, class T, class Change>
+INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
+  record_access<Tag, kRead | kWrite>();
+  if constexpr (Tag::kKind == abi::Kind::Scalar) {
+    T* target = static_cast<T*>(Tag::ref().entry);
+    T old;
+    __atomic_load(target, &old, __ATOMIC_ACQUIRE);
+    T wanted = change(old);
+    while (!__atomic_compare_exchange(target, &old, &wanted, true, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
+      wanted = change(old);
+    }
+    return wanted;
+  } else {
+    return ring_modify<T, Tag::kSize>(ring_of<Tag>(), offset, change);
+  }
+}
+
+}  // namespace detail
+
+// A number, bool or enum. Reading and assigning are one atomic access; +=, ++ and their kin are one atomic
+// read-modify-write, `x = x + 1` is two accesses as in C. Real-time safe, any thread, any process.
+template <class Tag, class T, std::uint32_t Offset>
+struct Leaf {
+  using value_type = T;
+  using whole_type = T;
+  using tag_type = Tag;
+  static constexpr std::uint32_t kOffset = Offset;
+  Place place;
+
+  constexpr Leaf(Place at, detail::Make /*unused*/) noexcept : place(at) {}
+  Leaf(const Leaf&) = default;
+  ~Leaf() = default;
+
+  INDUROP_ALWAYS_INLINE T get() const noexcept { return detail::load<Tag, T>(Offset + place.bytes); }
+  INDUROP_ALWAYS_INLINE operator T() const noexcept { return get(); }  // NOLINT(google-explicit-constructor)
+
+  INDUROP_ALWAYS_INLINE T operator=(T value) const noexcept {
+    detail::store<Tag, T>(Offset + place.bytes, value);
+    return value;
+  }
+  INDUROP_ALWAYS_INLINE T operator=(const Leaf& other) const noexcept { return *this = other.get(); }
+
+  // Atomic read-modify-write by any function of the old value; may be called more than once for a scalar.
+  template <class Change>
+  INDUROP_ALWAYS_INLINE T modify(Change change) const noexcept {
+    return detail::modify<Tag, T>(Offset + place.bytes, change);
+  }
+
+#define INDUROP_COMPOUND(op)                                                       \
+  template <class U>                                                               \
+  INDUROP_ALWAYS_INLINE T operator op##=(const U& operand) const noexcept {        \
+    const auto by = detail::value_of(operand);                                     \
+    return modify([by](T old) { return static_cast<T>(old op static_cast<std::common_type_t<T, decltype(by)>>(by)); });              \
+  }
+  INDUROP_COMPOUND(+)
+  INDUROP_COMPOUND(-)
+  INDUROP_COMPOUND(*)
+  INDUROP_COMPOUND(/)
+  INDUROP_COMPOUND(%)
+  INDUROP_COMPOUND(&)
+  INDUROP_COMPOUND(|)
+  INDUROP_COMPOUND(^)
+  INDUROP_COMPOUND(<<)
+  INDUROP_COMPOUND(>>)
+#undef INDUROP_COMPOUND
+
+  INDUROP_ALWAYS_INLINE T operator++() const noexcept { return *this += 1; }
+  INDUROP_ALWAYS_INLINE T operator--() const noexcept { return *this -= 1; }
+  INDUROP_ALWAYS_INLINE T operator++(int) const noexcept { return static_cast<T>((*this += 1) - 1); }
+  INDUROP_ALWAYS_INLINE T operator--(int) const noexcept { return static_cast<T>((*this -= 1) + 1); }
+};
+
+// A char array: text of at most N - 1 characters, read and assigned as a whole.
+template <class Tag, std::size_t N, std::uint32_t Offset>
+struct Text {
+  using value_type = string<N>;
+  using whole_type = string<N>;
+  using tag_type = Tag;
+  static constexpr std::uint32_t kOffset = Offset;
+  Place place;
+
+  constexpr Text(Place at, detail::Make /*unused*/) noexcept : place(at) {}
+  Text(const Text&) = default;
+  ~Text() = default;
+
+  INDUROP_ALWAYS_INLINE string<N> get() const noexcept { return detail::load<Tag, string<N>>(Offset + place.bytes); }
+  operator string<N>() const noexcept { return get(); }  // NOLINT(google-explicit-constructor)
+  const Text& operator=(std::string_view text) const noexcept {
+    detail::store<Tag, string<N>>(Offset + place.bytes, string<N>(text));
+    return *this;
+  }
+  const Text& operator=(const char* text) const noexcept { return *this = std::string_view(text); }
+  const Text& operator=(const string<N>& text) const noexcept { return *this = text.view(); }
+  const Text& operator=(const Text& other) const noexcept { return *this = other.get(); }
+
+  [[nodiscard]] static constexpr std::size_t size() noexcept { return N; }
+  INDUROP_ALWAYS_INLINE Leaf<Tag, char, Offset> operator[](std::size_t index) const {
+    if (index >= N) [[unlikely]] {
+      indurop_index_fault(Tag::ref().name, index, N);
+    }
+    return {Place{place.bytes + static_cast<std::uint32_t>(index)}, detail::Make{}};
+  }
+
+  friend bool operator==(const Text& a, std::string_view b) noexcept { return a.get().view() == b; }
+  friend bool operator==(const Text& a, const Text& b) noexcept { return a.get() == b.get(); }
+  template <class Stream>
+  friend auto operator<<(Stream& out, const Text& text) -> decltype(out << std::string_view{}) {
+    return out << text.get().view();
+  }
+};
+
+// N equal elements. Elements are shapes (one access each); get(), assignment and comparison take the whole array
+// in one access. An index beyond the end throws std::out_of_range, which the scheduler reports as module fault.
+template <class Element, std::size_t N>
+struct ArrayRef {
+  using value_type = typename Element::whole_type;
+  using whole_type = std::array<value_type, N>;
+  using tag_type = typename Element::tag_type;
+  using Tag = tag_type;
+  static constexpr std::uint32_t kOffset = Element::kOffset;
+  Place place;
+
+  constexpr ArrayRef(Place at, detail::Make /*unused*/) noexcept : place(at) {}
+  ArrayRef(const ArrayRef&) = default;
+  ~ArrayRef() = default;
+
+  INDUROP_ALWAYS_INLINE Element operator[](std::size_t index) const {
+    if (index >= N) [[unlikely]] {
+      indurop_index_fault(Tag::ref().name, index, N);
+    }
+    return {Place{place.bytes + static_cast<std::uint32_t>(index * sizeof(value_type))}, detail::Make{}};
+  }
+  [[nodiscard]] static constexpr std::size_t size() noexcept { return N; }
+
+  INDUROP_ALWAYS_INLINE whole_type get() const noexcept { return detail::load<Tag, whole_type>(kOffset + place.bytes); }
+  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }  // NOLINT(google-explicit-constructor)
+  INDUROP_ALWAYS_INLINE const ArrayRef& operator=(const whole_type& value) const noexcept {
+    detail::store<Tag, whole_type>(kOffset + place.bytes, value);
+    return *this;
+  }
+  const ArrayRef& operator=(const ArrayRef& other) const noexcept { return *this = other.get(); }
+
+  class iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Element;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = Element;
+    iterator(ArrayRef array, std::size_t index) noexcept : array_(array), index_(index) {}
+    iterator(const iterator&) = default;
+    iterator& operator=(const iterator& other) noexcept {
+      index_ = other.index_;
+      return *this;
+    }
+    ~iterator() = default;
+    Element operator*() const { return array_[index_]; }
+    iterator& operator++() noexcept {
+      ++index_;
+      return *this;
+    }
+    iterator operator++(int) noexcept {
+      iterator before = *this;
+      ++index_;
+      return before;
+    }
+    friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.index_ == b.index_; }
+
+   private:
+    ArrayRef array_;
+    std::size_t index_;
+  };
+  [[nodiscard]] iterator begin() const noexcept { return {*this, 0}; }
+  [[nodiscard]] iterator end() const noexcept { return {*this, N}; }
+
+  friend bool operator==(const ArrayRef& a, const whole_type& b) noexcept { return a.get() == b; }
+  friend bool operator==(const ArrayRef& a, const ArrayRef& b) noexcept { return a.get() == b.get(); }
+};
+
+// The members every generated struct shape has besides its fields. A whole struct is read, assigned and compared
+// in one access.
+#define INDUROP_STRUCT_SHAPE(Self)                                                                            \
+  constexpr Self(::indurop::Place at, ::indurop::detail::Make /*unused*/) noexcept : place(at) {}             \
+  Self(const Self&) = default;                                                                                \
+  ~Self() = default;                                                                                          \
+  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                                     \
+    return ::indurop::detail::load<Tag, whole_type>(Offset + place.bytes);                                    \
+  }                                                                                                           \
+  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }                                \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& value) const noexcept {                       \
+    ::indurop::detail::store<Tag, whole_type>(Offset + place.bytes, value);                                   \
+    return *this;                                                                                             \
+  }                                                                                                           \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& other) const noexcept { return *this = other.get(); } \
+  friend bool operator==(const Self& a, const whole_type& b) noexcept { return a.get() == b; }                \
+  friend bool operator==(const Self& a, const Self& b) noexcept { return a.get() == b.get(); }
+
+}  // namespace indurop

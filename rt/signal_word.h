@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wake-up that threads and processes sleep on: a POSIX semaphore in shared memory. Measured as fast as a bare
+// futex here, and every POSIX real-time system has it. Zero-filled memory must be initialised before use.
+
+#pragma once
+
+#include <semaphore.h>
+
+#include <cstdint>
+
+namespace indurop::rt {
+
+class SignalWord {
+ public:
+  // Not real-time safe. Once, by the creator of the memory.
+  void init(bool process_shared) noexcept;
+  // Real-time safe; no system call if nobody sleeps.
+  void wake() noexcept;
+  // Sleeps until woken. False if `deadline_ns` (CLOCK_MONOTONIC) passed first; a signal does not end the wait.
+  bool wait_until(std::int64_t deadline_ns) noexcept;
+  void wait() noexcept;
+  bool try_wait() noexcept;
+
+ private:
+  sem_t semaphore_;
+};
+
+}  // namespace indurop::rt

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is known about shared variables besides their bytes: names, types, layout, units, initial values. One model
+// for the .glb compiler, the store, the checks and the tools; JSON text carries it inside every module (ELF section
+// .indurop.schema, one line per .glb) and in the store. Not real-time safe: load time only.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::schema {
+
+enum class Base : std::uint8_t {
+  Bool, Char, Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float, Double,
+  Text,    // char array: `text_size` bytes including the NUL
+  Enum,    // int32 underneath, names in Type::enumerators
+  Struct,  // fields
+};
+
+struct Field;
+
+struct Enumerator {
+  std::string name;
+  std::int64_t value = 0;
+};
+
+struct Type {
+  Base base = Base::Int32;
+  std::string name;                      // "knu::Robot::joints_t" for Struct and Enum, else empty
+  std::uint32_t text_size = 0;           // Base::Text
+  std::uint32_t element_size = 0;        // bytes of one element, padding at the end included
+  std::uint32_t align = 1;
+  std::vector<std::uint32_t> dims;       // outermost first; empty: not an array
+  std::vector<Field> fields;             // Base::Struct, in declaration order
+  std::vector<Enumerator> enumerators;   // Base::Enum
+  [[nodiscard]] std::uint64_t size() const noexcept;  // element_size times all dims
+};
+
+struct Range {
+  double min = 0;
+  double max = 0;
+};
+
+struct Field {
+  std::string name;
+  Type type;
+  std::uint32_t offset = 0;
+  std::string unit;
+  std::string description;
+  std::optional<Range> range;
+};
+
+struct Variable {
+  std::string name;  // full name, "knu::Robot::joints"
+  Type type;
+  abi::Kind kind = abi::Kind::Ring;
+  std::uint64_t type_hash = 0;
+  std::string unit;
+  std::string description;
+  std::optional<Range> range;
+  bool retain = false;
+  std::int64_t maxage_ns = 0;               // 0: none
+  std::vector<std::uint8_t> initial;        // empty: all zero, else type.size() bytes
+  std::vector<std::uint8_t> fallback;       // empty: none declared
+  std::string source;                       // "knuRobot.glb:3"
+  [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
+};
+
+// A shared function: arguments and result travel as two structs through a call slot of the store.
+struct Function {
+  std::string name;  // full name
+  Type arguments;    // Base::Struct named "...::add_args", fields = parameters
+  Type result;       // dims allowed; Base::Struct with no fields = void
+  std::uint64_t type_hash = 0;
+  std::int64_t deadline_ns = 0;  // 0: the default (indurop::kDefaultCallDeadline)
+  std::string description;
+  std::string source;
+};
+
+struct Schema {
+  std::vector<Variable> variables;
+  std::vector<Function> functions;
+};
+
+// Canonical text of a type: everything that must agree for two programs to share its bytes (base types, field names,
+// offsets, sizes, dims, enumerators), nothing else. type_hash = fnv1a64 of it.
+std::string canonical(const Type& type);
+std::uint64_t hash_of(const Type& type);
+std::uint64_t hash_of(const Function& function);
+
+// C-like text for people: "double", "knu::Robot::joints_t[10]", "char[16]".
+std::string display_name(const Type& type);
+
+// One JSON object on one line. from_json accepts several concatenated lines (duplicates are merged).
+// Errors: Corrupt if it is not our JSON, VersionMismatch if written by another schema version.
+std::string to_json(const Schema& schema);
+Result<Schema> from_json(std::string_view text);
+
+// Adds `from` to `into`. A variable or function present in both with the same type is kept once; with different
+// types it is left out and reported: `differences` gets one line each, naming the first differing field.
+void merge(Schema& into, const Schema& from, std::vector<std::string>& differences);
+// "field y: double at 8 / float at 8", or empty if equal.
+std::string first_difference(const Type& a, const Type& b);
+
+// A part of a variable addressed by text: "knu::Robot::joints[1].y", "joints" , "grid[0][2]".
+struct Place {
+  const Variable* variable = nullptr;
+  Type type;                   // of the part; dims left after the given indices
+  std::uint32_t offset = 0;
+  std::string unit;
+  std::optional<Range> range;
+};
+// `text` may leave out leading namespaces if that is unique; '.' and '::' both separate namespaces.
+// Errors: NotFound (no variable or field of that name; ambiguous), OutOfRange (index), InvalidArgument (syntax).
+// `message` then says what and what to do, with the nearest name.
+Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message);
+
+// Value to text and back. format: numbers shortest form, enums by name, text quoted, arrays [a, b], structs {x: 1}.
+// parse accepts the same, plus true/false/hex. Errors: InvalidArgument, OutOfRange (does not fit type or range).
+std::string format_value(const Type& type, std::span<const std::uint8_t> bytes);
+Status parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes, std::string& message);
+// JSON value of the same bytes (numbers, strings, arrays, objects).
+std::string value_to_json(const Type& type, std::span<const std::uint8_t> bytes);
+
+// Shell glob (*, ?, [a-z]) over full names; a pattern without "::" also matches the last part alone.
+bool glob_match(std::string_view pattern, std::string_view name);
+
+}  // namespace indurop::schema

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes of the store's block: header, directory sorted by name hash, schema text, variable entries, call slots.
+// Any change here is a new abi::kVersion.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+namespace indurop::vars {
+
+inline constexpr std::uint64_t kMagic = 0x31504f5255444e49ULL;  // "INDUROP1"
+inline constexpr std::size_t kMaxNodeName = 48;
+
+enum class BlockState : std::uint32_t { Building = 0, Ready = 1, Retired = 2 };
+
+struct BlockHeader {
+  std::atomic<std::uint64_t> magic;  // stored last, when the block is complete
+  std::uint32_t abi;
+  std::uint32_t header_size;
+  std::uint64_t total_size;
+  std::uint64_t layout_hash;  // over directory and schema text
+  std::atomic<std::uint64_t> generation;
+  std::atomic<BlockState> state;
+  std::atomic<std::int32_t> node_pid;         // 0: no node runs
+  std::atomic<std::uint64_t> node_start_time; // field 22 of /proc/PID/stat, tells a reused pid
+  std::atomic<std::int64_t> heartbeat_ns;     // CLOCK_MONOTONIC
+  std::uint32_t variable_count;
+  std::uint32_t function_count;
+  std::uint64_t directory_offset;
+  std::uint64_t schema_offset;
+  std::uint64_t schema_size;
+  std::uint64_t functions_offset;
+  char node_name[kMaxNodeName];
+};
+
+struct DirectoryEntry {
+  std::uint64_t name_hash;
+  std::uint64_t type_hash;
+  std::uint64_t offset;        // of the entry from the block's start
+  std::uint32_t value_size;
+  abi::Kind kind;
+  std::uint32_t schema_index;  // into Schema::variables
+  std::uint32_t flags;         // kRetain
+};
+inline constexpr std::uint32_t kRetain = 1;
+static_assert(std::is_trivially_copyable_v<DirectoryEntry>);
+
+}  // namespace indurop::vars

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The store: one shared-memory block per node holding every shared variable of the board. The node creates it,
+// module processes attach read-write, tools attach read-only. Survives kill -9 of any of them; values outlive the node.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schema/schema.h"
+#include "vars/layout.h"
+
+namespace indurop::vars {
+
+enum class Mode { ReadOnly, ReadWrite };
+
+class Store {
+ public:
+  // Creates the node's block, or adopts the existing one if it holds the same layout (values and attached processes
+  // are kept, generation + 1); another layout retires the old block and makes a new one, carrying over values of
+  // variables whose name and type are unchanged. Only the holder of the node lock may call it. Not real-time safe.
+  // Errors: NoSpace (/dev/shm full: nothing is left behind), PermissionDenied, System.
+  static Result<Store> create(const std::string& node, const schema::Schema& schema);
+
+  // Attaches to a living or left-over block. Errors: NotFound, VersionMismatch, Corrupt, PermissionDenied.
+  static Result<Store> attach(const std::string& node, Mode mode);
+
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  [[nodiscard]] const BlockHeader& header() const noexcept;
+  [[nodiscard]] const schema::Schema& schema() const noexcept;  // parsed from the block
+  [[nodiscard]] bool retired() const noexcept;                  // a newer block has taken the name: attach again
+
+  // Entry of a variable, null if absent. `type_hash` 0 accepts any type. Real-time safe.
+  [[nodiscard]] void* entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexcept;
+  [[nodiscard]] const DirectoryEntry* find(std::uint64_t name_hash) const noexcept;
+  [[nodiscard]] std::span<const DirectoryEntry> directory() const noexcept;
+
+  // One consistent version of a variable's bytes. Works on a read-only mapping. Errors: OutOfRange, Timeout.
+  Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
+  // One commit. Errors: OutOfRange, Busy (lock not free in 5 ms), PermissionDenied (read-only).
+  Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
+
+  // Frees writer locks that the calling thread holds, dropping unpublished versions: for a thread that was thrown
+  // out of a module by a fault. Real-time safe.
+  void release_locks_of_this_thread() noexcept;
+
+  // Sets variables back to their initial values: all, or all but the retained. One commit each.
+  void reset(bool keep_retained) noexcept;
+
+  void beat(std::int64_t now_ns) noexcept;  // the node's heartbeat
+
+ private:
+  struct Impl;
+  explicit Store(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Names of nodes that have a block on this machine, sorted.
+std::vector<std::string> list_nodes();
+// Removes every shared-memory file of a node. Errors: Busy while the node runs.
+Status remove_node(const std::string& node);
+
+}  // namespace indurop::vars
