@@ -68,3 +68,30 @@ inline constexpr ::indurop::Leaf<::indurop_generated_0123456789abcdef::knu_Robot
 inline constexpr ::indurop::ArrayRef<::indurop_generated_0123456789abcdef::knu_Robot_joints_t_ref<::indurop_generated_0123456789abcdef::knu_Robot_joints, 0>, 10> joints{
     ::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace knu::Robot
+
+// A shared function:  double add(double a, double b) deadline 5ms;   (void results: Function<Tag, void(...)>)
+namespace knu::Robot {
+struct add_args {
+  double a{};
+  double b{};
+};
+}  // namespace knu::Robot
+namespace indurop_generated_0123456789abcdef __attribute__((visibility("hidden"))) {
+struct knu_Robot_add {
+  using args = ::knu::Robot::add_args;
+  using result = double;  // absent members are never needed: void results say `using result = void;`
+  static constexpr const char* kName = "knu::Robot::add";
+  static constexpr std::uint64_t kNameHash = 0x5555555555555555;
+  static constexpr std::uint64_t kTypeHash = 0x6666666666666666;
+  static constexpr std::int64_t kDeadlineNs = 5'000'000;
+  template <class F>
+  static result apply(F&& f, const args& a) {
+    return f(a.a, a.b);
+  }
+};
+}  // namespace indurop_generated_0123456789abcdef
+#if 0  // needs <indurop/function.h>
+namespace knu::Robot {
+inline constexpr ::indurop::Function<::indurop_generated_0123456789abcdef::knu_Robot_add, double(double, double)> add{};
+}
+#endif
