@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/guard.h"
+
+#include <cstdlib>
+
+namespace indurop::rt {
+namespace {
+
+thread_local Guard* t_guard = nullptr;
+
+constexpr int kFaultSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+int order_signal() noexcept { return SIGRTMIN + 1; }
+
+void on_fault(int number, siginfo_t* info, void* /*context*/) {
+  if (t_guard != nullptr && t_guard->armed()) {
+    t_guard->on_signal(number, info->si_addr);
+  }
+  // Our own fault or a thread we do not guard: die as usual, with a core dump.
+  struct sigaction standard {};
+  standard.sa_handler = SIG_DFL;
+  ::sigaction(number, &standard, nullptr);
+  ::raise(number);
+}
+
+void on_order(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
+  if (t_guard != nullptr && t_guard->armed()) {
+    t_guard->on_signal(Guard::kOrder, nullptr);
+  }
+}
+
+void install(int number, void (*handler)(int, siginfo_t*, void*)) noexcept {
+  struct sigaction action {};
+  action.sa_sigaction = handler;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(number, &action, nullptr);
+}
+
+constexpr std::size_t kHandlerStackBytes = 64 * 1024;
+
+}  // namespace
+
+void install_guard_handlers() noexcept {
+  for (const int number : kFaultSignals) {
+    install(number, on_fault);
+  }
+  install(order_signal(), on_order);
+}
+
+HandlerStack::HandlerStack() noexcept : memory_(std::malloc(kHandlerStackBytes)) {  // NOLINT: freed in the destructor
+  if (memory_ != nullptr) {
+    stack_t stack{};
+    stack.ss_sp = memory_;
+    stack.ss_size = kHandlerStackBytes;
+    ::sigaltstack(&stack, nullptr);
+  }
+}
+
+HandlerStack::~HandlerStack() {
+  stack_t none{};
+  none.ss_flags = SS_DISABLE;
+  ::sigaltstack(&none, nullptr);
+  std::free(memory_);  // NOLINT
+}
+
+void Guard::enter() noexcept { t_guard = this; }
+void Guard::leave() noexcept { t_guard = nullptr; }
+
+void Guard::recovered() noexcept {
+  sigset_t set;
+  ::sigemptyset(&set);
+  for (const int number : kFaultSignals) {
+    ::sigaddset(&set, number);
+  }
+  ::sigaddset(&set, order_signal());
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+void Guard::order_end(pthread_t thread, std::uint64_t run) noexcept {
+  ordered_run_.store(run, std::memory_order_release);
+  ::pthread_kill(thread, order_signal());
+}
+
+void Guard::on_signal(int number, void* address) noexcept {
+  if (number == kOrder && ordered_run_.load(std::memory_order_acquire) != current_run()) {
+    return;  // too late: that run has ended by itself
+  }
+  armed_.store(false, std::memory_order_release);
+  signal_ = number;
+  address_ = address;
+  ::siglongjmp(target_, 1);
+}
+
+}  // namespace indurop::rt

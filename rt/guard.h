@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs code that may crash or never return, and gets the thread back: SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and an
+// order from a watchdog end the guarded code by a jump, not the process. Destructors of the guarded code do not run;
+// what it held of the C library's locks stays held. Containment, not repair: the code must not be entered again.
+
+#pragma once
+
+#include <csetjmp>
+#include <pthread.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+
+namespace indurop::rt {
+
+// Installs the handlers, once per process. Not real-time safe.
+void install_guard_handlers() noexcept;
+
+// Gives the calling thread a stack of its own for handlers, so that even a stack overflow is survived; freed with it.
+class HandlerStack {
+ public:
+  HandlerStack() noexcept;
+  ~HandlerStack();
+  HandlerStack(const HandlerStack&) = delete;
+  HandlerStack& operator=(const HandlerStack&) = delete;
+
+ private:
+  void* memory_ = nullptr;
+};
+
+// State of one thread that runs guarded code. Used through this pattern, which keeps the jump inside one function:
+//   guard.enter();  if (sigsetjmp(guard.target(), 0) != 0) { ... guard.signal_number() ... }  guard.arm(); f(); guard.disarm();
+class Guard {
+ public:
+  // Makes this the calling thread's guard.
+  void enter() noexcept;
+  void leave() noexcept;
+  sigjmp_buf& target() noexcept { return target_; }
+
+  // Between arm and disarm a fault jumps to target(). Real-time safe, no system call.
+  void arm() noexcept {
+    run_.fetch_add(1, std::memory_order_relaxed);
+    armed_.store(true, std::memory_order_release);
+  }
+  void disarm() noexcept { armed_.store(false, std::memory_order_release); }
+  // After a jump: unblocks the signal that caused it.
+  void recovered() noexcept;
+
+  [[nodiscard]] int signal_number() const noexcept { return signal_; }
+  [[nodiscard]] const void* fault_address() const noexcept { return address_; }
+  static constexpr int kOrder = 0;  // signal_number() when the watchdog ordered the end
+
+  // From another thread: ends the guarded run `run` of `thread` if it is still the one in progress.
+  [[nodiscard]] std::uint64_t current_run() const noexcept { return run_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool armed() const noexcept { return armed_.load(std::memory_order_acquire); }
+  void order_end(pthread_t thread, std::uint64_t run) noexcept;
+
+  // For the handlers only.
+  void on_signal(int number, void* address) noexcept;
+
+ private:
+  sigjmp_buf target_{};
+  std::atomic<bool> armed_{false};
+  std::atomic<std::uint64_t> run_{0};
+  std::atomic<std::uint64_t> ordered_run_{0};
+  int signal_ = 0;
+  void* address_ = nullptr;
+};
+
+}  // namespace indurop::rt

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/machine.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+namespace indurop::rt {
+namespace {
+
+long read_number(const char* path, long fallback) noexcept {
+  const int file = ::open(path, O_RDONLY | O_CLOEXEC);
+  if (file < 0) {
+    return fallback;
+  }
+  char text[32] = {};
+  const ssize_t n = ::read(file, text, sizeof text - 1);
+  ::close(file);
+  long value = fallback;
+  if (n > 0) {
+    std::from_chars(text, text + n, value);
+  }
+  return value;
+}
+
+}  // namespace
+
+Status lock_memory() noexcept {
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+    return {};
+  }
+  return Error{errno == EPERM ? Errc::PermissionDenied : Errc::NoSpace, errno, "lock memory (mlockall)"};
+}
+
+Result<ShortIdle> ShortIdle::hold() noexcept {
+  const int file = ::open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC);
+  if (file < 0) {
+    return Error{errno == ENOENT ? Errc::Unsupported : Errc::PermissionDenied, errno, "hold /dev/cpu_dma_latency"};
+  }
+  const std::int32_t zero = 0;
+  if (::write(file, &zero, sizeof zero) != static_cast<ssize_t>(sizeof zero)) {
+    const int code = errno;
+    ::close(file);
+    return Error{Errc::Unsupported, code, "hold /dev/cpu_dma_latency"};
+  }
+  ShortIdle idle;
+  idle.file_ = file;
+  return idle;
+}
+
+ShortIdle::ShortIdle(ShortIdle&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+ShortIdle& ShortIdle::operator=(ShortIdle&& other) noexcept {
+  std::swap(file_, other.file_);
+  return *this;
+}
+ShortIdle::~ShortIdle() {
+  if (file_ >= 0) {
+    ::close(file_);
+  }
+}
+
+bool kernel_is_preempt_rt() noexcept {
+  if (read_number("/sys/kernel/realtime", 0) == 1) {
+    return true;
+  }
+  utsname name{};
+  return ::uname(&name) == 0 && std::strstr(name.version, "PREEMPT_RT") != nullptr;
+}
+
+int throttle_permille() noexcept {
+  constexpr long kDefaultPeriodUs = 1'000'000;
+  const long runtime = read_number("/proc/sys/kernel/sched_rt_runtime_us", -1);
+  const long period = read_number("/proc/sys/kernel/sched_rt_period_us", kDefaultPeriodUs);
+  return runtime < 0 || period <= 0 ? 1000 : static_cast<int>(runtime * 1000 / period);
+}
+
+}  // namespace indurop::rt

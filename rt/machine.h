@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the machine can do for real time and what was obtained from it: locked memory, short idle states, kernel.
+
+#pragma once
+
+#include <indurop/result.h>
+
+namespace indurop::rt {
+
+// Locks present and future memory of this process. Errors: PermissionDenied, NoSpace (the limit is too small).
+Status lock_memory() noexcept;
+
+// Keeps the processors out of deep idle states while it lives (/dev/cpu_dma_latency held open at 0): halves the
+// wake-up time and is what cyclictest does too.
+class ShortIdle {
+ public:
+  ShortIdle() = default;
+  static Result<ShortIdle> hold() noexcept;  // Errors: PermissionDenied, Unsupported
+  ShortIdle(ShortIdle&& other) noexcept;
+  ShortIdle& operator=(ShortIdle&& other) noexcept;
+  ShortIdle(const ShortIdle&) = delete;
+  ShortIdle& operator=(const ShortIdle&) = delete;
+  ~ShortIdle();
+  [[nodiscard]] bool held() const noexcept { return file_ >= 0; }
+
+ private:
+  int file_ = -1;
+};
+
+bool kernel_is_preempt_rt() noexcept;
+// Share of a core the kernel leaves to real-time threads, in 1/1000; 1000 if unlimited or unknown.
+int throttle_permille() noexcept;
+
+}  // namespace indurop::rt

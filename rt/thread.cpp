@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rt/thread.h"
+
+#include <sched.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+namespace indurop::rt {
+namespace {
+
+Error from_errno(int code, const char* where) noexcept {
+  switch (code) {
+    case EPERM:
+    case EACCES:
+      return {Errc::PermissionDenied, code, where};
+    case ESRCH:
+      return {Errc::NotFound, code, where};
+    case EINVAL:
+      return {Errc::InvalidArgument, code, where};
+    case EAGAIN:
+    case ENOMEM:
+      return {Errc::NoSpace, code, where};
+    default:
+      return {Errc::System, code, where};
+  }
+}
+
+Status set_fifo_or_normal(pid_t id, int priority, const char* where) noexcept {
+  sched_param parameter{};
+  parameter.sched_priority = priority;
+  if (::sched_setscheduler(id, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameter) != 0) {
+    return from_errno(errno, where);
+  }
+  return {};
+}
+
+Status pin(pid_t id, int core, const char* where) noexcept {
+  if (core < 0 || core >= CPU_SETSIZE) {
+    return Error{Errc::InvalidArgument, 0, where};
+  }
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(core), &set);
+  if (::sched_setaffinity(id, sizeof set, &set) != 0) {
+    return from_errno(errno, where);
+  }
+  return {};
+}
+
+struct Start {
+  ThreadSettings settings;
+  std::function<void()> body;
+};
+
+// Touches the stack below the current frame once, so that no page fault happens there later.
+[[gnu::noinline]] void touch_stack(std::size_t bytes) noexcept {
+  constexpr std::size_t kPage = 4096;
+  volatile unsigned char here[kPage];
+  here[0] = 1;
+  if (bytes > 2 * kPage) {
+    touch_stack(bytes - kPage);
+  }
+  here[kPage - 1] = here[0];  // keeps the call above from becoming a tail call
+}
+
+void* thread_entry(void* argument) {
+  const std::unique_ptr<Start> start(static_cast<Start*>(argument));
+  ::pthread_setname_np(::pthread_self(), start->settings.name.substr(0, 15).c_str());
+  if (start->settings.core >= 0) {
+    (void)pin_to_core(start->settings.core);
+  }
+  // Inherited settings are not wanted: a normal thread started by a real-time one must be normal.
+  if (!set_fifo(start->settings.fifo_priority) && start->settings.fifo_priority > 0) {
+    (void)set_fifo(0);
+  }
+  touch_stack(start->settings.stack_bytes / 4);
+  start->body();
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<int> allowed_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> cores;
+  if (::sched_getaffinity(0, sizeof set, &set) == 0) {
+    for (int core = 0; core < CPU_SETSIZE; ++core) {
+      if (CPU_ISSET(static_cast<std::size_t>(core), &set)) {
+        cores.push_back(core);
+      }
+    }
+  }
+  return cores;
+}
+
+Status set_fifo(int priority) noexcept { return set_fifo_or_normal(0, priority, "set SCHED_FIFO priority"); }
+Status set_fifo_of(pid_t process, int priority) noexcept {
+  return set_fifo_or_normal(process, priority, "set SCHED_FIFO priority of a process");
+}
+
+int fifo_priority() noexcept {
+  if (::sched_getscheduler(0) != SCHED_FIFO) {
+    return 0;
+  }
+  sched_param parameter{};
+  return ::sched_getparam(0, &parameter) == 0 ? parameter.sched_priority : 0;
+}
+
+Status pin_to_core(int core) noexcept { return pin(0, core, "pin a thread to a core"); }
+Status pin_process_to_core(pid_t process, int core) noexcept { return pin(process, core, "pin a process to a core"); }
+
+void request_exact_timers() noexcept { ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
+
+Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void()> body) {
+  pthread_attr_t attributes;
+  ::pthread_attr_init(&attributes);
+  ::pthread_attr_setstacksize(&attributes, settings.stack_bytes);
+  auto start = std::make_unique<Start>(Start{settings, std::move(body)});
+  Thread thread;
+  const int code = ::pthread_create(&thread.handle_, &attributes, thread_entry, start.get());
+  ::pthread_attr_destroy(&attributes);
+  if (code != 0) {
+    return from_errno(code, "create a thread");
+  }
+  (void)start.release();  // owned by the thread now
+  thread.running_ = true;
+  return thread;
+}
+
+Thread::Thread(Thread&& other) noexcept : handle_(other.handle_), running_(std::exchange(other.running_, false)) {}
+
+Thread& Thread::operator=(Thread&& other) noexcept {
+  if (this != &other) {
+    join();
+    handle_ = other.handle_;
+    running_ = std::exchange(other.running_, false);
+  }
+  return *this;
+}
+
+Thread::~Thread() { join(); }
+
+void Thread::join() noexcept {
+  if (std::exchange(running_, false)) {
+    ::pthread_join(handle_, nullptr);
+  }
+}
+
+}  // namespace indurop::rt

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads with a real-time priority and a core, and what the operating system really granted.
+
+#pragma once
+
+#include <indurop/result.h>
+#include <pthread.h>
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace indurop::rt {
+
+// Cores this process may use, ascending. Not real-time safe.
+std::vector<int> allowed_cores();
+
+// Priority of the calling thread under SCHED_FIFO; 0 puts it back to normal scheduling. Errors: PermissionDenied.
+Status set_fifo(int priority) noexcept;
+// The same for another process (its main thread). Errors: PermissionDenied, NotFound.
+Status set_fifo_of(pid_t process, int priority) noexcept;
+// FIFO priority the calling thread has now, 0 if it has none.
+int fifo_priority() noexcept;
+
+// Binds the calling thread to one core. Errors: InvalidArgument (no such core).
+Status pin_to_core(int core) noexcept;
+Status pin_process_to_core(pid_t process, int core) noexcept;
+
+// Sleeps of a thread without real-time priority end up to 50 us late by default; asks for 1 ns.
+void request_exact_timers() noexcept;
+
+struct ThreadSettings {
+  std::string name;       // at most 15 characters are shown by the system
+  int fifo_priority = 0;  // 0: normal scheduling
+  int core = -1;          // -1: not pinned
+  std::size_t stack_bytes = 512 * 1024;
+};
+
+// A thread that starts with its settings applied and its stack touched, and is joined by its destructor.
+class Thread {
+ public:
+  Thread() = default;
+  // `body` runs after the settings were tried; a refused priority does not keep it from running (ask
+  // fifo_priority()). Not real-time safe. Errors: System, NoSpace.
+  static Result<Thread> start(const ThreadSettings& settings, std::function<void()> body);
+  Thread(Thread&& other) noexcept;
+  Thread& operator=(Thread&& other) noexcept;
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  ~Thread();
+
+  void join() noexcept;
+  [[nodiscard]] bool joinable() const noexcept { return running_; }
+  [[nodiscard]] pthread_t handle() const noexcept { return handle_; }
+
+ private:
+  pthread_t handle_{};
+  bool running_ = false;
+};
+
+}  // namespace indurop::rt
