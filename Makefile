@@ -1,0 +1,60 @@
+# Everything a developer types. CMake and its presets do the work; `make help` lists the targets.
+.DEFAULT_GOAL := all
+.NOTPARALLEL:
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS)
+
+.PHONY: all configure demo test check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
+
+all: check-deps configure ## build everything into build/, programs in build/bin/
+	@cmake --build --preset release -j $(JOBS)
+
+configure:
+	@cmake --preset release --log-level=WARNING >/dev/null
+
+demo: ## install what is missing, build, run the chapter's example
+	@.ci/install-deps build
+	@$(MAKE) --no-print-directory all
+	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
+
+test: ## install what is missing, build, run all tests and lints
+	@.ci/install-deps build test
+	@$(MAKE) --no-print-directory all
+	@$(CTEST)
+
+check-deps:
+	@missing=$$(.ci/install-deps --list build); if [ -n "$$missing" ]; then \
+	  echo "missing Debian packages:$$missing"; echo "run: make install-deps"; exit 1; fi
+
+install-deps: ## install the Debian packages of packages.txt that are missing
+	@.ci/install-deps
+
+sanitize: asan-ubsan tsan ## tests under ASan + UBSan, then under TSan
+
+asan-ubsan tsan:
+	@.ci/install-deps build test
+	@cmake --preset $@ --log-level=WARNING >/dev/null
+	@cmake --build --preset $@ -j $(JOBS)
+	@ctest --preset $@ -j $(JOBS)
+
+tidy: all ## clang-tidy over all sources
+	@$(CTEST) -L tidy
+
+format: ## clang-format all C++ files in place
+	@git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format -i
+
+bench: ## compare with cyclictest, raw globals and futexes; prints ratios
+	@.ci/install-deps build bench
+	@cmake --preset bench --log-level=WARNING >/dev/null
+	@cmake --build --preset bench -j $(JOBS)
+	@cmake --build --preset bench --target run-bench
+
+install: all ## install to PREFIX (default /usr/local)
+	@cmake --install build --prefix "$(PREFIX)"
+
+clean: ## remove all build directories
+	@rm -rf build build-dev build-asan build-tsan build-bench
+
+help: ## this list
+	@grep -hE '^[a-z][a-z -]*:.*## ' Makefile | sed -E 's/^([a-z-]+)[^#]*## /\1\t/' | expand -t 16

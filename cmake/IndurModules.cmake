@@ -1,0 +1,76 @@
+# What a project that uses InduRoP calls after find_package(InduRoP). Our own examples call the same functions.
+include_guard(GLOBAL)
+include(${CMAKE_CURRENT_LIST_DIR}/IndurIdlc.cmake OPTIONAL RESULT_VARIABLE indurop_idlc_found)
+if(NOT indurop_idlc_found)
+  include(${CMAKE_CURRENT_LIST_DIR}/../idl/IndurIdlc.cmake)
+endif()
+
+# indurop_add_glb(<target> FILES a.glb [b.glb ...] [TYPES])
+# Runs glb2idl; whoever links <target> can include <indurop/generated.h> with the variables of all the files.
+# TYPES also builds lib<target>_types.so with the DDS types of the variables (target <target>_types).
+function(indurop_add_glb target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TYPES" "" "FILES")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "indurop_add_glb(${target}): unexpected '${arg_UNPARSED_ARGUMENTS}'; "
+      "usage: indurop_add_glb(<target> FILES a.glb [b.glb ...] [TYPES])")
+  endif()
+  if(NOT arg_FILES)
+    message(FATAL_ERROR "indurop_add_glb(${target}): name at least one .glb file after FILES")
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.generated)
+  set(header ${folder}/indurop/generated.h)
+  set(sources "")
+  set(idls "")
+  foreach(file IN LISTS arg_FILES)
+    cmake_path(ABSOLUTE_PATH file NORMALIZE OUTPUT_VARIABLE source)
+    if(NOT EXISTS ${source})
+      message(FATAL_ERROR "indurop_add_glb(${target}): there is no file ${source}")
+    endif()
+    cmake_path(GET source STEM LAST_ONLY stem)
+    list(APPEND sources ${source})
+    list(APPEND idls ${folder}/${stem}.idl)
+  endforeach()
+  add_custom_command(OUTPUT ${header} ${idls}
+    COMMAND indurop::glb2idl --out-dir ${folder} --depfile ${folder}/generated.d ${sources}
+    DEPENDS indurop::glb2idl ${sources}
+    DEPFILE ${folder}/generated.d
+    COMMENT "glb2idl ${arg_FILES}" VERBATIM)
+  add_custom_target(${target}_generate DEPENDS ${header} ${idls})
+  add_library(${target} INTERFACE)
+  add_dependencies(${target} ${target}_generate)
+  target_include_directories(${target} INTERFACE ${folder})
+  target_link_libraries(${target} INTERFACE indurop::indurop)
+  if(arg_TYPES)
+    indurop_idlc(${target}_types FILES ${idls} INCLUDES ${folder})
+    add_dependencies(${target}_types ${target}_generate)
+  endif()
+endfunction()
+
+# indurop_add_module(<name> [PROCESS] SOURCES a.cpp ... [GLB <target>] [LIBRARIES ...])
+# A thread module <name>.so, or with PROCESS a process module <name>.exe, in the project's top build directory, where
+# module.xml finds it as ./<name>.so. Symbols nobody defines are found here, not when the node loads the module.
+function(indurop_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PROCESS" "GLB" "SOURCES;LIBRARIES")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "indurop_add_module(${name}): unexpected '${arg_UNPARSED_ARGUMENTS}'; a module has one GLB "
+      "target (put several files into one indurop_add_glb), and sources follow SOURCES")
+  endif()
+  if(NOT arg_SOURCES)
+    message(FATAL_ERROR "indurop_add_module(${name}): name its source files after SOURCES")
+  endif()
+  if(arg_GLB AND NOT TARGET ${arg_GLB})
+    message(FATAL_ERROR "indurop_add_module(${name}): '${arg_GLB}' is no target; call indurop_add_glb(${arg_GLB} FILES ...) first")
+  endif()
+  if(arg_PROCESS)
+    add_executable(${name} ${arg_SOURCES})
+    set_target_properties(${name} PROPERTIES SUFFIX .exe RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  else()
+    add_library(${name} MODULE ${arg_SOURCES})
+    set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX .so LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+    target_link_options(${name} PRIVATE -Wl,--no-undefined)
+    # Without unique symbols two modules never share a static, and a stopped module is really unloaded.
+    target_compile_options(${name} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)
+  endif()
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  target_link_libraries(${name} PRIVATE indurop::indurop ${arg_GLB} ${arg_LIBRARIES})
+endfunction()

@@ -1,0 +1,37 @@
+# Rules that turn OMG IDL into a library of DDS types. Part of the installed package.
+include_guard(GLOBAL)
+
+# indurop_idlc(<target> FILES a.idl ... [INCLUDES folder ...])
+# Runs Cyclone DDS's idlc on each file and builds the shared library <target> of the C types and topic descriptors;
+# its include directory holds <stem>.h for each <stem>.idl. The files may be generated in the same directory.
+function(indurop_idlc target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FILES;INCLUDES")
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_FILES)
+    message(FATAL_ERROR "usage: indurop_idlc(<target> FILES a.idl ... [INCLUDES folder ...])")
+  endif()
+  if(NOT CMAKE_C_COMPILER)
+    message(FATAL_ERROR "indurop_idlc(${target}): idlc writes C, so enable it: project(... LANGUAGES C CXX)")
+  endif()
+  find_package(CycloneDDS QUIET)
+  find_program(INDUROP_IDLC idlc)
+  if(NOT TARGET CycloneDDS::ddsc OR NOT INDUROP_IDLC)
+    message(FATAL_ERROR "indurop_idlc(${target}): Cyclone DDS is missing; install cyclonedds-dev and cyclonedds-tools")
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.generated)
+  file(MAKE_DIRECTORY ${folder})
+  list(TRANSFORM arg_INCLUDES PREPEND -I OUTPUT_VARIABLE includes)
+  set(sources "")
+  foreach(idl IN LISTS arg_FILES)
+    cmake_path(ABSOLUTE_PATH idl NORMALIZE)
+    cmake_path(GET idl STEM LAST_ONLY stem)
+    add_custom_command(OUTPUT ${folder}/${stem}.c ${folder}/${stem}.h
+      COMMAND ${INDUROP_IDLC} -o ${folder} ${includes} ${idl}
+      DEPENDS ${arg_FILES}
+      COMMENT "idlc ${stem}.idl" VERBATIM)
+    list(APPEND sources ${folder}/${stem}.c)
+  endforeach()
+  add_library(${target} SHARED ${sources})
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  target_include_directories(${target} PUBLIC ${folder})
+  target_link_libraries(${target} PUBLIC CycloneDDS::ddsc)
+endfunction()
