@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rt/shared_mutex.h"
+
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+
+#include "rt/clock.h"
+
+namespace indurop::rt {
+
+namespace {
+
+// The kernel's part of a robust priority-inheriting mutex is its first word: bits 0..29 are the owner's thread id.
+constexpr std::uint32_t kOwnerMask = 0x3FFFFFFF;
+constexpr std::uint32_t kOwnerDiedBit = 0x40000000;
+
+std::uint32_t lock_word(const pthread_mutex_t& mutex) noexcept {
+  static_assert(sizeof(pthread_mutex_t) >= sizeof(std::uint32_t));
+  return __atomic_load_n(reinterpret_cast<const std::uint32_t*>(&mutex), __ATOMIC_ACQUIRE);
+}
+
+// True if the word names a thread that does not exist. The C library aborts the process when the kernel tells it so.
+bool has_impossible_owner(const pthread_mutex_t& mutex) noexcept {
+  const std::uint32_t before = lock_word(mutex);
+  const std::uint32_t owner = before & kOwnerMask;
+  if (owner == 0 || (before & kOwnerDiedBit) != 0) {
+    return false;
+  }
+  if (::syscall(SYS_tkill, static_cast<pid_t>(owner), 0) == 0 || errno != ESRCH) {
+    return false;
+  }
+  return lock_word(mutex) == before;  // a thread that just ended has released it by now
+}
+
+LockResult translate(pthread_mutex_t& mutex, int error) noexcept {
+  switch (error) {
+    case 0:
+      return LockResult::Locked;
+    case EOWNERDEAD:
+      ::pthread_mutex_consistent(&mutex);
+      return LockResult::OwnerDied;
+    case EBUSY:
+    case ETIMEDOUT:
+      return LockResult::Timeout;
+    case EDEADLK:
+      return LockResult::HeldByCaller;
+    default:
+      return LockResult::Broken;
+  }
+}
+
+[[gnu::noinline, gnu::cold]] LockResult wait_for(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
+  if (has_impossible_owner(mutex)) {
+    return LockResult::Broken;
+  }
+  const timespec deadline = to_timespec(now_ns() + limit.count());
+  return translate(mutex, ::pthread_mutex_clocklock(&mutex, CLOCK_MONOTONIC, &deadline));
+}
+
+}  // namespace
+
+bool init_shared_mutex(pthread_mutex_t& mutex) noexcept {
+  pthread_mutexattr_t attributes;
+  if (::pthread_mutexattr_init(&attributes) != 0) {
+    return false;
+  }
+  const bool made = ::pthread_mutexattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED) == 0 &&
+                    ::pthread_mutexattr_setrobust(&attributes, PTHREAD_MUTEX_ROBUST) == 0 &&
+                    ::pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT) == 0 &&
+                    ::pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK) == 0 &&
+                    ::pthread_mutex_init(&mutex, &attributes) == 0;
+  ::pthread_mutexattr_destroy(&attributes);
+  return made;
+}
+
+LockResult try_lock(pthread_mutex_t& mutex) noexcept { return translate(mutex, ::pthread_mutex_trylock(&mutex)); }
+
+LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
+  const int error = ::pthread_mutex_trylock(&mutex);
+  if (error == 0) [[likely]] {
+    return LockResult::Locked;
+  }
+  return error == EBUSY ? wait_for(mutex, limit) : translate(mutex, error);
+}
+
+bool unlock(pthread_mutex_t& mutex) noexcept { return ::pthread_mutex_unlock(&mutex) == 0; }
+
+}  // namespace indurop::rt

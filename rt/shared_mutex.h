@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lock that processes share: robust (its holder may be killed), priority inheriting (its holder may be preempted)
+// and never waited for without limit (its holder may be stopped). Free functions: the mutex lies in shared memory.
+
+#pragma once
+
+#include <pthread.h>
+
+#include <chrono>
+
+namespace indurop::rt {
+
+inline constexpr std::chrono::milliseconds kLockLimit{5};
+
+enum class LockResult {
+  Locked,
+  OwnerDied,     // locked; the previous holder ended while holding it, what it was changing may be half done
+  Timeout,       // not free within the limit
+  HeldByCaller,  // the calling thread has it already
+  Broken,        // not a usable lock: its memory was overwritten, or its owner does not exist
+};
+constexpr bool is_locked(LockResult result) noexcept {
+  return result == LockResult::Locked || result == LockResult::OwnerDied;
+}
+
+// Makes a lock of zeroed or other memory nobody uses yet. False if the system has no such locks.
+bool init_shared_mutex(pthread_mutex_t& mutex) noexcept;
+
+// Real-time safe: no system call if the lock is free, priority inheritance while waiting.
+LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit = kLockLimit) noexcept;
+
+// Never waits; Timeout if another thread has it.
+LockResult try_lock(pthread_mutex_t& mutex) noexcept;
+
+// False, and nothing happened, if the calling thread does not hold it. Real-time safe.
+bool unlock(pthread_mutex_t& mutex) noexcept;
+
+}  // namespace indurop::rt
