@@ -33,7 +33,7 @@ struct BlockHeader {
   std::uint64_t directory_offset;
   std::uint64_t schema_offset;
   std::uint64_t schema_size;
-  std::uint64_t functions_offset;
+  std::uint64_t functions_offset;  // area of vars/call_layout.h: call_area_size(schema) bytes, init_call_area() fills it
   char node_name[kMaxNodeName];
 };
 
