@@ -20,15 +20,21 @@ struct Access {
 };
 
 struct ModuleFile {
-  std::string schema_json;                  // concatenated contents of .indurop.schema, empty if none
-  std::map<std::uint64_t, Access> access;   // by fnv1a64 of the variable's full name
-  std::uint32_t abi = 0;                    // 0: includes none of our headers
-  std::uint16_t machine = 0;                // e_machine (EM_X86_64 = 62, EM_AARCH64 = 183)
-  bool shared_object = false;               // has dynamic section and no interpreter
-  std::vector<std::string> exports;         // defined dynamic symbols (functions)
+  std::string schema_json;                 // contents of .indurop.schema, one text per line, empty if none
+  std::map<std::uint64_t, Access> access;  // by fnv1a64 of the variable's full name
+  std::uint32_t abi = 0;                   // of its headers; kMixedAbi: of several; 0: it includes none of ours
+  std::uint16_t machine = 0;               // e_machine (EM_X86_64 = 62, EM_AARCH64 = 183)
+  bool shared_object = false;              // dlopen can load it: dynamic, no interpreter, no static PIE
+  std::vector<std::string> exports;        // functions it defines for others, sorted
+  std::vector<std::string> imports;        // symbols somebody else must define, weak ones left out, sorted
+  std::vector<std::string> needed;         // libraries it asks for (DT_NEEDED), in its order
 };
+inline constexpr std::uint32_t kMixedAbi = 0xFFFFFFFF;
 
-// Errors: NotFound, PermissionDenied, Corrupt (not ELF, truncated, sections out of bounds), Unsupported (32-bit...).
+// The ABI version comes from section .indurop.abi (u32 each), else from the schema text. Costs memory in proportion to
+// the sections read, whatever the file claims; 256 MiB is the limit of one section, 64 MiB of ours together.
+// Errors: NotFound, PermissionDenied, Corrupt (not a regular file, not ELF, truncated, sections out of bounds),
+// Unsupported (32-bit, big-endian, compressed sections of ours), System.
 Result<ModuleFile> read_module_file(const std::filesystem::path& file);
 
 }  // namespace indurop::schema

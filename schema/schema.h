@@ -18,7 +18,18 @@
 namespace indurop::schema {
 
 enum class Base : std::uint8_t {
-  Bool, Char, Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float, Double,
+  Bool,
+  Char,
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float,
+  Double,
   Text,    // char array: `text_size` bytes including the NUL
   Enum,    // int32 underneath, names in Type::enumerators
   Struct,  // fields
@@ -33,15 +44,21 @@ struct Enumerator {
 
 struct Type {
   Base base = Base::Int32;
-  std::string name;                      // "knu::Robot::joints_t" for Struct and Enum, else empty
-  std::uint32_t text_size = 0;           // Base::Text
-  std::uint32_t element_size = 0;        // bytes of one element, padding at the end included
+  std::string name;                // "knu::Robot::joints_t" for Struct and Enum, else empty
+  std::uint32_t text_size = 0;     // Base::Text
+  std::uint32_t element_size = 0;  // bytes of one element, padding at the end included
   std::uint32_t align = 1;
-  std::vector<std::uint32_t> dims;       // outermost first; empty: not an array
-  std::vector<Field> fields;             // Base::Struct, in declaration order
-  std::vector<Enumerator> enumerators;   // Base::Enum
-  [[nodiscard]] std::uint64_t size() const noexcept;  // element_size times all dims
+  std::vector<std::uint32_t> dims;      // outermost first; empty: not an array
+  std::vector<Field> fields;            // Base::Struct, in declaration order
+  std::vector<Enumerator> enumerators;  // Base::Enum
+  // element_size times all dims; UINT64_MAX if that does not fit.
+  [[nodiscard]] std::uint64_t size() const noexcept;
 };
+
+// Bytes of one value of a base type, which is also its alignment; 0 for Text and Struct, whose size varies.
+std::uint32_t size_of(Base base) noexcept;
+// Name as in C++: "uint32_t", "double"; "char" for Text, "enum", "struct".
+const char* name_of(Base base) noexcept;
 
 struct Range {
   double min = 0;
@@ -66,10 +83,10 @@ struct Variable {
   std::string description;
   std::optional<Range> range;
   bool retain = false;
-  std::int64_t maxage_ns = 0;               // 0: none
-  std::vector<std::uint8_t> initial;        // empty: all zero, else type.size() bytes
-  std::vector<std::uint8_t> fallback;       // empty: none declared
-  std::string source;                       // "knuRobot.glb:3"
+  std::int64_t maxage_ns = 0;          // 0: none
+  std::vector<std::uint8_t> initial;   // empty: all zero, else type.size() bytes
+  std::vector<std::uint8_t> fallback;  // empty: none declared
+  std::string source;                  // "knuRobot.glb:3"
   [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
 };
 
@@ -90,21 +107,34 @@ struct Schema {
 };
 
 // Canonical text of a type: everything that must agree for two programs to share its bytes (base types, field names,
-// offsets, sizes, dims, enumerators), nothing else. type_hash = fnv1a64 of it.
+// offsets, sizes, dims, enumerators), nothing else: no type names, units, comments, ranges. type_hash = fnv1a64 of it.
+// The text is ASCII without blanks, made only of what follows, hence the same on every machine and compiler:
+//   type   = base { "[" dim "]" }                               outermost dim first
+//   base   = "bool" | "char" | "i8" | "u8" | ... | "u64" | "f32" | "f64" | "text(" bytes ")"
+//          | "enum{" name "=" value { "," name "=" value } "}"  in order of declaration
+//          | "struct(" size "," align "){" name "@" offset ":" type { "," ... } "}"
+// Figure 3's joints: struct(24,8){x@0:f64,y@8:f64,z@16:f64}[10]
 std::string canonical(const Type& type);
 std::uint64_t hash_of(const Type& type);
+// Function: canonical(arguments) "->" canonical(result), "void" for a result without fields. The deadline may differ.
 std::uint64_t hash_of(const Function& function);
 
 // C-like text for people: "double", "knu::Robot::joints_t[10]", "char[16]".
 std::string display_name(const Type& type);
 
-// One JSON object on one line. from_json accepts several concatenated lines (duplicates are merged).
-// Errors: Corrupt if it is not our JSON, VersionMismatch if written by another schema version.
+// One JSON object on one line, without a newline; says the schema version and abi::kVersion. Type hashes are not
+// written: from_json computes them. from_json accepts several lines (duplicates are merged), and none: an empty schema.
+// What it returns is sound whoever wrote the text: names are identifiers, sizes and offsets agree, nothing overlaps.
+// Errors: Corrupt if it is not our JSON, VersionMismatch if written by another schema version, TypeMismatch if two
+// lines give one variable different types (a module linked from old and new object files).
+inline constexpr int kSchemaVersion = 1;
 std::string to_json(const Schema& schema);
 Result<Schema> from_json(std::string_view text);
+// abi::kVersion of the headers behind a schema text, 0 if it does not say. Reads only the beginning of the first line.
+std::uint32_t abi_of_json(std::string_view text) noexcept;
 
 // Adds `from` to `into`. A variable or function present in both with the same type is kept once; with different
-// types it is left out and reported: `differences` gets one line each, naming the first differing field.
+// types the one in `into` stays and `differences` gets one line, naming the first differing field.
 void merge(Schema& into, const Schema& from, std::vector<std::string>& differences);
 // "field y: double at 8 / float at 8", or empty if equal.
 std::string first_difference(const Type& a, const Type& b);
@@ -112,24 +142,33 @@ std::string first_difference(const Type& a, const Type& b);
 // A part of a variable addressed by text: "knu::Robot::joints[1].y", "joints" , "grid[0][2]".
 struct Place {
   const Variable* variable = nullptr;
-  Type type;                   // of the part; dims left after the given indices
+  Type type;  // of the part; dims left after the given indices
   std::uint32_t offset = 0;
   std::string unit;
   std::optional<Range> range;
 };
 // `text` may leave out leading namespaces if that is unique; '.' and '::' both separate namespaces.
+// Unit and range are those of the innermost declaration that has one. An index into text gives one char.
 // Errors: NotFound (no variable or field of that name; ambiguous), OutOfRange (index), InvalidArgument (syntax).
 // `message` then says what and what to do, with the nearest name.
 Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message);
 
 // Value to text and back. format: numbers shortest form, enums by name, text quoted, arrays [a, b], structs {x: 1}.
-// parse accepts the same, plus true/false/hex. Errors: InvalidArgument, OutOfRange (does not fit type or range).
+// parse accepts the same, plus 0/1 for bool, hex integers, numbers for enums, JSON's quoted field names, and text and
+// single characters without quotes when they are the whole value. Fields left out of a struct keep their bytes.
+// Errors: InvalidArgument (not such a value), OutOfRange (the type cannot hold it); `bytes` is unchanged then, and
+// `message` says what and what to do. `bytes` holds type.size() bytes; with fewer format gives "" and parse fails.
 std::string format_value(const Type& type, std::span<const std::uint8_t> bytes);
 Status parse_value(const Type& type, std::string_view text, std::span<std::uint8_t> bytes, std::string& message);
-// JSON value of the same bytes (numbers, strings, arrays, objects).
+// JSON value of the same bytes: numbers, strings, arrays, objects; NaN and infinities are null, a char is a string.
 std::string value_to_json(const Type& type, std::span<const std::uint8_t> bytes);
 
-// Shell glob (*, ?, [a-z]) over full names; a pattern without "::" also matches the last part alone.
+// Checks every number of a value against `range`, or against its field's own range where it has one. Infinite limits
+// check nothing. Errors: OutOfRange; `message` names the first offender: "x: 190 is outside -180..180".
+Status check_range(const Range& range, const Type& type, std::span<const std::uint8_t> bytes, std::string& message);
+
+// Shell glob (*, ?, [a-z], [!a-z], a backslash quotes) over full names; '.' in a pattern means "::", and a pattern
+// without either also matches the last part alone.
 bool glob_match(std::string_view pattern, std::string_view name);
 
 }  // namespace indurop::schema
