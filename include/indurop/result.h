@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -44,14 +46,24 @@ class [[nodiscard]] Result {
   Result(Error error) : state_(error) {}         // NOLINT(google-explicit-constructor)
   [[nodiscard]] bool ok() const noexcept { return state_.index() == 0; }
   explicit operator bool() const noexcept { return ok(); }
-  [[nodiscard]] T& value() & { return *std::get_if<0>(&state_); }
-  [[nodiscard]] const T& value() const& { return *std::get_if<0>(&state_); }
-  [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&state_)); }
-  T* operator->() { return std::get_if<0>(&state_); }
-  T& operator*() { return *std::get_if<0>(&state_); }
-  [[nodiscard]] const Error& error() const { return *std::get_if<1>(&state_); }
+  // The value; asking for it without ok(), or for the error with ok(), is a bug of the caller and aborts.
+  [[nodiscard]] T& value() & { return checked<0>(state_); }
+  [[nodiscard]] const T& value() const& { return checked<0>(state_); }
+  [[nodiscard]] T&& value() && { return std::move(checked<0>(state_)); }
+  T* operator->() { return &checked<0>(state_); }
+  T& operator*() { return checked<0>(state_); }
+  [[nodiscard]] const Error& error() const { return checked<1>(state_); }
 
  private:
+  template <std::size_t Index, class State>
+  static auto& checked(State& state) {
+    auto* wanted = std::get_if<Index>(&state);
+    if (wanted == nullptr) {
+      std::abort();
+    }
+    return *wanted;
+  }
+
   std::variant<T, Error> state_;
 };
 

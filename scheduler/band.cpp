@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/band.h"
+
+#include <csignal>
+#include <cstdio>
+
+namespace indurop::scheduler {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+constexpr std::int64_t kPollNs = 50'000;  // how often a process that must finish first is looked at
+
+void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
+  counter.store(counter.load(kRelaxed) + by, kRelaxed);
+}
+
+}  // namespace
+
+Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes, RunBlock& block,
+           Clock& clock, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns)
+    : plan_(plan),
+      tasks_(std::move(tasks)),
+      processes_(std::move(processes)),
+      block_(block),
+      clock_(clock),
+      hooks_(hooks),
+      trace_(trace),
+      runner_(block, clock, hooks, trace, tasks_.size()),
+      period_ticks_(static_cast<std::uint64_t>(plan.period_ns / basic_period_ns)),
+      offset_ticks_(static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)),
+      next_due_(offset_ticks_) {
+  wake_.init(false);
+}
+
+bool Band::any_enabled() const noexcept {
+  for (const TaskState* state : tasks_) {
+    if (state->enabled.load(kRelaxed)) {
+      return true;
+    }
+  }
+  return !processes_.empty();
+}
+
+bool Band::busy() const noexcept {
+  if (plan_.kind == BandKind::Process) {
+    const ProcessSlot& slot = *tasks_.front()->slot;
+    return slot.done.load(std::memory_order_acquire) != slot.released.load(kRelaxed);
+  }
+  return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
+}
+
+void Band::skip(std::uint64_t releases) noexcept {
+  for (TaskState* state : tasks_) {
+    if (state->task.operation == Operation::Periodic && state->enabled.load(kRelaxed)) {
+      count(state->record->skipped, releases);
+    }
+  }
+}
+
+void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t basic_period_ns) noexcept {
+  if (tick >= next_due_) {
+    const std::uint64_t due_count = (tick - next_due_) / period_ticks_ + 1;
+    const std::uint64_t latest = next_due_ + (due_count - 1) * period_ticks_;
+    next_due_ = latest + period_ticks_;
+    if (due_count > 1) {
+      skip(due_count - 1);
+    }
+    if (any_enabled()) {
+      release({latest, epoch_ns + static_cast<std::int64_t>(latest) * basic_period_ns});
+    }
+  }
+  decided_tick_.store(tick + 1, std::memory_order_seq_cst);
+}
+
+void Band::release(const Release& release) noexcept {
+  if (plan_.kind == BandKind::Process) {
+    release_process(*tasks_.front(), release);
+    return;
+  }
+  if (busy()) {
+    if (plan_.kind == BandKind::Handler) {
+      return;  // still checking the events of an earlier tick: one check serves both
+    }
+    overrun(release);
+    const std::uint64_t outstanding = released_.load(kRelaxed) - done_.load(std::memory_order_acquire);
+    if (plan_.overrun != OverrunPolicy::CatchUp || outstanding >= kBacklog) {
+      skip(1);
+      return;
+    }
+  }
+  const std::uint64_t number = released_.load(kRelaxed);
+  pending_[number % kBacklog] = release;
+  released_.store(number + 1, std::memory_order_seq_cst);
+  wake_.wake();
+}
+
+void Band::overrun(const Release& release) noexcept {
+  TaskState* running = runner_.current();
+  TaskState& culprit = running != nullptr ? *running : *tasks_.front();
+  record_overrun(culprit, release.tick, running != nullptr, release.time_ns - plan_.period_ns);
+}
+
+void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept {
+  count(culprit.record->overruns);
+  OverrunLine line{};
+  line.tick = tick;
+  line.module = culprit.task.index;
+  line.started = started;
+  if (started && plan_.kind != BandKind::Process) {
+    const std::int64_t start = runner_.current_start();
+    line.own_ns = clock_.now() - start;
+    line.latency_ns = start - release_ns;
+    line.previous = runner_.previous_module();
+    line.previous_ns = runner_.previous_exec();
+  } else {
+    if (started) {
+      const std::int64_t start = culprit.slot->start_ns.load(kRelaxed);
+      line.own_ns = clock_.now() - start;
+      line.latency_ns = start - release_ns;
+    }
+    line.previous = trace_.module.load(kRelaxed);
+    line.previous_ns = trace_.exec_ns.load(kRelaxed);
+  }
+  log_overrun(block_, line);
+  apply_policy(culprit, tick, line.own_ns);
+}
+
+void Band::account_process(TaskState& state) noexcept {
+  ProcessSlot& slot = *state.slot;
+  const std::uint64_t done = slot.done.load(std::memory_order_acquire);
+  if (done == state.accounted || done != slot.released.load(kRelaxed)) {
+    return;
+  }
+  state.accounted = done;
+  const RunTimes times{slot.release_ns.load(kRelaxed), slot.start_ns.load(kRelaxed), slot.end_ns.load(kRelaxed)};
+  if (times.end_ns < times.start_ns || times.start_ns < times.release_ns) {
+    return;  // the process was restarted in between
+  }
+  account_run(*state.record, state.jitter, times);
+  trace_.module.store(static_cast<std::int32_t>(state.task.index), kRelaxed);
+  trace_.exec_ns.store(times.end_ns - times.start_ns, kRelaxed);
+  log_slot(block_, {slot.release_tick.load(kRelaxed), state.task.index, times});
+}
+
+void Band::release_process(TaskState& state, const Release& release) noexcept {
+  ModuleRecord& record = *state.record;
+  const std::int32_t pid = record.pid.load(kRelaxed);
+  if (record.state.load(std::memory_order_acquire) != ModuleState::Running || pid <= 0) {
+    if (state.task.operation == Operation::Periodic && record.runs.load(kRelaxed) > 0) {
+      count(record.skipped);
+    }
+    return;
+  }
+  if (state.task.legacy_signal != 0) {
+    ::kill(pid, state.task.legacy_signal);
+    count(record.runs);
+    return;
+  }
+  ProcessSlot& slot = *state.slot;
+  if (slot.done.load(std::memory_order_acquire) != slot.released.load(kRelaxed)) {
+    if (state.task.operation == Operation::Sporadic) {
+      return;  // it is still handling an event; its deadline is checked when it is done
+    }
+    const bool started = slot.start_ns.load(kRelaxed) >= slot.release_ns.load(kRelaxed);
+    record_overrun(state, release.tick, started, slot.release_ns.load(kRelaxed));
+    count(record.skipped);  // a process has one release slot: what it missed cannot be caught up
+    return;
+  }
+  account_process(state);
+  slot.release_ns.store(release.time_ns, kRelaxed);
+  slot.release_tick.store(release.tick, kRelaxed);
+  slot.released.store(slot.released.load(kRelaxed) + 1, std::memory_order_release);
+  slot.wake.wake();
+}
+
+void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost, std::int64_t basic_ns) noexcept {
+  if (lost > 0) {
+    if (plan_.overrun == OverrunPolicy::CatchUp) {
+      const std::uint64_t over = owed_ + lost > kBacklog ? owed_ + lost - kBacklog : 0;
+      owed_ += lost - over;
+      skip(over);
+    } else {
+      skip(lost);
+    }
+  }
+  released_.store(released_.load(kRelaxed) + 1, std::memory_order_seq_cst);
+  runner_.run(tasks_, tick, release_ns);
+  find_inline_overrun(tick, release_ns, basic_ns);
+  for (; owed_ > 0 && clock_.now() < release_ns + basic_ns; --owed_) {
+    runner_.run(tasks_, tick, release_ns);
+  }
+  done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
+  decided_tick_.store(tick + 1, std::memory_order_seq_cst);
+}
+
+void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns, std::int64_t basic_ns) noexcept {
+  const std::int64_t next = release_ns + basic_ns;
+  std::size_t i = 0;
+  while (i < tasks_.size() && runner_.times(i).end_ns <= next) {
+    ++i;
+  }
+  if (i == tasks_.size()) [[likely]] {
+    return;
+  }
+  // The first to pass the next release is the culprit; those behind it were only pushed.
+  TaskState& culprit = *tasks_[i];
+  const RunTimes& times = runner_.times(i);
+  count(culprit.record->overruns);
+  OverrunLine line{tick, culprit.task.index, times.end_ns - times.start_ns, times.start_ns - release_ns, -1, 0, true};
+  if (i > 0) {
+    line.previous = static_cast<std::int32_t>(tasks_[i - 1]->task.index);
+    line.previous_ns = runner_.times(i - 1).end_ns - runner_.times(i - 1).start_ns;
+  }
+  log_overrun(block_, line);
+  apply_policy(culprit, tick, line.own_ns);
+}
+
+void Band::apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept {
+  if (culprit.task.overrun == OverrunPolicy::StopModule) {
+    char text[kTextLength];
+    std::snprintf(text, sizeof text, "overrun after %lld us (policy stop-module)",
+                  static_cast<long long>(own_ns / 1000));
+    quarantine(culprit, FaultKind::Overrun, tick, text, hooks_);
+  } else if (culprit.task.overrun == OverrunPolicy::StopNode && hooks_.stop_node != nullptr) {
+    hooks_.stop_node(hooks_.context, culprit.task.index, "overrun (policy stop-node)");
+  }
+}
+
+bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {
+  poll = false;
+  for (std::size_t i = predecessors_.size(); i-- > 0;) {
+    const Band& before = *predecessors_[i];
+    if (!before.due(tick)) {
+      continue;
+    }
+    // The nearest one that is due suffices: it waited for those before it.
+    poll = before.plan_.kind == BandKind::Process;
+    return before.decided_tick_.load(std::memory_order_seq_cst) > tick && !before.busy();
+  }
+  return true;
+}
+
+void Band::loop() noexcept {
+  const rt::HandlerStack handler_stack;
+  runner_.attach_thread();
+  while (!stop_.load(std::memory_order_acquire)) {
+    wake_.wait();
+    drain();
+  }
+  runner_.detach_thread();
+}
+
+void Band::drain() noexcept {
+  while (!stop_.load(std::memory_order_acquire) && busy()) {
+    const std::uint64_t number = done_.load(kRelaxed);
+    const Release now = pending_[number % kBacklog];
+    bool poll = false;
+    waiting_.store(true, std::memory_order_seq_cst);
+    const bool open = gate_open(now.tick, poll);
+    if (!open && !poll) {
+      return;  // look_again() wakes us
+    }
+    waiting_.store(false, std::memory_order_seq_cst);
+    if (!open) {
+      clock_.sleep_until(clock_.now() + kPollNs);
+      continue;
+    }
+    runner_.run(tasks_, now.tick, now.time_ns);
+    for (TaskState* process : processes_) {
+      release_process(*process, now);
+    }
+    done_.store(number + 1, std::memory_order_seq_cst);
+    if (on_done_ != nullptr) {
+      on_done_(on_done_context_);
+    }
+  }
+}
+
+void Band::stop() noexcept {
+  stop_.store(true, std::memory_order_release);
+  wake_.wake();
+}
+
+void Band::look_again() noexcept {
+  if (waiting_.exchange(false, std::memory_order_seq_cst)) {
+    wake_.wake();
+  }
+}
+
+void Band::finish() noexcept {
+  for (const auto* group : {&tasks_, &processes_}) {
+    for (TaskState* state : *group) {
+      if (state->task.type == ModuleType::Process) {
+        account_process(*state);
+      }
+      state->jitter.flush(state->record->jitter);
+    }
+  }
+}
+
+}  // namespace indurop::scheduler

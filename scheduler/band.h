@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// One band at run time: its releases, what happens when it is not done by the next one, and who must finish first.
+
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "rt/signal_word.h"
+#include "scheduler/bands.h"
+#include "scheduler/runner.h"
+
+namespace indurop::scheduler {
+
+struct Release {
+  std::uint64_t tick;
+  std::int64_t time_ns;
+};
+
+class Band {
+ public:
+  // Releases that may be outstanding under OverrunPolicy::CatchUp; more are skipped.
+  static constexpr std::uint64_t kBacklog = 16;
+
+  // `processes`: sporadic process modules a Handler band signals after its threads (chapter, Figure 6).
+  Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes, RunBlock& block,
+       Clock& clock, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns);
+
+  [[nodiscard]] const BandPlan& plan() const noexcept { return plan_; }
+  [[nodiscard]] bool due(std::uint64_t tick) const noexcept {
+    return tick >= offset_ticks_ && (tick - offset_ticks_) % period_ticks_ == 0;
+  }
+
+  // Bands that must have finished their part of a tick before this one starts it, nearest last. Set once, before start.
+  void set_predecessors(std::vector<Band*> bands) { predecessors_ = std::move(bands); }
+
+  // Tick thread: does what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
+  // counted as skipped.
+  void release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t basic_period_ns) noexcept;
+
+  // Tick thread, inline band only: runs here and now. `lost` = ticks that never began.
+  void run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost, std::int64_t basic_ns) noexcept;
+
+  // Band thread: body. Returns when stop() was called.
+  void loop() noexcept;
+  void stop() noexcept;
+  // The part of it between two sleeps: runs every outstanding release whose predecessors are done.
+  void drain() noexcept;
+
+  // If it sleeps until a predecessor is done, it looks again. Any thread.
+  void look_again() noexcept;
+
+  [[nodiscard]] Runner& runner() noexcept { return runner_; }
+  [[nodiscard]] std::span<TaskState* const> tasks() const noexcept { return tasks_; }
+  // Called when a band has finished a tick and others may wait for it.
+  void set_done_callback(void (*callback)(void*) noexcept, void* context) noexcept {
+    on_done_ = callback;
+    on_done_context_ = context;
+  }
+  // Counts the last run of a process module and what the jitter reference still holds. After the threads ended.
+  void finish() noexcept;
+
+ private:
+  void release(const Release& release) noexcept;
+  void overrun(const Release& release) noexcept;
+  void skip(std::uint64_t count) noexcept;
+  void release_process(TaskState& state, const Release& release) noexcept;
+  void account_process(TaskState& state) noexcept;
+  void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns, std::int64_t basic_ns) noexcept;
+  void apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept;
+  void record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept;
+  [[nodiscard]] bool busy() const noexcept;
+  [[nodiscard]] bool gate_open(std::uint64_t tick, bool& poll) const noexcept;
+  [[nodiscard]] bool any_enabled() const noexcept;
+
+  BandPlan plan_;
+  std::vector<TaskState*> tasks_;
+  std::vector<TaskState*> processes_;
+  RunBlock& block_;
+  Clock& clock_;
+  Hooks hooks_;
+  CoreTrace& trace_;
+  Runner runner_;
+  std::uint64_t period_ticks_;
+  std::uint64_t offset_ticks_;
+  std::uint64_t next_due_;
+  std::uint64_t owed_ = 0;  // inline catch-up: runs still to be made good
+  std::vector<Band*> predecessors_;
+  void (*on_done_)(void*) noexcept = nullptr;
+  void* on_done_context_ = nullptr;
+
+  rt::SignalWord wake_{};
+  std::array<Release, kBacklog> pending_{};
+  std::atomic<std::uint64_t> released_{0};
+  std::atomic<std::uint64_t> done_{0};
+  std::atomic<std::uint64_t> decided_tick_{0};  // tick + 1 up to which releases were decided
+  std::atomic<bool> waiting_{false};
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bands: maximal runs of neighbours in priority order that are released together and executed one after the other by
+// one thread. Fewer threads and wake-ups than one per module, same order as Table 3. Pure arithmetic.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scheduler/task.h"
+
+namespace indurop::scheduler {
+
+enum class BandKind {
+  Inline,   // runs in the core's tick thread: the top band, if it is released in every basic period
+  Thread,   // one FIFO thread
+  Process,  // one process module
+  Handler,  // the event handler: sporadic modules, after everything periodic
+};
+
+struct BandPlan {
+  BandKind kind = BandKind::Thread;
+  int core = 0;
+  int fifo_priority = 0;
+  std::int64_t period_ns = 0;
+  std::int64_t offset_ns = 0;
+  OverrunPolicy overrun = OverrunPolicy::Skip;
+  std::vector<std::uint32_t> tasks;  // indices into the input, in execution order
+};
+
+inline constexpr int kWatchdogPriority = 99;
+inline constexpr int kTickPriority = 90;
+inline constexpr int kServicePriority = 89;   // servers of shared functions
+inline constexpr int kTopBandPriority = 88;   // further bands count down from here
+inline constexpr int kLowestBandPriority = 4; // event handler and sporadic processes need the levels below
+inline constexpr int kHandlerPriority = 3;
+inline constexpr int kSporadicProcessPriority = 2;
+
+// Bands of the periodic tasks in execution order. Uses all of one FIFO level per band and core.
+// A band runs inline if it is the first on its core, has the basic period and no offset, consists of thread modules,
+// and no band of another core has to run before it in the same tick.
+std::vector<BandPlan> make_bands(std::span<const Task> periodic, std::int64_t basic_period_ns);
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/engine.h"
+
+#include <algorithm>
+
+namespace indurop::scheduler {
+namespace {
+
+constexpr std::int64_t kWarmUpNs = 20'000'000;
+constexpr std::int64_t kLeadNs = 2'000'000;  // between creating the threads and the first warm-up tick
+constexpr std::int64_t kWatchdogFastest = 1'000'000;
+constexpr std::int64_t kWatchdogSlowest = 10'000'000;
+
+bool by_priority(const TaskState* a, const TaskState* b) noexcept { return a->task.priority < b->task.priority; }
+
+}  // namespace
+
+struct Engine::Core {
+  int number = 0;
+  bool primary = false;
+  CoreTrace trace;
+  Band* inline_band = nullptr;
+  std::vector<Band*> bands;  // released by this core's tick thread, execution order
+};
+
+Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
+               Clock& clock)
+    : block_(block), settings_(settings), hooks_(hooks), clock_(clock) {
+  core(settings_.primary_core).primary = true;
+  std::vector<TaskState*> periodic;
+  std::vector<TaskState*> sporadic;
+  for (const Task& task : tasks) {
+    auto state = std::make_unique<TaskState>();
+    state->task = task;
+    state->record = &block_.modules()[task.index];
+    state->slot = &block_.process_slots()[task.index];
+    if (task.operation == Operation::Periodic) {
+      periodic.push_back(state.get());
+    } else if (task.operation == Operation::Sporadic) {
+      sporadic.push_back(state.get());
+    }
+    states_.push_back(std::move(state));
+  }
+  build_bands(std::move(periodic), std::move(sporadic));
+  gated_ = !settings_.realtime || cores_.size() > 1;
+  connect_predecessors();
+}
+
+Engine::~Engine() {
+  request_stop();
+  join();
+}
+
+Engine::Core& Engine::core(int number) {
+  for (const auto& known : cores_) {
+    if (known->number == number) {
+      return *known;
+    }
+  }
+  cores_.push_back(std::make_unique<Core>());
+  cores_.back()->number = number;
+  return *cores_.back();
+}
+
+void Engine::build_bands(std::vector<TaskState*> periodic, std::vector<TaskState*> sporadic) {
+  std::vector<Task> plain;
+  plain.reserve(periodic.size());
+  for (const TaskState* state : periodic) {
+    plain.push_back(state->task);
+  }
+  for (const BandPlan& plan : make_bands(plain, settings_.basic_period_ns)) {
+    std::vector<TaskState*> members;
+    for (const std::uint32_t i : plan.tasks) {
+      members.push_back(periodic[i]);
+      periodic[i]->record->fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
+    }
+    Core& home = core(plan.core);
+    bands_.push_back(std::make_unique<Band>(plan, std::move(members), std::vector<TaskState*>{}, block_, clock_, hooks_,
+                                            home.trace, settings_.basic_period_ns));
+    home.bands.push_back(bands_.back().get());
+    if (plan.kind == BandKind::Inline) {
+      home.inline_band = bands_.back().get();
+    }
+  }
+  std::stable_sort(sporadic.begin(), sporadic.end(), by_priority);
+  build_sporadic(sporadic);
+}
+
+void Engine::build_sporadic(const std::vector<TaskState*>& sporadic) {
+  std::vector<TaskState*> early;
+  std::vector<TaskState*> threads;
+  std::vector<TaskState*> processes;
+  for (TaskState* state : sporadic) {
+    const bool process = state->task.type == ModuleType::Process;
+    (process ? processes : state->task.after_base ? early : threads).push_back(state);
+    const int level = process                  ? kSporadicProcessPriority
+                      : state->task.after_base ? kTickPriority
+                                               : kHandlerPriority;
+    state->record->fifo_priority = settings_.realtime ? level : 0;
+  }
+  Core& home = core(settings_.primary_core);
+  BandPlan plan;
+  plan.core = home.number;
+  plan.period_ns = settings_.basic_period_ns;
+  if (!early.empty()) {
+    plan.kind = BandKind::Inline;
+    plan.fifo_priority = kTickPriority;
+    after_base_ = std::make_unique<Band>(plan, std::move(early), std::vector<TaskState*>{}, block_, clock_, hooks_,
+                                         home.trace, settings_.basic_period_ns);
+  }
+  if (!threads.empty() || !processes.empty()) {
+    plan.kind = BandKind::Handler;
+    plan.fifo_priority = kHandlerPriority;
+    bands_.push_back(std::make_unique<Band>(plan, std::move(threads), std::move(processes), block_, clock_, hooks_,
+                                            home.trace, settings_.basic_period_ns));
+    home.bands.push_back(bands_.back().get());
+  }
+}
+
+// Needed only where FIFO priorities of one core do not already give the order: several cores, or no real-time rights.
+void Engine::connect_predecessors() {
+  if (!gated_) {
+    return;
+  }
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    Band& band = *bands_[i];
+    std::vector<Band*> before;
+    for (std::size_t k = 0; k < i; ++k) {
+      Band& other = *bands_[k];
+      const bool ordered = band.plan().kind == BandKind::Handler || other.tasks().empty() ||
+                           other.tasks().back()->task.priority < band.tasks().front()->task.priority ||
+                           other.plan().core == band.plan().core;
+      if (ordered && (!settings_.realtime || other.plan().core != band.plan().core)) {
+        before.push_back(&other);
+      }
+    }
+    band.set_predecessors(std::move(before));
+    band.set_done_callback([](void* self) noexcept { static_cast<Engine*>(self)->wake_waiting(); }, this);
+  }
+}
+
+void Engine::wake_waiting() noexcept {
+  for (const auto& band : bands_) {
+    band->look_again();
+  }
+}
+
+Status Engine::start_band_threads() {
+  for (const auto& band : bands_) {
+    const BandPlan& plan = band->plan();
+    if (plan.kind == BandKind::Inline || plan.kind == BandKind::Process) {
+      continue;
+    }
+    rt::ThreadSettings settings;
+    settings.name = plan.kind == BandKind::Handler ? "irp-events" : "irp-band-" + std::to_string(plan.fifo_priority);
+    settings.fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
+    settings.core = settings_.realtime ? plan.core : -1;
+    auto thread = rt::Thread::start(settings, [&band = *band] { band.loop(); });
+    if (!thread) {
+      return thread.error();
+    }
+    threads_.push_back(std::move(thread).value());
+  }
+  rt::ThreadSettings settings;
+  settings.name = "irp-watchdog";
+  settings.fifo_priority = settings_.realtime ? kWatchdogPriority : 0;
+  const auto allowed = rt::allowed_cores();
+  // On another core, if there is one, its wake-ups cannot delay a tick.
+  const auto other = std::find_if(allowed.begin(), allowed.end(), [&](int number) {
+    return std::none_of(cores_.begin(), cores_.end(), [&](const auto& used) { return used->number == number; });
+  });
+  settings.core = other != allowed.end() ? *other : -1;
+  auto watchdog = rt::Thread::start(settings, [this] { watchdog_loop(); });
+  if (!watchdog) {
+    return watchdog.error();
+  }
+  watchdog_ = std::move(watchdog).value();
+  return {};
+}
+
+Status Engine::start(std::uint64_t ticks) {
+  rt::install_guard_handlers();
+  if (Status started = start_band_threads(); !started) {
+    request_stop();
+    join();
+    return started;
+  }
+  const std::int64_t basic = settings_.basic_period_ns;
+  const std::int64_t warm_up = std::max<std::int64_t>(kWarmUpNs / basic, 3) * basic;
+  epoch_ns_ = clock_.now() + kLeadNs + warm_up;
+  block_.epoch_ns = epoch_ns_;
+  ticking_.store(static_cast<int>(cores_.size()), std::memory_order_release);
+  for (const auto& core : cores_) {
+    rt::ThreadSettings settings;
+    settings.name = "irp-tick-" + std::to_string(core->number);
+    settings.fifo_priority = settings_.realtime ? kTickPriority : 0;
+    settings.core = settings_.realtime ? core->number : -1;
+    auto thread = rt::Thread::start(settings, [this, &core = *core, ticks] { tick_loop(core, ticks); });
+    if (!thread) {
+      request_stop();
+      ticking_.store(0, std::memory_order_release);
+      join();
+      return thread.error();
+    }
+    threads_.push_back(std::move(thread).value());
+  }
+  return {};
+}
+
+void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
+  const rt::HandlerStack handler_stack;
+  if (!settings_.realtime) {
+    rt::request_exact_timers();
+  }
+  if (core.inline_band != nullptr) {
+    core.inline_band->runner().attach_thread();
+  }
+  const std::int64_t basic = settings_.basic_period_ns;
+  Spinner spinner(clock_, settings_.spin, basic);
+  for (std::int64_t t = epoch_ns_ - std::max<std::int64_t>(kWarmUpNs / basic, 3) * basic; t < epoch_ns_; t += basic) {
+    spinner.wait_until(t);
+  }
+  for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
+    const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
+    const std::int64_t late = spinner.wait_until(planned) - planned;
+    const std::uint64_t lost = static_cast<std::uint64_t>(late / basic);
+    tick += lost;
+    if (ticks != 0 && tick >= ticks) {
+      break;
+    }
+    if (core.primary) {
+      add_sample(block_.tick_lateness, late);
+      if (lost > 0) {
+        block_.lost_ticks.fetch_add(lost, std::memory_order_relaxed);
+      }
+      block_.spin_margin_ns.store(spinner.margin_ns(), std::memory_order_relaxed);
+    }
+    do_tick(core, tick, lost);
+  }
+  if (core.inline_band != nullptr) {
+    core.inline_band->runner().detach_thread();
+  }
+  ticking_.fetch_sub(1, std::memory_order_acq_rel);
+}
+
+void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept {
+  const std::int64_t basic = settings_.basic_period_ns;
+  const std::int64_t release = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
+  if (core.primary) {
+    block_.tick.store(tick + 1, std::memory_order_release);
+  }
+  if (core.inline_band != nullptr) {
+    core.inline_band->run_inline(tick, release, lost, basic);
+  }
+  if (core.primary && after_base_ != nullptr) {
+    if (core.inline_band != nullptr) {
+      core.inline_band->runner().detach_thread();
+    }
+    after_base_->runner().attach_thread();
+    after_base_->run_inline(tick, release, 0, basic);
+    after_base_->runner().detach_thread();
+    if (core.inline_band != nullptr) {
+      core.inline_band->runner().attach_thread();
+    }
+  }
+  for (Band* band : core.bands) {
+    if (band != core.inline_band) {
+      band->release_due(tick, epoch_ns_, basic);
+    }
+  }
+  if (gated_) {
+    wake_waiting();
+  }
+}
+
+void Engine::step(std::uint64_t tick, std::int64_t epoch_ns) noexcept {
+  epoch_ns_ = epoch_ns;
+  for (const auto& core : cores_) {
+    do_tick(*core, tick, 0);
+  }
+  for (const auto& band : bands_) {
+    if (band->plan().kind == BandKind::Thread || band->plan().kind == BandKind::Handler) {
+      band->drain();
+    }
+  }
+}
+
+void Engine::watchdog_loop() noexcept {
+  std::int64_t period = kWatchdogSlowest;
+  for (const auto& state : states_) {
+    if (state->task.budget_ns > 0) {
+      period = std::min(period, std::max(state->task.budget_ns / 2, kWatchdogFastest));
+    }
+  }
+  while (!stop_watchdog_.load(std::memory_order_acquire)) {
+    clock_.sleep_until(clock_.now() + period);
+    const std::int64_t now = clock_.now();
+    const bool stopping = stop_.load(std::memory_order_acquire);
+    for (const auto& band : bands_) {
+      band->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
+    }
+    if (after_base_ != nullptr) {
+      after_base_->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
+    }
+  }
+}
+
+void Engine::join() noexcept {
+  // A run that ended by itself (ticks) stops its bands too.
+  while (!finished()) {
+    if (!stop_.load(std::memory_order_acquire)) {
+      clock_.sleep_until(clock_.now() + kWatchdogFastest);
+      continue;
+    }
+    break;
+  }
+  stop_.store(true, std::memory_order_release);
+  for (const auto& band : bands_) {
+    band->stop();
+  }
+  for (rt::Thread& thread : threads_) {
+    thread.join();
+  }
+  threads_.clear();
+  stop_watchdog_.store(true, std::memory_order_release);
+  watchdog_.join();
+  for (const auto& band : bands_) {
+    band->finish();
+  }
+  if (after_base_ != nullptr) {
+    after_base_->finish();
+  }
+}
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scheduler of one node: tick threads on one absolute grid, bands below them, event handler, watchdog.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rt/thread.h"
+#include "scheduler/band.h"
+#include "scheduler/spinner.h"
+
+namespace indurop::scheduler {
+
+struct EngineSettings {
+  std::int64_t basic_period_ns = 0;
+  int primary_core = 0;
+  bool realtime = true;             // false: SCHED_FIFO is not to be had; order is then kept by waiting
+  SpinSettings spin;
+  std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
+};
+
+class Engine {
+ public:
+  // `block` has its module records filled in; tasks refer to them by index. Writes fifo_priority into the records.
+  // Not real-time safe.
+  Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
+         Clock& clock);
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  // Starts all threads. Tick 0 comes after a warm-up without modules; `ticks` = 0 runs until stop.
+  // Errors: System, NoSpace (threads could not be created; nothing runs then).
+  Status start(std::uint64_t ticks);
+
+  // Ends the run at the next tick. Real-time safe, any thread, any number of times.
+  void request_stop() noexcept { stop_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool finished() const noexcept { return ticking_.load(std::memory_order_acquire) == 0; }
+
+  // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.
+  void join() noexcept;
+
+  // The tick in which everything is on this core without any thread: for tests and simulation with a virtual clock.
+  void step(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
+
+ private:
+  struct Core;
+  void build_bands(std::vector<TaskState*> periodic, std::vector<TaskState*> sporadic);
+  void build_sporadic(const std::vector<TaskState*>& sporadic);
+  void connect_predecessors();
+  Core& core(int number);
+  Status start_band_threads();
+  void tick_loop(Core& core, std::uint64_t ticks) noexcept;
+  void do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
+  void wake_waiting() noexcept;
+  void watchdog_loop() noexcept;
+
+  RunBlock& block_;
+  EngineSettings settings_;
+  Hooks hooks_;
+  Clock& clock_;
+  std::vector<std::unique_ptr<TaskState>> states_;
+  std::vector<std::unique_ptr<Core>> cores_;      // the primary one first
+  std::vector<std::unique_ptr<Band>> bands_;      // execution order, the event handler last
+  std::unique_ptr<Band> after_base_;              // sporadic modules evaluated in the primary tick thread
+  std::vector<rt::Thread> threads_;
+  rt::Thread watchdog_;
+  bool gated_ = false;                            // bands wait for their predecessors explicitly
+  std::int64_t epoch_ns_ = 0;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_watchdog_{false};
+  std::atomic<int> ticking_{0};
+};
+
+}  // namespace indurop::scheduler

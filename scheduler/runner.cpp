@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/runner.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+namespace indurop::scheduler {
+namespace {
+
+const char* signal_text(int number) noexcept {
+  switch (number) {
+    case SIGSEGV:
+      return "SIGSEGV (invalid memory access)";
+    case SIGBUS:
+      return "SIGBUS (access beyond a mapping)";
+    case SIGFPE:
+      return "SIGFPE (division by zero or overflow)";
+    case SIGILL:
+      return "SIGILL (illegal instruction)";
+    case SIGABRT:
+      return "SIGABRT (abort or failed assertion)";
+    default:
+      return "signal";
+  }
+}
+
+}  // namespace
+
+void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept {
+  ModuleRecord& record = *state.record;
+  state.enabled.store(false, std::memory_order_release);
+  std::strncpy(record.last_fault, text, sizeof record.last_fault - 1);
+  record.fault_tick.store(tick, std::memory_order_relaxed);
+  record.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
+  record.faults.fetch_add(1, std::memory_order_relaxed);
+  record.state.store(ModuleState::Faulted, std::memory_order_release);
+  if (hooks.faulted != nullptr) {
+    hooks.faulted(hooks.context, state.task.index);
+  }
+  if (state.task.overrun == OverrunPolicy::StopNode && hooks.stop_node != nullptr) {
+    hooks.stop_node(hooks.context, state.task.index, "a module with overrun policy stop-node faulted");
+  }
+}
+
+Runner::Runner(RunBlock& block, Clock& clock, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks)
+    : block_(block), clock_(clock), hooks_(hooks), trace_(trace), times_(most_tasks) {}
+
+void Runner::attach_thread() noexcept {
+  thread_ = ::pthread_self();
+  guard_.enter();
+  attached_.store(true, std::memory_order_release);
+}
+
+void Runner::detach_thread() noexcept {
+  attached_.store(false, std::memory_order_release);
+  guard_.leave();
+}
+
+void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int64_t release_ns) noexcept {
+  tasks_ = tasks;
+  tick_ = tick;
+  release_ns_ = release_ns;
+  position_ = 0;
+  // A fault comes back here, behind the module that caused it. No signal mask is saved: that would be a system call.
+  if (sigsetjmp(guard_.target(), 0) != 0) [[unlikely]] {
+    contain_jump();
+    ++position_;
+  }
+  current_start_.store(clock_.now(), std::memory_order_relaxed);
+  for (; position_ < tasks_.size(); ++position_) {
+    if (tasks_[position_]->enabled.load(std::memory_order_acquire)) [[likely]] {
+      call_current();
+    } else {
+      times_[position_] = {};
+    }
+  }
+  current_.store(nullptr, std::memory_order_release);
+  account();
+}
+
+void Runner::call_current() noexcept {
+  TaskState& state = *tasks_[position_];
+  previous_.store(trace_.module.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  previous_exec_.store(trace_.exec_ns.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  current_.store(&state, std::memory_order_release);
+  if (hooks_.entering != nullptr) {
+    hooks_.entering(hooks_.context, state.task.index);
+  }
+  char text[kTextLength];
+  bool ran = true;
+  bool threw = false;
+  guard_.arm();
+  try {
+    if (state.task.condition != nullptr) {
+      ran = state.task.condition() != 0;
+      current_start_.store(clock_.now(), std::memory_order_relaxed);
+    }
+    if (ran) {
+      state.task.run();
+    }
+  } catch (const std::exception& error) {
+    guard_.disarm();
+    threw = true;
+    std::snprintf(text, sizeof text, "exception: %s", error.what());
+  } catch (...) {
+    guard_.disarm();
+    threw = true;
+    std::snprintf(text, sizeof text, "exception of an unknown type");
+  }
+  guard_.disarm();
+  const std::int64_t start = current_start_.load(std::memory_order_relaxed);
+  const std::int64_t end = clock_.now();
+  times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
+  if (ran) {
+    trace_.module.store(static_cast<std::int32_t>(state.task.index), std::memory_order_relaxed);
+    trace_.exec_ns.store(end - start, std::memory_order_relaxed);
+  }
+  current_start_.store(end, std::memory_order_relaxed);  // the next module starts where this one ended
+  if (threw) [[unlikely]] {
+    quarantine(state, FaultKind::Exception, tick_, text, hooks_);
+  }
+}
+
+void Runner::contain_jump() noexcept {
+  guard_.recovered();
+  TaskState& state = *tasks_[position_];
+  const std::int64_t start = current_start_.load(std::memory_order_relaxed);
+  const std::int64_t end = clock_.now();
+  char text[kTextLength];
+  FaultKind kind = FaultKind::Signal;
+  if (guard_.signal_number() == rt::Guard::kOrder) {
+    kind = FaultKind::Budget;
+    std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>((end - start) / 1000));
+  } else if (guard_.signal_number() == SIGSEGV || guard_.signal_number() == SIGBUS) {
+    std::snprintf(text, sizeof text, "%s at address %p", signal_text(guard_.signal_number()), guard_.fault_address());
+  } else {
+    std::snprintf(text, sizeof text, "%s", signal_text(guard_.signal_number()));
+  }
+  times_[position_] = {release_ns_, start, end};
+  trace_.module.store(static_cast<std::int32_t>(state.task.index), std::memory_order_relaxed);
+  trace_.exec_ns.store(end - start, std::memory_order_relaxed);
+  quarantine(state, kind, tick_, text, hooks_);
+}
+
+void Runner::account() noexcept {
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    const RunTimes& times = times_[i];
+    if (times.end_ns != 0) {
+      account_run(*tasks_[i]->record, tasks_[i]->jitter, times);
+      log_slot(block_, {tick_, tasks_[i]->task.index, times});
+    }
+  }
+}
+
+void Runner::enforce_budget(std::int64_t now_ns, bool stopping, std::int64_t grace_ns) noexcept {
+  if (!attached_.load(std::memory_order_acquire) || !guard_.armed()) {
+    return;
+  }
+  const std::uint64_t run = guard_.current_run();
+  const TaskState* state = current();
+  const std::int64_t start = current_start();
+  if (state == nullptr) {
+    return;
+  }
+  std::int64_t limit = state->task.budget_ns;
+  if (stopping && (limit == 0 || limit > grace_ns)) {
+    limit = grace_ns;
+  }
+  if (limit > 0 && now_ns - start > limit) {
+    guard_.order_end(thread_, run);
+  }
+}
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Executes thread modules one after the other on the calling real-time thread, measures them, and keeps a fault of one
+// (exception, crash, order of the watchdog) from reaching the others.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rt/guard.h"
+#include "scheduler/clock.h"
+#include "scheduler/statistics.h"
+#include "scheduler/task.h"
+
+namespace indurop::scheduler {
+
+// A task with what changes while it runs. Address stays fixed for the life of the engine.
+struct TaskState {
+  Task task;
+  ModuleRecord* record = nullptr;
+  ProcessSlot* slot = nullptr;       // process modules
+  JitterReference jitter;
+  std::atomic<bool> enabled{true};   // false: stopped or faulted, never entered again
+  std::uint64_t accounted = 0;       // process modules: last release whose run was counted
+};
+
+// What the embedding program wants to know, called on real-time threads: no allocation, no lock, no system call.
+struct Hooks {
+  void* context = nullptr;
+  void (*entering)(void* context, std::uint32_t module) noexcept = nullptr;
+  void (*faulted)(void* context, std::uint32_t module) noexcept = nullptr;  // after the record was filled in
+  void (*stop_node)(void* context, std::uint32_t module, const char* reason) noexcept = nullptr;
+};
+
+// Who ran last on a core: names the predecessor in overrun records.
+struct CoreTrace {
+  std::atomic<std::int32_t> module{-1};
+  std::atomic<std::int64_t> exec_ns{0};
+};
+
+// Marks the module as faulted, quarantines it and tells the hooks. Real-time safe.
+void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept;
+
+class Runner {
+ public:
+  Runner(RunBlock& block, Clock& clock, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks);
+
+  // On the thread that will run modules, before and after its loop.
+  void attach_thread() noexcept;
+  void detach_thread() noexcept;
+
+  // Runs the enabled tasks in order. Sporadic ones run only if condition() is true.
+  void run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int64_t release_ns) noexcept;
+
+  // The task executed at the moment, null if none; readable from other threads.
+  [[nodiscard]] TaskState* current() const noexcept { return current_.load(std::memory_order_acquire); }
+  [[nodiscard]] std::int64_t current_start() const noexcept { return current_start_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::int32_t previous_module() const noexcept { return previous_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::int64_t previous_exec() const noexcept { return previous_exec_.load(std::memory_order_relaxed); }
+  // Times of the last run(): end of position i; 0 if it did not run.
+  [[nodiscard]] const RunTimes& times(std::size_t position) const noexcept { return times_[position]; }
+
+  // Ends the module in progress if it exceeds its budget, or `grace_ns` once the node is stopping. Watchdog thread.
+  void enforce_budget(std::int64_t now_ns, bool stopping, std::int64_t grace_ns) noexcept;
+
+ private:
+  void call_current() noexcept;
+  void contain_jump() noexcept;
+  void account() noexcept;
+
+  RunBlock& block_;
+  Clock& clock_;
+  Hooks hooks_;
+  CoreTrace& trace_;
+  rt::Guard guard_;
+  pthread_t thread_{};
+  std::atomic<bool> attached_{false};
+  // Members, not locals: they must keep their values when a fault jumps back into run().
+  std::span<TaskState* const> tasks_;
+  std::size_t position_ = 0;
+  std::uint64_t tick_ = 0;
+  std::int64_t release_ns_ = 0;
+  std::vector<RunTimes> times_;
+  std::atomic<TaskState*> current_{nullptr};
+  std::atomic<std::int64_t> current_start_{0};
+  std::atomic<std::int32_t> previous_{-1};
+  std::atomic<std::int64_t> previous_exec_{0};
+};
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/spinner.h"
+
+#include <algorithm>
+
+namespace indurop::scheduler {
+namespace {
+
+constexpr std::int64_t kFirstGuess = 20'000;
+// Steps up and down in the ratio 100 : 1, so the estimate settles where 1 % of the wake-ups are later.
+constexpr std::int64_t kStepUp = 400;
+constexpr std::int64_t kStepDown = 4;
+
+inline void relax() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
+    : clock_(clock), mode_(settings.mode), limit_(period_ns / 2), quantile_(kFirstGuess), margin_(0) {
+  if (mode_ == SpinMode::Auto) {
+    margin_ = std::min(kFirstGuess, limit_);
+  } else if (mode_ == SpinMode::Fixed) {
+    margin_ = std::min(settings.fixed_ns, period_ns);
+  }
+}
+
+void Spinner::learn(std::int64_t wake_cost) noexcept {
+  quantile_ += wake_cost > quantile_ ? kStepUp : -kStepDown;
+  margin_ = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
+}
+
+std::int64_t Spinner::wait_until(std::int64_t deadline_ns) noexcept {
+  std::int64_t now = clock_.now();
+  const std::int64_t wake_at = deadline_ns - margin_;
+  if (now < wake_at) {
+    clock_.sleep_until(wake_at);
+    now = clock_.now();
+    if (mode_ == SpinMode::Auto) {
+      learn(now - wake_at);
+    }
+  }
+  while (now < deadline_ns) {
+    relax();
+    now = clock_.now();
+  }
+  return now;
+}
+
+}  // namespace indurop::scheduler
