@@ -39,6 +39,8 @@ const char* to_string(Errc code) noexcept {
       return "out of range";
     case Errc::Unsupported:
       return "not supported here";
+    case Errc::Failed:
+      return "the called code failed";
   }
   return "unknown error";
 }

@@ -28,6 +28,7 @@ enum class Errc : int {
   System = 13,           // another errno, see sys_errno
   OutOfRange = 14,       // index or value beyond its declared bounds
   Unsupported = 15,      // not available on this machine
+  Failed = 16,           // the code that was called threw an exception
 };
 
 const char* to_string(Errc code) noexcept;
