@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""What the documentation tells people to type exists, and its links lead somewhere. check_readme.py ROOT [INDUROP]
+INDUROP: the built program, whose --help must know every verb shown."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+import common
+
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+
+
+def commands(text):
+    """Typed lines: those after '$ ' in console blocks, every line of sh blocks."""
+    for language, block in FENCE.findall(text):
+        if language in ("console", "sh", "bash", "shell"):
+            for line in block.splitlines():
+                if line.startswith("$ "):
+                    yield line[2:]
+                elif language != "console" and line and not line.startswith("#"):
+                    yield line
+
+
+def check(root, program):
+    make_targets = set(re.findall(r"^([a-z][a-z-]*(?: [a-z-]+)*):", common.read(root, "Makefile"), re.MULTILINE))
+    make_targets = {word for line in make_targets for word in line.split()}
+    verbs = None
+    if program:
+        verbs = subprocess.run([program, "--help"], capture_output=True, text=True, check=False).stdout
+    findings = []
+    for name in common.project_files(root):
+        if not name.endswith(".md"):
+            continue
+        text = common.read(root, name)
+        for target in LINK.findall(text):
+            if "://" not in target and not (root / name).parent.joinpath(target).exists():
+                findings.append(f"{name}: link to missing file {target}")
+        for command in commands(text):
+            for part in re.split(r"\s*(?:&&|;|\|)\s*", command):
+                words = part.split()
+                # Inside a project of the user's own (`indurop new`) make means that project's Makefile.
+                if words[:1] == ["make"] and name == "README.md":
+                    findings += [f"{name}: `{part}`: no such target in Makefile"
+                                 for word in words[1:] if "=" not in word and word[0] != "-" and word not in make_targets]
+                elif words[:1] and words[0].rsplit("/", 1)[-1] == "indurop" and verbs is not None and len(words) > 1:
+                    if words[1][0] != "-" and not re.search(rf"^\s+{re.escape(words[1])}\b", verbs, re.MULTILINE):
+                        findings.append(f"{name}: `{part}`: indurop has no verb {words[1]}")
+                elif words[:1] and words[0].startswith(("examples/", ".ci/", "./examples/", "./.ci/")):
+                    if not (root / words[0]).exists():
+                        findings.append(f"{name}: `{part}`: no such file")
+    return findings
+
+
+if __name__ == "__main__":
+    common.report(check(pathlib.Path(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else None))

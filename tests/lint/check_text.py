@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Rules that need nothing but the text of the files. check_text.py RULE ROOT"""
+
+import pathlib
+import re
+import sys
+
+import common
+
+SPDX = "// SPDX-License-Identifier: Apache-2.0"
+MAX_LINES = 600
+CODE = (".h", ".cpp", ".py", ".cmake", ".sh", ".glb", ".xml", ".xsd", ".txt", ".md", ".json", ".yml")
+# Printed in the specification; kept as they are.
+VERBATIM = ("examples/chapter/", "LICENSE")
+# Invisible or left over from another encoding.
+JUNK = re.compile("[\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f-\u00a0\u00ad\u200b-\u200f\u2028-\u202f\u2060-\u206f\ufeff\ufffd]")
+WORK_LEFT = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b(?!\(#\d+\))")
+
+
+def own_text(root):
+    for name in common.project_files(root):
+        if not common.is_data(name) and (name.endswith(CODE) or name in ("Makefile", "LICENSE")):
+            yield name, common.read(root, name)
+
+
+def spdx(root):
+    for name in common.cxx_files(root):
+        if name.startswith(VERBATIM):
+            continue
+        lines = common.read(root, name).split("\n")
+        if lines[0] != SPDX:
+            yield f"{name}:1: first line must be '{SPDX}'"
+        elif (len(lines) < 2 or not re.match(r"// \S", lines[1])) and not (
+                name.endswith(".cpp") and (pathlib.Path(root) / name).with_suffix(".h").exists()):
+            yield f"{name}:2: say in one to four lines of comment what this file is for"
+
+
+def todo(root):
+    for name, text in own_text(root):
+        if name.startswith("tests/lint/"):
+            continue
+        for number, line in enumerate(text.split("\n"), 1):
+            if WORK_LEFT.search(line):
+                yield f"{name}:{number}: unfinished work without an issue; write TODO(#<issue>)"
+
+
+def disabled(root):
+    for name, text in own_text(root):
+        if not name.startswith("tests/") or name.startswith("tests/lint/"):
+            continue
+        for number, line in enumerate(text.split("\n"), 1):
+            if re.search(r"\bDISABLED_|\bDISABLED\s+(TRUE|ON|1)\b", line) and not re.search(r"\(#\d+\)|issue #\d+", line):
+                yield f"{name}:{number}: disabled test without an issue number on the line"
+
+
+def length(root):
+    for name, text in own_text(root):
+        lines = text.count("\n")
+        if lines > MAX_LINES and name.endswith((".h", ".cpp", ".py", ".cmake", ".sh")):
+            yield f"{name}:{lines}: longer than {MAX_LINES} lines; split it by idea"
+
+
+def characters(root):
+    for name, text in own_text(root):
+        if name.startswith(VERBATIM):
+            continue
+        if text and not text.endswith("\n"):
+            yield f"{name}:{text.count(chr(10)) + 1}: no newline at the end of the file"
+        for number, line in enumerate(text.split("\n"), 1):
+            if JUNK.search(line) or "\r" in line:
+                yield f"{name}:{number}: invisible or broken character"
+            if line != line.rstrip():
+                yield f"{name}:{number}: white space at the end of the line"
+            # Text for the user may hold any character; names and comments of code may not.
+            bare = re.sub(r'"(\\.|[^"\\])*"', '""', line)
+            if name.endswith((".h", ".cpp", ".cmake")) and not bare.isascii() and 'R"' not in text:
+                yield f"{name}:{number}: only ASCII outside of string literals"
+
+
+def changelog(root):
+    version = re.search(r"^project\(\S+ VERSION ([0-9.]+)", common.read(root, "CMakeLists.txt"), re.MULTILINE)
+    top = re.search(r"^## \[?([0-9.]+)", common.read(root, "CHANGELOG.md"), re.MULTILINE)
+    if not version or not top or version.group(1) != top.group(1):
+        yield (f"CHANGELOG.md:1: newest entry is {top.group(1) if top else 'missing'}, "
+               f"the project is {version.group(1) if version else 'without version'}")
+
+
+RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, characters, changelog)}
+
+if __name__ == "__main__":
+    common.report(list(RULES[sys.argv[1]](pathlib.Path(sys.argv[2]))))

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""clang-tidy over our sources, remembering clean files by the hash of everything that went in.
+check_tidy.py families ROOT | check_tidy.py run ROOT BUILD [path prefix...]"""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+import common
+
+FAMILIES = ("bugprone", "cert", "clang-analyzer", "concurrency", "cppcoreguidelines", "misc", "modernize", "performance",
+            "portability", "readability")
+
+
+def families(root, file="rt/clock.cpp"):
+    """A family whose name is misspelt in .clang-tidy is silently off: ask clang-tidy what is on."""
+    listed = subprocess.run(["clang-tidy", "--list-checks", str(root / file), "--"], cwd=root, capture_output=True,
+                            text=True, check=False).stdout
+    return [f".clang-tidy: no check of the family {family}-* is active"
+            for family in FAMILIES if not re.search(rf"^\s+{family}-", listed, re.MULTILINE)]
+
+
+def cache_folder(build):
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    for folder in (pathlib.Path(base) / "indurop-tidy", pathlib.Path(build) / "tidy-cache"):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            if os.access(folder, os.W_OK):
+                return folder
+        except OSError:
+            pass
+    return None
+
+
+def clang_arguments(entry):
+    words = shlex.split(entry["command"])
+    words = words[1:] if words[0].endswith("ccache") else words
+    drop_next = False
+    kept = []
+    for word in words[1:]:
+        if drop_next:
+            drop_next = False
+        elif word in ("-o", "-c"):
+            drop_next = word == "-o"
+        elif not word.endswith(".cpp") and word not in ("-fno-gnu-unique",):
+            kept.append(word)
+    return kept
+
+
+def fingerprint(root, entry, arguments, common_part):
+    """Hash of the file, of every header of ours it includes, of the command and of the configuration; None if unknown."""
+    run = subprocess.run(["clang++", *arguments, "-Wno-everything", "-MM", entry["file"]], cwd=entry["directory"],
+                         capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        return None
+    digest = hashlib.sha256(common_part)
+    digest.update(" ".join(arguments).replace(str(root), "").encode())
+    for name in run.stdout.split(":", 1)[1].replace("\\\n", " ").split():
+        path = pathlib.Path(entry["directory"]) / name
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def tidy_one(root, build, entry, folder, common_part):
+    arguments = clang_arguments(entry)
+    key = fingerprint(root, entry, arguments, common_part) if folder else None
+    if key and (folder / key).exists():
+        return []
+    run = subprocess.run(["clang-tidy", "--quiet", entry["file"], "--", *arguments], cwd=entry["directory"],
+                         capture_output=True, text=True, check=False)
+    findings = [line for line in run.stdout.splitlines() if re.search(r": (error|warning):", line)]
+    if run.returncode != 0 and not findings:
+        findings = [f"{entry['file']}: clang-tidy failed: {(run.stderr or run.stdout).strip()[:500]}"]
+    if key and not findings:
+        (folder / key).touch()
+    return findings
+
+
+def run_all(root, build, prefixes):
+    ours = {str(root / name): name for name in common.cxx_files(root)}
+    entries = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        name = ours.get(str(pathlib.Path(entry["file"]).resolve()))
+        if name and (not prefixes or name.startswith(tuple(prefixes))):
+            entries.setdefault(name, entry)
+    if not entries:
+        return [f"{build}/compile_commands.json: names none of our sources"]
+    version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
+    config = b"".join((root / name).read_bytes() for name in common.project_files(root) if name.endswith(".clang-tidy"))
+    folder = cache_folder(build)
+    # Large files first, so that the last minutes are not one file on one core.
+    order = sorted(entries.values(), key=lambda entry: -os.path.getsize(entry["file"]))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = pool.map(lambda entry: tidy_one(root, build, entry, folder, version + config), order)
+        findings = sorted({finding for found in results for finding in found})
+    print(f"{len(entries)} files")
+    return findings
+
+
+if __name__ == "__main__":
+    source = pathlib.Path(sys.argv[2]).resolve()
+    if sys.argv[1] == "families":
+        common.report(families(source))
+    common.report(run_all(source, pathlib.Path(sys.argv[3]).resolve(), sys.argv[4:]))

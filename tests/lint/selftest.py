@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+"""Shows every lint a violation: a check that finds nothing because it is broken fails here."""
+
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import check_format
+import check_headers
+import check_includes
+import check_readme
+import check_symbols
+import check_text
+import check_tidy
+
+HERE = pathlib.Path(__file__).parent
+ROOT = HERE.parent.parent
+HEAD = "// SPDX-License-Identifier: Apache-2.0\n// Sample.\n\n"
+
+
+class Sample(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def put(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text.encode())
+
+    def found(self, findings, *words):
+        """Exactly one finding, which holds all words."""
+        findings = list(findings)
+        self.assertEqual(len(findings), 1, findings)
+        for word in words:
+            self.assertIn(word, findings[0])
+
+
+class Includes(Sample):
+    def check(self, name, include):
+        self.put(name, f"{HEAD}#include {include}\n")
+        return check_includes.check(self.root, check_includes.load_rules(HERE / "include_rules.txt"))
+
+    def test_rooms_below_are_allowed(self):
+        self.put("rt/clock.h", HEAD)
+        self.assertEqual(self.check("scheduler/a.cpp", '"rt/clock.h"'), [])
+
+    def test_dds_outside_mirror(self):
+        self.found(self.check("vars/a.cpp", '"dds/dds.h"'), "vars/a.cpp:4", "dds/dds.h")
+
+    def test_dds_inside_mirror(self):
+        self.assertEqual(self.check("mirror/a.cpp", "<dds/dds.h>"), [])
+
+    def test_xml_outside_deploy(self):
+        self.found(self.check("scheduler/a.cpp", "<tinyxml2.h>"), "tinyxml2.h")
+
+    def test_iceoryx_outside_vars(self):
+        self.found(self.check("runtime/a.h", '"iceoryx_hoofs/posix_wrapper/shared_memory_object.hpp"'), "iceoryx_hoofs")
+
+    def test_room_above(self):
+        self.found(self.check("vars/a.cpp", '"scheduler/run_block.h"'), "scheduler/run_block.h")
+
+    def test_dlopen_in_scheduler(self):
+        self.found(self.check("scheduler/a.cpp", "<dlfcn.h>"), "dlfcn.h")
+
+    def test_third_party_in_public_header(self):
+        self.found(self.check("include/indurop/a.h", "<fmt/core.h>"), "fmt/core.h")
+
+    def test_internals_in_example(self):
+        self.found(self.check("examples/a/a.cpp", '"vars/store.h"'), "vars/store.h")
+
+    def test_relative_path_upwards(self):
+        self.put("rt/clock.h", HEAD)
+        self.found(self.check("rt/a.cpp", '"../rt/clock.h"'), "../rt/clock.h")
+
+    def test_folder_without_rule(self):
+        self.found(self.check("misc/a.cpp", "<vector>"), "no line in include_rules.txt")
+
+
+class Text(Sample):
+    def check(self, rule):
+        return check_text.RULES[rule](self.root)
+
+    def test_clean_file(self):
+        self.put("rt/a.h", HEAD + "#pragma once\n")
+        for rule in ("spdx", "todo", "disabled", "length", "characters"):
+            self.assertEqual(list(self.check(rule)), [])
+
+    def test_missing_spdx(self):
+        self.put("rt/a.h", "#pragma once\n")
+        self.found(self.check("spdx"), "rt/a.h:1", "SPDX")
+
+    def test_missing_purpose(self):
+        self.put("rt/a.h", HEAD.split("\n", 1)[0] + "\n#pragma once\n")
+        self.found(self.check("spdx"), "rt/a.h:2")
+
+    def test_todo_without_issue(self):
+        self.put("rt/a.cpp", HEAD + "// TODO" + ": later\n")
+        self.found(self.check("todo"), "rt/a.cpp:4")
+
+    def test_todo_with_issue(self):
+        self.put("rt/a.cpp", HEAD + "// TODO" + "(#12): later\n")
+        self.assertEqual(list(self.check("todo")), [])
+
+    def test_disabled_test(self):
+        self.put("tests/unit/a_test.cpp", HEAD + "TEST(Suite, DISABLED_Name) {}\n")
+        self.found(self.check("disabled"), "tests/unit/a_test.cpp:4")
+
+    def test_disabled_in_cmake(self):
+        self.put("tests/unit/CMakeLists.txt", "set_tests_properties(a PROPERTIES DISABLED TRUE)\n")
+        self.found(self.check("disabled"), "tests/unit/CMakeLists.txt:1")
+
+    def test_long_file(self):
+        self.put("rt/a.cpp", HEAD + "\n" * 600)
+        self.found(self.check("length"), "rt/a.cpp")
+
+    def test_invisible_character(self):
+        self.put("docs/a.md", "no\u00a0break\n")
+        self.found(self.check("characters"), "docs/a.md:1", "invisible")
+
+    def test_foreign_letter_in_comment(self):
+        self.put("rt/a.cpp", HEAD + "// \u00b5s\n")
+        self.found(self.check("characters"), "rt/a.cpp:4", "ASCII")
+
+    def test_foreign_letter_in_string(self):
+        self.put("rt/a.cpp", HEAD + 'const char* k = "\u00b5s";\n')
+        self.assertEqual(list(self.check("characters")), [])
+
+    def test_white_space_at_end(self):
+        self.put("rt/a.cpp", HEAD + "int a; \n")
+        self.found(self.check("characters"), "rt/a.cpp:4", "white space")
+
+    def test_no_newline_at_end(self):
+        self.put("rt/a.cpp", HEAD + "int a;")
+        self.found(self.check("characters"), "rt/a.cpp:4", "newline")
+
+    def test_stale_changelog(self):
+        self.put("CMakeLists.txt", "project(InduRoP VERSION 0.2.0)\n")
+        self.put("CHANGELOG.md", "# Changelog\n\n## 0.1.0\n")
+        self.found(self.check("changelog"), "0.1.0", "0.2.0")
+
+
+class Format(Sample):
+    def test_badly_formatted(self):
+        shutil.copy(ROOT / ".clang-format", self.root)
+        self.put("rt/a.cpp", HEAD + "int   a ;\n")
+        self.assertTrue(check_format.check(self.root))
+
+    def test_well_formatted(self):
+        shutil.copy(ROOT / ".clang-format", self.root)
+        self.put("rt/a.cpp", HEAD + "int a;\n")
+        self.assertEqual(check_format.check(self.root), [])
+
+
+class Headers(Sample):
+    def test_public_header_with_missing_include(self):
+        self.put("include/indurop/a.h", HEAD + "#pragma once\nstd::string a();\n")
+        found = check_headers.check(self.root, [])
+        self.assertEqual(len(found), 2, found)  # both compilers
+
+    def test_public_header_that_needs_internals(self):
+        self.put("rt/b.h", HEAD + "#pragma once\n")
+        self.put("include/indurop/a.h", HEAD + '#pragma once\n#include "rt/b.h"\n')
+        self.assertEqual(len(check_headers.check(self.root, [])), 2)
+
+    def test_header_without_guard(self):
+        self.put("rt/a.h", HEAD + "struct A {};\n")
+        self.found(check_headers.check(self.root, []), "rt/a.h", "redefinition")
+
+    def test_good_header(self):
+        self.put("include/indurop/a.h", HEAD + "#pragma once\n#include <string>\nstd::string a();\n")
+        self.assertEqual(check_headers.check(self.root, []), [])
+
+
+class Symbols(Sample):
+    def check(self, listed):
+        self.put("a.cpp", 'extern "C" void one() {}\nextern "C" void two() {}\n')
+        library = str(self.root / "liba.so")
+        subprocess.run(["g++", "-shared", "-fPIC", "-o", library, str(self.root / "a.cpp")], check=True)
+        self.put("list.txt", listed)
+        return check_symbols.check(library, str(self.root / "list.txt"))
+
+    def test_complete_list(self):
+        self.assertEqual(self.check("# head\none\ntwo\n"), [])
+
+    def test_unlisted_export(self):
+        self.found(self.check("one\n"), "not listed: two")
+
+    def test_lost_export(self):
+        self.found(self.check("one\nthree\ntwo\n"), "no longer exported: three")
+
+
+class Readme(Sample):
+    def check(self, typed, program=None):
+        self.put("Makefile", "all demo: ## build\n")
+        self.put("README.md", f"# Title\n\n```console\n$ {typed}\nsome output\n```\n")
+        return check_readme.check(self.root, program)
+
+    def test_known_target(self):
+        self.assertEqual(self.check("make demo"), [])
+
+    def test_unknown_target(self):
+        self.found(self.check("make dmeo"), "dmeo")
+
+    def test_unknown_verb(self):
+        self.put("indurop", "#!/bin/sh\necho '  check  looks at a file'\n")
+        (self.root / "indurop").chmod(0o755)
+        program = str(self.root / "indurop")
+        self.assertEqual(self.check("indurop check module.xml", program), [])
+        self.found(self.check("indurop chekc module.xml", program), "chekc")
+
+    def test_missing_file(self):
+        self.found(self.check("examples/none.sh"), "no such file")
+
+    def test_broken_link(self):
+        self.put("Makefile", "all:\n")
+        self.put("docs/a.md", "[b](b.md) [web](https://example.org/)\n")
+        self.found(check_readme.check(self.root, None), "b.md")
+
+
+class Tidy(Sample):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(ROOT / ".clang-tidy", self.root)
+
+    def tidy(self, text):
+        self.put("rt/a.cpp", HEAD + text)
+        entry = {"file": str(self.root / "rt/a.cpp"), "directory": str(self.root), "command": "c++ -std=c++20 -c rt/a.cpp"}
+        return check_tidy.tidy_one(self.root, self.root, entry, self.root, b"")
+
+    def test_clean_file_is_remembered(self):
+        self.assertEqual(self.tidy("int twice(int a) { return a * 2; }\n"), [])
+        self.assertTrue([path for path in self.root.iterdir() if len(path.name) == 64])
+
+    def test_function_name(self):
+        self.found(self.tidy("int TwiceAsMuch(int a) { return a * 2; }\n"), "readability-identifier-naming")
+
+    def test_private_member_name(self):
+        self.found(self.tidy("class A {\n  int a = 0;\n\n public:\n  int get() const { return a; }\n};\nint f() { return A().get(); }\n"),
+                   "readability-identifier-naming")
+
+    def test_macro_name(self):
+        self.assertTrue(any("naming" in line for line in self.tidy("#define Other 1\n")))
+
+    def test_null(self):
+        self.found(self.tidy("int* f() { return 0; }\n"), "modernize-use-nullptr")
+
+    def test_analyzer(self):
+        self.found(self.tidy("int f(bool a) {\n  int* p = nullptr;\n  int b = 1;\n  if (!a) {\n    p = &b;\n  }\n  return *p;\n}\n"),
+                   "clang-analyzer-core.NullDereference")
+
+    def test_misspelt_family(self):
+        text = (ROOT / ".clang-tidy").read_text()
+        self.put(".clang-tidy", text.replace("bugprone-*", "bug-prone-*"))
+        self.put("rt/clock.cpp", HEAD)
+        self.found(check_tidy.families(self.root), "bugprone")
+
+
+if __name__ == "__main__":
+    unittest.main()
