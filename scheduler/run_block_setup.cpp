@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/run_block_setup.h"
+
+#include <cstring>
+
+namespace indurop::scheduler {
+namespace {
+
+constexpr std::uint32_t kSlotLogEntries = 8192;
+constexpr std::uint32_t kOverrunEntries = 256;
+constexpr std::uint32_t kModuleMessages = 64;
+constexpr std::uint32_t kNodeMessages = 256;
+
+struct Offsets {
+  std::size_t modules = 0;
+  std::size_t slots = 0;
+  std::size_t rings = 0;
+  std::size_t slot_log = 0;
+  std::size_t overrun_log = 0;
+  std::size_t messages = 0;
+  std::size_t properties = 0;
+  std::size_t total = 0;
+};
+
+constexpr std::size_t kLine = 64;
+std::size_t round_up(std::size_t size) noexcept { return (size + kLine - 1) / kLine * kLine; }
+
+std::size_t property_bytes(const ModuleSetup& module) noexcept {
+  std::size_t bytes = 0;
+  for (const auto& [name, value] : module.properties) {
+    bytes += name.size() + value.size() + 2;
+  }
+  return bytes;
+}
+
+Offsets offsets_of(const RunBlockSetup& setup) {
+  const std::size_t n = setup.modules.size();
+  Offsets at;
+  at.modules = round_up(sizeof(RunBlock));
+  at.slots = round_up(at.modules + n * sizeof(ModuleRecord));
+  at.rings = round_up(at.slots + n * sizeof(ProcessSlot));
+  at.slot_log = round_up(at.rings + (n + 1) * sizeof(MessageRing));
+  at.overrun_log = round_up(at.slot_log + kSlotLogEntries * sizeof(SlotEntry));
+  at.messages = round_up(at.overrun_log + kOverrunEntries * sizeof(OverrunEntry));
+  at.properties = round_up(at.messages + (n * kModuleMessages + kNodeMessages) * sizeof(MessageEntry));
+  at.total = at.properties;
+  for (const ModuleSetup& module : setup.modules) {
+    at.total += property_bytes(module);
+  }
+  return at;
+}
+
+template <std::size_t N>
+void copy_text(char (&to)[N], const std::string& from) {
+  std::strncpy(to, from.c_str(), N - 1);
+}
+
+void fill_record(ModuleRecord& record, const ModuleSetup& module) {
+  copy_text(record.name, module.name);
+  copy_text(record.file, module.file);
+  record.type = module.type;
+  record.operation = module.operation;
+  record.overrun_policy = module.overrun;
+  record.priority = module.priority;
+  record.core = module.core;
+  record.period_ns = module.period_ns;
+  record.offset_ns = module.offset_ns;
+  record.deadline_ns = module.deadline_ns;
+  record.budget_ns = module.budget_ns;
+}
+
+void write_properties(RunBlock& block, ModuleRecord& record, const ModuleSetup& module, std::size_t offset) {
+  record.property_offset = static_cast<std::uint32_t>(offset);
+  record.property_size = static_cast<std::uint32_t>(property_bytes(module));
+  char* to = block.at<char>(offset);
+  for (const auto& [name, value] : module.properties) {
+    for (const std::string& text : {name, value}) {
+      std::memcpy(to, text.c_str(), text.size() + 1);
+      to += text.size() + 1;
+    }
+  }
+}
+
+void init_ring(RunBlock& block, MessageRing& ring, std::size_t offset, std::uint32_t capacity) {
+  ring.capacity = capacity;
+  ring.entries_offset = offset;
+  auto* entries = block.at<MessageEntry>(offset);
+  for (std::uint32_t i = 0; i < capacity; ++i) {
+    entries[i].sequence.store(i, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace
+
+std::size_t run_block_size(const RunBlockSetup& setup) { return offsets_of(setup).total; }
+
+void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
+  const Offsets at = offsets_of(setup);
+  const std::size_t n = setup.modules.size();
+  block.abi = kRunAbi;
+  block.module_count = static_cast<std::uint32_t>(n);
+  block.total_size = at.total;
+  copy_text(block.node_name, setup.node_name);
+  copy_text(block.config_file, setup.config_file);
+  block.basic_period_ns = setup.basic_period_ns;
+  block.macro_period_ns = setup.macro_period_ns;
+  block.slot_count = setup.slot_count;
+  block.modules_offset = at.modules;
+  block.slots_offset = at.slots;
+  block.rings_offset = at.rings;
+  block.slot_log_offset = at.slot_log;
+  block.slot_log_capacity = kSlotLogEntries;
+  block.overrun_log_offset = at.overrun_log;
+  block.overrun_log_capacity = kOverrunEntries;
+  std::size_t properties = at.properties;
+  for (std::size_t i = 0; i < n; ++i) {
+    ModuleRecord& record = block.modules()[i];
+    fill_record(record, setup.modules[i]);
+    write_properties(block, record, setup.modules[i], properties);
+    properties += record.property_size;
+    ProcessSlot& slot = block.process_slots()[i];
+    slot.wake.init(true);
+    slot.module.store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
+    init_ring(block, block.rings()[i], at.messages + i * kModuleMessages * sizeof(MessageEntry), kModuleMessages);
+  }
+  init_ring(block, block.rings()[n], at.messages + n * kModuleMessages * sizeof(MessageEntry), kNodeMessages);
+  block.magic.store(kRunMagic, std::memory_order_release);
+}
+
+}  // namespace indurop::scheduler

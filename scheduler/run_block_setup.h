@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lays out and fills in a run block before a run. Not real-time safe.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scheduler/run_block.h"
+
+namespace indurop::scheduler {
+
+struct ModuleSetup {
+  std::string name;
+  std::string file;
+  ModuleType type = ModuleType::Thread;
+  Operation operation = Operation::Periodic;
+  OverrunPolicy overrun = OverrunPolicy::Skip;
+  int priority = 0;
+  int core = -1;
+  std::int64_t period_ns = 0;
+  std::int64_t offset_ns = 0;
+  std::int64_t deadline_ns = 0;
+  std::int64_t budget_ns = 0;
+  std::vector<std::pair<std::string, std::string>> properties;
+};
+
+struct RunBlockSetup {
+  std::string node_name;
+  std::string config_file;
+  std::int64_t basic_period_ns = 0;
+  std::int64_t macro_period_ns = 0;
+  std::uint32_t slot_count = 0;
+  std::vector<ModuleSetup> modules;
+};
+
+// Bytes a block for this setup needs.
+std::size_t run_block_size(const RunBlockSetup& setup);
+
+// `block` points to that many zero bytes. The magic is stored last.
+void init_run_block(RunBlock& block, const RunBlockSetup& setup);
+
+}  // namespace indurop::scheduler

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine driven by a virtual clock and by the real one: order, policies, faults, statistics.
+
+#include "scheduler/engine.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <stdexcept>
+#include <thread>
+
+#include "fixture.h"
+#include "rt/clock.h"
+
+namespace indurop::scheduler {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<int> g_order;
+VirtualClock* g_clock = nullptr;
+std::atomic<int> g_calls{0};
+std::atomic<int> g_other{0};
+
+template <int N>
+void note() {
+  g_order.push_back(N);
+}
+
+class EngineInVirtualTime : public testing::Test {
+ protected:
+  void SetUp() override {
+    g_order.clear();
+    g_calls = 0;
+    g_other = 0;
+    g_clock = &clock;
+  }
+  std::unique_ptr<Engine> make(const std::vector<Task>& tasks, std::int64_t basic, std::int64_t macro,
+                               Clock* with = nullptr) {
+    block = make_block(tasks, basic, macro);
+    EngineSettings settings;
+    settings.basic_period_ns = basic;
+    settings.realtime = false;
+    return std::make_unique<Engine>(*block, tasks, settings, Hooks{}, with != nullptr ? *with : clock);
+  }
+  void steps(Engine& sut, std::uint64_t from, std::uint64_t to, std::int64_t basic) {
+    for (std::uint64_t tick = from; tick < to; ++tick) {
+      const std::int64_t at = epoch + static_cast<std::int64_t>(tick) * basic;
+      clock.sleep_until(at);
+      sut.step(tick, epoch);
+    }
+  }
+  VirtualClock clock;
+  BlockPointer block;
+  const std::int64_t epoch = 2'000'000;
+};
+
+TEST_F(EngineInVirtualTime, RunsTheChaptersTable3InItsOrder) {
+  const std::vector<Task> tasks = {periodic(0, 500'000, 3, note<1>), periodic(1, 100'000, 2, note<2>),
+                                   periodic(2, 100'000, 1, note<3>)};
+  auto sut = make(tasks, 100'000, 500'000);
+  steps(*sut, 0, 6, 100'000);
+  EXPECT_THAT(g_order, ElementsAre(3, 2, 1, 3, 2, 3, 2, 3, 2, 3, 2, 3, 2, 1));
+  EXPECT_EQ(block->modules()[0].runs.load(), 2U);
+  EXPECT_EQ(block->modules()[2].runs.load(), 6U);
+}
+
+TEST_F(EngineInVirtualTime, CallsSporadicModulesAfterThePeriodicOnesWhenTheirConditionHolds) {
+  Task event;
+  event.index = 1;
+  event.operation = Operation::Sporadic;
+  event.condition = [] { return g_order.size() == 2 ? 1 : 0; };
+  event.run = note<9>;
+  auto sut = make({periodic(0, 100'000, 1, note<1>), event}, 100'000, 100'000);
+  steps(*sut, 0, 3, 100'000);
+  EXPECT_THAT(g_order, ElementsAre(1, 1, 9, 1));
+}
+
+TEST_F(EngineInVirtualTime, QuarantinesAModuleThatThrowsAndNamesTheCause) {
+  const std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { throw std::runtime_error("no sensor"); }),
+                                   periodic(1, 100'000, 2, note<2>)};
+  auto sut = make(tasks, 100'000, 100'000);
+  steps(*sut, 0, 3, 100'000);
+  const ModuleRecord& record = block->modules()[0];
+  EXPECT_EQ(record.state.load(), ModuleState::Faulted);
+  EXPECT_EQ(record.fault_kind.load(), static_cast<std::uint32_t>(FaultKind::Exception));
+  EXPECT_STREQ(record.last_fault, "exception: no sensor");
+  EXPECT_EQ(record.runs.load(), 1U);
+  EXPECT_EQ(block->modules()[1].runs.load(), 3U);
+}
+
+TEST_F(EngineInVirtualTime, MeasuresExecutionResponseAndLatency) {
+  const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { g_clock->advance(30'000); }),
+                                   periodic(1, 1'000'000, 2, [] { g_clock->advance(5'000); })};
+  auto sut = make(tasks, 1'000'000, 1'000'000);
+  steps(*sut, 0, 10, 1'000'000);
+  const ModuleRecord& second = block->modules()[1];
+  EXPECT_EQ(second.exec.max.load(), 5'000);
+  EXPECT_EQ(second.latency.min.load(), 30'000);
+  EXPECT_EQ(second.response.max.load(), 35'000);
+  EXPECT_EQ(second.jitter.count.load(), 10U);
+  EXPECT_EQ(second.jitter.max.load(), 0);
+}
+
+TEST_F(EngineInVirtualTime, NamesTheCulpritOfAnInlineOverrunAndWhoRanBeforeIt) {
+  const std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { g_clock->advance(20'000); }),
+                                   periodic(1, 100'000, 2, [] { g_clock->advance(150'000); }),
+                                   periodic(2, 100'000, 3, note<3>)};
+  auto sut = make(tasks, 100'000, 100'000);
+  steps(*sut, 0, 1, 100'000);
+  EXPECT_EQ(block->modules()[1].overruns.load(), 1U);
+  EXPECT_EQ(block->modules()[2].overruns.load(), 0U);
+  const OverrunEntry& entry = *block->at<OverrunEntry>(block->overrun_log_offset);
+  EXPECT_EQ(entry.module, 1U);
+  EXPECT_EQ(entry.own_ns, 150'000);
+  EXPECT_EQ(entry.previous, 0);
+  EXPECT_EQ(entry.previous_ns, 20'000);
+}
+
+TEST_F(EngineInVirtualTime, StopsOnlyTheModuleWhosePolicySaysSo) {
+  std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { g_clock->advance(150'000); }),
+                             periodic(1, 200'000, 2, note<2>)};
+  tasks[0].overrun = OverrunPolicy::StopModule;
+  auto sut = make(tasks, 100'000, 200'000);
+  steps(*sut, 0, 4, 100'000);
+  EXPECT_EQ(block->modules()[0].runs.load(), 1U);
+  EXPECT_EQ(block->modules()[0].state.load(), ModuleState::Faulted);
+  EXPECT_EQ(block->modules()[1].runs.load(), 2U);
+}
+
+// From here on with threads and the real clock.
+
+class EngineThreads : public EngineInVirtualTime {
+ protected:
+  SystemClock system;
+  void run_until(Engine& sut, const std::function<bool()>& reached) {
+    const std::int64_t deadline = rt::now_ns() + 20'000'000'000;
+    while (!reached() && rt::now_ns() < deadline) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    sut.request_stop();
+    sut.join();
+    EXPECT_TRUE(reached());
+  }
+};
+
+TEST_F(EngineThreads, RunsExactlyTheTicksAskedFor) {
+  const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { ++g_calls; }),
+                                   periodic(1, 5'000'000, 2, [] { ++g_other; })};
+  auto sut = make(tasks, 1'000'000, 5'000'000, &system);
+  ASSERT_TRUE(sut->start(50).ok());
+  sut->join();
+  EXPECT_EQ(block->modules()[0].runs.load() + block->modules()[0].skipped.load(), 50U);
+  EXPECT_EQ(static_cast<std::uint64_t>(g_calls.load()), block->modules()[0].runs.load());
+}
+
+TEST_F(EngineThreads, SkipsAReleaseWhileTheBandIsStillBusy) {
+  const std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
+                                     ++g_calls;
+                                     std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                                   })};
+  auto sut = make(tasks, 2'000'000, 4'000'000, &system);
+  ASSERT_TRUE(sut->start(0).ok());
+  run_until(*sut, [] { return g_calls > 3; });
+  EXPECT_GT(block->modules()[1].overruns.load(), 0U);
+  EXPECT_EQ(block->modules()[1].overruns.load(), block->modules()[1].skipped.load());
+  EXPECT_EQ(block->modules()[0].overruns.load(), 0U);
+}
+
+TEST_F(EngineThreads, CatchesUpReleasesIfThePolicySaysSo) {
+  std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
+                               if (++g_calls == 1) {
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(21));
+                               }
+                             })};
+  tasks[1].overrun = OverrunPolicy::CatchUp;
+  auto sut = make(tasks, 2'000'000, 4'000'000, &system);
+  ASSERT_TRUE(sut->start(40).ok());
+  sut->join();
+  EXPECT_GE(block->modules()[1].overruns.load(), 3U);
+  EXPECT_GE(g_calls.load() + static_cast<int>(block->modules()[1].skipped.load()), 18);
+}
+
+#ifndef __SANITIZE_THREAD__
+TEST_F(EngineThreads, ContainsACrashingModuleOfTheInlineBand) {
+  std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { std::raise(SIGSEGV); }),
+                             periodic(1, 1'000'000, 2, [] { ++g_calls; })};
+  auto sut = make(tasks, 1'000'000, 1'000'000, &system);
+  ASSERT_TRUE(sut->start(0).ok());
+  run_until(*sut, [] { return g_calls > 5; });
+  EXPECT_EQ(block->modules()[0].fault_kind.load(), static_cast<std::uint32_t>(FaultKind::Signal));
+  EXPECT_EQ(block->modules()[0].runs.load(), 1U);
+}
+
+TEST_F(EngineThreads, EndsAModuleThatNeverReturnsByItsBudget) {
+  std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { ++g_calls; }), periodic(1, 2'000'000, 2, [] {
+                               volatile bool forever = true;
+                               while (forever) {
+                               }
+                             })};
+  tasks[1].budget_ns = 10'000'000;
+  auto sut = make(tasks, 1'000'000, 2'000'000, &system);
+  ASSERT_TRUE(sut->start(0).ok());
+  run_until(*sut, [this] { return block->modules()[1].state.load() == ModuleState::Faulted; });
+  EXPECT_EQ(block->modules()[1].fault_kind.load(), static_cast<std::uint32_t>(FaultKind::Budget));
+}
+#endif
+
+}  // namespace
+}  // namespace indurop::scheduler

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run block in private memory and a clock that only moves when told, for scheduler tests.
+
+#pragma once
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scheduler/engine.h"
+#include "scheduler/run_block_setup.h"
+
+namespace indurop::scheduler {
+
+class VirtualClock final : public Clock {
+ public:
+  std::int64_t now() noexcept override { return now_; }
+  void sleep_until(std::int64_t deadline_ns) noexcept override {
+    if (deadline_ns > now_) {
+      now_ = deadline_ns;
+    }
+  }
+  void advance(std::int64_t ns) noexcept { now_ += ns; }
+
+ private:
+  std::int64_t now_ = 1'000'000;
+};
+
+struct FreeMemory {
+  void operator()(RunBlock* block) const noexcept { std::free(block); }
+};
+using BlockPointer = std::unique_ptr<RunBlock, FreeMemory>;
+
+inline BlockPointer make_block(const std::vector<Task>& tasks, std::int64_t basic_ns, std::int64_t macro_ns) {
+  RunBlockSetup setup;
+  setup.node_name = "test";
+  setup.basic_period_ns = basic_ns;
+  setup.macro_period_ns = macro_ns;
+  setup.slot_count = static_cast<std::uint32_t>(macro_ns / basic_ns);
+  for (const Task& task : tasks) {
+    ModuleSetup module;
+    module.name = "m" + std::to_string(task.index);
+    module.type = task.type;
+    module.operation = task.operation;
+    module.overrun = task.overrun;
+    module.priority = task.priority;
+    module.period_ns = task.period_ns;
+    module.budget_ns = task.budget_ns;
+    setup.modules.push_back(module);
+  }
+  const std::size_t bytes = run_block_size(setup);
+  const std::size_t aligned = (bytes + 63) / 64 * 64;
+  BlockPointer block(static_cast<RunBlock*>(std::aligned_alloc(64, aligned)));
+  std::memset(static_cast<void*>(block.get()), 0, aligned);
+  init_run_block(*block, setup);
+  return block;
+}
+
+// Tasks numbered 0.. in the given order.
+inline Task periodic(std::uint32_t index, std::int64_t period_ns, int priority, void (*run)()) {
+  Task task;
+  task.index = index;
+  task.period_ns = period_ns;
+  task.priority = priority;
+  task.run = run;
+  return task;
+}
+
+}  // namespace indurop::scheduler
