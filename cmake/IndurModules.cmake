@@ -30,15 +30,16 @@ function(indurop_add_glb target)
     list(APPEND sources ${source})
     list(APPEND idls ${folder}/${stem}.idl)
   endforeach()
+  list(JOIN arg_FILES " " shown)
   add_custom_command(OUTPUT ${header} ${idls}
     COMMAND indurop::glb2idl --out-dir ${folder} --depfile ${folder}/generated.d ${sources}
     DEPENDS indurop::glb2idl ${sources}
     DEPFILE ${folder}/generated.d
-    COMMENT "glb2idl ${arg_FILES}" VERBATIM)
+    COMMENT "glb2idl ${shown}" VERBATIM)
   add_custom_target(${target}_generate DEPENDS ${header} ${idls})
   add_library(${target} INTERFACE)
   add_dependencies(${target} ${target}_generate)
-  target_include_directories(${target} INTERFACE ${folder})
+  target_include_directories(${target} SYSTEM INTERFACE ${folder})
   target_link_libraries(${target} INTERFACE indurop::indurop)
   if(arg_TYPES)
     indurop_idlc(${target}_types FILES ${idls} INCLUDES ${folder})

@@ -1,0 +1,6 @@
+/* A DDS program in C that knows the types of the variables. */
+#include "knuRobot.h"
+
+int main(void) {
+  return knu_Robot_joints_desc.m_size > 0 ? 0 : 1;
+}
