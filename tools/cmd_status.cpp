@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop status: is the node well, what real-time rights did it get, how do its modules do.
+#include <fmt/format.h>
+
+#include "deploy/reader.h"
+#include "rt/clock.h"
+#include "tools/interrupt.h"
+#include "tools/node_choice.h"
+#include "tools/repeat.h"
+#include "tools/run_report.h"
+#include "tools/units.h"
+#include "tools/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+std::string fault_text(const scheduler::ModuleRecord& module) {
+  const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));
+  if (kind == scheduler::FaultKind::None) {
+    return {};
+  }
+  return fmt::format("{} (tick {})", fixed_text(module.last_fault), module.fault_tick.load(std::memory_order_relaxed));
+}
+
+Style style_of(scheduler::ModuleState state) {
+  switch (state) {
+    case scheduler::ModuleState::Running: return Style::Good;
+    case scheduler::ModuleState::Loaded:
+    case scheduler::ModuleState::Starting:
+    case scheduler::ModuleState::Restarting: return Style::Warn;
+    case scheduler::ModuleState::Faulted: return Style::Bad;
+    case scheduler::ModuleState::Stopped:
+    case scheduler::ModuleState::Exited: return Style::Dim;
+  }
+  return Style::None;
+}
+
+Cell counter(std::uint64_t value, Style if_any = Style::None) {
+  return {std::to_string(value), value, value > 0 ? if_any : Style::Dim};
+}
+Cell duration(std::int64_t ns, bool known = true) { return {known ? human_ns(ns) : "-", ns}; }
+
+std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
+  constexpr auto kRelaxed = std::memory_order_relaxed;
+  const auto state = module.state.load(kRelaxed);
+  const auto exec = scheduler::summarize(module.exec);
+  const auto jitter = scheduler::summarize(module.jitter);
+  const bool ran = exec.count > 0;
+  const bool real = module.operation != scheduler::Operation::NonReal;
+  const std::string period =
+      module.period_ns > 0 ? deploy::format_duration(deploy::Nanos(module.period_ns)) : to_text(module.operation);
+  return {Cell(fixed_text(module.name), Style::Bold),
+          Cell(to_text(module.type)),
+          {period, module.period_ns},
+          {"", to_text(module.operation)},
+          {real ? std::to_string(module.priority) : "-", module.priority},
+          Cell(to_text(state), style_of(state)),
+          {"", module.pid.load(kRelaxed)},
+          counter(module.runs.load(kRelaxed)),
+          counter(module.skipped.load(kRelaxed), Style::Warn),
+          counter(module.overruns.load(kRelaxed), Style::Warn),
+          counter(module.deadline_misses.load(kRelaxed), Style::Warn),
+          duration(module.last_exec_ns.load(kRelaxed), ran),
+          duration(exec.mean, ran),
+          duration(exec.max, ran),
+          duration(jitter.p50, jitter.count > 0),
+          duration(jitter.p99, jitter.count > 0),
+          duration(jitter.max, jitter.count > 0),
+          counter(module.restarts.load(kRelaxed), Style::Warn),
+          counter(module.lost_messages.load(kRelaxed), Style::Warn),
+          {fault_text(module), fault_text(module), Style::Bad}};
+}
+
+Table module_table(const RunView& run) {
+  constexpr Align kRight = Align::Right;
+  Table table({{"MODULE", "name"},          {"TYPE", "type"},
+               {"PERIOD", "period_ns", kRight}, {"", "operation"},
+               {"PRIO", "priority", kRight},    {"STATE", "state"},
+               {"", "pid"},                     {"RUNS", "runs", kRight},
+               {"SKIPPED", "skipped", kRight},  {"OVERRUNS", "overruns", kRight},
+               {"MISSES", "deadline_misses", kRight}, {"LAST", "last_exec_ns", kRight},
+               {"AVG", "mean_exec_ns", kRight}, {"MAX", "max_exec_ns", kRight},
+               {"JITTER P50", "jitter_p50_ns", kRight}, {"P99", "jitter_p99_ns", kRight},
+               {"MAX", "jitter_max_ns", kRight}, {"RESTARTS", "restarts", kRight},
+               {"", "lost_messages"},           {"LAST FAULT", "last_fault"}});
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    table.add(module_row(run.module(i)));
+  }
+  return table;
+}
+
+int show_once(Context& context, const std::string& node, const RunView& run) {
+  const NodeReport report = report_of(node, run);
+  if (context.format == Format::Table) {
+    for (const std::string& line : header_lines(report, context.out)) {
+      context.out.line(line);
+    }
+    context.out.line();
+  }
+  print_table(context, module_table(run), json_of(report), "modules");
+  return report.alive ? kOk : kUnreachable;
+}
+
+Action declare(CLI::App& app, Context& context) {
+  auto repeat = std::make_shared<Repeat>();
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  add_repeat_options(app, *repeat);
+  return [repeat](Context& c) {
+    return repeat_rounds(c, *repeat, [&c] {
+      std::string node;
+      int code = kOk;
+      const auto run = open_run(c, node, code);
+      return run ? show_once(c, node, *run) : code;
+    });
+  };
+}
+
+}  // namespace
+
+const Verb kStatusVerb{
+    "status", "A running node", "Show how the node and its modules do",
+    "Columns: LAST, AVG, MAX are execution times; JITTER is |J_n|, how far a start was from its place on the grid.\n"
+    "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown).\n",
+    &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ctrl-C and SIGTERM while a verb works or waits: they end the wait, the verb tidies up and the program exits with
+// 128 + signal. Waits of all verbs go through here, so none is unbounded.
+
+#pragma once
+
+#include <cstdint>
+
+namespace indurop::tools {
+
+// Catches SIGINT and SIGTERM, ignores SIGPIPE (a gone reader shows as EPIPE). Once, at the start of main.
+void catch_interrupts();
+[[nodiscard]] bool interrupted() noexcept;
+[[nodiscard]] int interrupt_code() noexcept;  // 130, 143
+
+// Sleeps until CLOCK_MONOTONIC `deadline_ns` or a signal, or, if `fd` >= 0, until it can be read.
+enum class Woken { Deadline, Signal, Readable };
+Woken wait_until(std::int64_t deadline_ns, int fd = -1) noexcept;
+
+}  // namespace indurop::tools

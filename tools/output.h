@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a verb's output goes: data to stdout, messages to stderr. Knows about terminals, colour, a reader that has
+// gone (quiet) and a disk that is full (an error).
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace indurop::tools {
+
+enum class Style { None, Bold, Dim, Good, Warn, Bad, Accent };
+enum class ColorWhen { Auto, Always, Never };
+
+// Terminal width and height of stdout; 80 x 24 if it is not a terminal.
+struct Extent {
+  int columns = 80;
+  int rows = 24;
+};
+
+class Output {
+ public:
+  explicit Output(ColorWhen when = ColorWhen::Auto, bool quiet = false);
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  ~Output() = default;
+
+  void configure(ColorWhen when, bool quiet);
+
+  // Appends to the pending output; flush() or the end of the program sends it.
+  void write(std::string_view text) { pending_ += text; }
+  void line(std::string_view text = {}) {
+    pending_ += text;
+    pending_ += '\n';
+  }
+  // False once stdout does not take anything any more.
+  bool flush();
+  // The reader of stdout has gone: stop working, it is no failure.
+  [[nodiscard]] bool reader_gone() const noexcept { return reader_gone_; }
+  [[nodiscard]] int write_errno() const noexcept { return write_errno_; }
+
+  // Messages, one line each, on stderr after what is pending on stdout.
+  void error(std::string_view text);
+  void note(std::string_view text);  // silent with -q
+  void message_line(std::string_view text);  // on stderr as it is
+
+  [[nodiscard]] bool terminal() const noexcept { return terminal_; }
+  [[nodiscard]] bool unicode() const noexcept { return unicode_; }
+  [[nodiscard]] bool quiet() const noexcept { return quiet_; }
+  [[nodiscard]] Extent extent() const;
+  [[nodiscard]] std::string paint(Style style, std::string_view text) const;
+
+ private:
+  void message(std::string_view kind, Style style, std::string_view text);
+
+  std::string pending_;
+  bool terminal_ = false;
+  bool unicode_ = false;
+  bool color_ = false;
+  bool color_messages_ = false;
+  bool quiet_ = false;
+  bool reader_gone_ = false;
+  int write_errno_ = 0;
+};
+
+}  // namespace indurop::tools

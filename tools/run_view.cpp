@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run_view.h"
+
+#include <algorithm>
+
+#include "vars/process.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::uint32_t kMostModules = 100'000;
+
+// `count` objects of `size` bytes at `offset` lie inside `total` and are aligned.
+bool inside(std::uint64_t offset, std::uint64_t count, std::uint64_t size, std::uint64_t align, std::uint64_t total) {
+  return offset >= sizeof(scheduler::RunBlock) && offset % align == 0 && offset <= total &&
+         count <= (total - offset) / size;
+}
+
+bool well_formed(const scheduler::RunBlock& block, std::uint64_t file_size) {
+  const std::uint64_t total = block.total_size;
+  return total <= file_size && block.module_count <= kMostModules &&
+         inside(block.modules_offset, block.module_count, sizeof(scheduler::ModuleRecord),
+                alignof(scheduler::ModuleRecord), total) &&
+         inside(block.slot_log_offset, block.slot_log_capacity, sizeof(scheduler::SlotEntry),
+                alignof(scheduler::SlotEntry), total) &&
+         inside(block.overrun_log_offset, block.overrun_log_capacity, sizeof(scheduler::OverrunEntry),
+                alignof(scheduler::OverrunEntry), total);
+}
+
+SlotSample plain(const scheduler::SlotEntry& entry, std::uint64_t number) {
+  return {number, entry.tick, entry.slot, entry.module, entry.release_ns, entry.start_ns, entry.end_ns};
+}
+
+OverrunSample plain(const scheduler::OverrunEntry& entry, std::uint64_t number) {
+  return {number,           entry.tick,     entry.slot,        entry.module,      entry.own_ns,
+          entry.latency_ns, entry.previous, entry.previous_ns, entry.started != 0};
+}
+
+// Entry n is complete while `sequence` is n + 1; it is copied and kept only if that was so before and after.
+template <class Sample, class Entry>
+std::vector<Sample> read_log(const Entry* ring, std::uint64_t capacity, std::uint64_t next, std::uint64_t most) {
+  std::vector<Sample> out;
+  const std::uint64_t count = std::min({capacity, next, most});
+  out.reserve(count);
+  for (std::uint64_t number = next - count; number < next; ++number) {
+    const Entry& entry = ring[number % capacity];
+    if (entry.sequence.load(std::memory_order_acquire) != number + 1) {
+      continue;
+    }
+    const Sample sample = plain(entry, number);
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (entry.sequence.load(std::memory_order_relaxed) == number + 1) {
+      out.push_back(sample);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+RunView::RunView(std::shared_ptr<const vars::ShmFile> mapping, const scheduler::RunBlock* block) noexcept
+    : mapping_(std::move(mapping)), block_(block), modules_(block->module_count) {}
+
+Result<RunView> RunView::open(const std::string& node) {
+  auto opened = vars::ShmFile::open(vars::run_file(node), vars::Mode::ReadOnly);
+  if (!opened.ok()) {
+    return opened.error();
+  }
+  const auto mapping = std::make_shared<const vars::ShmFile>(std::move(opened).value());
+  if (mapping->size() < sizeof(scheduler::RunBlock)) {
+    return Error{Errc::Corrupt, 0, "run block too short"};
+  }
+  const auto* block = reinterpret_cast<const scheduler::RunBlock*>(mapping->data());
+  if (block->magic.load(std::memory_order_acquire) != scheduler::kRunMagic) {
+    return Error{block->magic.load(std::memory_order_relaxed) == 0 ? Errc::Busy : Errc::Corrupt, 0, "not a run block"};
+  }
+  if (block->abi != scheduler::kRunAbi) {
+    return Error{Errc::VersionMismatch, 0, "run block of another version"};
+  }
+  if (!well_formed(*block, mapping->size())) {
+    return Error{Errc::Corrupt, 0, "run block damaged"};
+  }
+  return RunView(mapping, block);
+}
+
+const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexcept { return block_->modules()[index]; }
+
+std::string RunView::module_name(std::int64_t index) const {
+  return index >= 0 && index < modules_ ? fixed_text(module(static_cast<std::uint32_t>(index)).name) : "?";
+}
+
+bool RunView::node_alive() const noexcept {
+  return vars::process_alive(block_->node_pid.load(std::memory_order_relaxed), block_->node_start_time);
+}
+
+std::vector<SlotSample> RunView::slot_log(std::uint64_t most) const {
+  return read_log<SlotSample>(block_->at<scheduler::SlotEntry>(block_->slot_log_offset), block_->slot_log_capacity,
+                  block_->slot_log_next.load(std::memory_order_acquire), most);
+}
+
+std::vector<OverrunSample> RunView::overrun_log(std::uint64_t most) const {
+  return read_log<OverrunSample>(block_->at<scheduler::OverrunEntry>(block_->overrun_log_offset), block_->overrun_log_capacity,
+                  block_->overrun_log_next.load(std::memory_order_acquire), most);
+}
+
+const char* to_text(scheduler::NodeState state) noexcept {
+  switch (state) {
+    case scheduler::NodeState::Starting: return "starting";
+    case scheduler::NodeState::Running: return "running";
+    case scheduler::NodeState::Stopping: return "stopping";
+    case scheduler::NodeState::Stopped: return "stopped";
+    case scheduler::NodeState::Failed: return "failed";
+  }
+  return "unknown";
+}
+
+const char* to_text(scheduler::ModuleState state) noexcept {
+  switch (state) {
+    case scheduler::ModuleState::Loaded: return "loaded";
+    case scheduler::ModuleState::Starting: return "starting";
+    case scheduler::ModuleState::Running: return "running";
+    case scheduler::ModuleState::Stopped: return "stopped";
+    case scheduler::ModuleState::Faulted: return "faulted";
+    case scheduler::ModuleState::Restarting: return "restarting";
+    case scheduler::ModuleState::Exited: return "exited";
+  }
+  return "unknown";
+}
+
+const char* to_text(scheduler::ModuleType type) noexcept {
+  switch (type) {
+    case scheduler::ModuleType::Thread: return "thread";
+    case scheduler::ModuleType::Process: return "process";
+  }
+  return "unknown";
+}
+
+const char* to_text(scheduler::Operation operation) noexcept {
+  switch (operation) {
+    case scheduler::Operation::Periodic: return "periodic";
+    case scheduler::Operation::Sporadic: return "sporadic";
+    case scheduler::Operation::NonReal: return "non-real";
+  }
+  return "unknown";
+}
+
+const char* to_text(scheduler::FaultKind kind) noexcept {
+  switch (kind) {
+    case scheduler::FaultKind::None: return "none";
+    case scheduler::FaultKind::Exception: return "exception";
+    case scheduler::FaultKind::Signal: return "signal";
+    case scheduler::FaultKind::Budget: return "budget";
+    case scheduler::FaultKind::Overrun: return "overrun";
+    case scheduler::FaultKind::Exit: return "exit";
+    case scheduler::FaultKind::StartFailed: return "start-failed";
+    case scheduler::FaultKind::Deadline: return "deadline";
+  }
+  return "unknown";
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run block of a node, mapped read-only and checked before anything in it is believed: looking can neither disturb
+// the node nor be crashed by a damaged file.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scheduler/quantile.h"
+#include "scheduler/run_block.h"
+#include "vars/shm_file.h"
+
+namespace indurop::tools {
+
+// Entries of the logs as plain values; `number` counts them from 0 since the node's start.
+struct SlotSample {
+  std::uint64_t number = 0;
+  std::uint64_t tick = 0;
+  std::uint32_t slot = 0;
+  std::uint32_t module = 0;
+  std::int64_t release_ns = 0;
+  std::int64_t start_ns = 0;
+  std::int64_t end_ns = 0;
+};
+struct OverrunSample {
+  std::uint64_t number = 0;
+  std::uint64_t tick = 0;
+  std::uint32_t slot = 0;
+  std::uint32_t module = 0;
+  std::int64_t own_ns = 0;
+  std::int64_t latency_ns = 0;
+  std::int32_t previous = -1;
+  std::int64_t previous_ns = 0;
+  bool started = false;
+};
+
+class RunView {
+ public:
+  // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
+  // VersionMismatch (another version of InduRoP), Busy (the node is still building it).
+  static Result<RunView> open(const std::string& node);
+
+  [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
+  [[nodiscard]] std::uint32_t module_count() const noexcept { return modules_; }
+  [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
+  // Name for an index found in a log; "?" if it leads nowhere.
+  [[nodiscard]] std::string module_name(std::int64_t index) const;
+  [[nodiscard]] bool node_alive() const noexcept;
+
+  // The newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left out.
+  [[nodiscard]] std::vector<SlotSample> slot_log(std::uint64_t most) const;
+  [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
+
+ private:
+  RunView(std::shared_ptr<const vars::ShmFile> mapping, const scheduler::RunBlock* block) noexcept;
+  std::shared_ptr<const vars::ShmFile> mapping_;
+  const scheduler::RunBlock* block_;
+  std::uint32_t modules_;  // as checked; the block's own could change under us
+};
+
+// Text of a fixed char array, NUL or not.
+template <std::size_t N>
+std::string fixed_text(const char (&text)[N]) {
+  const std::string_view whole(text, N);
+  return std::string(whole.substr(0, whole.find('\0')));
+}
+
+const char* to_text(scheduler::NodeState state) noexcept;
+const char* to_text(scheduler::ModuleState state) noexcept;
+const char* to_text(scheduler::ModuleType type) noexcept;
+const char* to_text(scheduler::Operation operation) noexcept;
+const char* to_text(scheduler::FaultKind kind) noexcept;
+
+}  // namespace indurop::tools

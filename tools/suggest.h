@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// "Did you mean ...": the known word nearest to a mistyped one.
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace indurop::tools {
+
+// " Did you mean 'x'?" or nothing. The unique continuation of a shortened word ("stat") counts as near, too.
+std::string did_you_mean(std::string_view word, std::span<const std::string> known);
+
+}  // namespace indurop::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows that are a table for people, CSV and JSON for programs: every cell has a text and a raw value. A column
+// without title is left out of the table, one without key out of CSV and JSON.
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/output.h"
+
+namespace indurop::tools {
+
+using JsonValue = nlohmann::ordered_json;
+
+// Version of the field names of every JSON document we print ("schema_version").
+inline constexpr int kJsonVersion = 1;
+
+enum class Align { Left, Right };
+
+struct Column {
+  std::string title;  // as printed in the heading
+  std::string key;    // JSON field and CSV heading
+  Align align = Align::Left;
+};
+
+struct Cell {
+  Cell(std::string shown, JsonValue value, Style look = Style::None)
+      : text(std::move(shown)), raw(std::move(value)), style(look) {}
+  explicit Cell(const std::string& both, Style look = Style::None) : text(both), raw(both), style(look) {}
+  std::string text;
+  JsonValue raw;
+  Style style;
+};
+
+class Table {
+ public:
+  explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+  // As many cells as columns.
+  void add(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
+  [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
+
+  // Heading and rows, columns separated by two spaces, no trailing spaces; empty if there are no rows.
+  [[nodiscard]] std::string text(const Output& output) const;
+  // RFC 4180 with a heading, lines ended by \n.
+  [[nodiscard]] std::string csv() const;
+  [[nodiscard]] JsonValue json() const;
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+// Quoted if it holds a comma, quote or line break.
+std::string csv_field(std::string_view text);
+// Scalar JSON as CSV text: strings without quotes, null as nothing.
+std::string csv_value(const JsonValue& value);
+// One line; invalid UTF-8 replaced.
+std::string dump(const JsonValue& value);
+
+}  // namespace indurop::tools

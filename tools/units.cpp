@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/units.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace indurop::tools {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+
+struct Unit {
+  double scale;
+  const char* name;
+};
+
+std::string three_digits(double value) {
+  if (value >= 99.95) {
+    return fmt::format("{:.0f}", value);
+  }
+  return value >= 9.995 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
+}
+
+// Length of a valid UTF-8 sequence at text[i], 0 if there is none.
+std::size_t utf8_length(std::string_view text, std::size_t i) {
+  const auto lead = static_cast<unsigned char>(text[i]);
+  std::size_t length = 1;
+  if (lead >= 0x80) {
+    length = lead >= 0xF0 && lead < 0xF5 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
+    if (lead >= 0xF5) {
+      length = 0;
+    }
+  }
+  if (length == 0 || i + length > text.size()) {
+    return 0;
+  }
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80) {
+      return 0;
+    }
+  }
+  return length;
+}
+
+}  // namespace
+
+std::string human_ns(std::int64_t ns) {
+  const double magnitude = std::abs(static_cast<double>(ns));
+  const char* sign = ns < 0 ? "-" : "";
+  if (magnitude < 999.5) {
+    return fmt::format("{} ns", ns);
+  }
+  static constexpr std::array<Unit, 3> kUnits{{{1e3, "us"}, {1e6, "ms"}, {kNsPerSecond, "s"}}};
+  for (const auto& unit : kUnits) {
+    if (magnitude < unit.scale * 999.5 || unit.scale == kNsPerSecond) {
+      return fmt::format("{}{} {}", sign, three_digits(magnitude / unit.scale), unit.name);
+    }
+  }
+  return fmt::format("{} ns", ns);
+}
+
+std::string human_age(std::int64_t ns) {
+  const double seconds = static_cast<double>(ns) / kNsPerSecond;
+  if (seconds < 59.95) {
+    return fmt::format("{:.1f} s", seconds);
+  }
+  const auto whole = static_cast<std::int64_t>(seconds);
+  const std::int64_t minutes = whole / 60;
+  if (minutes < 60) {
+    return fmt::format("{} min {:02} s", minutes, whole % 60);
+  }
+  const std::int64_t hours = minutes / 60;
+  if (hours < 48) {
+    return fmt::format("{} h {:02} min", hours, minutes % 60);
+  }
+  return fmt::format("{} d {} h", hours / 24, hours % 24);
+}
+
+std::string human_bytes(std::uint64_t bytes) {
+  static constexpr std::array<Unit, 4> kUnits{
+      {{1024.0, "KiB"}, {1048576.0, "MiB"}, {1073741824.0, "GiB"}, {1099511627776.0, "TiB"}}};
+  if (bytes < 1024) {
+    return fmt::format("{} B", bytes);
+  }
+  const auto value = static_cast<double>(bytes);
+  for (const auto& unit : kUnits) {
+    if (value < unit.scale * 1023.5 || unit.scale == kUnits.back().scale) {
+      return fmt::format("{} {}", three_digits(value / unit.scale), unit.name);
+    }
+  }
+  return fmt::format("{} B", bytes);
+}
+
+std::int64_t parse_seconds_ns(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || !std::isfinite(value) || value < 0) {
+    return -1;
+  }
+  const std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  static constexpr std::array<Unit, 7> kUnits{{{kNsPerSecond, ""},
+                                               {kNsPerSecond, "s"},
+                                               {1.0, "ns"},
+                                               {1e3, "us"},
+                                               {1e6, "ms"},
+                                               {60 * kNsPerSecond, "min"},
+                                               {3600 * kNsPerSecond, "h"}}};
+  for (const auto& known : kUnits) {
+    if (unit == known.name) {
+      const double ns = value * known.scale;
+      return ns < 9.2e18 ? static_cast<std::int64_t>(ns) : -1;
+    }
+  }
+  return -1;
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    const auto lead = static_cast<unsigned char>(text[i]);
+    // C1 controls (U+0080..U+009F) are two bytes beginning with C2.
+    const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (length == 0 || lead < 0x20 || lead == 0x7F || c1) {
+      out += '?';
+      i += length == 0 ? 1 : length;
+    } else {
+      out.append(text.substr(i, length));
+      i += length;
+    }
+  }
+  return out;
+}
+
+std::size_t display_width(std::string_view text) {
+  std::size_t width = 0;
+  for (const char c : text) {
+    width += (static_cast<unsigned char>(c) & 0xC0U) != 0x80 ? 1U : 0U;
+  }
+  return width;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs, one per cmd_*.cpp.
+
+#pragma once
+
+#include "tools/verb.h"
+
+namespace indurop::tools {
+
+extern const Verb kCheckVerb;
+extern const Verb kCleanVerb;
+extern const Verb kDoctorVerb;
+extern const Verb kGetVerb;
+extern const Verb kHzVerb;
+extern const Verb kJitterVerb;
+extern const Verb kLogVerb;
+extern const Verb kNewVerb;
+extern const Verb kNodesVerb;
+extern const Verb kOverrunsVerb;
+extern const Verb kPlanVerb;
+extern const Verb kResetVerb;
+extern const Verb kRunVerb;
+extern const Verb kSetVerb;
+extern const Verb kStatusVerb;
+extern const Verb kStopVerb;
+extern const Verb kVarsVerb;
+extern const Verb kWatchVerb;
+
+}  // namespace indurop::tools
