@@ -77,7 +77,9 @@ bool init_shared_mutex(pthread_mutex_t& mutex) noexcept {
   return made;
 }
 
-LockResult try_lock(pthread_mutex_t& mutex) noexcept { return translate(mutex, ::pthread_mutex_trylock(&mutex)); }
+LockResult try_lock(pthread_mutex_t& mutex) noexcept {
+  return translate(mutex, ::pthread_mutex_trylock(&mutex));
+}
 
 LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
   const int error = ::pthread_mutex_trylock(&mutex);
@@ -87,6 +89,8 @@ LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) n
   return error == EBUSY ? wait_for(mutex, limit) : translate(mutex, error);
 }
 
-bool unlock(pthread_mutex_t& mutex) noexcept { return ::pthread_mutex_unlock(&mutex) == 0; }
+bool unlock(pthread_mutex_t& mutex) noexcept {
+  return ::pthread_mutex_unlock(&mutex) == 0;
+}
 
 }  // namespace indurop::rt

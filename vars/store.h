@@ -16,26 +16,38 @@
 
 #include "schema/schema.h"
 #include "vars/layout.h"
+#include "vars/shm_file.h"
 
 namespace indurop::vars {
 
-enum class Mode { ReadOnly, ReadWrite };
+// Where the values of a store came from.
+enum class Origin {
+  Attached,     // attach(): somebody else's
+  Fresh,        // create(): initial values
+  CarriedOver,  // create(): from a block of another layout, as far as names and types are the same
+  Adopted,      // create(): the block itself was there already
+};
 
 class Store {
  public:
   // Creates the node's block, or adopts the existing one if it holds the same layout (values and attached processes
   // are kept, generation + 1); another layout retires the old block and makes a new one, carrying over values of
-  // variables whose name and type are unchanged. Only the holder of the node lock may call it. Not real-time safe.
-  // Errors: NoSpace (/dev/shm full: nothing is left behind), PermissionDenied, System.
+  // variables whose name and type are unchanged; a corrupt block is replaced. Only the holder of the node lock may
+  // call it. Not real-time safe. What attached processes write between the carrying over and their next retired() is
+  // lost. A block another user may have planted is not adopted.
+  // Errors: InvalidArgument (node name; sizes or initial values in the schema), AlreadyExists (a name twice), Overflow,
+  // NoSpace (/dev/shm full: nothing is left behind), PermissionDenied (the block is another user's), System.
   static Result<Store> create(const std::string& node, const schema::Schema& schema);
 
-  // Attaches to a living or left-over block. Errors: NotFound, VersionMismatch, Corrupt, PermissionDenied.
+  // Attaches to a living or left-over block. Errors: NotFound, VersionMismatch, Corrupt, PermissionDenied (read-write
+  // is for the owner and its group), Busy (a newer block is just taking the name: try again), NoSpace, System.
   static Result<Store> attach(const std::string& node, Mode mode);
 
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   ~Store();
 
+  [[nodiscard]] Origin origin() const noexcept;
   [[nodiscard]] const BlockHeader& header() const noexcept;
   [[nodiscard]] const schema::Schema& schema() const noexcept;  // parsed from the block
   [[nodiscard]] bool retired() const noexcept;                  // a newer block has taken the name: attach again
@@ -47,17 +59,20 @@ class Store {
 
   // One consistent version of a variable's bytes. Works on a read-only mapping. Errors: OutOfRange, Timeout.
   Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
-  // One commit. Errors: OutOfRange, Busy (lock not free in 5 ms), PermissionDenied (read-only).
+  // One commit, of the whole value or a part of it.
+  // Errors: OutOfRange, Busy (lock not free in 5 ms: its holder is stopped), PermissionDenied (read-only).
   Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
 
   // Frees writer locks that the calling thread holds, dropping unpublished versions: for a thread that was thrown
-  // out of a module by a fault. Real-time safe.
+  // out of a module by a fault. Real-time safe. A thread that ends frees its locks too, so it may as well be ended.
   void release_locks_of_this_thread() noexcept;
 
-  // Sets variables back to their initial values: all, or all but the retained. One commit each.
+  // Sets variables back to their initial values: all, or all but the retained. One commit each. A variable whose lock
+  // is not free in 5 ms keeps its value and counts a lost write.
   void reset(bool keep_retained) noexcept;
 
-  void beat(std::int64_t now_ns) noexcept;  // the node's heartbeat
+  void beat(std::int64_t now_ns) noexcept;  // the node's heartbeat; real-time safe
+  void prefault() const noexcept;           // makes all pages present now; not real-time safe
 
  private:
   struct Impl;

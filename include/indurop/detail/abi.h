@@ -24,7 +24,7 @@ inline constexpr std::size_t kSlots = 4;
 inline constexpr std::size_t kAlign = 64;  // every entry and every slot starts on a cache line
 
 // Part of the value a commit changed; lets a small write to a large variable copy only what differs.
-struct DirtyRange {
+struct alignas(8) DirtyRange {
   std::uint32_t offset;
   std::uint32_t length;
 };
@@ -35,7 +35,7 @@ struct RingHeader {
   std::atomic<std::uint64_t> seq;
   pthread_mutex_t lock;                     // robust, priority inheriting, process shared
   std::atomic<std::uint64_t> lost_writes;   // writes given up because the lock was not free in time
-  std::uint64_t reserved0;
+  std::uint64_t begun;                      // version last begun; not yet seq: that slot is half changed
   DirtyRange dirty[kSlots];                 // what the commit that made this slot's version changed
   std::uint32_t value_size;
   std::uint32_t slot_stride;

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts about iceoryx 2.0.3 that shape this file: its shared-memory object maps more than the file has without an
+// error, reports failures only by printing them, opens by name, and sets the umask of the whole process to 0 for the
+// moment of opening. So everything that can fail is tried before it is asked, what it mapped is compared with what
+// was checked, and files get their mode by fchmod.
+
+#include "vars/shm_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object.hpp>
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "vars/os_error.h"
+
+namespace indurop::vars {
+
+namespace {
+
+using iox::posix::SharedMemoryObject;
+
+constexpr int kSwapTries = 8;
+
+std::string path_of(const std::string& name) {
+  return std::string(kShmDirectory) + "/" + name;
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) noexcept : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+  [[nodiscard]] int get() const noexcept { return number_; }
+
+ private:
+  int number_;
+};
+
+// The mapping that follows will succeed if this one does.
+int try_map(int file, std::size_t size, Mode mode) noexcept {
+  const int protection = mode == Mode::ReadWrite ? PROT_READ | PROT_WRITE : PROT_READ;
+  void* const memory = ::mmap(nullptr, size, protection, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) {
+    return errno;
+  }
+  ::munmap(memory, size);
+  return 0;
+}
+
+std::optional<SharedMemoryObject> map_by_name(const std::string& name, std::size_t size, Mode mode) {
+  static std::mutex one_at_a_time;  // two at once could leave the process with umask 0 for ever
+  const std::lock_guard<std::mutex> guard(one_at_a_time);
+  const iox::posix::SharedMemory::Name_t iox_name(iox::cxx::TruncateToCapacity, name);
+  auto object = SharedMemoryObject::create(
+      iox_name, size, mode == Mode::ReadWrite ? iox::posix::AccessMode::READ_WRITE : iox::posix::AccessMode::READ_ONLY,
+      iox::posix::OpenMode::OPEN_EXISTING);
+  if (object.has_error()) {
+    return std::nullopt;
+  }
+  return std::optional<SharedMemoryObject>(std::move(object.value()));
+}
+
+bool same_file(const struct stat& a, const struct stat& b) noexcept {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size;
+}
+
+int allocate(int file, std::size_t size) noexcept {
+  int error = EINTR;
+  while (error == EINTR) {
+    error = ::posix_fallocate(file, 0, static_cast<off_t>(size));
+  }
+  return error;
+}
+
+}  // namespace
+
+struct ShmFile::Impl {
+  Impl(SharedMemoryObject&& mapped, const struct stat& status, Mode access)
+      : object(std::move(mapped)), info(status), mode(access) {}
+  SharedMemoryObject object;
+  struct stat info;
+  Mode mode;
+  std::string unpublished;  // temporary path, empty if the file has its name
+  std::string final_path;
+};
+
+bool valid_node_name(std::string_view node) noexcept {
+  constexpr std::size_t kLongest = 40;
+  return !node.empty() && node.size() <= kLongest && std::all_of(node.begin(), node.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::string block_file(const std::string& node) {
+  return "indurop." + node;
+}
+std::string run_file(const std::string& node) {
+  return "indurop." + node + ".run";
+}
+std::string lock_file(const std::string& node) {
+  return "indurop." + node + ".lock";
+}
+
+Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
+  const std::string path = path_of(name);
+  const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+  for (int i = 0; i < kSwapTries; ++i) {
+    const Descriptor file(::open(path.c_str(), flags));
+    if (file.get() < 0) {
+      return os_error(errno, "open shared memory");
+    }
+    struct stat before {};
+    if (::fstat(file.get(), &before) != 0) {
+      return os_error(errno, "inspect shared memory");
+    }
+    if (!S_ISREG(before.st_mode) || before.st_size <= 0) {
+      return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
+    }
+    const auto size = static_cast<std::size_t>(before.st_size);
+    if (const int error = try_map(file.get(), size, mode); error != 0) {
+      return os_error(error, "map shared memory");
+    }
+    auto object = map_by_name(name, size, mode);
+    struct stat after {};
+    // Another file may have taken the name meanwhile: then that one has to be checked.
+    if (object && ::fstat(object->getFileHandle(), &after) == 0 && same_file(before, after)) {
+      return ShmFile(std::make_unique<Impl>(std::move(*object), after, mode));
+    }
+  }
+  return Error{Errc::Busy, 0, "shared memory file is being replaced again and again"};
+}
+
+Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
+  const std::string temporary_name = name + ".tmp";
+  const std::string temporary = path_of(temporary_name);
+  if (::unlink(temporary.c_str()) != 0 && errno != ENOENT) {  // a creator was killed
+    return os_error(errno, "remove unfinished shared memory");
+  }
+  const Descriptor file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kShmMode));
+  if (file.get() < 0) {
+    return os_error(errno, "create shared memory");
+  }
+  const auto give_up = [&](int error, const char* where) {
+    ::unlink(temporary.c_str());
+    return os_error(error, where);
+  };
+  if (::fchmod(file.get(), kShmMode) != 0) {
+    return give_up(errno, "set rights of shared memory");
+  }
+  if (const int error = allocate(file.get(), size); error != 0) {
+    return give_up(error, "reserve shared memory");
+  }
+  if (const int error = try_map(file.get(), size, Mode::ReadWrite); error != 0) {
+    return give_up(error, "map shared memory");
+  }
+  struct stat made {};
+  struct stat mapped {};
+  auto object = map_by_name(temporary_name, size, Mode::ReadWrite);
+  if (!object || ::fstat(file.get(), &made) != 0 || ::fstat(object->getFileHandle(), &mapped) != 0 ||
+      !same_file(made, mapped)) {
+    return give_up(EBUSY, "map new shared memory");
+  }
+  auto impl = std::make_unique<Impl>(std::move(*object), made, Mode::ReadWrite);
+  impl->unpublished = temporary;
+  impl->final_path = path_of(name);
+  return ShmFile(std::move(impl));
+}
+
+Status ShmFile::publish() noexcept {
+  if (::rename(impl_->unpublished.c_str(), impl_->final_path.c_str()) != 0) {
+    return os_error(errno, "give shared memory its name");
+  }
+  impl_->unpublished.clear();
+  return {};
+}
+
+ShmFile::ShmFile(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+ShmFile::ShmFile(ShmFile&&) noexcept = default;
+ShmFile& ShmFile::operator=(ShmFile&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+ShmFile::~ShmFile() {
+  if (impl_ != nullptr && !impl_->unpublished.empty()) {
+    ::unlink(impl_->unpublished.c_str());
+  }
+}
+
+std::byte* ShmFile::data() const noexcept {
+  return static_cast<std::byte*>(impl_->object.getBaseAddress());
+}
+std::size_t ShmFile::size() const noexcept {
+  return static_cast<std::size_t>(impl_->info.st_size);
+}
+Mode ShmFile::mode() const noexcept {
+  return impl_->mode;
+}
+
+bool ShmFile::trusted() const noexcept {
+  const struct stat& info = impl_->info;
+  if ((info.st_mode & S_IWOTH) != 0) {
+    return false;
+  }
+  return info.st_uid == ::geteuid() || info.st_uid == 0 || (::geteuid() != 0 && info.st_gid == ::getegid());
+}
+
+void ShmFile::prefault() const noexcept {
+  const int advice = mode() == Mode::ReadWrite ? MADV_POPULATE_WRITE : MADV_POPULATE_READ;
+  if (::madvise(data(), size(), advice) == 0) {
+    return;
+  }
+  // Kernels before 5.14: reading is enough to have the page, the first write may still cost a minor fault.
+  constexpr std::size_t kSmallestPage = 4096;
+  for (std::size_t i = 0; i < size(); i += kSmallestPage) {
+    static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(data()) + i, __ATOMIC_RELAXED));
+  }
+}
+
+Status remove_shm_file(const std::string& name) noexcept {
+  if (::unlink(path_of(name).c_str()) != 0 && errno != ENOENT) {
+    return os_error(errno, "remove shared memory");
+  }
+  return {};
+}
+
+}  // namespace indurop::vars

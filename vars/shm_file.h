@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files in shared memory, mapped whole: made under a temporary name and renamed when complete, so that nobody ever
+// sees half a file. The only place that knows iceoryx; not its headers here.
+
+#pragma once
+
+#include <indurop/result.h>
+#include <sys/types.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace indurop::vars {
+
+enum class Mode { ReadOnly, ReadWrite };
+
+inline constexpr const char* kShmDirectory = "/dev/shm";
+
+// [A-Za-z0-9_-]{1,40}
+bool valid_node_name(std::string_view node) noexcept;
+// File names of a node in kShmDirectory.
+std::string block_file(const std::string& node);  // indurop.<node>
+std::string run_file(const std::string& node);    // indurop.<node>.run
+std::string lock_file(const std::string& node);   // indurop.<node>.lock
+
+// Who may do what: the owner and its group write, everybody reads. Set explicitly, the umask plays no part.
+inline constexpr mode_t kShmMode = 0664;
+
+class ShmFile {
+ public:
+  // Maps an existing file whole. Errors: NotFound, PermissionDenied, Corrupt (empty, or not a regular file),
+  // NoSpace (limit of locked memory), System.
+  static Result<ShmFile> open(const std::string& name, Mode mode);
+
+  // A zeroed file of exactly `size` bytes, all of it really there, mapped read-write, not yet visible under its name.
+  // Errors: NoSpace, PermissionDenied (the temporary name is another user's), System. Nothing is left behind.
+  static Result<ShmFile> create(const std::string& name, std::size_t size);
+
+  // Gives the file its name, replacing an older file of that name for everybody who opens it from now on.
+  // Errors: PermissionDenied (the older file is another user's), System.
+  Status publish() noexcept;
+
+  ShmFile(ShmFile&&) noexcept;
+  ShmFile& operator=(ShmFile&&) noexcept;
+  ~ShmFile();  // unmaps; removes the file if it was created and not published
+
+  [[nodiscard]] std::byte* data() const noexcept;  // page aligned; read-only memory if opened so
+  [[nodiscard]] std::size_t size() const noexcept;
+  [[nodiscard]] Mode mode() const noexcept;
+  // False if somebody of another user and group could have made or changed the file.
+  [[nodiscard]] bool trusted() const noexcept;
+  // Makes every page present now, so that no access pays for it later. Not real-time safe.
+  void prefault() const noexcept;
+
+ private:
+  struct Impl;
+  explicit ShmFile(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Removes a file; fine if there is none. Errors: PermissionDenied, System.
+Status remove_shm_file(const std::string& name) noexcept;
+
+}  // namespace indurop::vars
