@@ -41,8 +41,22 @@ struct FailSafe {
   Place place;
 };
 
+// Where the values of a module were written, for diagnostics; line 0: not given.
+struct ModulePlaces {
+  Place name;
+  Place file;
+  Place period;
+  Place offset;
+  Place deadline;
+  Place priority;
+  Place core;
+  Place signal;
+  std::vector<Place> reads;   // parallel to Module::reads
+  std::vector<Place> writes;  // parallel to Module::writes
+};
+
 struct Module {
-  std::string name;                  // <name> or file name; unique
+  std::string name;                  // <name>, else the file name without directory and extension; unique
   std::filesystem::path file;        // absolute, relative ones taken from the XML file's directory
   std::string file_as_written;
   scheduler::ModuleType type = scheduler::ModuleType::Thread;
@@ -63,6 +77,7 @@ struct Module {
   std::vector<FailSafe> failsafe;
   std::vector<Property> properties;
   Place place;                       // of <module>
+  ModulePlaces places;
 };
 inline constexpr Nanos kNoBudget{-1};
 
@@ -77,6 +92,8 @@ struct Config {
   std::optional<Nanos> minimum_period;  // <minimum_period>; default kDefaultMinimumPeriod
   std::optional<SpinSetting> spin;
   int core = -1;                     // -1: the last one this process may use
+  Place core_place;
+  Place spin_place;
 };
 inline constexpr Nanos kDefaultMinimumPeriod{std::chrono::microseconds(50)};
 

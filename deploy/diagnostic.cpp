@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/config.h"
+
+namespace indurop::deploy {
+namespace {
+
+const char* word(Diagnostic::Severity severity) noexcept {
+  switch (severity) {
+    case Diagnostic::Severity::Error:
+      return "error";
+    case Diagnostic::Severity::Warning:
+      return "warning";
+    case Diagnostic::Severity::Note:
+      return "note";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string to_string(const Diagnostic& diagnostic) {
+  std::string text = diagnostic.file;
+  if (diagnostic.place.line > 0) {
+    text += ":" + std::to_string(diagnostic.place.line);
+    if (diagnostic.place.column > 0) {
+      text += ":" + std::to_string(diagnostic.place.column);
+    }
+  }
+  return text + (text.empty() ? "" : ": ") + word(diagnostic.severity) + ": " + diagnostic.text;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/module_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <span>
+
+#include "deploy/reader.h"
+#include "deploy/values.h"
+
+namespace indurop::deploy {
+namespace {
+
+using scheduler::ModuleType;
+using scheduler::Operation;
+using scheduler::OverrunPolicy;
+
+template <class T>
+struct Choice {
+  std::string_view word;
+  T value;
+};
+
+class ModuleReader {
+ public:
+  ModuleReader(const Element& element, const std::filesystem::path& folder, Report& report)
+      : element_(element), folder_(folder), report_(report) {}
+
+  Module read() {
+    module_.place = element_.place;
+    check_attributes(element_, {}, report_);
+    check_no_text(element_, report_);
+    for (const Element& child : element_.children) {
+      read_child(child);
+    }
+    check_missing();
+    check_without_effect();
+    check_times();
+    return std::move(module_);
+  }
+
+ private:
+  struct Known {
+    std::string_view name;
+    bool repeatable;
+    void (ModuleReader::*read)(const Element&);
+  };
+  static std::span<const Known> known_elements() {
+    static constexpr std::array<Known, 18> kKnown{{
+        {"filename", false, &ModuleReader::read_file},
+        {"name", false, &ModuleReader::read_name},
+        {"moduletype", false, &ModuleReader::read_type},
+        {"operationtype", false, &ModuleReader::read_operation},
+        {"period", false, &ModuleReader::read_period},
+        {"offset", false, &ModuleReader::read_offset},
+        {"priority", false, &ModuleReader::read_priority},
+        {"deadline", false, &ModuleReader::read_deadline},
+        {"budget", false, &ModuleReader::read_budget},
+        {"core", false, &ModuleReader::read_core_element},
+        {"overrun", false, &ModuleReader::read_overrun},
+        {"position", false, &ModuleReader::read_position},
+        {"signal", false, &ModuleReader::read_signal_element},
+        {"argument", true, &ModuleReader::read_argument},
+        {"access", false, &ModuleReader::read_access},
+        {"restart", false, &ModuleReader::read_restart},
+        {"failsafe", true, &ModuleReader::read_failsafe},
+        {"property", true, &ModuleReader::read_property},
+    }};
+    return kKnown;
+  }
+
+  void read_child(const Element& child) {
+    const auto known = known_elements();
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) { return k.name == child.name; });
+    if (found == known.end()) {
+      std::vector<std::string> names;
+      for (const Known& k : known) {
+        names.emplace_back(k.name);
+      }
+      report_.error(child.place, "unknown element " + in_quotes("<" + child.name + ">") + " in <module>" +
+                                     suggestion(child.name, names));
+      return;
+    }
+    const auto [first, is_first] = given_.try_emplace(child.name, child.place);
+    if (!is_first && !found->repeatable) {
+      report_.error(child.place, "a second <" + child.name + "> in this <module>; the first is in line " +
+                                     std::to_string(first->second.line) + ", remove one");
+      return;
+    }
+    (this->*found->read)(child);
+  }
+
+  // The text of an element that must have some.
+  std::optional<std::string> text_of(const Element& element, std::string_view example) {
+    check_attributes(element, {}, report_);
+    if (!is_leaf(element, report_)) {
+      return std::nullopt;
+    }
+    if (element.text.empty()) {
+      report_.error(element.place, "<" + element.name + "> is empty; write, for example, <" + element.name + ">" +
+                                       std::string(example) + "</" + element.name + ">");
+      return std::nullopt;
+    }
+    return element.text;
+  }
+
+  template <class T, std::size_t N>
+  void choose(const Element& element, const std::array<Choice<T>, N>& choices, T& into) {
+    const auto text = text_of(element, choices[0].word);
+    if (!text) {
+      return;
+    }
+    std::vector<std::string> words;
+    for (const Choice<T>& choice : choices) {
+      if (choice.word == *text) {
+        into = choice.value;
+        return;
+      }
+      words.emplace_back(choice.word);
+    }
+    report_.error(element.text_place,
+                  in_quotes(*text) + " is not a value of <" + element.name + ">; write " + enumerate_or(words));
+  }
+  static std::string enumerate_or(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    return text;
+  }
+
+  void duration(const Element& element, bool zero_allowed, Nanos& into, Place& place) {
+    const auto text = text_of(element, "1ms");
+    if (!text) {
+      return;
+    }
+    place = element.text_place;
+    DurationText read = read_duration(*text, zero_allowed);
+    if (read.value) {
+      into = *read.value;
+    } else {
+      report_.error(element.text_place, "<" + element.name + ">: " + read.problem);
+    }
+  }
+
+  void read_file(const Element& e) {
+    const auto text = text_of(e, "./control.so");
+    if (!text) {
+      return;
+    }
+    module_.places.file = e.text_place;
+    const std::filesystem::path written(*text);
+    if (written.filename().empty() || written.filename() == "." || written.filename() == "..") {
+      report_.error(e.text_place, in_quotes(*text) + " is a directory; give the module's file in it");
+    } else if (text->find_first_of("\r\n\t") != std::string::npos) {
+      report_.error(e.text_place, "the file name contains a tab or line break; write it in one line");
+    } else {
+      module_.file_as_written = *text;
+      module_.file = (folder_ / written).lexically_normal();
+    }
+  }
+
+  void read_name(const Element& e) {
+    const auto text = text_of(e, "control");
+    if (!text) {
+      return;
+    }
+    module_.places.name = e.text_place;
+    const bool plain = std::all_of(text->begin(), text->end(), [](char c) {
+      return static_cast<unsigned char>(c) >= 0x80 || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+             (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.' || c == '+';
+    });
+    if (!plain) {
+      report_.error(e.text_place, in_quotes(*text) + " is not a module name; use letters, digits, '_', '-', '.' and '+'");
+    } else if (text->size() >= scheduler::kNameLength) {
+      report_.error(e.text_place, "this name is longer than " + std::to_string(scheduler::kNameLength - 1) +
+                                      " bytes; choose a shorter one");
+    } else {
+      module_.name = *text;
+    }
+  }
+
+  void read_type(const Element& e) {
+    static constexpr std::array<Choice<ModuleType>, 2> kTypes{
+        {{"thread", ModuleType::Thread}, {"process", ModuleType::Process}}};
+    choose(e, kTypes, module_.type);
+  }
+
+  void read_operation(const Element& e) {
+    static constexpr std::array<Choice<Operation>, 3> kOperations{
+        {{"periodic", Operation::Periodic}, {"sporadic", Operation::Sporadic}, {"non-real", Operation::NonReal}}};
+    choose(e, kOperations, module_.operation);
+  }
+
+  void read_period(const Element& e) { duration(e, false, module_.period, module_.places.period); }
+  void read_offset(const Element& e) { duration(e, true, module_.offset, module_.places.offset); }
+  void read_deadline(const Element& e) { duration(e, false, module_.deadline, module_.places.deadline); }
+  void read_budget(const Element& e) {
+    if (e.text == "off" && e.children.empty()) {
+      check_attributes(e, {}, report_);
+      module_.budget = kNoBudget;
+      return;
+    }
+    Place place;
+    duration(e, false, module_.budget, place);
+  }
+
+  void read_priority(const Element& e) {
+    const auto text = text_of(e, "1");
+    if (!text) {
+      return;
+    }
+    module_.places.priority = e.text_place;
+    constexpr std::int64_t kLow = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int64_t kHigh = std::numeric_limits<std::int32_t>::max();
+    if (const auto value = read_integer(*text, kLow, kHigh)) {
+      module_.priority = static_cast<int>(*value);
+    } else {
+      report_.error(e.text_place, "<priority>: " + in_quotes(*text) + " is not a whole number from " + std::to_string(kLow) +
+                                      " to " + std::to_string(kHigh) + "; the lowest value runs first");
+    }
+  }
+
+  void read_core_element(const Element& e) {
+    module_.places.core = e.text_place;
+    module_.core = read_core(e, report_);
+  }
+
+  void read_overrun(const Element& e) {
+    static constexpr std::array<Choice<OverrunPolicy>, 4> kPolicies{{{"skip", OverrunPolicy::Skip},
+                                                                     {"catch-up", OverrunPolicy::CatchUp},
+                                                                     {"stop-module", OverrunPolicy::StopModule},
+                                                                     {"stop-node", OverrunPolicy::StopNode}}};
+    choose(e, kPolicies, module_.overrun);
+  }
+
+  void read_position(const Element& e) {
+    static constexpr std::array<Choice<bool>, 2> kPositions{{{"after-base", true}, {"after-all", false}}};
+    choose(e, kPositions, module_.after_base);
+  }
+
+  void read_signal_element(const Element& e) {
+    const auto text = text_of(e, "SIGUSR1");
+    if (!text) {
+      return;
+    }
+    module_.places.signal = e.text_place;
+    SignalText read = read_signal(*text);
+    if (read.value) {
+      module_.signal = *read.value;
+    } else {
+      report_.error(e.text_place, "<signal>: " + read.problem);
+    }
+  }
+
+  void read_argument(const Element& e) {
+    check_attributes(e, {}, report_);
+    if (is_leaf(e, report_)) {
+      module_.arguments.push_back(e.text);
+    }
+  }
+
+  void read_access(const Element& e) {
+    check_attributes(e, {}, report_);
+    check_no_text(e, report_);
+    for (const Element& child : e.children) {
+      if (child.name != "read" && child.name != "write") {
+        report_.error(child.place, "unknown element " + in_quotes("<" + child.name + ">") + " in <access>" +
+                                       suggestion(child.name, {"read", "write"}));
+        continue;
+      }
+      if (const auto text = text_of(child, "knu::Robot::tick")) {
+        const bool reads = child.name == "read";
+        (reads ? module_.reads : module_.writes).push_back(*text);
+        (reads ? module_.places.reads : module_.places.writes).push_back(child.text_place);
+      }
+    }
+  }
+
+  void read_restart(const Element& e) {
+    check_attributes(e, {"delay", "max", "window", "escalate"}, report_);
+    if (is_leaf(e, report_)) {
+      check_no_text(e, report_);
+    }
+    for (const Attribute& a : e.attributes) {
+      if (a.name == "delay" || a.name == "window") {
+        DurationText read = read_duration(a.value, a.name == "delay");
+        if (read.value) {
+          (a.name == "delay" ? module_.restart.delay : module_.restart.window) = *read.value;
+        } else {
+          report_.error(a.value_place, a.name + ": " + read.problem);
+        }
+      } else if (a.name == "max") {
+        constexpr std::int64_t kMost = 1'000'000'000;
+        if (const auto value = read_integer(a.value, 0, kMost)) {
+          module_.restart.max = static_cast<std::uint32_t>(*value);
+        } else {
+          report_.error(a.value_place, "max: " + in_quotes(a.value) + " is not a number of restarts; write 0 or more");
+        }
+      } else if (a.name == "escalate" && a.value == "stop-node") {
+        module_.restart.escalate = Restart::Escalate::StopNode;
+      } else if (a.name == "escalate" && a.value != "stop-module") {
+        report_.error(a.value_place, in_quotes(a.value) + " is not a value of escalate; write stop-module or stop-node");
+      }
+    }
+  }
+
+  // The value of an attribute that must be there and not empty.
+  const std::string* attribute(const Element& e, const char* name, std::string_view example) {
+    for (const Attribute& a : e.attributes) {
+      if (a.name == name && !a.value.empty()) {
+        return &a.value;
+      }
+    }
+    report_.error(e.place, "<" + e.name + "> needs a " + name + "; write " + std::string(example));
+    return nullptr;
+  }
+
+  void read_failsafe(const Element& e) {
+    check_attributes(e, {"variable"}, report_);
+    const bool leaf = is_leaf(e, report_);
+    const std::string* variable = attribute(e, "variable", "<failsafe variable=\"knu::Robot::tick\">0</failsafe>");
+    if (!leaf || variable == nullptr) {
+      return;
+    }
+    if (e.text.empty()) {
+      report_.error(e.place, "<failsafe> has no value; write the value " + in_quotes(*variable) + " gets when the module fails");
+      return;
+    }
+    module_.failsafe.push_back({*variable, e.text, e.place});
+  }
+
+  void read_property(const Element& e) {
+    check_attributes(e, {}, report_);
+    check_no_text(e, report_);
+    for (const Element& child : e.children) {
+      if (child.name != "value") {
+        report_.error(child.place, "unknown element " + in_quotes("<" + child.name + ">") + " in <property>" +
+                                       suggestion(child.name, {"value"}));
+        continue;
+      }
+      check_attributes(child, {"name"}, report_);
+      const bool leaf = is_leaf(child, report_);
+      const std::string* name = attribute(child, "name", "<value name=\"counter\">5</value>");
+      if (!leaf || name == nullptr) {
+        continue;
+      }
+      const bool twice = std::any_of(module_.properties.begin(), module_.properties.end(),
+                                     [name](const Property& p) { return p.name == *name; });
+      if (twice) {
+        report_.error(child.place, "a second property " + in_quotes(*name) + " in this module; remove one");
+      } else {
+        module_.properties.push_back({*name, child.text});
+      }
+    }
+  }
+
+  [[nodiscard]] bool given(const char* name) const { return given_.count(name) != 0; }
+
+  void require(const char* name, std::string_view why, std::string_view example) {
+    if (!given(name)) {
+      report_.error(element_.place, std::string(why) + " has no <" + name + ">; add, for example, <" + name + ">" +
+                                        std::string(example) + "</" + name + ">");
+    }
+  }
+
+  void check_missing() {
+    require("filename", "this <module>", "./control.so");
+    require("moduletype", "this <module>", "thread");
+    require("operationtype", "this <module>", "periodic");
+    if (!given("operationtype")) {
+      return;
+    }
+    switch (module_.operation) {
+      case Operation::Periodic:
+        require("period", "this periodic <module>", "1ms");
+        require("priority", "this periodic <module>", "1");
+        break;
+      case Operation::Sporadic:
+        require("deadline", "this sporadic <module>", "1ms");
+        require("priority", "this sporadic <module>", "1");
+        break;
+      case Operation::NonReal:
+        if (given("moduletype") && module_.type == ModuleType::Thread) {
+          report_.error(given_["moduletype"], "a non-real-time module is a program of its own; write "
+                                              "<moduletype>process</moduletype>, or make it periodic with a long period");
+        }
+        break;
+    }
+  }
+
+  void without_effect(std::initializer_list<const char*> names, std::string_view on) {
+    for (const char* name : names) {
+      if (given(name)) {
+        report_.warning(given_[name], "<" + std::string(name) + "> has no effect on a " + std::string(on) +
+                                          " module; remove it");
+      }
+    }
+  }
+
+  void check_without_effect() {
+    if (module_.type == ModuleType::Thread) {
+      without_effect({"signal", "argument", "restart"}, "thread");
+    }
+    switch (module_.operation) {
+      case Operation::Periodic:
+        without_effect({"position"}, "periodic");
+        break;
+      case Operation::Sporadic:
+        without_effect({"period", "offset"}, "sporadic");
+        module_.period = Nanos::zero();
+        module_.offset = Nanos::zero();
+        break;
+      case Operation::NonReal:
+        without_effect({"period", "offset", "priority", "deadline", "budget", "overrun", "position", "signal"},
+                       "non-real-time");
+        module_.period = Nanos::zero();
+        module_.offset = Nanos::zero();
+        module_.deadline = Nanos::zero();
+        break;
+    }
+  }
+
+  void check_times() {
+    if (module_.operation != Operation::Periodic || module_.period <= Nanos::zero()) {
+      return;
+    }
+    if (module_.offset >= module_.period) {
+      report_.error(module_.places.offset, "the offset " + format_duration(module_.offset) +
+                                               " is not shorter than the period " + format_duration(module_.period) +
+                                               "; write what is left beyond whole periods");
+      module_.offset = Nanos::zero();
+    }
+    if (module_.deadline > module_.period) {
+      report_.warning(module_.places.deadline, "the deadline " + format_duration(module_.deadline) +
+                                                   " is longer than the period " + format_duration(module_.period) +
+                                                   "; a run that long is an overrun first");
+    }
+  }
+
+  const Element& element_;
+  const std::filesystem::path& folder_;
+  Report& report_;
+  Module module_;
+  std::map<std::string, Place, std::less<>> given_;
+};
+
+}  // namespace
+
+Module read_module(const Element& element, const std::filesystem::path& folder, Report& report) {
+  return ModuleReader(element, folder, report).read();
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all forms of the plan need from configuration and check.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deploy/plan.h"
+
+namespace indurop::deploy {
+
+// Module names of one slot in execution order.
+std::vector<std::string> names_of(const Config& config, const CheckResult& check, const scheduler::Slot& slot);
+// "cntr3 > cntr2"
+std::string in_order(const std::vector<std::string>& names);
+// Nanoseconds as milliseconds, every digit: "0.1".
+std::string milliseconds(Nanos value);
+const char* type_word(scheduler::ModuleType type) noexcept;
+const char* operation_word(scheduler::Operation operation) noexcept;
+
+}  // namespace indurop::deploy

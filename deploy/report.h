@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collects diagnostics of one file in the order they are found, up to a number that people still read.
+
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deploy/config.h"
+
+namespace indurop::deploy {
+
+class Report {
+ public:
+  static constexpr std::size_t kMost = 200;
+
+  Report(std::string file, std::vector<Diagnostic>& out) : file_(std::move(file)), out_(out) {}
+
+  void error(Place place, std::string text) { add(Diagnostic::Severity::Error, place, std::move(text)); }
+  void warning(Place place, std::string text) { add(Diagnostic::Severity::Warning, place, std::move(text)); }
+  void note(Place place, std::string text) { add(Diagnostic::Severity::Note, place, std::move(text)); }
+  [[nodiscard]] bool full() const noexcept { return out_.size() > kMost; }
+
+ private:
+  void add(Diagnostic::Severity severity, Place place, std::string text);
+
+  std::string file_;
+  std::vector<Diagnostic>& out_;
+};
+
+// Text as users wrote it, in quotes, shortened if long.
+std::string in_quotes(std::string_view text);
+// "; did you mean 'period'?" or, if nothing is near, "; known are: a, b, c".
+std::string suggestion(std::string_view name, const std::vector<std::string>& known);
+// "a", "a and b", "a, b and c"; beyond `most` "a, b, c and 4 more".
+std::string enumerate(const std::vector<std::string>& names, std::size_t most = 6);
+
+}  // namespace indurop::deploy

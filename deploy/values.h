@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values written in module.xml, from text. Where the contract's functions only say no, these say why.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "deploy/config.h"
+
+namespace indurop::deploy {
+
+// A duration or, in `problem`, what is wrong with the text and what to write instead.
+struct DurationText {
+  std::optional<Nanos> value;
+  std::string problem;
+};
+DurationText read_duration(std::string_view text, bool zero_allowed);
+
+// "10", "USR1", "SIGUSR1", "SIGRTMIN+2". Empty `value`: `problem` says why.
+struct SignalText {
+  std::optional<int> value;
+  std::string problem;
+};
+SignalText read_signal(std::string_view text);
+std::string signal_name(int signal);
+
+// Whole decimal number within [low, high]; empty otherwise.
+std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low, std::int64_t high);
+
+}  // namespace indurop::deploy
