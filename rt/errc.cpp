@@ -40,8 +40,6 @@ const char* to_string(Errc code) noexcept {
     case Errc::Unsupported:
       return "not supported here";
     case Errc::Failed:
-      return "the called code threw an exception";
-    case Errc::Failed:
       return "the called code failed";
   }
   return "unknown error";
