@@ -11,7 +11,7 @@ SPDX = "// SPDX-License-Identifier: Apache-2.0"
 MAX_LINES = 600
 CODE = (".h", ".cpp", ".py", ".cmake", ".sh", ".glb", ".xml", ".xsd", ".txt", ".md", ".json", ".yml")
 # Printed in the specification; kept as they are.
-VERBATIM = ("examples/chapter/", "LICENSE")
+VERBATIM = ("examples/chapter/", "tests/install/project/", "LICENSE")
 # Invisible or left over from another encoding.
 JUNK = re.compile("[\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f-\u00a0\u00ad\u200b-\u200f\u2028-\u202f\u2060-\u206f\ufeff\ufffd]")
 WORK_LEFT = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b(?!\(#\d+\))")
