@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of this machine, seen from their files.
+
+#include <dirent.h>
+#include <sys/types.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vars/block.h"
+#include "vars/node_lock.h"
+#include "vars/store.h"
+
+namespace indurop::vars {
+
+namespace {
+
+// Processes that are still attached learn that the block is no longer the node's.
+void retire_block(const std::string& node) {
+  auto file = ShmFile::open(block_file(node), Mode::ReadWrite);
+  if (file && check_block({file->data(), file->size()})) {
+    header_of(file->data())->state.store(BlockState::Retired, std::memory_order_release);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> list_nodes() {
+  constexpr std::string_view kPrefix = "indurop.";
+  std::vector<std::string> nodes;
+  const auto close = [](DIR* directory) { ::closedir(directory); };
+  const std::unique_ptr<DIR, decltype(close)> directory(::opendir(kShmDirectory), close);
+  while (directory != nullptr) {
+    const dirent* entry = ::readdir(directory.get());
+    if (entry == nullptr) {
+      break;
+    }
+    const std::string_view name = entry->d_name;
+    if (name.starts_with(kPrefix) && valid_node_name(name.substr(kPrefix.size()))) {
+      nodes.emplace_back(name.substr(kPrefix.size()));
+    }
+  }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+Status remove_node(const std::string& node) {
+  pid_t holder = 0;
+  const auto lock = NodeLock::acquire(node, holder);
+  if (!lock) {
+    return lock.error();
+  }
+  retire_block(node);
+  Status result;
+  // The lock file last: until then nobody else can start a node of this name.
+  for (const std::string& name :
+       {block_file(node), block_file(node) + ".tmp", run_file(node), run_file(node) + ".tmp", lock_file(node)}) {
+    if (Status status = remove_shm_file(name); !status && result.ok()) {
+      result = status;
+    }
+  }
+  return result;
+}
+
+}  // namespace indurop::vars

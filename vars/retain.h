@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of `retain` variables on disk: two copies, written in turn, each complete or absent after a power loss at any
+// moment. For a normal thread: nothing here is real-time safe.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vars/store.h"
+
+namespace indurop::vars {
+
+// $INDUROP_STATE_DIR/<node>, else /var/lib/indurop/<node> for root, else
+// ${XDG_STATE_HOME:-~/.local/state}/indurop/<node>.
+std::filesystem::path state_directory(const std::string& node);
+
+struct RetainReport {
+  std::size_t restored = 0;        // variables
+  std::vector<std::string> notes;  // one line each for people: what was found damaged, dropped or of another type
+};
+
+// The two files retain.a and retain.b in one directory. One object per directory at a time: the node lock sees to it.
+class RetainFile {
+ public:
+  explicit RetainFile(std::filesystem::path directory);
+
+  // Writes the newest sound copy's values into the store's retain variables of the same name and type. Without any
+  // file nothing happens; a damaged copy is a note. Meant for a store of Origin::Fresh: an adopted one is newer.
+  // Errors: PermissionDenied, System (a file exists but cannot be read).
+  Result<RetainReport> load(Store& store);
+
+  // Puts the present values where the older copy was; does not touch the disk if they are what was saved last.
+  // `written` (may be null) tells which. Errors: NoSpace, PermissionDenied, System; both older copies are kept then.
+  Status save(const Store& store, bool* written = nullptr);
+
+  // Removes both copies: the next start has initial values. Errors: PermissionDenied, System.
+  Status erase();
+
+ private:
+  struct Copy {
+    std::uint64_t sequence = 0;
+    std::vector<std::uint8_t> payload;
+  };
+  Status scan(std::vector<std::string>& notes);
+  Status write_copy(const std::filesystem::path& target, const std::vector<std::uint8_t>& bytes) const;
+  Status sync_directory() const;
+
+  std::filesystem::path directory_;
+  bool scanned_ = false;
+  int newest_ = -1;  // 0: a, 1: b, -1: none is sound
+  Copy copy_;        // contents of the newest
+};
+
+}  // namespace indurop::vars
