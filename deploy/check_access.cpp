@@ -1,8 +1,201 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/check_parts.h"
+// What the access map says about the data: lost writers, missing writers, readers that run too early, age.
+
+#include <algorithm>
+#include <set>
+
+#include "deploy/access_map.h"
+#include "deploy/data_flow.h"
+#include "deploy/reader.h"
 
 namespace indurop::deploy {
+namespace {
 
-void check_access(CheckContext& context) { context.result.uses.clear(); }
+class AccessCheck {
+ public:
+  explicit AccessCheck(CheckContext& context) : context_(context), map_(make_access_map(context)) {}
+
+  void run() {
+    for (const auto& [name, access] : map_.variables) {
+      context_.result.uses.push_back({name, names(access.readers), names(access.writers)});
+      check_writers(name, access);
+      check_readers(name, access);
+    }
+    if (!context_.result.table.order.empty()) {
+      find_flows();
+      check_order();
+      report_ages();
+    }
+  }
+
+ private:
+  // Values of some variables on their way from one periodic module to another; positions in execution order.
+  struct Flow {
+    std::size_t writer;
+    std::size_t reader;
+    std::vector<const schema::Variable*> variables;
+    Age age;
+  };
+
+  [[nodiscard]] const Module& module(std::size_t index) const { return context_.config.modules[index]; }
+  // A periodic module by its position in the order of execution.
+  [[nodiscard]] const Module& at(std::size_t position) const {
+    return module(context_.result.periodic[context_.result.table.order[position]]);
+  }
+  [[nodiscard]] std::vector<std::string> names(const std::vector<std::size_t>& modules) const {
+    std::vector<std::string> list;
+    for (const std::size_t i : modules) {
+      list.push_back(module(i).name);
+    }
+    return list;
+  }
+  static std::string names_of_variables(const Flow& flow) {
+    constexpr std::size_t kMost = 3;
+    std::vector<std::string> list;
+    for (const schema::Variable* variable : flow.variables) {
+      list.push_back(variable->name);
+    }
+    return enumerate(list, kMost);
+  }
+
+  void check_writers(const std::string& name, const VariableAccess& access) {
+    if (access.writers.size() > 1) {
+      context_.report.warning(module(access.writers[1]).places.file,
+                              in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
+                                  "; where both write the same part, the one that runs later wins: let one module own it");
+    }
+    if (!access.writers.empty() || access.readers.empty()) {
+      return;
+    }
+    std::vector<std::size_t> others = map_.unknown_writers;
+    const std::string text = in_quotes(name) + " is read by " + enumerate(names(access.readers)) + " but ";
+    const Place place = module(access.readers.front()).places.file;
+    if (others.empty()) {
+      context_.report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
+    } else {
+      context_.report.note(place, text + "no module is known to write it; perhaps " + enumerate(names(others)) + " does");
+    }
+  }
+
+  void check_readers(const std::string& name, const VariableAccess& access) {
+    if (access.readers.empty() && map_.unknown_readers.empty()) {
+      context_.report.note(module(access.writers.front()).places.file,
+                           in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
+                               " but no module reads it");
+    }
+  }
+
+  [[nodiscard]] Release release(std::size_t position) const {
+    return {at(position).period, at(position).offset, position};
+  }
+
+  void find_flows() {
+    const auto& order = context_.result.table.order;
+    std::vector<std::size_t> position_of(context_.config.modules.size(), order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      position_of[context_.result.periodic[order[i]]] = i;
+    }
+    std::map<Edge, std::vector<const schema::Variable*>> found;
+    for (const auto& [name, access] : map_.variables) {
+      for (const std::size_t w : access.writers) {
+        for (const std::size_t r : access.readers) {
+          if (w != r && position_of[w] < order.size() && position_of[r] < order.size()) {
+            found[{position_of[w], position_of[r]}].push_back(access.variable);
+          }
+        }
+      }
+    }
+    for (auto& [edge, variables] : found) {
+      flows_.push_back({edge.first, edge.second, std::move(variables),
+                        age_between(release(edge.first), release(edge.second))});
+      edges_.push_back(edge);
+    }
+  }
+
+  [[nodiscard]] static bool too_early(const Flow& flow) { return flow.age.meet && flow.reader < flow.writer; }
+
+  // Which module should have which priority so that readers come behind writers.
+  [[nodiscard]] std::string better_order(const Flow& early) const {
+    const std::size_t count = context_.result.table.order.size();
+    const bool distinct = at(early.reader).priority != at(early.writer).priority;
+    std::vector<std::size_t> swapped(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      swapped[i] = i == early.reader ? early.writer : i == early.writer ? early.reader : i;
+    }
+    const bool swap_helps = std::none_of(flows_.begin(), flows_.end(), [&](const Flow& flow) {
+      const bool concerned = flow.reader == early.reader || flow.reader == early.writer || flow.writer == early.reader ||
+                             flow.writer == early.writer;
+      return concerned && group_[flow.reader] != group_[flow.writer] && swapped[flow.reader] < swapped[flow.writer];
+    });
+    if (distinct && swap_helps) {
+      return "swap their priorities: " + at(early.writer).name + " " + std::to_string(at(early.reader).priority) + ", " +
+             at(early.reader).name + " " + std::to_string(at(early.writer).priority);
+    }
+    std::vector<std::string> order;
+    for (const std::size_t position : writers_first(count, edges_)) {
+      order.push_back(at(position).name);
+    }
+    std::string text = "give them priorities in the order ";
+    constexpr std::size_t kMost = 20;
+    for (std::size_t i = 0; i < order.size() && i < kMost; ++i) {
+      text += (i == 0 ? "" : " > ") + order[i];
+    }
+    return text + (order.size() > kMost ? " > ..." : "");
+  }
+
+  void check_order() {
+    if (edges_.empty()) {
+      return;
+    }
+    group_ = circles(context_.result.table.order.size(), edges_);
+    for (const Flow& flow : flows_) {
+      if (!too_early(flow)) {
+        continue;
+      }
+      const Module& reader = at(flow.reader);
+      const Module& writer = at(flow.writer);
+      const std::string what = reader.name + " runs before " + writer.name + " and reads the " + names_of_variables(flow) +
+                               " it wrote " + format_duration(flow.age.most) + " before" +
+                               (flow.age.meetings > 1 ? " whenever both are due" : "");
+      if (group_[flow.reader] == group_[flow.writer]) {
+        context_.report.note(reader.places.priority, what + "; values go round between them, so one of them has to be first");
+      } else {
+        context_.report.warning(reader.places.priority, what + "; " + better_order(flow));
+      }
+    }
+  }
+
+  void report_ages() {
+    const Nanos basic = context_.result.table.basic_period;
+    for (const Flow& flow : flows_) {
+      const auto in_periods = [basic](Nanos age) { return std::to_string(age / basic); };
+      const std::string range = flow.age.least == flow.age.most ? in_periods(flow.age.most)
+                                                                : in_periods(flow.age.least) + " to " + in_periods(flow.age.most);
+      context_.report.note(at(flow.reader).places.file,
+                           "age of " + names_of_variables(flow) + " from " + at(flow.writer).name + " to " +
+                               at(flow.reader).name + ": " + range + " basic periods, at most " +
+                               (flow.age.most == Nanos::zero() ? "the same one" : format_duration(flow.age.most)));
+      for (const schema::Variable* variable : flow.variables) {
+        if (variable->maxage_ns > 0 && flow.age.most.count() > variable->maxage_ns) {
+          context_.report.warning(at(flow.reader).places.file,
+                                  in_quotes(variable->name) + " is up to " + format_duration(flow.age.most) + " old when " +
+                                      at(flow.reader).name + " reads it, its maxage is " +
+                                      format_duration(Nanos{variable->maxage_ns}) + "; let " + at(flow.writer).name +
+                                      " run more often or raise maxage");
+        }
+      }
+    }
+  }
+
+  CheckContext& context_;
+  AccessMap map_;
+  std::vector<Flow> flows_;
+  std::vector<Edge> edges_;          // of flows_
+  std::vector<std::size_t> group_;   // by position
+};
+
+}  // namespace
+
+void check_access(CheckContext& context) { AccessCheck(context).run(); }
 
 }  // namespace indurop::deploy

@@ -33,25 +33,24 @@ std::string csv_field(const std::string& text) {
 }  // namespace
 
 std::string plan_json(const Config& config, const CheckResult& check) {
-  Json plan;
-  plan["basic_period_ns"] = check.table.basic_period.count();
-  plan["macro_period_ns"] = check.table.macro_period.count();
-  Json& slots = plan["slots"] = Json::array();
-  for (std::size_t i = 0; i < check.table.slots.size(); ++i) {
-    const scheduler::Slot& slot = check.table.slots[i];
+  const auto text = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  const scheduler::PeriodTable& table = check.table;
+  std::string plan = "{\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
+                     ",\n  \"macro_period_ns\": " + std::to_string(table.macro_period.count()) + ",\n  \"slots\": [";
+  for (std::size_t i = 0; i < table.slots.size(); ++i) {  // one line each
     Json row;
     row["slot"] = i;
-    row["time_ns"] = slot.time.count();
-    row["modules"] = names_of(config, check, slot);
-    slots.push_back(std::move(row));
+    row["time_ns"] = table.slots[i].time.count();
+    row["modules"] = names_of(config, check, table.slots[i]);
+    plan += (i == 0 ? "\n    " : ",\n    ") + text(row);
   }
-  plan["sporadic"] = names_json(config, check.sporadic);
-  plan["non_real"] = names_json(config, check.non_real);
-  if (check.table.slot_count > check.table.slots.size()) {
-    plan["slots_left_out"] = check.table.slot_count - check.table.slots.size();
+  plan += table.slots.empty() ? "]" : "\n  ]";
+  plan += ",\n  \"sporadic\": " + text(names_json(config, check.sporadic));
+  plan += ",\n  \"non_real\": " + text(names_json(config, check.non_real));
+  if (table.slot_count > table.slots.size()) {
+    plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
   }
-  constexpr int kIndent = 2;
-  return plan.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return plan + "\n}\n";
 }
 
 std::string plan_csv(const Config& config, const CheckResult& check) {

@@ -6,15 +6,13 @@
 namespace indurop::deploy {
 
 void Report::add(Diagnostic::Severity severity, Place place, std::string text) {
-  if (full()) {
-    return;
+  std::size_t& count = count_.at(static_cast<std::size_t>(severity));
+  if (++count <= kMost) {
+    out_.push_back({severity, file_, place, std::move(text)});
+  } else if (count == kMost + 1) {
+    out_.push_back({severity, file_, {}, "there are more than these " + std::to_string(kMost) +
+                                             "; the others show when these are gone"});
   }
-  if (out_.size() == kMost) {
-    out_.push_back({Diagnostic::Severity::Error, file_, place, "more than " + std::to_string(kMost) +
-                                                                   " diagnostics; correct these first"});
-    return;
-  }
-  out_.push_back({severity, file_, place, std::move(text)});
 }
 
 std::string in_quotes(std::string_view text) {
