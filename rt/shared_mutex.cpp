@@ -53,7 +53,7 @@ LockResult translate(pthread_mutex_t& mutex, int error) noexcept {
   }
 }
 
-[[gnu::noinline, gnu::cold]] LockResult wait_for(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
+LockResult wait_for(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
   if (has_impossible_owner(mutex)) {
     return LockResult::Broken;
   }
@@ -81,16 +81,8 @@ LockResult try_lock(pthread_mutex_t& mutex) noexcept {
   return translate(mutex, ::pthread_mutex_trylock(&mutex));
 }
 
-LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
-  const int error = ::pthread_mutex_trylock(&mutex);
-  if (error == 0) [[likely]] {
-    return LockResult::Locked;
-  }
+LockResult lock_refused(pthread_mutex_t& mutex, int error, std::chrono::nanoseconds limit) noexcept {
   return error == EBUSY ? wait_for(mutex, limit) : translate(mutex, error);
-}
-
-bool unlock(pthread_mutex_t& mutex) noexcept {
-  return ::pthread_mutex_unlock(&mutex) == 0;
 }
 
 }  // namespace indurop::rt

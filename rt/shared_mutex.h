@@ -26,13 +26,21 @@ constexpr bool is_locked(LockResult result) noexcept {
 // Makes a lock of zeroed or other memory nobody uses yet. False if the system has no such locks.
 bool init_shared_mutex(pthread_mutex_t& mutex) noexcept;
 
+// What to do about a lock that try-locking refused with `error`: waits if somebody has it.
+LockResult lock_refused(pthread_mutex_t& mutex, int error, std::chrono::nanoseconds limit) noexcept;
+
 // Real-time safe: no system call if the lock is free, priority inheritance while waiting.
-LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit = kLockLimit) noexcept;
+inline LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds limit = kLockLimit) noexcept {
+  const int error = ::pthread_mutex_trylock(&mutex);
+  return error == 0 ? LockResult::Locked : lock_refused(mutex, error, limit);
+}
 
 // Never waits; Timeout if another thread has it.
 LockResult try_lock(pthread_mutex_t& mutex) noexcept;
 
 // False, and nothing happened, if the calling thread does not hold it. Real-time safe.
-bool unlock(pthread_mutex_t& mutex) noexcept;
+inline bool unlock(pthread_mutex_t& mutex) noexcept {
+  return ::pthread_mutex_unlock(&mutex) == 0;
+}
 
 }  // namespace indurop::rt

@@ -98,7 +98,18 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
   return false;
 }
 
-unsigned char* begin(RingHeader& ring, Span hole) noexcept {
+// Out of the way of the common case: whole writes of small values need none of this.
+[[gnu::noinline]] void bring_up_to_date(RingHeader& ring, unsigned char* to, Span hole) noexcept {
+  const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
+  const unsigned char* from = detail::slot(&ring, now, ring.slot_stride);
+  if (ring.value_size <= kWholeCopyLimit) {
+    copy_around(to, from, {0, ring.value_size}, hole);
+  } else {
+    catch_up(ring, now, to, from, hole);
+  }
+}
+
+inline unsigned char* begin(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
   const rt::LockResult result = rt::lock_within(ring.lock);
   if (result != rt::LockResult::Locked) [[unlikely]] {
     if (!not_locked(ring, result)) {
@@ -109,15 +120,8 @@ unsigned char* begin(RingHeader& ring, Span hole) noexcept {
   // A reader that sees any byte of the new version must see `seq` as it is now, or a later one.
   std::atomic_thread_fence(std::memory_order_release);
   unsigned char* to = detail::slot(&ring, now + 1, ring.slot_stride);
-  const std::uint32_t size = ring.value_size;
-  if (hole.begin == 0 && hole.end == size && size <= kWholeCopyLimit) {
-    return to;
-  }
-  const unsigned char* from = detail::slot(&ring, now, ring.slot_stride);
-  if (size <= kWholeCopyLimit) {
-    copy_around(to, from, {0, size}, hole);
-  } else {
-    catch_up(ring, now, to, from, hole);
+  if (length != ring.value_size || length > kWholeCopyLimit) {
+    bring_up_to_date(ring, to, {offset, std::uint64_t{offset} + length});
   }
   return to;
 }
@@ -136,11 +140,11 @@ bool init_ring(void* memory, std::uint32_t value_size, const void* initial) noex
 }
 
 void* begin_write(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
-  return begin(ring, {offset, std::uint64_t{offset} + length});
+  return begin(ring, offset, length);
 }
 
 void* begin_edit(RingHeader& ring) noexcept {
-  unsigned char* to = begin(ring, {0, 0});
+  unsigned char* to = begin(ring, 0, 0);
   if (to != nullptr && ring.value_size > kWholeCopyLimit) {
     store_dirty(ring, ring.seq.load(std::memory_order_relaxed) + 1, {0, ring.value_size});
   }
