@@ -275,7 +275,8 @@ class Parser {
   template <class T>
   bool real(const Type& type, std::uint8_t* to) {
     const std::string_view text = word();
-    const std::string_view digits = text.substr(!text.empty() && text.front() == '+' ? 1 : 0);
+    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const std::string_view digits = text.substr(plus ? 1 : 0);
     T number{};
     bool negative = false;
     std::uint64_t amount = 0;

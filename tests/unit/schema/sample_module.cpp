@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a generated header leaves in a module, by hand: one schema line and the access records of two variables.
+
+#include <indurop/detail/access.h>
+
+asm(R"(.pushsection .indurop.schema,"G",%progbits,indurop_schema_sample,comdat
+.ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"a::x\",\"type\":\"double\",\"kind\":\"scalar\"}]}\n"
+.popsection)");
+
+namespace {
+struct Both {
+  static constexpr std::uint64_t kNameHash = 0x1122334455667788;
+};
+struct OnlyRead {
+  static constexpr std::uint64_t kNameHash = 7;
+};
+}  // namespace
+
+extern "C" {
+extern int sample_import();
+int sample_data = 0;
+void run() {
+  indurop::detail::record_access<Both, indurop::detail::kRead>();
+  indurop::detail::record_access<Both, indurop::detail::kWrite>();
+  indurop::detail::record_access<OnlyRead, indurop::detail::kRead>();
+  sample_data = sample_import();
+}
+[[gnu::weak]] int condition() {
+  return sample_data;
+}
+[[gnu::visibility("hidden")]] int sample_hidden() {
+  return 1;
+}
+}
