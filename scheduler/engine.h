@@ -42,6 +42,7 @@ class Engine {
 
   // Ends the run at the next tick. Real-time safe, any thread, any number of times.
   void request_stop() noexcept { stop_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool stopping() const noexcept { return stop_.load(std::memory_order_acquire) || finished(); }
   [[nodiscard]] bool finished() const noexcept { return ticking_.load(std::memory_order_acquire) == 0; }
 
   // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.

@@ -81,13 +81,9 @@ void write_properties(RunBlock& block, ModuleRecord& record, const ModuleSetup& 
   }
 }
 
-void init_ring(RunBlock& block, MessageRing& ring, std::size_t offset, std::uint32_t capacity) {
-  ring.capacity = capacity;
+void init_ring(MessageRing& ring, std::size_t offset, std::uint32_t capacity) noexcept {
+  ring.capacity = capacity;  // zeroed entries are an empty ring
   ring.entries_offset = offset;
-  auto* entries = block.at<MessageEntry>(offset);
-  for (std::uint32_t i = 0; i < capacity; ++i) {
-    entries[i].sequence.store(i, std::memory_order_relaxed);
-  }
 }
 
 }  // namespace
@@ -121,9 +117,9 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
     ProcessSlot& slot = block.process_slots()[i];
     slot.wake.init(true);
     slot.module.store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
-    init_ring(block, block.rings()[i], at.messages + i * kModuleMessages * sizeof(MessageEntry), kModuleMessages);
+    init_ring(block.rings()[i], at.messages + i * kModuleMessages * sizeof(MessageEntry), kModuleMessages);
   }
-  init_ring(block, block.rings()[n], at.messages + n * kModuleMessages * sizeof(MessageEntry), kNodeMessages);
+  init_ring(block.rings()[n], at.messages + n * kModuleMessages * sizeof(MessageEntry), kNodeMessages);
   block.magic.store(kRunMagic, std::memory_order_release);
 }
 

@@ -93,8 +93,8 @@ void Runner::call_current() noexcept {
   bool threw = false;
   guard_.arm();
   try {
-    if (state.task.condition != nullptr) {
-      ran = state.task.condition() != 0;
+    if (state.task.condition) {
+      ran = state.task.condition();
       current_start_.store(clock_.now(), std::memory_order_relaxed);
     }
     if (ran) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <indurop/module.h>
+
 #include <cstdint>
 
 #include "scheduler/run_block.h"
@@ -22,7 +24,7 @@ struct Task {
   bool after_base = false;         // sporadic: evaluated right after the inline band
   int legacy_signal = 0;           // process woken by this signal instead of its slot
   void (*run)() = nullptr;         // thread modules
-  int (*condition)() = nullptr;    // sporadic thread modules
+  Condition condition;             // sporadic thread modules
 };
 
 }  // namespace indurop::scheduler

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/console.h"
+
+#include <cstdio>
+
+namespace indurop::node {
+namespace {
+
+constexpr std::int64_t kSummaryNs = 1'000'000'000;
+
+double microseconds(std::int64_t ns) noexcept { return static_cast<double>(ns) / 1000; }
+
+// The newest record of an overrun of `module`, null if it was overwritten.
+const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, std::uint32_t module) {
+  const auto* entries = run.at<scheduler::OverrunEntry>(run.overrun_log_offset);
+  const std::uint64_t next = run.overrun_log_next.load(std::memory_order_acquire);
+  for (std::uint64_t back = 1; back <= run.overrun_log_capacity && back <= next; ++back) {
+    const auto& entry = entries[(next - back) & (run.overrun_log_capacity - 1)];
+    if (entry.sequence.load(std::memory_order_acquire) == next - back + 1 && entry.module == module) {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void Console::line(std::string_view kind, std::string_view text) const {
+  std::fflush(stdout);
+  fmt::print(stderr, "indurop-node[{}]: {}{}\n", node_, kind, text);
+}
+
+void Console::watch(scheduler::RunBlock& run) {
+  run_ = &run;
+  seen_.assign(run.module_count, Seen{});
+  reader_.clear();
+  reader_.emplace_back(run);
+}
+
+void Console::report(std::int64_t now_ns, bool last) {
+  if (run_ == nullptr) {
+    return;
+  }
+  print_messages(now_ns);
+  report_faults();
+  if (last || now_ns >= next_summary_ns_) {
+    report_overruns(now_ns, last);
+    report_losses();
+  }
+}
+
+void Console::print_messages(std::int64_t now_ns) {
+  runtime::Message message;
+  bool any = false;
+  while (reader_.front().next(message, now_ns)) {
+    std::fwrite(message.text.data(), 1, message.text.size(), stdout);
+    any = true;
+  }
+  if (any) {
+    std::fflush(stdout);
+  }
+}
+
+void Console::report_faults() {
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t faults = module.faults.load(std::memory_order_acquire);
+    if (faults != seen_[i].faults) {
+      seen_[i].faults = faults;
+      error("module {} faulted at tick {}: {}", module.name, module.fault_tick.load(std::memory_order_relaxed),
+            module.last_fault);
+    }
+  }
+}
+
+void Console::report_overruns(std::int64_t now_ns, bool last) {
+  next_summary_ns_ = now_ns + kSummaryNs;
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t overruns = module.overruns.load(std::memory_order_relaxed);
+    if (overruns > seen_[i].overruns) {
+      const std::uint64_t fresh = overruns - seen_[i].overruns;
+      seen_[i].overruns = overruns;
+      const scheduler::OverrunEntry* entry = newest_overrun(*run_, i);
+      if (entry == nullptr) {
+        warning("module {}: {} overruns", module.name, fresh);
+        continue;
+      }
+      const char* before = entry->previous >= 0 ? run_->modules()[entry->previous].name : "nothing";
+      warning("module {}: {} overrun{}, last at tick {} slot {}: {} {:.1f} us, started {:.1f} us late, before it ran {} ({:.1f} us)",
+              module.name, fresh, fresh == 1 ? "" : "s", entry->tick, entry->slot,
+              entry->started != 0 ? "running for" : "not yet started after", microseconds(entry->own_ns),
+              microseconds(entry->latency_ns), before, microseconds(entry->previous_ns));
+    }
+    const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
+    if (misses > seen_[i].misses) {
+      warning("module {}: {} deadline{} of {:.1f} us missed", module.name, misses - seen_[i].misses,
+              misses - seen_[i].misses == 1 ? "" : "s", microseconds(module.deadline_ns));
+      seen_[i].misses = misses;
+    }
+  }
+  const std::uint64_t lost = run_->lost_ticks.load(std::memory_order_relaxed);
+  if (lost > seen_lost_ticks_ && last) {
+    warning("{} basic periods lost in all: nothing could be started in them", lost);
+  }
+  seen_lost_ticks_ = lost;
+}
+
+void Console::report_losses() {
+  for (std::uint32_t i = 0; i < run_->module_count; ++i) {
+    const scheduler::ModuleRecord& module = run_->modules()[i];
+    const std::uint64_t lost = module.lost_messages.load(std::memory_order_relaxed);
+    if (lost > seen_[i].lost_messages) {
+      warning("module {}: {} lines of irp::printf dropped, its ring was full", module.name,
+              lost - seen_[i].lost_messages);
+      seen_[i].lost_messages = lost;
+    }
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop-node: the scheduler node of one board.
+
+#include <string_view>
+
+#include "node/node.h"
+#include "node/options.h"
+#include "node/trampoline.h"
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == indurop::node::kTrampolineFlag) {
+    return indurop::node::become_module(argc, argv);
+  }
+  int exit_code = 0;
+  const auto options = indurop::node::parse_options(argc, argv, exit_code);
+  if (!options) {
+    return exit_code;
+  }
+  indurop::node::Node node(*options);
+  return node.run();
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/module_library.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/sendfile.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace indurop::node {
+namespace {
+
+// The dynamic linker gives the same globals to everybody who loads one file; a copy without a name is another file.
+int copy_to_memory(const std::filesystem::path& file) {
+  const int from = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) {
+    return -1;
+  }
+  const int to = ::memfd_create(file.filename().c_str(), MFD_CLOEXEC);
+  struct stat info {};
+  bool ok = to >= 0 && ::fstat(from, &info) == 0;
+  for (off_t done = 0; ok && done < info.st_size;) {
+    const ssize_t n = ::sendfile(to, from, &done, static_cast<std::size_t>(info.st_size - done));
+    ok = n > 0;
+  }
+  ::close(from);
+  if (!ok && to >= 0) {
+    ::close(to);
+  }
+  return ok ? to : -1;
+}
+
+template <class Function>
+Function symbol(void* handle, const char* plain, const char* mangled) {
+  void* found = ::dlsym(handle, plain);
+  return reinterpret_cast<Function>(found != nullptr ? found : ::dlsym(handle, mangled));
+}
+
+}  // namespace
+
+bool ModuleLibrary::load(const std::filesystem::path& file, bool own_copy, std::string& problem) {
+  std::string path = file.string();
+  int memory = -1;
+  if (own_copy) {
+    memory = copy_to_memory(file);
+    if (memory < 0) {
+      problem = fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno));
+      return false;
+    }
+    path = fmt::format("/proc/self/fd/{}", memory);
+  }
+  handle_ = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (memory >= 0) {
+    ::close(memory);
+  }
+  if (handle_ == nullptr) {
+    const char* reason = ::dlerror();
+    problem = fmt::format("cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
+                          reason != nullptr ? reason : "unknown reason");
+    return false;
+  }
+  find_functions();
+  if (functions_.run == nullptr) {
+    problem = "the module has no run function: add INDUROP_MODULE(run = &::yourFunction) or define `void run()`";
+    return false;
+  }
+  return true;
+}
+
+void ModuleLibrary::find_functions() {
+  using Describe = void (*)(ModuleDescriptor*);
+  if (auto describe = reinterpret_cast<Describe>(::dlsym(handle_, "indurop_module_describe")); describe != nullptr) {
+    describe(&functions_);
+    return;
+  }
+  using Plain = void (*)();
+  functions_.run = symbol<Plain>(handle_, "run", "_Z3runv");
+  functions_.start = symbol<Plain>(handle_, "start", "_Z5startv");
+  functions_.stop = symbol<Plain>(handle_, "stop", "_Z4stopv");
+  if (auto condition = symbol<int (*)()>(handle_, "condition", "_Z9conditionv"); condition != nullptr) {
+    functions_.condition = condition;
+  }
+}
+
+ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
+    : handle_(std::exchange(other.handle_, nullptr)), functions_(other.functions_) {}
+
+ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
+  std::swap(handle_, other.handle_);
+  std::swap(functions_, other.functions_);
+  return *this;
+}
+
+ModuleLibrary::~ModuleLibrary() {
+  if (handle_ != nullptr) {
+    ::dlclose(handle_);
+  }
+}
+
+}  // namespace indurop::node

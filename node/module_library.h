@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thread module's .so in this process: loads it and finds its functions, given by INDUROP_MODULE or as plain
+// functions start, run, stop, condition with C or C++ linkage (chapter, Figures 7 and 13). Not real-time safe.
+
+#pragma once
+
+#include <indurop/module.h>
+
+#include <filesystem>
+#include <string>
+
+namespace indurop::node {
+
+class ModuleLibrary {
+ public:
+  ModuleLibrary() = default;
+  // `own_copy`: loads a private copy, for a second module from the same file. Runs the module's static constructors.
+  // False: `problem` says what and what to do.
+  bool load(const std::filesystem::path& file, bool own_copy, std::string& problem);
+  ModuleLibrary(ModuleLibrary&& other) noexcept;
+  ModuleLibrary& operator=(ModuleLibrary&& other) noexcept;
+  ModuleLibrary(const ModuleLibrary&) = delete;
+  ModuleLibrary& operator=(const ModuleLibrary&) = delete;
+  ~ModuleLibrary();
+
+  [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
+
+ private:
+  void find_functions();
+  void* handle_ = nullptr;
+  ModuleDescriptor functions_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command line of indurop-node.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "deploy/config.h"
+
+namespace indurop::node {
+
+// Documented exit codes, the same for all programs.
+enum ExitCode : int {
+  kOk = 0,
+  kFailed = 1,
+  kUsage = 2,
+  kCheckFailed = 4,
+  kNoRealTime = 7,
+  kSchemaMismatch = 8,
+  kInterrupted = 130,
+};
+
+struct Options {
+  std::filesystem::path config;
+  std::string node = "local";
+  std::optional<deploy::Nanos> duration;   // empty: until stopped
+  std::filesystem::path report;            // empty: none
+  bool require_rt = false;
+  bool adjust = false;
+  bool quiet = false;                      // no summary, no messages of the node but warnings and errors
+  std::optional<int> core;
+  std::optional<deploy::SpinSetting> spin;
+};
+
+// Parses the command line. Empty: the program is to end with `exit_code` (help, version, usage error; said already).
+std::optional<Options> parse_options(int argc, char** argv, int& exit_code);
+
+}  // namespace indurop::node

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/processes.h"
+
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstring>
+
+#include "node/trampoline.h"
+#include "rt/clock.h"
+#include "rt/thread.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::FaultKind;
+using scheduler::ModuleState;
+using scheduler::Operation;
+
+constexpr std::int64_t kEndGraceNs = 2'000'000'000;
+constexpr std::int64_t kPollNs = 5'000'000;
+constexpr std::size_t kRestartsKept = 1000;
+
+std::string describe(int status) {
+  if (WIFSIGNALED(status)) {
+    return fmt::format("ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
+  }
+  return fmt::format("exited with code {}", WEXITSTATUS(status));
+}
+
+}  // namespace
+
+Processes::Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
+                     Console& console, FailSafe& failsafe)
+    : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe) {
+  for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
+    if (config.modules[i].type == scheduler::ModuleType::Process) {
+      children_.push_back(Child{i, &config.modules[i], -1, 0, {}, false});
+    }
+  }
+}
+
+Processes::~Processes() { end_all(); }
+
+bool Processes::managed(const Child& child) const noexcept {
+  return child.module->operation != Operation::NonReal && child.module->signal == 0;
+}
+
+bool Processes::launch_all() {
+  for (Child& child : children_) {
+    if (!launch(child)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Processes::launch(Child& child) {
+  scheduler::ProcessSlot& at = slot(child);
+  while (at.wake.try_wait()) {
+  }
+  at.done.store(at.released.load(std::memory_order_relaxed), std::memory_order_release);
+  at.stop.store(0, std::memory_order_relaxed);
+  at.pid.store(0, std::memory_order_relaxed);
+  scheduler::ModuleRecord& module = record(child);
+  module.state.store(ModuleState::Starting, std::memory_order_release);
+  const auto started = node::launch(
+      {child.module->file.string(), child.module->arguments, node_, std::to_string(child.index), module.core});
+  if (!started) {
+    console_.error("module {}: cannot be started: {}", module.name, std::strerror(started.error().sys_errno));
+    return false;
+  }
+  child.pid = started.value();
+  child.killed_for_budget = false;
+  module.pid.store(child.pid, std::memory_order_release);
+  if (child.module->signal != 0 && realtime_) {
+    (void)rt::set_fifo_of(child.pid, module.fifo_priority);
+  }
+  if (!managed(child)) {
+    module.state.store(ModuleState::Running, std::memory_order_release);
+  }
+  return true;
+}
+
+bool Processes::ready() const noexcept {
+  for (const Child& child : children_) {
+    if (run_.modules()[child.index].state.load(std::memory_order_acquire) == ModuleState::Starting) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Processes::supervise(std::int64_t now_ns) {
+  for (Child& child : children_) {
+    scheduler::ModuleRecord& module = record(child);
+    if (child.pid > 0) {
+      int status = 0;
+      if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
+        died(child, status, now_ns);
+      } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting &&
+                 slot(child).pid.load(std::memory_order_acquire) == child.pid) {
+        module.state.store(ModuleState::Running, std::memory_order_release);
+      } else {
+        enforce_budget(child, now_ns);
+      }
+    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting &&
+               now_ns >= child.restart_at_ns) {
+      module.restarts.fetch_add(1, std::memory_order_relaxed);
+      if (!launch(child)) {
+        plan_restart(child, now_ns);
+      }
+    }
+  }
+  return !reason_.empty();
+}
+
+void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
+  scheduler::ModuleRecord& module = record(child);
+  std::strncpy(module.last_fault, text.c_str(), sizeof module.last_fault - 1);
+  module.fault_tick.store(run_.tick.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  module.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
+  module.faults.fetch_add(1, std::memory_order_release);
+  failsafe_.apply(child.index);
+}
+
+void Processes::died(Child& child, int status, std::int64_t now_ns) {
+  scheduler::ModuleRecord& module = record(child);
+  child.pid = -1;
+  module.pid.store(0, std::memory_order_release);
+  if (child.module->operation == Operation::NonReal && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    module.state.store(ModuleState::Exited, std::memory_order_release);
+    return;
+  }
+  const bool was_starting = module.state.load(std::memory_order_acquire) == ModuleState::Starting;
+  module.state.store(ModuleState::Restarting, std::memory_order_release);
+  if (child.killed_for_budget) {
+    fault(child, FaultKind::Budget,
+          fmt::format("killed: one run took longer than its budget of {} us", module.budget_ns / 1000));
+  } else if (was_starting && WIFEXITED(status)) {
+    fault(child, FaultKind::StartFailed, describe(status) + " before it called irp::waitPeriod()");
+  } else {
+    fault(child, FaultKind::Exit, describe(status));
+  }
+  plan_restart(child, now_ns);
+}
+
+void Processes::plan_restart(Child& child, std::int64_t now_ns) {
+  const deploy::Restart& rule = child.module->restart;
+  while (!child.restarts.empty() && now_ns - child.restarts.front() > rule.window.count()) {
+    child.restarts.pop_front();
+  }
+  scheduler::ModuleRecord& module = record(child);
+  if (child.restarts.size() >= rule.max) {
+    module.state.store(ModuleState::Faulted, std::memory_order_release);
+    if (rule.escalate == deploy::Restart::Escalate::StopNode) {
+      reason_ = fmt::format("process module {} died {} times within {} s (escalate stop-node)", module.name,
+                            child.restarts.size() + 1, rule.window.count() / rt::kNanosPerSecond);
+    } else {
+      console_.error("module {}: stays stopped, it was restarted {} times within {} s", module.name,
+                     child.restarts.size(), rule.window.count() / rt::kNanosPerSecond);
+    }
+    return;
+  }
+  child.restarts.push_back(now_ns);
+  if (child.restarts.size() > kRestartsKept) {
+    child.restarts.pop_front();
+  }
+  child.restart_at_ns = now_ns + rule.delay.count();
+  module.state.store(ModuleState::Restarting, std::memory_order_release);
+}
+
+void Processes::enforce_budget(Child& child, std::int64_t now_ns) {
+  const scheduler::ModuleRecord& module = record(child);
+  const scheduler::ProcessSlot& at = slot(child);
+  if (!managed(child) || module.budget_ns <= 0 || child.killed_for_budget) {
+    return;
+  }
+  const std::uint64_t done = at.done.load(std::memory_order_acquire);
+  const std::int64_t start = at.start_ns.load(std::memory_order_relaxed);
+  const bool running = done != at.released.load(std::memory_order_relaxed) &&
+                       start >= at.release_ns.load(std::memory_order_relaxed);
+  if (running && now_ns - start > module.budget_ns) {
+    child.killed_for_budget = true;
+    ::kill(child.pid, SIGKILL);
+  }
+}
+
+void Processes::end_all() {
+  for (Child& child : children_) {
+    if (child.pid <= 0) {
+      continue;
+    }
+    if (managed(child)) {
+      slot(child).stop.store(1, std::memory_order_release);
+      slot(child).wake.wake();
+    } else {
+      ::kill(child.pid, SIGTERM);
+    }
+  }
+  const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
+  for (Child& child : children_) {
+    int status = 0;
+    bool told = false;
+    while (child.pid > 0 && ::waitpid(child.pid, &status, WNOHANG) != child.pid) {
+      const std::int64_t now = rt::now_ns();
+      if (now > deadline) {
+        console_.warning("module {} did not end within 2 s and was killed", record(child).name);
+        ::kill(child.pid, SIGKILL);
+        ::waitpid(child.pid, &status, 0);
+        break;
+      }
+      if (!told && now > deadline - kEndGraceNs / 2) {
+        ::kill(child.pid, SIGTERM);  // it does not call waitPeriod()
+        told = true;
+      }
+      rt::sleep_until(now + kPollNs);
+    }
+    if (child.pid > 0) {
+      child.pid = -1;
+      record(child).pid.store(0, std::memory_order_release);
+      record(child).state.store(ModuleState::Stopped, std::memory_order_release);
+    }
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Process modules: launched, watched, restarted within limits, ended in order. A normal thread's business; the real-time
+// threads only see ModuleRecord::state and the release slots.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "deploy/config.h"
+#include "node/console.h"
+#include "node/failsafe.h"
+#include "scheduler/run_block.h"
+
+namespace indurop::node {
+
+class Processes {
+ public:
+  Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
+            Console& console, FailSafe& failsafe);
+  ~Processes();
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+
+  // Launches all. False if one cannot be started at all (said on the console).
+  bool launch_all();
+  // All periodic and sporadic ones have enrolled or ended.
+  [[nodiscard]] bool ready() const noexcept;
+  // Deaths, restarts, enrolments, budgets. True if the node is to stop because of one (reason()).
+  bool supervise(std::int64_t now_ns);
+  [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+  // Asks all to end, waits, kills what is left.
+  void end_all();
+
+ private:
+  struct Child {
+    std::uint32_t index;
+    const deploy::Module* module;
+    pid_t pid = -1;
+    std::int64_t restart_at_ns = 0;
+    std::deque<std::int64_t> restarts;  // times of those within the window
+    bool killed_for_budget = false;
+  };
+  [[nodiscard]] bool managed(const Child& child) const noexcept;
+  bool launch(Child& child);
+  void died(Child& child, int status, std::int64_t now_ns);
+  void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
+  void plan_restart(Child& child, std::int64_t now_ns);
+  void enforce_budget(Child& child, std::int64_t now_ns);
+  scheduler::ModuleRecord& record(const Child& child) noexcept { return run_.modules()[child.index]; }
+  scheduler::ProcessSlot& slot(const Child& child) noexcept { return run_.process_slots()[child.index]; }
+
+  scheduler::RunBlock& run_;
+  std::string node_;
+  bool realtime_;
+  Console& console_;
+  FailSafe& failsafe_;
+  std::vector<Child> children_;
+  std::string reason_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/retainer.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "rt/clock.h"
+#include "vars/layout.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr std::int64_t kSaveEveryNs = 1'000'000'000;
+constexpr std::int64_t kLookNs = 20'000'000;
+
+}  // namespace
+
+Retainer::Retainer(vars::Store& store, const std::string& node)
+    : store_(store), file_(vars::state_directory(node)) {
+  const auto variables = store_.directory();
+  any_ = std::any_of(variables.begin(), variables.end(),
+                     [](const vars::DirectoryEntry& v) { return (v.flags & vars::kRetain) != 0; });
+}
+
+Retainer::~Retainer() {
+  stop_.store(true);
+  thread_.join();
+}
+
+void Retainer::load(Console& console) {
+  if (!any_) {
+    return;
+  }
+  auto report = file_.load(store_);
+  if (!report) {
+    console.error("retained variables could not be read: {}: {}; they start with their initial values",
+                  report.error().where, std::strerror(report.error().sys_errno));
+    return;
+  }
+  for (const std::string& note : report.value().notes) {
+    console.warning("{}", note);
+  }
+  if (report.value().restored > 0) {
+    console.info("{} retained variables restored", report.value().restored);
+  }
+}
+
+void Retainer::start() {
+  if (!any_) {
+    return;
+  }
+  auto thread = rt::Thread::start({"irp-retain", 0, -1}, [this] { loop(); });
+  if (thread) {
+    thread_ = std::move(thread).value();
+  }
+}
+
+void Retainer::loop() {
+  std::int64_t next = rt::now_ns() + kSaveEveryNs;
+  while (!stop_.load()) {
+    rt::sleep_until(rt::now_ns() + kLookNs);
+    if (rt::now_ns() >= next) {
+      const Status saved = file_.save(store_);
+      failed_.store(static_cast<int>(saved.error().code));
+      next = rt::now_ns() + kSaveEveryNs;
+    }
+  }
+}
+
+void Retainer::stop(Console& console) {
+  stop_.store(true);
+  thread_.join();
+  if (!any_) {
+    return;
+  }
+  if (const Status saved = file_.save(store_); !saved) {
+    console.error("retained variables could not be saved: {}: {}", saved.error().where,
+                  std::strerror(saved.error().sys_errno));
+  } else if (failed_.load() != 0) {
+    console.warning("an earlier save of the retained variables failed; the last one succeeded");
+  }
+}
+
+}  // namespace indurop::node

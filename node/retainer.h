@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Saves retained variables once a second if they changed, on a thread of its own: a slow disk holds up nobody.
+
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "node/console.h"
+#include "rt/thread.h"
+#include "vars/retain.h"
+#include "vars/store.h"
+
+namespace indurop::node {
+
+class Retainer {
+ public:
+  Retainer(vars::Store& store, const std::string& node);
+  ~Retainer();
+  Retainer(const Retainer&) = delete;
+  Retainer& operator=(const Retainer&) = delete;
+
+  // Values from the disk into a fresh store; says what was damaged.
+  void load(Console& console);
+  void start();
+  // Last save. Says on the console if it failed.
+  void stop(Console& console);
+
+ private:
+  void loop();
+  vars::Store& store_;
+  vars::RetainFile file_;
+  bool any_ = false;
+  std::atomic<bool> stop_{false};
+  std::atomic<int> failed_{0};  // Errc of the last save
+  rt::Thread thread_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/setup.h"
+
+#include <algorithm>
+
+namespace indurop::node {
+namespace {
+
+using scheduler::Operation;
+
+// A module that never returns is a fault even if nobody gave it a budget.
+constexpr int kDefaultBudgetPeriods = 10;
+constexpr deploy::Nanos kSmallestDefaultBudget = std::chrono::milliseconds(5);
+constexpr deploy::Nanos kSporadicBudget = std::chrono::seconds(1);
+
+deploy::Nanos budget_of(const deploy::Module& module) {
+  if (module.budget == deploy::kNoBudget) {
+    return {};
+  }
+  if (module.budget.count() > 0) {
+    return module.budget;
+  }
+  return module.operation == Operation::Periodic
+             ? std::max(module.period * kDefaultBudgetPeriods, kSmallestDefaultBudget)
+             : kSporadicBudget;
+}
+
+scheduler::ModuleSetup module_setup(const deploy::Module& module, const Placement& placement) {
+  scheduler::ModuleSetup setup;
+  setup.name = module.name;
+  setup.file = module.file.string();
+  setup.type = module.type;
+  setup.operation = module.operation;
+  setup.overrun = module.overrun;
+  setup.priority = module.priority;
+  setup.period_ns = module.period.count();
+  setup.offset_ns = module.offset.count();
+  if (module.operation != Operation::NonReal) {
+    const bool no_deadline = module.deadline.count() == 0;
+    setup.deadline_ns = (no_deadline ? module.period : module.deadline).count();
+    setup.budget_ns = budget_of(module).count();
+    setup.core = !placement.realtime ? -1 : module.core >= 0 ? module.core : placement.core;
+  } else {
+    setup.core = module.core;
+  }
+  for (const deploy::Property& property : module.properties) {
+    setup.properties.emplace_back(property.name, property.value);
+  }
+  return setup;
+}
+
+}  // namespace
+
+scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const deploy::CheckResult& check,
+                                        const std::string& node, const Placement& placement) {
+  // Without periodic modules the event handler still needs a beat.
+  constexpr deploy::Nanos kIdlePeriod = std::chrono::milliseconds(1);
+  scheduler::RunBlockSetup setup;
+  setup.node_name = node;
+  setup.config_file = config.file.string();
+  const bool empty = check.periodic.empty();
+  setup.basic_period_ns = (empty ? kIdlePeriod : check.table.basic_period).count();
+  setup.macro_period_ns = (empty ? kIdlePeriod : check.table.macro_period).count();
+  setup.slot_count = static_cast<std::uint32_t>(setup.macro_period_ns / setup.basic_period_ns);
+  for (const deploy::Module& module : config.modules) {
+    setup.modules.push_back(module_setup(module, placement));
+  }
+  return setup;
+}
+
+std::vector<scheduler::Task> make_tasks(const deploy::Config& config, const scheduler::RunBlockSetup& setup,
+                                        int default_core) {
+  std::vector<scheduler::Task> tasks;
+  for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
+    const deploy::Module& module = config.modules[i];
+    if (module.operation == Operation::NonReal) {
+      continue;
+    }
+    scheduler::Task task;
+    task.index = i;
+    task.type = module.type;
+    task.operation = module.operation;
+    task.overrun = module.overrun;
+    task.priority = module.priority;
+    task.core = module.core >= 0 ? module.core : default_core;
+    task.period_ns = module.period.count();
+    task.offset_ns = module.offset.count();
+    task.budget_ns = setup.modules[i].budget_ns;
+    task.after_base = module.after_base;
+    task.legacy_signal = module.signal;
+    tasks.push_back(task);
+  }
+  return tasks;
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a checked configuration to what the scheduler and the run block need. Pure translation.
+
+#pragma once
+
+#include <vector>
+
+#include "deploy/check.h"
+#include "scheduler/run_block_setup.h"
+#include "scheduler/task.h"
+
+namespace indurop::node {
+
+struct Placement {
+  int core = 0;           // of modules that name none
+  bool realtime = true;   // without real-time rights nothing is pinned
+};
+
+scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const deploy::CheckResult& check,
+                                        const std::string& node, const Placement& placement);
+
+// One task per periodic and sporadic module; run and condition of thread modules are left empty.
+std::vector<scheduler::Task> make_tasks(const deploy::Config& config, const scheduler::RunBlockSetup& setup,
+                                        int default_core);
+
+}  // namespace indurop::node
