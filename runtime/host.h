@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the node asks of libindurop, which it shares with the modules it loads: bind their variables to the node's
-// store, tell the library which module the current thread is running, and serve their shared functions.
+// store, tell the library which module the current thread is running, and serve their shared functions. The order is:
+// attach_process(), then for each module set_current_module(i) and dlopen, start() of all modules,
+// start_function_servers(), the run; at the end stop_function_servers(), stop() of all modules, dlclose,
+// detach_process().
 
 #pragma once
 
@@ -11,13 +14,14 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/message_ring.h"
 #include "scheduler/run_block.h"
 #include "vars/store.h"
 
 namespace indurop::runtime {
 
-// The calling thread runs code of module `index` from now on (irp::printf, property()). Real-time safe.
-// index = kNoModule: none.
+// The calling thread runs code of module `index` from now on (irp::printf, property(), and what the module offers while
+// it is being loaded). Real-time safe. index = kNoModule: none.
 inline constexpr std::uint32_t kNoModule = 0xFFFFFFFF;
 void set_current_module(std::uint32_t index) noexcept;
 std::uint32_t current_module() noexcept;
@@ -26,9 +30,20 @@ std::uint32_t current_module() noexcept;
 // `run` (borrowed) carries messages and properties. Not real-time safe.
 // Returns one line per variable whose type in the store differs, or that the store lacks.
 std::vector<std::string> attach_process(vars::Store& store, scheduler::RunBlock& run);
+// Requires that no module is running. Variables go back to private memory with initial values.
 void detach_process();
 
-// Lines that could not be bound since the last call (a module was loaded). Not real-time safe.
+// Lines that could not be bound since the last call (a module was loaded, a function could not be served).
+// Not real-time safe.
 std::vector<std::string> take_binding_errors();
+
+// Starts one thread per loaded module that implements shared functions; `fifo_priority` 0: normal scheduling, `core`
+// -1: not pinned. Calls of functions that are not served yet fail with NotFound. May be called again after more modules
+// were loaded. Not real-time safe. Errors: NoSpace, System (a thread could not be created).
+Status start_function_servers(int fifo_priority, int core);
+// Waits for the call in progress, if any; calls are refused from then on. Not real-time safe.
+void stop_function_servers();
+// For a thread that was thrown out of a module by a fault: gives up the call it was waiting in. Real-time safe.
+void release_calls_of_this_thread() noexcept;
 
 }  // namespace indurop::runtime

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
+#include <indurop/detail/mark.h>
 
 #include <cstring>
 

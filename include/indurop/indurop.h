@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a module author needs, besides <indurop/generated.h> with the shared variables of the project's .glb files.
+
+#pragma once
+
+#include <indurop/channel.h>
+#include <indurop/function.h>
+#include <indurop/irp.h>
+#include <indurop/lock.h>
+#include <indurop/module.h>
+#include <indurop/print.h>
+#include <indurop/result.h>
+#include <indurop/string.h>
+#include <indurop/var.h>
+
+#include <iostream>

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The calls of the chapter's namespace irp: printing from real-time code, the life of a periodic or sporadic process
+// (Figure 8), a module's properties, and what it may ask about its schedule.
+
+#pragma once
+
+#include <indurop/detail/mark.h>
+#include <indurop/detail/print_argument.h>
+#include <indurop/var.h>
+
+#include <chrono>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace irp {
+
+namespace detail {
+
+template <class... Value>
+int print(const char* format, const Value&... values) noexcept {
+  const indurop::detail::PrintArgument arguments[] = {indurop::detail::print_argument(values)..., {}};
+  return indurop_print(format, arguments, sizeof...(Value));
+}
+
+// Each returns false, and leaves `value` alone, if the module has no such property or (after one message) if its text
+// is no value of the type.
+bool property_signed(const char* name, std::int64_t min, std::int64_t max, std::int64_t& value);
+bool property_unsigned(const char* name, std::uint64_t max, std::uint64_t& value);
+bool property_real(const char* name, double& value);
+bool property_bool(const char* name, bool& value);
+// Null if the module has no such property. The text lives as long as the node's run.
+const char* property_text(const char* name);
+
+}  // namespace detail
+
+// Prints like the C function, in a module of a node through a ring in shared memory that the node empties: no lock, no
+// allocation, no system call, any thread. Outside a node it writes to stdout. Shared variables can be given as they
+// are: irp::printf("%u %s\n", tick, station.name). The format's conversions are those of C (not %n); the type comes
+// from the argument itself, so `%d` also prints a double or a 64-bit number, and a missing argument shows as its
+// conversion. A message is cut at 487 bytes and then ends with "[cut]".
+// Returns the length printed; -1 if the ring was full: the message is dropped and counted. Real-time safe in a node.
+template <class... Argument>
+int printf(const char* format, const Argument&... arguments) noexcept {
+  return detail::print(format, indurop::detail::value_of(arguments)...);
+}
+
+// Enrols this process as a module of its node: the one named by INDUROP_NODE (which the node sets for its modules),
+// else "local". Takes the module's priority, core and locked memory as far as the system permits, and binds the shared
+// variables. Call it once, first thing in main(). Not real-time safe.
+// Returns 0, else a negative indurop::Errc after a message on stderr saying what to do:
+//   NotFound      no such node runs, or it has no such module. waitPeriod() goes on trying
+//   Busy          another living process is enrolled for this module
+//   TypeMismatch  a variable this program uses has another layout in the node; waitPeriod() will end the program
+//   VersionMismatch, PermissionDenied, System
+int initPeriodExe();
+
+// Ends the current run and sleeps until the node releases the next one. True: run now. False: the node asks this
+// process to end; should it wait once more all the same (`while (1)`), it is ended here by exit(). A process outlives
+// its node: it goes on waiting and enrols again with the next node of the name. Real-time safe except for the sleep;
+// one thread only.
+bool waitPeriod();
+
+// Binds this process's shared variables to `node` now; "" = INDUROP_NODE, else "local". Done by itself when the program
+// is loaded, if the node exists by then, and by initPeriodExe(). A program that does neither calls this, again after a
+// new deployment. No other thread may be using shared variables meanwhile. Also starts serving the functions this
+// program implements. Not real-time safe. Returns 0 or a negative indurop::Errc: NotFound, PermissionDenied,
+// VersionMismatch, TypeMismatch (some variables were not bound; a message on stderr names them).
+int attach(const char* node = "");
+
+// Value of <property><value name="...">: of the calling module, or `fallback` if there is none or it does not fit the
+// type (then one message says so). Integers may be written 0x..., bool as true/false/1/0/on/off/yes/no.
+// Not real-time safe: read properties in start().
+template <class T>
+  requires std::is_arithmetic_v<T>
+T property(const char* name, T fallback) {
+  if constexpr (std::same_as<T, bool>) {
+    detail::property_bool(name, fallback);
+  } else if constexpr (std::floating_point<T>) {
+    auto value = static_cast<double>(fallback);
+    fallback = detail::property_real(name, value) ? static_cast<T>(value) : fallback;
+  } else if constexpr (std::signed_integral<T>) {
+    std::int64_t value = fallback;
+    detail::property_signed(name, std::numeric_limits<T>::min(), std::numeric_limits<T>::max(), value);
+    fallback = static_cast<T>(value);
+  } else {
+    std::uint64_t value = fallback;
+    detail::property_unsigned(name, std::numeric_limits<T>::max(), value);
+    fallback = static_cast<T>(value);
+  }
+  return fallback;
+}
+template <class T = std::string>
+  requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>)
+T property(const char* name, const char* fallback) {
+  const char* text = detail::property_text(name);
+  return T(text != nullptr ? text : fallback);
+}
+template <class T>
+  requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>)
+T property(const char* name, const T& fallback) {
+  const char* text = detail::property_text(name);
+  return text != nullptr ? T(text) : fallback;
+}
+
+// Nominal period of the calling module; 0 if it is not periodic or runs outside a node. Real-time safe.
+std::chrono::nanoseconds period() noexcept;
+// Number of the basic period of the current release, from 0; and the point on the time grid it belongs to, in ns of
+// CLOCK_MONOTONIC: the same for all modules released together, whenever each really started. Real-time safe.
+std::uint64_t tick() noexcept;
+std::int64_t release_ns() noexcept;
+// CLOCK_MONOTONIC now, in ns. Real-time safe.
+std::int64_t now_ns() noexcept;
+
+// True once the node wants this module to end: for the loops of non-real-time modules,
+// `while (!irp::stop_requested()) { ... }`. Outside a node always false. Cheap, but not real-time safe.
+bool stop_requested() noexcept;
+
+}  // namespace irp
+
+namespace indurop {
+using irp::attach;
+using irp::property;
+}  // namespace indurop

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "runtime/enrolment.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "rt/clock.h"
+#include "rt/machine.h"
+#include "rt/thread.h"
+#include "runtime/host.h"
+#include "runtime/process.h"
+
+namespace indurop::runtime {
+
+namespace {
+
+using scheduler::ModuleRecord;
+using scheduler::ModuleType;
+using scheduler::NodeState;
+using scheduler::RunBlock;
+
+constexpr std::int64_t kIdleNs = 100'000'000;       // how often a waiting process looks after its node
+constexpr unsigned kIdlesPerThoroughLook = 10;
+constexpr int kExitSchemaMismatch = 8;
+
+bool process_exists(std::int32_t pid) noexcept { return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM); }
+
+std::string_view text_of(const char* text, std::size_t size) { return {text, strnlen(text, size)}; }
+
+// The module this process is: what the node said, else the process module made of the same file.
+std::uint32_t find_module(const RunBlock& run) {
+  const std::uint32_t told = hot.process_module.load(std::memory_order_relaxed);
+  if (told < run.module_count && run.modules()[told].type == ModuleType::Process) {
+    return told;
+  }
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  for (std::uint32_t i = 0; i < run.module_count && !error; ++i) {
+    const ModuleRecord& record = run.modules()[i];
+    std::error_code different;
+    if (record.type == ModuleType::Process &&
+        std::filesystem::equivalent(text_of(record.file, sizeof record.file), self, different)) {
+      return i;
+    }
+  }
+  return kNoModule;
+}
+
+// With a limit on locked memory, locking what is still to come would make later allocations fail.
+bool may_lock_everything() noexcept {
+  rlimit limit{};
+  return ::geteuid() == 0 || (::getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+}
+
+}  // namespace
+
+Enrolment& Enrolment::get() {
+  static auto* enrolment = new Enrolment;  // NOLINT: used until the very end of the process
+  return *enrolment;
+}
+
+Status Enrolment::begin() {
+  node_ = default_node();
+  pid_ = ::getpid();
+  const Outcome outcome = enrol(Again::No);
+  if (outcome.code == Errc::Ok) {
+    return {};
+  }
+  std::fprintf(stderr, "indurop: initPeriodExe: %s\n", outcome.text.c_str());
+  if (outcome.code != Errc::NotFound) {
+    end_wanted_ = true;
+    exit_code_ = outcome.code == Errc::TypeMismatch || outcome.code == Errc::VersionMismatch ? kExitSchemaMismatch : 1;
+  }
+  phase_ = Phase::NoNode;
+  return Error{outcome.code, 0, "enrol with a node"};
+}
+
+Enrolment::Outcome Enrolment::enrol(Again again) {
+  if (!vars::valid_node_name(node_)) {
+    return {Errc::InvalidArgument, fmt::format("INDUROP_NODE is '{}', which is no node name ([A-Za-z0-9_-], at most 40)", node_)};
+  }
+  auto mapping = RunMapping::open(node_);
+  if (!mapping) {
+    const Errc code = mapping.error().code;
+    if (code == Errc::NotFound || code == Errc::Busy) {
+      return {Errc::NotFound, fmt::format("node '{}' does not run; start it with: indurop run module.xml --node {}", node_, node_)};
+    }
+    return {code, fmt::format("cannot use node '{}': {} ({})", node_, to_string(code), mapping.error().where)};
+  }
+  if (!mapping->node_alive() || is_ending(mapping->block())) {
+    return {Errc::NotFound, fmt::format("node '{}' does not run any more; start it with: indurop run module.xml --node {}", node_, node_)};
+  }
+  if (again == Again::Yes && mapping->block().state.load(std::memory_order_acquire) != NodeState::Running) {
+    return {Errc::NotFound, {}};  // it is still starting: wait whether it brings its own process for this module
+  }
+  std::size_t unbound = 0;
+  if (const Status status = Process::get().attach(node_, unbound); !status) {
+    return {status.error().code, fmt::format("cannot use the variables of node '{}': {} ({})", node_,
+                                             to_string(status.error().code), status.error().where)};
+  }
+  if (unbound > 0) {
+    return {Errc::TypeMismatch, fmt::format("this program does not fit node '{}', see above", node_)};
+  }
+  return take_slot(*Process::get().adopt_run(std::move(mapping).value()), again);
+}
+
+Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
+  RunBlock& run = mapping.block();
+  const std::uint32_t index = find_module(run);
+  if (index == kNoModule) {
+    return {Errc::NotFound, fmt::format("node '{}' has no process module for this program: name it in {} with "
+                                        "<moduletype>process</moduletype>", node_,
+                                        text_of(run.config_file, sizeof run.config_file))};
+  }
+  ModuleRecord& record = run.modules()[index];
+  auto& slot = run.process_slots()[index];
+  const std::int32_t launched = record.pid.load(std::memory_order_acquire);
+  const bool is_launched = launched == pid_ || (launched > 0 && launched == ::getppid());
+  std::int32_t holder = slot.pid.load(std::memory_order_acquire);
+  if (!is_launched) {
+    const bool theirs = again == Again::Yes && launched > 0 && process_exists(launched);
+    if (theirs || (holder != pid_ && process_exists(holder))) {
+      return {Errc::Busy, fmt::format("module '{}' of node '{}' is process {}, which is running; this one ends",
+                                      text_of(record.name, sizeof record.name), node_, theirs ? launched : holder)};
+    }
+  }
+  hot.process_module.store(index, std::memory_order_relaxed);
+  // Nothing that an earlier process of this module left undone is ours.
+  seen_ = slot.released.load(std::memory_order_acquire);
+  slot.done.store(seen_, std::memory_order_release);
+  running_ = false;
+  take_rights(record);
+  slot.obtained_fifo.store(rt::fifo_priority(), std::memory_order_relaxed);
+  if (!slot.pid.compare_exchange_strong(holder, pid_, std::memory_order_acq_rel)) {
+    return {Errc::Busy, fmt::format("module '{}' of node '{}' was just taken by process {}",
+                                    text_of(record.name, sizeof record.name), node_, holder)};
+  }
+  mapping_ = &mapping;
+  slot_ = &slot;
+  phase_ = Phase::Enrolled;
+  idle_ = 0;
+  (void)Process::get().servers().start(record.fifo_priority, record.core);
+  return {};
+}
+
+void Enrolment::take_rights(const ModuleRecord& record) {
+  if (record.core >= 0) {
+    (void)rt::pin_to_core(record.core);
+  }
+  if (record.fifo_priority > 0 && rt::set_fifo(record.fifo_priority) && may_lock_everything()) {
+    (void)rt::lock_memory();
+  }
+  if (rt::fifo_priority() == 0) {
+    rt::request_exact_timers();
+  }
+}
+
+void Enrolment::finish_run() noexcept {
+  if (running_) {
+    running_ = false;
+    slot_->end_ns.store(rt::now_ns(), std::memory_order_relaxed);
+    slot_->done.store(seen_, std::memory_order_release);
+  }
+}
+
+bool Enrolment::take_release() noexcept {
+  if (slot_->released.load(std::memory_order_acquire) <= seen_) {
+    return false;
+  }
+  slot_->start_ns.store(rt::now_ns(), std::memory_order_relaxed);
+  ++seen_;
+  running_ = true;
+  idle_ = 0;
+  release_tick_.store(slot_->release_tick.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  release_ns_.store(slot_->release_ns.load(std::memory_order_relaxed), std::memory_order_relaxed);
+  return true;
+}
+
+bool Enrolment::wait() {
+  if (phase_ == Phase::Ending) {
+    std::exit(exit_code_);  // NOLINT(concurrency-mt-unsafe): the module ignored that it should end
+  }
+  if (phase_ == Phase::None) {
+    (void)begin();
+  }
+  if (phase_ == Phase::Enrolled) {
+    finish_run();
+  }
+  for (;;) {
+    if (end_wanted_) {
+      phase_ = Phase::Ending;
+      return false;
+    }
+    if (phase_ == Phase::NoNode) {
+      rt::sleep_until(rt::now_ns() + kIdleNs);
+      try_again();
+      continue;
+    }
+    if (slot_->stop.load(std::memory_order_acquire) != 0) {
+      end_wanted_ = true;
+    } else if (take_release()) {
+      (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake us
+      Process::get().refresh();
+      return true;
+    } else if (slot_->wake.wait_until(rt::now_ns() + kIdleNs)) {
+      if (take_release()) {
+        Process::get().refresh();
+        return true;
+      }
+    } else {
+      look_after_node();
+    }
+  }
+}
+
+void Enrolment::look_after_node() {
+  ++idle_;
+  Process::get().refresh();
+  if (slot_->pid.load(std::memory_order_acquire) != pid_) {
+    std::fprintf(stderr, "indurop: node '%s' has another process for this module; this one ends\n", node_.c_str());
+    end_wanted_ = true;
+    return;
+  }
+  const std::int32_t node_pid = mapping_->block().node_pid.load(std::memory_order_acquire);
+  const bool alive = idle_ % kIdlesPerThoroughLook == 0 ? mapping_->node_alive() : process_exists(node_pid);
+  if (!alive) {
+    std::fprintf(stderr, "indurop: node '%s' is gone; waiting for it to come back\n", node_.c_str());
+    phase_ = Phase::NoNode;
+  }
+}
+
+void Enrolment::try_again() {
+  const Outcome outcome = enrol(Again::Yes);
+  if (outcome.code == Errc::Ok || outcome.code == Errc::NotFound) {
+    return;
+  }
+  std::fprintf(stderr, "indurop: waitPeriod: %s\n", outcome.text.c_str());
+  end_wanted_ = true;
+  exit_code_ = outcome.code == Errc::TypeMismatch || outcome.code == Errc::VersionMismatch ? kExitSchemaMismatch
+               : outcome.code == Errc::Busy                                                  ? 0
+                                                                                             : 1;
+}
+
+bool Enrolment::stop_requested() noexcept {
+  const RunBlock* run = hot.run.load(std::memory_order_acquire);
+  if (run == nullptr) {
+    return false;
+  }
+  const std::uint32_t index = current_module();
+  if (is_ending(*run) || (index < run->module_count && run->process_slots()[index].stop.load(std::memory_order_acquire) != 0)) {
+    return true;
+  }
+  if (Process::get().hosted()) {
+    return false;
+  }
+  // A node that was killed cannot ask for anything; the next one brings its own processes.
+  const std::int64_t now = rt::now_ns();
+  if (now < next_look_ns_.load(std::memory_order_relaxed)) {
+    return false;
+  }
+  next_look_ns_.store(now + kIdleNs, std::memory_order_relaxed);
+  Process::get().refresh();
+  return !process_exists(run->node_pid.load(std::memory_order_acquire));
+}
+
+}  // namespace indurop::runtime

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// This process as a periodic or sporadic module of a node: finding its place in the run block, being released, noticing
+// that the node has gone, and finding the next one.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "runtime/run_mapping.h"
+#include "scheduler/run_block.h"
+
+namespace indurop::runtime {
+
+class Enrolment {
+ public:
+  static Enrolment& get();
+
+  // First enrolment, with messages. Errors as irp::initPeriodExe().
+  Status begin();
+  // As irp::waitPeriod().
+  bool wait();
+  // Cheap look whether this process should end; for modules that never wait.
+  bool stop_requested() noexcept;
+
+  // Of the current release; 0 before the first.
+  [[nodiscard]] std::uint64_t release_tick() const noexcept { return release_tick_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::int64_t release_ns() const noexcept { return release_ns_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool enrolled() const noexcept { return phase_ != Phase::None; }
+
+ private:
+  enum class Phase {
+    None,      // initPeriodExe() not called
+    NoNode,    // called, but there is no node to enrol with
+    Enrolled,
+    Ending,    // waitPeriod() has said false
+  };
+  enum class Again { No, Yes };
+
+  // What a refused enrolment prints: what, and what to do.
+  struct Outcome {
+    Errc code = Errc::Ok;
+    std::string text;
+  };
+  Outcome enrol(Again again);
+  Outcome take_slot(RunMapping& mapping, Again again);
+  void take_rights(const scheduler::ModuleRecord& record);
+  void finish_run() noexcept;
+  bool take_release() noexcept;
+  void look_after_node();
+  void try_again();
+  bool end(int exit_code, const char* why);
+
+  Phase phase_ = Phase::None;
+  std::string node_;
+  RunMapping* mapping_ = nullptr;
+  scheduler::ProcessSlot* slot_ = nullptr;
+  std::int32_t pid_ = 0;
+  std::uint64_t seen_ = 0;       // last release taken
+  bool running_ = false;
+  int exit_code_ = 0;
+  bool end_wanted_ = false;
+  unsigned idle_ = 0;            // waits in a row that no release ended
+  std::atomic<std::uint64_t> release_tick_{0};
+  std::atomic<std::int64_t> release_ns_{0};
+  std::atomic<std::int64_t> next_look_ns_{0};
+};
+
+}  // namespace indurop::runtime

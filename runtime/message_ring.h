@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text from real-time code on its way to a normal thread: one ring per module in the run block, any number of
+// producers, one consumer. An entry's sequence is 2 * lap when free and 2 * lap + 1 when filled, so a zeroed ring is an
+// empty one. A producer that dies between taking a ticket and filling its entry delays the reader, no longer.
+
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "scheduler/run_block.h"
+
+namespace indurop::runtime {
+
+// Puts a message of module `module` (kNoModule: of the node) into its ring. False if it is full: counted in the ring
+// and in the module's lost_messages. Longer text is cut at the entry's size. Real-time safe, any thread, any process.
+bool push_message(scheduler::RunBlock& run, std::uint32_t module, std::string_view text, std::int64_t time_ns) noexcept;
+
+struct Message {
+  std::uint32_t module = 0;  // index, or kNoModule
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC
+  std::string_view text;     // as printed, usually with a newline; valid until the next call
+};
+
+// Takes the messages of all rings of a run block out. One reader per run block. Not real-time safe.
+class MessageReader {
+ public:
+  explicit MessageReader(scheduler::RunBlock& run);
+
+  // The next message, ring after ring, in order within each ring. False if there is none now.
+  bool next(Message& message, std::int64_t now_ns);
+  // Messages that were dropped because a ring was full, or never finished by a producer that died.
+  [[nodiscard]] std::uint64_t lost() const noexcept;
+
+ private:
+  struct Stuck {
+    std::uint64_t ticket = 0;
+    std::int64_t since_ns = 0;
+  };
+  bool next_of(std::uint32_t ring, Message& message, std::int64_t now_ns);
+
+  scheduler::RunBlock& run_;
+  std::vector<Stuck> stuck_;
+  std::uint32_t at_ = 0;
+  scheduler::MessageEntry copy_{};
+};
+
+// How long a reader waits for an entry somebody has begun to fill.
+inline constexpr std::int64_t kUnfinishedMessageNs = 1'000'000'000;
+
+}  // namespace indurop::runtime

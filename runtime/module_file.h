@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the file a table of variables came from says about them, for messages: read only when something does not fit.
+
+#pragma once
+
+#include <string>
+
+#include "schema/elf.h"
+#include "schema/schema.h"
+
+namespace indurop::runtime {
+
+struct ModuleFacts {
+  std::string path;  // "" if unknown
+  bool readable = false;
+  schema::ModuleFile file;
+  schema::Schema schema;
+
+  [[nodiscard]] const schema::Variable* variable(std::uint64_t name_hash) const noexcept;
+  // Does the code of the file read or write the variable? True if the file cannot tell.
+  [[nodiscard]] bool uses(std::uint64_t name_hash) const noexcept;
+};
+
+// `address`: anything inside the loaded file. Not real-time safe.
+ModuleFacts read_module_of(const void* address);
+// Path of the loaded file that holds `address`, "" if unknown.
+std::string path_of(const void* address);
+
+}  // namespace indurop::runtime

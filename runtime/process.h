@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What libindurop knows in this process: variables, the store they are bound to, the node's run block, the module this
+// process is. One object per process, because generated headers register themselves when they are loaded; it lives
+// until the process ends.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/attachment.h"
+#include "runtime/call_server.h"
+#include "runtime/ref_tables.h"
+#include "runtime/run_mapping.h"
+
+namespace indurop::runtime {
+
+// What real-time code looks at: plain words, valid from the first instruction of the process on.
+struct Hot {
+  std::atomic<Attachment*> attachment{nullptr};
+  std::atomic<scheduler::RunBlock*> run{nullptr};
+  std::atomic<std::uint32_t> process_module{0xFFFFFFFF};  // kNoModule
+};
+extern constinit Hot hot;
+
+// INDUROP_NODE, else "local".
+std::string default_node();
+
+class Process {
+ public:
+  static Process& get();
+
+  // At load: binds to the default node if it is there. Later ones join whatever the process is bound to.
+  void register_refs(abi::Ref* refs, std::uint32_t count);
+  void unregister_refs(const abi::Ref* refs);
+
+  // Binds to `node` unless that is the case already and its block is the current one. `unbound`: variables the program
+  // uses that could not be bound; the first time one of them is met it goes to stderr. Errors: those of Store::attach.
+  Status attach(const std::string& node, std::size_t& unbound);
+  // Attaches again if the block was replaced. Otherwise costs one load.
+  void refresh() noexcept;
+
+  // Messages and properties go through this run block from now on; the one before stays mapped for threads still in it.
+  RunMapping* adopt_run(RunMapping&& mapping);
+
+  // The node's own process.
+  std::vector<std::string> host(vars::Store& store, scheduler::RunBlock& run);
+  void unhost();
+  [[nodiscard]] bool hosted() const noexcept { return hosted_.load(std::memory_order_acquire); }
+
+  // Remembers a line for take_errors() in the node, prints it to stderr elsewhere; each text once.
+  void report(const std::string& text);
+  std::vector<std::string> take_errors();
+  // True the first time it is asked about `text`.
+  bool first_time(const std::string& text);
+
+  FunctionServers& servers() noexcept { return servers_; }
+
+ private:
+  Process();
+  std::size_t report_all(const std::vector<BindingProblem>& problems);
+  Status attach_locked(const std::string& node, std::size_t& unbound);
+
+  std::recursive_mutex mutex_;
+  RefTables tables_;
+  bool tried_at_load_ = false;
+  std::atomic<bool> hosted_{false};
+  std::deque<std::unique_ptr<Attachment>> attachments_;  // the newest is in use
+  std::deque<std::unique_ptr<RunMapping>> runs_;
+  std::vector<std::string> errors_;
+  std::set<std::string> reported_;
+  FunctionServers servers_;
+};
+
+}  // namespace indurop::runtime

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// irp::property: the text of the module's properties in the run block, as numbers.
+
+#include <indurop/irp.h>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include "runtime/host.h"
+#include "runtime/process.h"
+
+namespace irp::detail {
+
+namespace {
+
+namespace runtime = indurop::runtime;
+
+struct Module {
+  std::string_view name;
+  std::string_view properties;  // "name\0value\0name\0value\0"
+};
+
+std::optional<Module> calling_module() {
+  runtime::Process::get();  // knows INDUROP_MODULE
+  const auto* run = runtime::hot.run.load(std::memory_order_acquire);
+  const std::uint32_t index = runtime::current_module();
+  if (run == nullptr || index >= run->module_count) {
+    return {};
+  }
+  const auto& record = run->modules()[index];
+  return Module{{record.name, strnlen(record.name, sizeof record.name)},
+                {run->at<char>(record.property_offset), record.property_size}};
+}
+
+// Cuts one NUL-terminated text off the front; empty view without data if there is none.
+std::string_view take_text(std::string_view& from) {
+  const std::size_t end = from.find('\0');
+  if (end == std::string_view::npos) {
+    return {};
+  }
+  const std::string_view text = from.substr(0, end);
+  from.remove_prefix(end + 1);
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t\r\n");
+  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+}
+
+bool complain(const char* name, std::string_view text, std::string_view expected) {
+  const auto module = calling_module();
+  const std::string line = fmt::format("property '{}' is \"{}\", expected {}: using the default", name, text, expected);
+  if (runtime::Process::get().first_time(fmt::format("{}: {}", module ? module->name : "", line))) {
+    irp::printf("%s\n", line);
+  }
+  return false;
+}
+
+// Integer in C notation. The sign is the caller's business.
+bool parse_unsigned(std::string_view text, std::uint64_t& value) {
+  const bool hex = text.starts_with("0x") || text.starts_with("0X");
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + (hex ? 2 : 0), end, value, hex ? 16 : 10);
+  return error == std::errc{} && stop == end;
+}
+
+}  // namespace
+
+const char* property_text(const char* name) {
+  const auto module = calling_module();
+  if (!module) {
+    return nullptr;
+  }
+  std::string_view rest = module->properties;
+  while (!rest.empty()) {
+    const std::string_view key = take_text(rest);
+    const std::string_view value = take_text(rest);
+    if (value.data() == nullptr) {
+      break;
+    }
+    if (key == name) {
+      return value.data();
+    }
+  }
+  return nullptr;
+}
+
+bool property_signed(const char* name, std::int64_t min, std::int64_t max, std::int64_t& value) {
+  const char* text = property_text(name);
+  if (text == nullptr) {
+    return false;
+  }
+  std::string_view digits = trimmed(text);
+  const bool negative = digits.starts_with('-');
+  digits.remove_prefix(negative || digits.starts_with('+') ? 1 : 0);
+  std::uint64_t magnitude = 0;
+  const std::uint64_t limit = negative ? std::uint64_t{0} - static_cast<std::uint64_t>(min) : static_cast<std::uint64_t>(max);
+  if (!parse_unsigned(digits, magnitude) || magnitude > limit) {
+    return complain(name, text, fmt::format("a whole number from {} to {}", min, max));
+  }
+  value = static_cast<std::int64_t>(negative ? std::uint64_t{0} - magnitude : magnitude);
+  return true;
+}
+
+bool property_unsigned(const char* name, std::uint64_t max, std::uint64_t& value) {
+  const char* text = property_text(name);
+  if (text == nullptr) {
+    return false;
+  }
+  std::string_view digits = trimmed(text);
+  digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
+  std::uint64_t parsed = 0;
+  if (!parse_unsigned(digits, parsed) || parsed > max) {
+    return complain(name, text, fmt::format("a whole number from 0 to {}", max));
+  }
+  value = parsed;
+  return true;
+}
+
+bool property_real(const char* name, double& value) {
+  const char* text = property_text(name);
+  if (text == nullptr) {
+    return false;
+  }
+  std::string_view digits = trimmed(text);
+  digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
+  double parsed = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), parsed);
+  if (error != std::errc{} || stop != digits.data() + digits.size() || !std::isfinite(parsed)) {
+    return complain(name, text, "a number");
+  }
+  value = parsed;
+  return true;
+}
+
+bool property_bool(const char* name, bool& value) {
+  const char* text = property_text(name);
+  if (text == nullptr) {
+    return false;
+  }
+  const std::string_view word = trimmed(text);
+  for (const std::string_view yes : {"true", "1", "on", "yes"}) {
+    if (word == yes) {
+      value = true;
+      return true;
+    }
+  }
+  for (const std::string_view no : {"false", "0", "off", "no"}) {
+    if (word == no) {
+      value = false;
+      return true;
+    }
+  }
+  return complain(name, text, "true or false");
+}
+
+}  // namespace irp::detail

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of variables of everything loaded into this process, and where each variable's entry is.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/attachment.h"
+#include "runtime/module_file.h"
+#include "runtime/private_memory.h"
+
+namespace indurop::runtime {
+
+// A variable that stays in private memory although there is a store.
+struct BindingProblem {
+  std::string text;   // "variable knu::Robot::joints: this program was built with ...: rebuild ..."
+  bool used = false;  // the code of the module accesses it; otherwise nobody would notice
+};
+
+class RefTables {
+ public:
+  // Makes the rows known and binds them, to private memory if `to` is null. Returns what did not fit.
+  std::vector<BindingProblem> add(abi::Ref* refs, std::uint32_t count, const Attachment* to);
+  void remove(const abi::Ref* refs);
+  // Binds all rows again.
+  std::vector<BindingProblem> bind(const Attachment* to);
+  [[nodiscard]] bool empty() const noexcept { return tables_.empty(); }
+
+ private:
+  struct Table {
+    abi::Ref* refs;
+    std::uint32_t count;
+    std::optional<ModuleFacts> facts;  // read when first needed
+  };
+  void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);
+  static BindingProblem describe(Table& table, const abi::Ref& ref, const Attachment& to);
+
+  std::vector<Table> tables_;
+  PrivateMemory private_;
+};
+
+}  // namespace indurop::runtime

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The calls of <indurop/irp.h> about the life of a process and the schedule.
+
+#include <indurop/irp.h>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "rt/clock.h"
+#include "runtime/enrolment.h"
+#include "runtime/host.h"
+#include "runtime/process.h"
+
+namespace irp {
+
+namespace {
+
+namespace runtime = indurop::runtime;
+using indurop::Errc;
+using indurop::scheduler::ModuleRecord;
+using indurop::scheduler::RunBlock;
+
+int negative(Errc code) noexcept { return -static_cast<int>(code); }
+
+const ModuleRecord* calling_module(const RunBlock* run) noexcept {
+  const std::uint32_t index = runtime::current_module();
+  return run != nullptr && index < run->module_count ? &run->modules()[index] : nullptr;
+}
+
+const RunBlock* current_run() noexcept { return runtime::hot.run.load(std::memory_order_acquire); }
+
+// The basic period whose grid point released the calling thread module: the last one that is its own.
+std::uint64_t own_tick(const RunBlock& run, const ModuleRecord* record) noexcept {
+  const std::uint64_t begun = run.tick.load(std::memory_order_acquire);
+  const std::uint64_t now = begun > 0 ? begun - 1 : 0;
+  if (record == nullptr || record->period_ns <= 0 || run.basic_period_ns <= 0) {
+    return now;
+  }
+  const auto every = static_cast<std::uint64_t>(record->period_ns / run.basic_period_ns);
+  const auto offset = static_cast<std::uint64_t>(record->offset_ns / run.basic_period_ns);
+  return now < offset || every == 0 ? now : now - (now - offset) % every;
+}
+
+}  // namespace
+
+int initPeriodExe() { return negative(runtime::Enrolment::get().begin().error().code); }
+
+bool waitPeriod() { return runtime::Enrolment::get().wait(); }
+
+int attach(const char* node) {
+  const std::string name = node == nullptr || *node == '\0' ? runtime::default_node() : node;
+  auto& process = runtime::Process::get();
+  std::size_t unbound = 0;
+  if (const auto status = process.attach(name, unbound); !status) {
+    process.report(fmt::format("cannot attach to node '{}': {} ({})", name, to_string(status.error().code),
+                               status.error().where));
+    return negative(status.error().code);
+  }
+  if (!process.hosted()) {
+    (void)process.servers().start(0, -1);
+  }
+  return unbound > 0 ? negative(Errc::TypeMismatch) : 0;
+}
+
+std::chrono::nanoseconds period() noexcept {
+  const ModuleRecord* record = calling_module(current_run());
+  return std::chrono::nanoseconds(record != nullptr ? record->period_ns : 0);
+}
+
+std::uint64_t tick() noexcept {
+  const auto& enrolment = runtime::Enrolment::get();
+  if (enrolment.enrolled()) {
+    return enrolment.release_tick();
+  }
+  const RunBlock* run = current_run();
+  return run != nullptr ? own_tick(*run, calling_module(run)) : 0;
+}
+
+std::int64_t release_ns() noexcept {
+  const auto& enrolment = runtime::Enrolment::get();
+  if (enrolment.enrolled()) {
+    return enrolment.release_ns();
+  }
+  const RunBlock* run = current_run();
+  if (run == nullptr) {
+    return 0;
+  }
+  return run->epoch_ns + static_cast<std::int64_t>(own_tick(*run, calling_module(run))) * run->basic_period_ns;
+}
+
+std::int64_t now_ns() noexcept { return indurop::rt::now_ns(); }
+
+bool stop_requested() noexcept { return runtime::Enrolment::get().stop_requested(); }
+
+}  // namespace irp

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the inline code of generated headers calls for its variables.
+
+#include <indurop/detail/abi.h>
+#include <indurop/lock.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include "runtime/process.h"
+#include "vars/ring.h"
+
+namespace {
+
+constexpr int kExitSchemaMismatch = 8;
+
+}  // namespace
+
+extern "C" {
+
+void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::uint32_t abi_version) {
+  if (abi_version != indurop::abi::kVersion) {
+    // The rows have another layout, so the variables cannot even be given private memory.
+    std::fprintf(stderr, "indurop: this program was built for version %u of the variables' layout, libindurop.so has %u: rebuild it\n",
+                 abi_version, indurop::abi::kVersion);
+    std::_Exit(kExitSchemaMismatch);
+  }
+  indurop::runtime::Process::get().register_refs(refs, count);
+}
+
+void indurop_unregister_refs(indurop::abi::Ref* refs) { indurop::runtime::Process::get().unregister_refs(refs); }
+
+void* indurop_begin_write(indurop::abi::RingHeader* ring, std::uint32_t offset, std::uint32_t length) noexcept {
+  return indurop::vars::begin_write(*ring, offset, length);
+}
+void* indurop_begin_edit(indurop::abi::RingHeader* ring) noexcept { return indurop::vars::begin_edit(*ring); }
+void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept { indurop::vars::commit(*ring); }
+void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept { indurop::vars::abort(*ring); }
+
+void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
+                       std::uint32_t length) noexcept {
+  indurop::vars::read_slow(const_cast<indurop::abi::RingHeader&>(*ring), to, offset, length);  // NOLINT: mapped writable
+}
+
+void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound) {
+  throw std::out_of_range(std::string(variable) + ": index " + std::to_string(index) + " is beyond its " +
+                          std::to_string(bound) + " elements");
+}
+
+void indurop_lock_fault(const char* variable) {
+  throw std::runtime_error(std::string(variable) +
+                           ": not locked: its lock was not free within 5 ms, or this thread holds it already");
+}
+}
