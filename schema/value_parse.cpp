@@ -7,57 +7,32 @@
 #include <charconv>
 #include <limits>
 
+#include "schema/cursor.h"
 #include "schema/leaf.h"
 #include "schema/nearest.h"
 
 namespace indurop::schema {
 namespace {
 
-using std::string_view_literals::operator""sv;
-
-bool is_space(char c) noexcept {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
-// One character of a quoted text: a byte as it is (or written \xNN), or a Unicode character written \uNNNN.
-struct Unit {
-  std::uint32_t code = 0;
-  bool unicode = false;
-};
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto tail = [code](unsigned shift) { return static_cast<char>(0x80U | ((code >> shift) & 0x3FU)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0U | (code >> 6U));
-    out += tail(0);
-  } else {
-    out += static_cast<char>(0xE0U | (code >> 12U));
-    out += tail(6);
-    out += tail(0);
-  }
-}
-
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  explicit Parser(std::string_view text) : cursor_(text) {}
 
   // The whole text is one value of `type`. False: code and message say why.
   bool whole(const Type& type, std::uint8_t* to) {
-    skip_spaces();
-    if (type.dims.empty() && type.base == Base::Text && peek() != '"' && peek() != '\'') {
-      return store_text(type, std::string(text_), to);
+    const std::string_view text = cursor_.all();
+    if (type.dims.empty() && type.base == Base::Text && !cursor_.at_quote()) {
+      return store_text(type, std::string(text), to);
     }
-    if (type.dims.empty() && type.base == Base::Char && text_.size() == 1 && (text_[0] < '0' || text_[0] > '9')) {
-      *to = static_cast<std::uint8_t>(text_[0]);
+    if (type.dims.empty() && type.base == Base::Char && text.size() == 1 && (text[0] < '0' || text[0] > '9')) {
+      *to = static_cast<std::uint8_t>(text[0]);
       return true;
     }
     if (!value(type, 0, to)) {
       return false;
     }
-    skip_spaces();
-    return at_ == text_.size() || syntax(fmt::format("'{}' behind the value", text_.substr(at_, 20)));
+    cursor_.skip_spaces();
+    return cursor_.at_end() || syntax(fmt::format("'{}' behind the value", cursor_.rest().substr(0, 20)));
   }
 
   Errc code = Errc::Ok;
@@ -70,30 +45,12 @@ class Parser {
     return false;
   }
   bool syntax(const std::string& what) {
-    return fail(Errc::InvalidArgument, fmt::format("{} (column {})", what, at_ + 1));
+    return fail(Errc::InvalidArgument, fmt::format("{} (column {})", what, cursor_.column()));
   }
 
-  [[nodiscard]] char peek() const noexcept { return at_ < text_.size() ? text_[at_] : '\0'; }
-  void skip_spaces() noexcept {
-    while (at_ < text_.size() && is_space(text_[at_])) {
-      ++at_;
-    }
-  }
-  bool take(char c) noexcept {
-    skip_spaces();
-    const bool there = at_ < text_.size() && text_[at_] == c;
-    at_ += there ? 1 : 0;
-    return there;
-  }
-  // A run of letters up to a separator.
-  std::string_view word() noexcept {
-    skip_spaces();
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_space(text_[at_]) &&
-           std::string_view(",[]{}\"'").find(text_[at_]) == std::string_view::npos) {
-      ++at_;
-    }
-    return text_.substr(begin, at_ - begin);
+  bool quoted(std::string& to) {
+    const char* wrong = cursor_.quoted(to);
+    return wrong == nullptr || syntax(wrong);
   }
 
   bool value(const Type& type, std::size_t dim, std::uint8_t* to) {
@@ -139,15 +96,15 @@ class Parser {
 
   bool array(const Type& type, std::size_t dim, std::uint8_t* to) {
     const std::uint32_t wanted = type.dims[dim];
-    if (!take('[')) {
+    if (!cursor_.take('[')) {
       return syntax(fmt::format("expected '[' and {} values of {}", wanted, element_name(type)));
     }
     const std::uint64_t stride = stride_of(type, dim);
     const std::string outer = path_;
     for (std::uint32_t i = 0; i < wanted; ++i) {
-      if (i != 0 && !take(',')) {
-        return peek() == ']' ? syntax(fmt::format("{} values where there must be {}", i, wanted))
-                             : syntax("expected ',' or ']'");
+      if (i != 0 && !cursor_.take(',')) {
+        return cursor_.peek() == ']' ? syntax(fmt::format("{} values where there must be {}", i, wanted))
+                                     : syntax("expected ',' or ']'");
       }
       path_ = fmt::format("{}[{}]", outer, i);
       if (!value(type, dim + 1, to + i * stride)) {
@@ -155,10 +112,10 @@ class Parser {
       }
       path_ = outer;
     }
-    if (take(']')) {
+    if (cursor_.take(']')) {
       return true;
     }
-    return peek() == ',' ? syntax(fmt::format("more than {} values", wanted)) : syntax("expected ']'");
+    return cursor_.peek() == ',' ? syntax(fmt::format("more than {} values", wanted)) : syntax("expected ']'");
   }
 
   static std::string element_name(const Type& type) {
@@ -168,11 +125,11 @@ class Parser {
   }
 
   bool fields(const Type& type, std::uint8_t* to) {
-    if (!take('{')) {
+    if (!cursor_.take('{')) {
       return syntax(fmt::format("expected '{{' and the fields of {}, like {{{}: ...}}", display_name(type),
                                 type.fields.empty() ? "" : type.fields.front().name));
     }
-    if (take('}')) {
+    if (cursor_.take('}')) {
       return true;
     }
     std::vector<const Field*> seen;
@@ -191,23 +148,19 @@ class Parser {
         return false;
       }
       path_ = outer;
-    } while (take(','));
-    return take('}') || syntax("expected ',' or '}'");
+    } while (cursor_.take(','));
+    return cursor_.take('}') || syntax("expected ',' or '}'");
   }
 
   // Reads "name:"; null if there is no such field.
   const Field* field_name(const Type& type) {
-    skip_spaces();
     std::string name;
-    if (peek() == '"') {
+    if (cursor_.at_quote()) {
       if (!quoted(name)) {
         return nullptr;
       }
     } else {
-      while (at_ < text_.size() && !is_space(text_[at_]) &&
-             std::string_view(":,{}[]").find(text_[at_]) == std::string_view::npos) {
-        name += text_[at_++];
-      }
+      name = cursor_.word(':');
     }
     const auto found =
         std::find_if(type.fields.begin(), type.fields.end(), [&](const Field& field) { return field.name == name; });
@@ -222,7 +175,7 @@ class Parser {
                          near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : "'" + near + "'?"));
       return nullptr;
     }
-    if (!take(':')) {
+    if (!cursor_.take(':')) {
       syntax(fmt::format("expected ':' after field '{}'", name));
       return nullptr;
     }
@@ -230,7 +183,7 @@ class Parser {
   }
 
   bool boolean(std::uint8_t* to) {
-    const std::string_view text = word();
+    const std::string_view text = cursor_.word();
     if (text != "true" && text != "false" && text != "0" && text != "1") {
       return fail(Errc::InvalidArgument, fmt::format("'{}' is no bool; write true, false, 1 or 0", text));
     }
@@ -253,7 +206,7 @@ class Parser {
 
   template <class T>
   bool integer(const Type& type, std::uint8_t* to) {
-    const std::string_view text = word();
+    const std::string_view text = cursor_.word();
     bool negative = false;
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);
@@ -274,7 +227,7 @@ class Parser {
 
   template <class T>
   bool real(const Type& type, std::uint8_t* to) {
-    const std::string_view text = word();
+    const std::string_view text = cursor_.word();
     const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
     const std::string_view digits = text.substr(plus ? 1 : 0);
     T number{};
@@ -297,12 +250,12 @@ class Parser {
 
   bool enumerator(const Type& type, std::uint8_t* to) {
     std::string text;
-    if (skip_spaces(), peek() == '"') {
+    if (cursor_.at_quote()) {
       if (!quoted(text)) {
         return false;
       }
     } else {
-      text = word();
+      text = cursor_.word();
     }
     const std::size_t scope = text.rfind("::");
     const std::string name = scope == std::string::npos ? text : text.substr(scope + 2);
@@ -331,20 +284,15 @@ class Parser {
   }
 
   bool character(std::uint8_t* to) {
-    skip_spaces();
-    if (peek() == '\'' || peek() == '"') {
-      const char quote = text_[at_++];
+    if (cursor_.at_quote()) {
       Unit c;
-      if (peek() == quote || !unit(c)) {
-        return code == Errc::Ok ? syntax("expected one character between the quotes") : false;
-      }
-      if (!take_exactly(quote) || c.code > 0xFF) {
-        return syntax("a char holds one byte; expected one character between the quotes");
+      if (const char* wrong = cursor_.quoted_unit(c)) {
+        return syntax(wrong);
       }
       *to = static_cast<std::uint8_t>(c.code);
-      return true;
+      return c.code <= 0xFF || fail(Errc::OutOfRange, "a char holds one byte");
     }
-    const std::string_view text = word();
+    const std::string_view text = cursor_.word();
     bool negative = false;
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);
@@ -356,65 +304,6 @@ class Parser {
     }
     *to = static_cast<std::uint8_t>(negative ? 0 - amount : amount);
     return true;
-  }
-
-  bool take_exactly(char c) noexcept {
-    const bool there = at_ < text_.size() && text_[at_] == c;
-    at_ += there ? 1 : 0;
-    return there;
-  }
-
-  bool quoted(std::string& to) {
-    skip_spaces();
-    const char quote = peek();
-    if (quote != '"' && quote != '\'') {
-      return syntax("expected text between quotes");
-    }
-    ++at_;
-    while (peek() != quote || at_ == text_.size()) {
-      Unit c;
-      if (!unit(c)) {
-        return false;
-      }
-      if (c.unicode) {
-        append_utf8(to, c.code);
-      } else {
-        to += static_cast<char>(c.code);
-      }
-    }
-    ++at_;
-    return true;
-  }
-
-  // Reads one character or escape.
-  bool unit(Unit& to) {
-    if (at_ == text_.size()) {
-      return syntax("the closing quote is missing");
-    }
-    to.code = static_cast<unsigned char>(text_[at_++]);
-    if (to.code != '\\') {
-      return true;
-    }
-    constexpr std::string_view kShort = "n\nt\tr\rb\bf\f0\0\\\\\"\"''//"sv;
-    const char c = peek();
-    if (c == 'x' || c == 'u') {
-      const std::size_t digits = c == 'x' ? 2 : 4;
-      const char* begin = text_.data() + at_ + 1;
-      to.unicode = c == 'u';
-      if (text_.size() - at_ <= digits || std::from_chars(begin, begin + digits, to.code, 16).ptr != begin + digits) {
-        return syntax(fmt::format("\\{} needs {} hex digits", c, digits));
-      }
-      at_ += 1 + digits;
-      return true;
-    }
-    for (std::size_t i = 0; i < kShort.size(); i += 2) {
-      if (at_ < text_.size() && kShort[i] == c) {
-        to.code = static_cast<unsigned char>(kShort[i + 1]);
-        ++at_;
-        return true;
-      }
-    }
-    return syntax("unknown escape; there are \\n \\t \\r \\0 \\\\ \\\" \\' \\xNN \\uNNNN");
   }
 
   bool store_text(const Type& type, const std::string& text, std::uint8_t* to) {
@@ -430,8 +319,7 @@ class Parser {
     return true;
   }
 
-  std::string_view text_;
-  std::size_t at_ = 0;
+  Cursor cursor_;
   std::string path_;  // of the part being read, for messages
 };
 
