@@ -199,6 +199,9 @@ int read_core(const Element& element, Report& report) {
 void interpret(const Element& root, Config& config, std::vector<Diagnostic>& diagnostics) {
   Report report(config.file.string(), diagnostics);
   RootReader(root, config, report).read();
+  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return a.place.line != b.place.line ? a.place.line < b.place.line : a.place.column < b.place.column;
+  });
 }
 
 }  // namespace indurop::deploy

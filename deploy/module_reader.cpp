@@ -106,22 +106,24 @@ class ModuleReader {
     return element.text;
   }
 
+  // False: not one of the words, which is reported.
   template <class T, std::size_t N>
-  void choose(const Element& element, const std::array<Choice<T>, N>& choices, T& into) {
+  bool choose(const Element& element, const std::array<Choice<T>, N>& choices, T& into) {
     const auto text = text_of(element, choices[0].word);
     if (!text) {
-      return;
+      return false;
     }
     std::vector<std::string> words;
     for (const Choice<T>& choice : choices) {
       if (choice.word == *text) {
         into = choice.value;
-        return;
+        return true;
       }
       words.emplace_back(choice.word);
     }
     report_.error(element.text_place,
                   in_quotes(*text) + " is not a value of <" + element.name + ">; write " + enumerate_or(words));
+    return false;
   }
   static std::string enumerate_or(const std::vector<std::string>& words) {
     std::string text;
@@ -185,13 +187,13 @@ class ModuleReader {
   void read_type(const Element& e) {
     static constexpr std::array<Choice<ModuleType>, 2> kTypes{
         {{"thread", ModuleType::Thread}, {"process", ModuleType::Process}}};
-    choose(e, kTypes, module_.type);
+    type_known_ = choose(e, kTypes, module_.type);
   }
 
   void read_operation(const Element& e) {
     static constexpr std::array<Choice<Operation>, 3> kOperations{
         {{"periodic", Operation::Periodic}, {"sporadic", Operation::Sporadic}, {"non-real", Operation::NonReal}}};
-    choose(e, kOperations, module_.operation);
+    operation_known_ = choose(e, kOperations, module_.operation);
   }
 
   void read_period(const Element& e) { duration(e, false, module_.period, module_.places.period); }
@@ -370,7 +372,7 @@ class ModuleReader {
     require("filename", "this <module>", "./control.so");
     require("moduletype", "this <module>", "thread");
     require("operationtype", "this <module>", "periodic");
-    if (!given("operationtype")) {
+    if (!operation_known_) {
       return;
     }
     switch (module_.operation) {
@@ -383,7 +385,7 @@ class ModuleReader {
         require("priority", "this sporadic <module>", "1");
         break;
       case Operation::NonReal:
-        if (given("moduletype") && module_.type == ModuleType::Thread) {
+        if (type_known_ && module_.type == ModuleType::Thread) {
           report_.error(given_["moduletype"], "a non-real-time module is a program of its own; write "
                                               "<moduletype>process</moduletype>, or make it periodic with a long period");
         }
@@ -401,8 +403,11 @@ class ModuleReader {
   }
 
   void check_without_effect() {
-    if (module_.type == ModuleType::Thread) {
+    if (type_known_ && module_.type == ModuleType::Thread) {
       without_effect({"signal", "argument", "restart"}, "thread");
+    }
+    if (!operation_known_) {
+      return;
     }
     switch (module_.operation) {
       case Operation::Periodic:
@@ -424,7 +429,7 @@ class ModuleReader {
   }
 
   void check_times() {
-    if (module_.operation != Operation::Periodic || module_.period <= Nanos::zero()) {
+    if (!operation_known_ || module_.operation != Operation::Periodic || module_.period <= Nanos::zero()) {
       return;
     }
     if (module_.offset >= module_.period) {
@@ -444,6 +449,8 @@ class ModuleReader {
   const std::filesystem::path& folder_;
   Report& report_;
   Module module_;
+  bool type_known_ = false;
+  bool operation_known_ = false;
   std::map<std::string, Place, std::less<>> given_;
 };
 
