@@ -52,7 +52,9 @@ class [[nodiscard]] Result {
   [[nodiscard]] const T& value() const& { return checked<0>(state_); }
   [[nodiscard]] T&& value() && { return std::move(checked<0>(state_)); }
   T* operator->() { return &checked<0>(state_); }
+  const T* operator->() const { return &checked<0>(state_); }
   T& operator*() { return checked<0>(state_); }
+  const T& operator*() const { return checked<0>(state_); }
   [[nodiscard]] const Error& error() const { return checked<1>(state_); }
 
  private:
