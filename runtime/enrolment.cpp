@@ -124,7 +124,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   auto& slot = run.process_slots()[index];
   const std::int32_t launched = record.pid.load(std::memory_order_acquire);
   const bool is_launched = launched == pid_ || (launched > 0 && launched == ::getppid());
-  std::int32_t holder = slot.pid.load(std::memory_order_acquire);
+  const std::int32_t holder = slot.pid.load(std::memory_order_acquire);
   if (!is_launched) {
     const bool theirs = again == Again::Yes && launched > 0 && process_exists(launched);
     if (theirs || (holder != pid_ && process_exists(holder))) {
@@ -133,22 +133,30 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
     }
   }
   hot.process_module.store(index, std::memory_order_relaxed);
-  // Nothing that an earlier process of this module left undone is ours.
-  seen_ = slot.released.load(std::memory_order_acquire);
-  slot.done.store(seen_, std::memory_order_release);
-  running_ = false;
   take_rights(record);
-  slot.obtained_fifo.store(rt::fifo_priority(), std::memory_order_relaxed);
-  if (!slot.pid.compare_exchange_strong(holder, pid_, std::memory_order_acq_rel)) {
-    return {Errc::Busy, fmt::format("module '{}' of node '{}' was just taken by process {}",
-                                    text_of(record.name, sizeof record.name), node_, holder)};
-  }
   mapping_ = &mapping;
   slot_ = &slot;
-  phase_ = Phase::Enrolled;
-  idle_ = 0;
+  holder_ = holder;
+  enrolled_as_ = is_launched ? launched : pid_;  // a script may stand between the node and this program
+  phase_ = Phase::Prepared;
   (void)Process::get().servers().start(record.fifo_priority, record.core);
   return {};
+}
+
+// From here on the node releases this process: only once it waits, so that its own preparations are no overruns.
+void Enrolment::publish() {
+  // Nothing that an earlier process of this module left undone is ours.
+  seen_ = slot_->released.load(std::memory_order_acquire);
+  slot_->done.store(seen_, std::memory_order_release);
+  slot_->obtained_fifo.store(rt::fifo_priority(), std::memory_order_relaxed);
+  running_ = false;
+  idle_ = 0;
+  phase_ = Phase::Enrolled;
+  if (!slot_->pid.compare_exchange_strong(holder_, enrolled_as_, std::memory_order_acq_rel)) {
+    std::fprintf(stderr, "indurop: waitPeriod: process %d was just enrolled for this module of node '%s'; this one ends\n",
+                 holder_, node_.c_str());
+    end_wanted_ = true;
+  }
 }
 
 void Enrolment::take_rights(const ModuleRecord& record) {
@@ -195,6 +203,9 @@ bool Enrolment::wait() {
     finish_run();
   }
   for (;;) {
+    if (phase_ == Phase::Prepared && !end_wanted_) {
+      publish();
+    }
     if (end_wanted_) {
       phase_ = Phase::Ending;
       return false;
@@ -224,7 +235,7 @@ bool Enrolment::wait() {
 void Enrolment::look_after_node() {
   ++idle_;
   Process::get().refresh();
-  if (slot_->pid.load(std::memory_order_acquire) != pid_) {
+  if (slot_->pid.load(std::memory_order_acquire) != enrolled_as_) {
     std::fprintf(stderr, "indurop: node '%s' has another process for this module; this one ends\n", node_.c_str());
     end_wanted_ = true;
     return;

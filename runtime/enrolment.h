@@ -35,7 +35,8 @@ class Enrolment {
   enum class Phase {
     None,      // initPeriodExe() not called
     NoNode,    // called, but there is no node to enrol with
-    Enrolled,
+    Prepared,  // this process's place is known
+    Enrolled,  // and the node releases it
     Ending,    // waitPeriod() has said false
   };
   enum class Again { No, Yes };
@@ -47,6 +48,7 @@ class Enrolment {
   };
   Outcome enrol(Again again);
   Outcome take_slot(RunMapping& mapping, Again again);
+  void publish();
   void take_rights(const scheduler::ModuleRecord& record);
   void finish_run() noexcept;
   bool take_release() noexcept;
@@ -59,6 +61,8 @@ class Enrolment {
   RunMapping* mapping_ = nullptr;
   scheduler::ProcessSlot* slot_ = nullptr;
   std::int32_t pid_ = 0;
+  std::int32_t holder_ = 0;       // who was in the slot before
+  std::int32_t enrolled_as_ = 0;  // pid the node knows us by
   std::uint64_t seen_ = 0;       // last release taken
   bool running_ = false;
   int exit_code_ = 0;

@@ -49,7 +49,7 @@ int printf(const char* format, const Argument&... arguments) noexcept {
 
 // Enrols this process as a module of its node: the one named by INDUROP_NODE (which the node sets for its modules),
 // else "local". Takes the module's priority, core and locked memory as far as the system permits, and binds the shared
-// variables. Call it once, first thing in main(). Not real-time safe.
+// variables. Call it once, early in main(); releases begin with the first waitPeriod(). Not real-time safe.
 // Returns 0, else a negative indurop::Errc after a message on stderr saying what to do:
 //   NotFound      no such node runs, or it has no such module. waitPeriod() goes on trying
 //   Busy          another living process is enrolled for this module

@@ -31,7 +31,8 @@ enum class Errc : int {
   Failed = 16,           // the code that was called threw an exception
 };
 
-const char* to_string(Errc code) noexcept;
+// "no space left", for messages.
+[[gnu::visibility("default")]] const char* to_string(Errc code) noexcept;
 
 struct Error {
   Errc code = Errc::Ok;
