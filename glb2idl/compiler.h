@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way from .glb files to a checked program. Used by the program glb2idl, by tests and by the PLC compiler.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glb2idl/program.h"
+#include "glb2idl/source.h"
+
+namespace indurop::glb2idl {
+
+struct Compilation {
+  bool ok = false;
+  std::string messages;            // all errors, ready to print
+  std::vector<std::string> files;  // every file that was read, includes too
+  Program program;                 // complete if ok
+};
+
+// Compiles `inputs` and everything they include. Never throws on bad input.
+[[nodiscard]] Compilation compile(const std::vector<std::string>& inputs, const FileReader& read = read_source_file);
+
+}  // namespace indurop::glb2idl

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outputs for a checked program, as texts. Nothing here touches the file system.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "glb2idl/program.h"
+
+namespace indurop::glb2idl {
+
+struct Output {
+  std::string path;  // below the output folder
+  std::string text;
+};
+
+// <stem>.idl: OMG IDL for idlc and other vendors' compilers.
+[[nodiscard]] std::string emit_idl(const Program& program, const Unit& unit);
+
+// <stem>.glb.h: the variables as C++ shapes. The header of an included file is included.
+// `hidden` holds the names of the namespaces for generated details, one per unit.
+[[nodiscard]] std::string emit_cpp(const Program& program, std::size_t unit, const std::vector<std::string>& hidden);
+// Made from what the headers contain: two modules built from different texts share no symbol by accident.
+[[nodiscard]] std::vector<std::string> hidden_names(const Program& program);
+
+// <stem>.layout.txt: sizes and offsets, for people.
+[[nodiscard]] std::string emit_layout(const Program& program, const Unit& unit);
+
+// All of these for all units, and indurop/generated.h last.
+[[nodiscard]] std::vector<Output> emit_all(const Program& program);
+
+// The part of the program's schema declared in one unit.
+[[nodiscard]] schema::Schema schema_of(const Unit& unit);
+
+// A value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
+[[nodiscard]] std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes);
+// The C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.
+[[nodiscard]] std::string cpp_type(const schema::Type& type);
+
+}  // namespace indurop::glb2idl

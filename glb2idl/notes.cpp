@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Annotations to values.
+
+#include "glb2idl/notes.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+#include <utility>
+
+#include "glb2idl/initial.h"
+#include "glb2idl/text.h"
+
+namespace indurop::glb2idl {
+namespace {
+
+struct Rule {
+  std::string_view name;
+  std::size_t arguments;
+  bool on_fields;
+  std::string_view usage;
+};
+constexpr std::array<Rule, 6> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
+                                      {"range", 2, true, "@range(0, 180)"},
+                                      {"desc", 1, true, "@desc(\"what it is\")"},
+                                      {"retain", 0, false, "@retain"},
+                                      {"maxage", 1, false, "@maxage(10ms)"},
+                                      {"fallback", 1, false, "@fallback(0)"}}};
+
+bool is_number(const schema::Type& type) noexcept {
+  using schema::Base;
+  return type.base != Base::Bool && type.base != Base::Text && type.base != Base::Enum && type.base != Base::Struct;
+}
+
+class Reader {
+ public:
+  Reader(Context& context, const schema::Type& type, NoteTarget target, Notes& notes)
+      : context_(context), type_(type), target_(target), notes_(notes) {}
+
+  void read(const ast::Annotation& annotation) {
+    const Rule* rule = nullptr;
+    std::vector<std::string> known;
+    for (const Rule& one : kRules) {
+      known.emplace_back(one.name);
+      rule = one.name == annotation.name.text ? &one : rule;
+    }
+    if (rule == nullptr) {
+      const std::string near = nearest(annotation.name.text, known);
+      context_.error(annotation.at, near.empty() ? fmt::format("there is no annotation '@{}', known are @{}",
+                                                               annotation.name.text, join_names(known, ", @"))
+                                                 : fmt::format("there is no annotation '@{}', did you mean '@{}'?",
+                                                               annotation.name.text, near));
+    } else if (annotation.arguments.size() != rule->arguments) {
+      context_.error(annotation.at, fmt::format("expected {} value{} here, write {}", rule->arguments,
+                                                rule->arguments == 1 ? "" : "s", rule->usage));
+    } else if (!seen_.insert(rule->name).second) {
+      context_.error(annotation.at, fmt::format("@{} is given twice, remove one", rule->name));
+    } else if (is_allowed(*rule, annotation)) {
+      apply(*rule, annotation);
+    }
+  }
+
+ private:
+  bool is_allowed(const Rule& rule, const ast::Annotation& annotation) {
+    const bool good =
+        target_ == NoteTarget::Variable || rule.name == "desc" || (target_ == NoteTarget::Field && rule.on_fields);
+    if (!good) {
+      context_.error(annotation.at, fmt::format("@{} belongs to a variable{}, remove it here", rule.name,
+                                                rule.on_fields ? " or a field" : ", which has it as a whole"));
+      return false;
+    }
+    if ((rule.name == "unit" || rule.name == "range") && !is_number(type_)) {
+      context_.error(annotation.at,
+                     fmt::format("@{} belongs to numbers, {} is none{}", rule.name, schema::display_name(type_),
+                                 type_.base == schema::Base::Struct ? ": write it at its fields" : ", remove it"));
+      return false;
+    }
+    return true;
+  }
+
+  void apply(const Rule& rule, const ast::Annotation& annotation) {
+    if (rule.name == "unit") {
+      read_text(annotation.arguments[0], notes_.unit);
+    } else if (rule.name == "desc") {
+      read_text(annotation.arguments[0], notes_.description);
+    } else if (rule.name == "range") {
+      read_range(annotation);
+    } else if (rule.name == "retain") {
+      notes_.retain = true;
+    } else if (rule.name == "fallback") {
+      notes_.fallback = &annotation.arguments[0];
+    } else if (!annotation.arguments[0].value) {
+      context_.error(annotation.at, "expected a time, write @maxage(10ms)");
+    } else {
+      notes_.maxage_ns = read_duration(context_, *annotation.arguments[0].value, "@maxage").value_or(0);
+    }
+  }
+
+  void read_text(const ast::Initializer& from, std::string& to) {
+    const auto value = from.value ? context_.evaluate(*from.value) : std::nullopt;
+    if (value && value->kind == Value::Kind::Text) {
+      to = comment_line(value->text);
+    } else if (value || !from.value) {
+      context_.error(from.at, "expected a text in quotes");
+    }
+  }
+
+  void read_range(const ast::Annotation& annotation) {
+    std::array<double, 2> ends{};
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const ast::Initializer& from = annotation.arguments[i];
+      auto value = from.value ? context_.evaluate(*from.value) : std::nullopt;
+      if (!value) {
+        if (!from.value) {
+          context_.error(from.at, "expected a number, write @range(0, 180)");
+        }
+        return;
+      }
+      schema::Type element;
+      element.base = type_.base;
+      if (const auto why = convert(*value, element)) {
+        context_.error(from.at, *why);
+        return;
+      }
+      ends[i] = value->as_double();
+    }
+    if (ends[0] > ends[1]) {
+      context_.error(annotation.at, "the smaller end of a range comes first, exchange the two");
+      return;
+    }
+    notes_.range = schema::Range{ends[0], ends[1]};
+  }
+
+  Context& context_;
+  const schema::Type& type_;
+  NoteTarget target_;
+  Notes& notes_;
+  std::set<std::string_view> seen_;
+};
+
+}  // namespace
+
+Notes read_notes(Context& context, const std::vector<ast::Annotation>& leading, const std::vector<ast::Annotation>& own,
+                 const schema::Type& type, NoteTarget target, std::string comment) {
+  Notes notes;
+  notes.description = std::move(comment);
+  Reader reader(context, type, target, notes);
+  for (const auto* list : {&leading, &own}) {
+    for (const ast::Annotation& annotation : *list) {
+      reader.read(annotation);
+    }
+  }
+  return notes;
+}
+
+std::optional<std::int64_t> read_duration(Context& context, const ast::Expression& expression, std::string_view what) {
+  const auto value = context.evaluate(expression);
+  if (!value) {
+    return std::nullopt;
+  }
+  if (value->kind != Value::Kind::Duration) {
+    context.error(expression.at, fmt::format("{} needs a time with its unit: ns, us, ms or s, such as 10ms", what));
+    return std::nullopt;
+  }
+  if (value->integer <= 0) {
+    context.error(expression.at, fmt::format("{} must be longer than 0", what));
+    return std::nullopt;
+  }
+  return static_cast<std::int64_t>(value->integer);
+}
+
+}  // namespace indurop::glb2idl

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Annotations: @unit("mm") @range(0, 180) @retain @maxage(10ms) @fallback(0) @desc("...").
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "glb2idl/context.h"
+
+namespace indurop::glb2idl {
+
+enum class NoteTarget { Variable, Field, Function, Other };
+
+struct Notes {
+  std::string unit;
+  std::string description;
+  std::optional<schema::Range> range;
+  bool retain = false;
+  std::int64_t maxage_ns = 0;
+  const ast::Initializer* fallback = nullptr;  // inside the annotation given
+};
+
+// Evaluates the annotations before (`leading`) and behind (`own`) a declarator of type `type`. `comment` is the
+// description unless @desc says otherwise. Whatever is wrong is reported and left out.
+[[nodiscard]] Notes read_notes(Context& context, const std::vector<ast::Annotation>& leading,
+                               const std::vector<ast::Annotation>& own, const schema::Type& type, NoteTarget target,
+                               std::string comment);
+
+// Milliseconds and so on: 10ms; reports what is no positive time.
+[[nodiscard]] std::optional<std::int64_t> read_duration(Context& context, const ast::Expression& expression,
+                                                        std::string_view what);
+
+}  // namespace indurop::glb2idl

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grammar of .glb (docs/glb.md). Recovers at the next declaration, so that one run shows all mistakes.
+
+#pragma once
+
+#include "glb2idl/ast.h"
+#include "glb2idl/diagnostics.h"
+#include "glb2idl/lexer.h"
+
+namespace indurop::glb2idl {
+
+// `tokens` of file `file`. What could not be parsed is reported and left out.
+[[nodiscard]] ast::File parse(const Sources& sources, std::uint32_t file, const Tokens& tokens,
+                              Diagnostics& diagnostics);
+
+}  // namespace indurop::glb2idl

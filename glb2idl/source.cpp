@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading .glb files and finding lines and columns in them.
+
+#include "glb2idl/source.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace indurop::glb2idl {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool is_continuation(char c) noexcept {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+// Length of the well-formed UTF-8 character at `at`, 0 if there is none.
+std::size_t utf8_length(std::string_view text, std::size_t at) noexcept {
+  const auto lead = static_cast<unsigned char>(text[at]);
+  if (lead < 0x80) {
+    return 1;
+  }
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || at + length > text.size()) {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[at + i])) {
+      return 0;
+    }
+  }
+  const auto second = static_cast<unsigned char>(text[at + 1]);
+  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+  const bool beyond = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
+  return overlong || beyond ? 0 : length;
+}
+
+// Closes a file descriptor at the end of its scope.
+class OpenFile {
+ public:
+  explicit OpenFile(int fd) noexcept : fd_(fd) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() { ::close(fd_); }
+
+ private:
+  int fd_;
+};
+
+std::string reason(int number) {
+  switch (number) {
+    case ENOENT:
+    case ENOTDIR:
+      return "there is no such file";
+    case EACCES:
+      return "no permission to read it";
+    default:
+      return std::generic_category().message(number);
+  }
+}
+
+}  // namespace
+
+Span join(Span first, Span last) noexcept {
+  const std::uint32_t end = std::max(last.offset + last.length, first.offset + first.length);
+  return {first.file, first.offset, end - first.offset};
+}
+
+std::uint32_t Sources::add(std::string path, std::string identity, std::string text) {
+  if (text.starts_with(kByteOrderMark)) {
+    text.erase(0, kByteOrderMark.size());
+  }
+  if (text.empty() || text.back() != '\n') {
+    text += '\n';
+  }
+  SourceFile file{std::move(path), std::move(identity), std::move(text), {0}};
+  for (std::size_t i = 0; i + 1 < file.text.size(); ++i) {
+    if (file.text[i] == '\n') {
+      file.lines.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+  }
+  files_.push_back(std::move(file));
+  return static_cast<std::uint32_t>(files_.size() - 1);
+}
+
+std::optional<std::uint32_t> Sources::find(std::string_view identity) const noexcept {
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    if (files_[i].identity == identity) {
+      return static_cast<std::uint32_t>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint32_t Sources::line_of(Span at) const noexcept {
+  const auto& lines = files_[at.file].lines;
+  return static_cast<std::uint32_t>(std::upper_bound(lines.begin(), lines.end(), at.offset) - lines.begin());
+}
+
+LineColumn Sources::place_of(Span at) const noexcept {
+  const SourceFile& source = files_[at.file];
+  const std::uint32_t line = line_of(at);
+  const std::string_view before =
+      std::string_view(source.text).substr(source.lines[line - 1], at.offset - source.lines[line - 1]);
+  const auto continuation = std::count_if(before.begin(), before.end(), is_continuation);
+  return {line, static_cast<std::uint32_t>(before.size() - static_cast<std::size_t>(continuation) + 1)};
+}
+
+std::string_view Sources::line_text(std::uint32_t file, std::uint32_t line) const noexcept {
+  const SourceFile& source = files_[file];
+  const std::string_view rest = std::string_view(source.text).substr(source.lines[line - 1]);
+  std::string_view text = rest.substr(0, rest.find('\n'));
+  if (text.ends_with('\r')) {
+    text.remove_suffix(1);
+  }
+  return text;
+}
+
+ReadResult read_source_file(const std::string& path) {
+  // Non-blocking: a FIFO given by mistake must not hang the build.
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) {
+    return {std::nullopt, "", reason(errno)};
+  }
+  const OpenFile closer(fd);
+  struct stat status {};
+  if (::fstat(fd, &status) != 0) {
+    return {std::nullopt, "", reason(errno)};
+  }
+  if (S_ISDIR(status.st_mode)) {
+    return {std::nullopt, "", "it is a directory"};
+  }
+  if (!S_ISREG(status.st_mode)) {
+    return {std::nullopt, "", "it is not a regular file"};
+  }
+  std::string text;
+  std::string chunk(std::size_t{1} << 16U, '\0');
+  while (true) {
+    const ssize_t got = ::read(fd, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) {
+      continue;
+    }
+    if (got < 0) {
+      return {std::nullopt, "", reason(errno)};
+    }
+    if (got == 0) {
+      break;
+    }
+    text.append(chunk, 0, static_cast<std::size_t>(got));
+    if (text.size() > kMaxFileBytes) {
+      return {std::nullopt, "", "it is larger than 4 MiB"};
+    }
+  }
+  std::error_code failed;
+  const std::filesystem::path canonical = std::filesystem::canonical(path, failed);
+  return {std::move(text), failed ? path : canonical.string(), ""};
+}
+
+std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) {
+      return at;
+    }
+    at += length;
+  }
+  return std::nullopt;
+}
+
+}  // namespace indurop::glb2idl

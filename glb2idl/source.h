@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The .glb texts of one compilation, and places in them for messages.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::glb2idl {
+
+// A stretch of text in one file.
+struct Span {
+  std::uint32_t file = 0;
+  std::uint32_t offset = 0;
+  std::uint32_t length = 0;
+};
+
+// From the beginning of `first` to the end of `last`, both in the same file.
+[[nodiscard]] Span join(Span first, Span last) noexcept;
+
+// Line and column from 1. Columns count characters, not bytes.
+struct LineColumn {
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+};
+
+struct SourceFile {
+  std::string path;                  // as the user wrote it, for messages
+  std::string identity;              // equal for two ways of naming the same file
+  std::string text;                  // ends with a newline; a byte order mark is cut off
+  std::vector<std::uint32_t> lines;  // offset of each line's first byte
+};
+
+class Sources {
+ public:
+  std::uint32_t add(std::string path, std::string identity, std::string text);
+  [[nodiscard]] const SourceFile& file(std::uint32_t index) const { return files_[index]; }
+  [[nodiscard]] std::size_t size() const noexcept { return files_.size(); }
+  [[nodiscard]] std::optional<std::uint32_t> find(std::string_view identity) const noexcept;
+
+  [[nodiscard]] std::uint32_t line_of(Span at) const noexcept;  // from 1
+  [[nodiscard]] LineColumn place_of(Span at) const noexcept;
+  [[nodiscard]] std::string_view line_text(std::uint32_t file, std::uint32_t line) const noexcept;
+
+ private:
+  std::deque<SourceFile> files_;  // never moves a text that tokens refer to
+};
+
+// What reading a file gave: its text, or why not.
+struct ReadResult {
+  std::optional<std::string> text;
+  std::string identity;
+  std::string why;  // "there is no such file", ...
+};
+using FileReader = std::function<ReadResult(const std::string& path)>;
+
+inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20U;
+
+// Reads from the file system; regular files up to kMaxFileBytes.
+[[nodiscard]] ReadResult read_source_file(const std::string& path);
+
+// Offset of the first byte that is not UTF-8, if any.
+[[nodiscard]] std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept;
+
+}  // namespace indurop::glb2idl

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small helpers for texts: escapes of C, spelling suggestions, joining.
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::glb2idl {
+
+// What "..." or '...' stands for, or nullopt if an escape is unknown.
+[[nodiscard]] std::optional<std::string> decode_quoted(std::string_view quoted);
+
+// As the inside of a C++ text; bytes outside of printable ASCII as three octal digits.
+[[nodiscard]] std::string escape(std::string_view text);
+
+[[nodiscard]] std::string lower(std::string_view text);
+
+[[nodiscard]] std::string join_names(std::span<const std::string> parts, std::string_view between);
+
+// The candidate most like `word`, empty if none is near.
+[[nodiscard]] std::string nearest(std::string_view word, std::span<const std::string> candidates);
+
+// For a comment that ends with its line: no line breaks, no backslash at the end.
+[[nodiscard]] std::string comment_line(std::string_view text);
+
+}  // namespace indurop::glb2idl
