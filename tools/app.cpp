@@ -10,7 +10,6 @@
 #include "tools/interrupt.h"
 #include "tools/suggest.h"
 #include "tools/verb.h"
-#include "tools/version.h"
 
 namespace indurop::tools {
 namespace {
@@ -77,7 +76,8 @@ std::size_t verb_position(const std::vector<std::string>& arguments) {
 // CLI11 takes "-2" for an option and splits "[1,2]" into two: a value is marked before and unmarked in the verb.
 std::vector<std::string> protect_values(std::vector<std::string> arguments) {
   for (std::string& word : arguments) {
-    const bool negative = word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+    const bool negative =
+        word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
     if (negative || (!word.empty() && word[0] == '[')) {
       word.insert(word.begin(), kValueMark);
     }
@@ -143,7 +143,7 @@ int run_program(std::vector<std::string> arguments) {
       return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
     };
     if (given("--version")) {
-      context.out.line(fmt::format("indurop {}", kVersionText));
+      context.out.line(fmt::format("indurop {}", INDUROP_VERSION));
       return finish(context, kOk);
     }
     if (given("-h") || given("--help")) {

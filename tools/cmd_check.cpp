@@ -19,7 +19,9 @@ struct Options {
 
 using Severity = deploy::Diagnostic::Severity;
 
-std::string counted(std::size_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
+std::string counted(std::size_t n, const char* noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
 
 std::string summary_line(const CheckedConfig& checked) {
   const auto count = [&checked](Severity severity) {
@@ -94,16 +96,17 @@ int check(Context& context, const Options& options) {
     context.out.write(variables.text(context.out));
     context.out.line();
   }
-  context.out.line(fmt::format("{}  {}",
-                               checked->ok() ? context.out.paint(Style::Good, "OK") : context.out.paint(Style::Bad, "FAILED"),
-                               summary_line(*checked)));
+  context.out.line(fmt::format(
+      "{}  {}", checked->ok() ? context.out.paint(Style::Good, "OK") : context.out.paint(Style::Bad, "FAILED"),
+      summary_line(*checked)));
   return code;
 }
 
 Action declare(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add_option("file", options->file, "Configuration (default: module.xml)")->type_name("FILE");
-  app.add_flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  app.add_flag("--adjust", options->adjust,
+               "Round periods so that the basic period is not too small, instead of an error");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };
 }

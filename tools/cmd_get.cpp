@@ -45,7 +45,9 @@ int get(Context& context, const std::vector<std::string>& names) {
 
 Action declare(CLI::App& app, Context& context) {
   auto names = std::make_shared<std::vector<std::string>>();
-  app.add_option("names", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")->required()->type_name("NAME");
+  app.add_option("names", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
+      ->required()
+      ->type_name("NAME");
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [names](Context& c) { return get(c, *names); };
@@ -53,14 +55,13 @@ Action declare(CLI::App& app, Context& context) {
 
 }  // namespace
 
-const Verb kGetVerb{
-    "get", "Variables", "Print the value of variables or parts of them",
-    "Leading namespaces may be left out if the rest is unique; '.' and '::' both separate them.\n"
-    "One name prints nothing but its value, so that x=$(indurop get tick) works.\n"
-    "Examples:\n"
-    "  indurop get tick\n"
-    "  indurop get 'joints[1].y' 'joints[2]'\n"
-    "  indurop get 'knu::Robot::*' -o json\n",
-    &declare};
+const Verb kGetVerb{"get", "Variables", "Print the value of variables or parts of them",
+                    "Leading namespaces may be left out if the rest is unique; '.' and '::' both separate them.\n"
+                    "One name prints nothing but its value, so that x=$(indurop get tick) works.\n"
+                    "Examples:\n"
+                    "  indurop get tick\n"
+                    "  indurop get 'joints[1].y' 'joints[2]'\n"
+                    "  indurop get 'knu::Robot::*' -o json\n",
+                    &declare};
 
 }  // namespace indurop::tools

@@ -43,10 +43,18 @@ int plan(Context& context, const Options& options) {
     return kOk;
   }
   switch (context.format) {
-    case Format::Table: context.out.write(with_line_end(deploy::plan_table(checked->config, checked->check))); break;
-    case Format::Json: context.out.write(with_line_end(deploy::plan_json(checked->config, checked->check))); break;
-    case Format::Csv: context.out.write(with_line_end(deploy::plan_csv(checked->config, checked->check))); break;
-    case Format::Svg: context.out.write(with_line_end(deploy::plan_svg(checked->config, checked->check))); break;
+    case Format::Table:
+      context.out.write(with_line_end(deploy::plan_table(checked->config, checked->check)));
+      break;
+    case Format::Json:
+      context.out.write(with_line_end(deploy::plan_json(checked->config, checked->check)));
+      break;
+    case Format::Csv:
+      context.out.write(with_line_end(deploy::plan_csv(checked->config, checked->check)));
+      break;
+    case Format::Svg:
+      context.out.write(with_line_end(deploy::plan_svg(checked->config, checked->check)));
+      break;
   }
   return kOk;
 }
@@ -55,17 +63,18 @@ Action declare(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add_option("file", options->file, "Configuration (default: module.xml)")->type_name("FILE");
   app.add_option("--svg", options->svg_file, "Write the timing diagram to FILE")->type_name("FILE");
-  app.add_flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  app.add_flag("--adjust", options->adjust,
+               "Round periods so that the basic period is not too small, instead of an error");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   return [options](Context& c) { return plan(c, *options); };
 }
 
 }  // namespace
 
-const Verb kPlanVerb{
-    "plan", "Before it runs", "Show the schedule: which module runs in which basic period, in which order",
-    "Works without the module files: only the periods, offsets and priorities count.\n"
-    "-o svg prints a timing diagram for a browser or a document.\n",
-    &declare};
+const Verb kPlanVerb{"plan", "Before it runs",
+                     "Show the schedule: which module runs in which basic period, in which order",
+                     "Works without the module files: only the periods, offsets and priorities count.\n"
+                     "-o svg prints a timing diagram for a browser or a document.\n",
+                     &declare};
 
 }  // namespace indurop::tools

@@ -53,8 +53,9 @@ bool parse_one(Context& context, const vars::Store& store, const std::string& na
   std::string message;
   const Status parsed = schema::parse_value(place.type, text, assignment.bytes, message);
   if (!parsed.ok()) {
-    context.out.error(fmt::format("{}: {}", assignment.item.name,
-                                  message.empty() ? fmt::format("'{}' is no {}", text, schema::display_name(place.type)) : message));
+    context.out.error(
+        fmt::format("{}: {}", assignment.item.name,
+                    message.empty() ? fmt::format("'{}' is no {}", text, schema::display_name(place.type)) : message));
     return false;
   }
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();

@@ -24,13 +24,17 @@ std::string fault_text(const scheduler::ModuleRecord& module) {
 
 Style style_of(scheduler::ModuleState state) {
   switch (state) {
-    case scheduler::ModuleState::Running: return Style::Good;
+    case scheduler::ModuleState::Running:
+      return Style::Good;
     case scheduler::ModuleState::Loaded:
     case scheduler::ModuleState::Starting:
-    case scheduler::ModuleState::Restarting: return Style::Warn;
-    case scheduler::ModuleState::Faulted: return Style::Bad;
+    case scheduler::ModuleState::Restarting:
+      return Style::Warn;
+    case scheduler::ModuleState::Faulted:
+      return Style::Bad;
     case scheduler::ModuleState::Stopped:
-    case scheduler::ModuleState::Exited: return Style::Dim;
+    case scheduler::ModuleState::Exited:
+      return Style::Dim;
   }
   return Style::None;
 }
@@ -38,7 +42,9 @@ Style style_of(scheduler::ModuleState state) {
 Cell counter(std::uint64_t value, Style if_any = Style::None) {
   return {std::to_string(value), value, value > 0 ? if_any : Style::Dim};
 }
-Cell duration(std::int64_t ns, bool known = true) { return {known ? human_ns(ns) : "-", ns}; }
+Cell duration(std::int64_t ns, bool known = true) {
+  return {known ? human_ns(ns) : "-", ns};
+}
 
 std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
@@ -73,16 +79,26 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
 
 Table module_table(const RunView& run) {
   constexpr Align kRight = Align::Right;
-  Table table({{"MODULE", "name"},          {"TYPE", "type"},
-               {"PERIOD", "period_ns", kRight}, {"", "operation"},
-               {"PRIO", "priority", kRight},    {"STATE", "state"},
-               {"", "pid"},                     {"RUNS", "runs", kRight},
-               {"SKIPPED", "skipped", kRight},  {"OVERRUNS", "overruns", kRight},
-               {"MISSES", "deadline_misses", kRight}, {"LAST", "last_exec_ns", kRight},
-               {"AVG", "mean_exec_ns", kRight}, {"MAX", "max_exec_ns", kRight},
-               {"JITTER P50", "jitter_p50_ns", kRight}, {"P99", "jitter_p99_ns", kRight},
-               {"MAX", "jitter_max_ns", kRight}, {"RESTARTS", "restarts", kRight},
-               {"", "lost_messages"},           {"LAST FAULT", "last_fault"}});
+  Table table({{"MODULE", "name"},
+               {"TYPE", "type"},
+               {"PERIOD", "period_ns", kRight},
+               {"", "operation"},
+               {"PRIO", "priority", kRight},
+               {"STATE", "state"},
+               {"", "pid"},
+               {"RUNS", "runs", kRight},
+               {"SKIPPED", "skipped", kRight},
+               {"OVERRUNS", "overruns", kRight},
+               {"MISSES", "deadline_misses", kRight},
+               {"LAST", "last_exec_ns", kRight},
+               {"AVG", "mean_exec_ns", kRight},
+               {"MAX", "max_exec_ns", kRight},
+               {"JITTER P50", "jitter_p50_ns", kRight},
+               {"P99", "jitter_p99_ns", kRight},
+               {"MAX", "jitter_max_ns", kRight},
+               {"RESTARTS", "restarts", kRight},
+               {"", "lost_messages"},
+               {"LAST FAULT", "last_fault"}});
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
     table.add(module_row(run.module(i)));
   }

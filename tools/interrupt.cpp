@@ -18,7 +18,9 @@ namespace {
 std::atomic<int> caught_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-void on_signal(int number) { caught_signal.store(number, std::memory_order_relaxed); }
+void on_signal(int number) {
+  caught_signal.store(number, std::memory_order_relaxed);
+}
 
 }  // namespace
 
@@ -35,9 +37,13 @@ void catch_interrupts() {
   sigaction(SIGPIPE, &ignore, nullptr);
 }
 
-bool interrupted() noexcept { return caught_signal.load(std::memory_order_relaxed) != 0; }
+bool interrupted() noexcept {
+  return caught_signal.load(std::memory_order_relaxed) != 0;
+}
 
-int interrupt_code() noexcept { return 128 + caught_signal.load(std::memory_order_relaxed); }
+int interrupt_code() noexcept {
+  return 128 + caught_signal.load(std::memory_order_relaxed);
+}
 
 Woken wait_until(std::int64_t deadline_ns, int fd) noexcept {
   // Signals are let in only inside ppoll, so one that comes between the test and the sleep is not lost.

@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include "rt/clock.h"
-#include "vars/process.h"
 #include "tools/suggest.h"
 #include "tools/units.h"
+#include "vars/process.h"
 #include "vars/shm_file.h"
 
 namespace indurop::tools {
@@ -31,9 +31,12 @@ std::optional<std::string> named_node(Context& context, const std::string& name,
   }
   const auto names = vars::list_nodes();
   if (!contains(names, name)) {
-    context.out.error(names.empty()
-                          ? fmt::format("there is no node '{}', nor any other on this machine. Start one: indurop run module.xml", name)
-                          : fmt::format("there is no node '{}'.{} Nodes here: {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
+    context.out.error(
+        names.empty()
+            ? fmt::format("there is no node '{}', nor any other on this machine. Start one: indurop run module.xml",
+                          name)
+            : fmt::format("there is no node '{}'.{} Nodes here: {}", name, did_you_mean(name, names),
+                          fmt::join(names, ", ")));
     code = kUnreachable;
     return {};
   }
@@ -75,9 +78,12 @@ std::string explain_open_error(const Error& error, const std::string& node, bool
       return fmt::format("no permission to {} node '{}': run as the user it belongs to (ls -l /dev/shm/indurop.{})",
                          for_writing ? "change values of" : "look at", node, node);
     case Errc::VersionMismatch:
-      return fmt::format("node '{}' was started by another version of InduRoP: use that version's `indurop`, or restart the node", node);
+      return fmt::format(
+          "node '{}' was started by another version of InduRoP: use that version's `indurop`, or restart the node",
+          node);
     case Errc::Corrupt:
-      return fmt::format("the shared memory of node '{}' is damaged ({}). If it does not run: indurop clean --node {}", node, error.where, node);
+      return fmt::format("the shared memory of node '{}' is damaged ({}). If it does not run: indurop clean --node {}",
+                         node, error.where, node);
     case Errc::Busy:
     case Errc::Timeout:
       return fmt::format("node '{}' is just starting; try again", node);
@@ -136,7 +142,7 @@ std::optional<RunView> open_run(Context& context, std::string& node, int& code) 
 
 bool store_alive(const vars::BlockHeader& header) {
   return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
-                       header.node_start_time.load(std::memory_order_relaxed));
+                             header.node_start_time.load(std::memory_order_relaxed));
 }
 
 std::string store_absence(const vars::BlockHeader& header) {

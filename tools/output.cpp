@@ -34,13 +34,20 @@ bool wants_color(ColorWhen when, int fd) {
 
 const char* code_of(Style style) {
   switch (style) {
-    case Style::None: return "";
-    case Style::Bold: return "\x1b[1m";
-    case Style::Dim: return "\x1b[2m";
-    case Style::Good: return "\x1b[32m";
-    case Style::Warn: return "\x1b[33m";
-    case Style::Bad: return "\x1b[1;31m";
-    case Style::Accent: return "\x1b[36m";
+    case Style::None:
+      return "";
+    case Style::Bold:
+      return "\x1b[1m";
+    case Style::Dim:
+      return "\x1b[2m";
+    case Style::Good:
+      return "\x1b[32m";
+    case Style::Warn:
+      return "\x1b[33m";
+    case Style::Bad:
+      return "\x1b[1;31m";
+    case Style::Accent:
+      return "\x1b[36m";
   }
   return "";
 }
@@ -74,7 +81,9 @@ int write_all(int fd, std::string_view text) {
 
 }  // namespace
 
-Output::Output(ColorWhen when, bool quiet) { configure(when, quiet); }
+Output::Output(ColorWhen when, bool quiet) {
+  configure(when, quiet);
+}
 
 void Output::configure(ColorWhen when, bool quiet) {
   terminal_ = isatty(STDOUT_FILENO) == 1;
@@ -102,7 +111,9 @@ void Output::message(std::string_view kind, Style style, std::string_view text) 
   message_line("indurop: " + painted(color_messages_, style, kind) + std::string(text));
 }
 
-void Output::error(std::string_view text) { message("error: ", Style::Bad, text); }
+void Output::error(std::string_view text) {
+  message("error: ", Style::Bad, text);
+}
 
 void Output::note(std::string_view text) {
   if (!quiet_) {
@@ -118,6 +129,8 @@ Extent Output::extent() const {
   return {};
 }
 
-std::string Output::paint(Style style, std::string_view text) const { return painted(color_, style, text); }
+std::string Output::paint(Style style, std::string_view text) const {
+  return painted(color_, style, text);
+}
 
 }  // namespace indurop::tools

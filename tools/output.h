@@ -41,7 +41,7 @@ class Output {
 
   // Messages, one line each, on stderr after what is pending on stdout.
   void error(std::string_view text);
-  void note(std::string_view text);  // silent with -q
+  void note(std::string_view text);          // silent with -q
   void message_line(std::string_view text);  // on stderr as it is
 
   [[nodiscard]] bool terminal() const noexcept { return terminal_; }

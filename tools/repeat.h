@@ -13,9 +13,9 @@ namespace indurop::tools {
 struct Repeat {
   bool on = false;
   bool once = false;
-  std::uint64_t count = 0;        // 0: without end
+  std::uint64_t count = 0;  // 0: without end
   std::int64_t interval_ns = 1'000'000'000;
-  std::int64_t timeout_ns = 0;    // 0: none
+  std::int64_t timeout_ns = 0;  // 0: none
 };
 
 // -w, --once, -n COUNT, --interval, --timeout

@@ -10,7 +10,9 @@
 namespace indurop::tools {
 namespace {
 
-std::string yes_no(bool yes, const char* what) { return fmt::format("{}{}", yes ? "" : "no ", what); }
+std::string yes_no(bool yes, const char* what) {
+  return fmt::format("{}{}", yes ? "" : "no ", what);
+}
 
 }  // namespace
 

@@ -58,22 +58,16 @@ std::vector<Sample> read_log(const Entry* ring, std::uint64_t capacity, std::uin
 
 }  // namespace
 
-RunView::RunView(std::shared_ptr<const vars::ShmFile> mapping, const scheduler::RunBlock* block) noexcept
+RunView::RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block) noexcept
     : mapping_(std::move(mapping)), block_(block), modules_(block->module_count) {}
 
 Result<RunView> RunView::open(const std::string& node) {
-  auto opened = vars::ShmFile::open(vars::run_file(node), vars::Mode::ReadOnly);
+  auto opened = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   if (!opened.ok()) {
     return opened.error();
   }
-  const auto mapping = std::make_shared<const vars::ShmFile>(std::move(opened).value());
-  if (mapping->size() < sizeof(scheduler::RunBlock)) {
-    return Error{Errc::Corrupt, 0, "run block too short"};
-  }
-  const auto* block = reinterpret_cast<const scheduler::RunBlock*>(mapping->data());
-  if (block->magic.load(std::memory_order_acquire) != scheduler::kRunMagic) {
-    return Error{block->magic.load(std::memory_order_relaxed) == 0 ? Errc::Busy : Errc::Corrupt, 0, "not a run block"};
-  }
+  const auto mapping = std::make_shared<const vars::RunFile>(std::move(opened).value());
+  const auto* block = static_cast<const scheduler::RunBlock*>(mapping->data());
   if (block->abi != scheduler::kRunAbi) {
     return Error{Errc::VersionMismatch, 0, "run block of another version"};
   }
@@ -83,7 +77,9 @@ Result<RunView> RunView::open(const std::string& node) {
   return RunView(mapping, block);
 }
 
-const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexcept { return block_->modules()[index]; }
+const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexcept {
+  return block_->modules()[index];
+}
 
 std::string RunView::module_name(std::int64_t index) const {
   return index >= 0 && index < modules_ ? fixed_text(module(static_cast<std::uint32_t>(index)).name) : "?";
@@ -95,65 +91,91 @@ bool RunView::node_alive() const noexcept {
 
 std::vector<SlotSample> RunView::slot_log(std::uint64_t most) const {
   return read_log<SlotSample>(block_->at<scheduler::SlotEntry>(block_->slot_log_offset), block_->slot_log_capacity,
-                  block_->slot_log_next.load(std::memory_order_acquire), most);
+                              block_->slot_log_next.load(std::memory_order_acquire), most);
 }
 
 std::vector<OverrunSample> RunView::overrun_log(std::uint64_t most) const {
-  return read_log<OverrunSample>(block_->at<scheduler::OverrunEntry>(block_->overrun_log_offset), block_->overrun_log_capacity,
-                  block_->overrun_log_next.load(std::memory_order_acquire), most);
+  return read_log<OverrunSample>(block_->at<scheduler::OverrunEntry>(block_->overrun_log_offset),
+                                 block_->overrun_log_capacity, block_->overrun_log_next.load(std::memory_order_acquire),
+                                 most);
 }
 
 const char* to_text(scheduler::NodeState state) noexcept {
   switch (state) {
-    case scheduler::NodeState::Starting: return "starting";
-    case scheduler::NodeState::Running: return "running";
-    case scheduler::NodeState::Stopping: return "stopping";
-    case scheduler::NodeState::Stopped: return "stopped";
-    case scheduler::NodeState::Failed: return "failed";
+    case scheduler::NodeState::Starting:
+      return "starting";
+    case scheduler::NodeState::Running:
+      return "running";
+    case scheduler::NodeState::Stopping:
+      return "stopping";
+    case scheduler::NodeState::Stopped:
+      return "stopped";
+    case scheduler::NodeState::Failed:
+      return "failed";
   }
   return "unknown";
 }
 
 const char* to_text(scheduler::ModuleState state) noexcept {
   switch (state) {
-    case scheduler::ModuleState::Loaded: return "loaded";
-    case scheduler::ModuleState::Starting: return "starting";
-    case scheduler::ModuleState::Running: return "running";
-    case scheduler::ModuleState::Stopped: return "stopped";
-    case scheduler::ModuleState::Faulted: return "faulted";
-    case scheduler::ModuleState::Restarting: return "restarting";
-    case scheduler::ModuleState::Exited: return "exited";
+    case scheduler::ModuleState::Loaded:
+      return "loaded";
+    case scheduler::ModuleState::Starting:
+      return "starting";
+    case scheduler::ModuleState::Running:
+      return "running";
+    case scheduler::ModuleState::Stopped:
+      return "stopped";
+    case scheduler::ModuleState::Faulted:
+      return "faulted";
+    case scheduler::ModuleState::Restarting:
+      return "restarting";
+    case scheduler::ModuleState::Exited:
+      return "exited";
   }
   return "unknown";
 }
 
 const char* to_text(scheduler::ModuleType type) noexcept {
   switch (type) {
-    case scheduler::ModuleType::Thread: return "thread";
-    case scheduler::ModuleType::Process: return "process";
+    case scheduler::ModuleType::Thread:
+      return "thread";
+    case scheduler::ModuleType::Process:
+      return "process";
   }
   return "unknown";
 }
 
 const char* to_text(scheduler::Operation operation) noexcept {
   switch (operation) {
-    case scheduler::Operation::Periodic: return "periodic";
-    case scheduler::Operation::Sporadic: return "sporadic";
-    case scheduler::Operation::NonReal: return "non-real";
+    case scheduler::Operation::Periodic:
+      return "periodic";
+    case scheduler::Operation::Sporadic:
+      return "sporadic";
+    case scheduler::Operation::NonReal:
+      return "non-real";
   }
   return "unknown";
 }
 
 const char* to_text(scheduler::FaultKind kind) noexcept {
   switch (kind) {
-    case scheduler::FaultKind::None: return "none";
-    case scheduler::FaultKind::Exception: return "exception";
-    case scheduler::FaultKind::Signal: return "signal";
-    case scheduler::FaultKind::Budget: return "budget";
-    case scheduler::FaultKind::Overrun: return "overrun";
-    case scheduler::FaultKind::Exit: return "exit";
-    case scheduler::FaultKind::StartFailed: return "start-failed";
-    case scheduler::FaultKind::Deadline: return "deadline";
+    case scheduler::FaultKind::None:
+      return "none";
+    case scheduler::FaultKind::Exception:
+      return "exception";
+    case scheduler::FaultKind::Signal:
+      return "signal";
+    case scheduler::FaultKind::Budget:
+      return "budget";
+    case scheduler::FaultKind::Overrun:
+      return "overrun";
+    case scheduler::FaultKind::Exit:
+      return "exit";
+    case scheduler::FaultKind::StartFailed:
+      return "start-failed";
+    case scheduler::FaultKind::Deadline:
+      return "deadline";
   }
   return "unknown";
 }

@@ -14,7 +14,7 @@
 
 #include "scheduler/quantile.h"
 #include "scheduler/run_block.h"
-#include "vars/shm_file.h"
+#include "vars/run_file.h"
 
 namespace indurop::tools {
 
@@ -58,8 +58,8 @@ class RunView {
   [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
 
  private:
-  RunView(std::shared_ptr<const vars::ShmFile> mapping, const scheduler::RunBlock* block) noexcept;
-  std::shared_ptr<const vars::ShmFile> mapping_;
+  RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block) noexcept;
+  std::shared_ptr<const vars::RunFile> mapping_;
   const scheduler::RunBlock* block_;
   std::uint32_t modules_;  // as checked; the block's own could change under us
 };

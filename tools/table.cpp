@@ -131,6 +131,8 @@ std::string csv_value(const JsonValue& value) {
   return csv_field(dump(value));
 }
 
-std::string dump(const JsonValue& value) { return value.dump(-1, ' ', false, JsonValue::error_handler_t::replace); }
+std::string dump(const JsonValue& value) {
+  return value.dump(-1, ' ', false, JsonValue::error_handler_t::replace);
+}
 
 }  // namespace indurop::tools

@@ -86,7 +86,8 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
       }
     }
     if (!any) {
-      context.out.error(fmt::format("no variable of node '{}' matches '{}' (indurop vars lists all)", context.node, name));
+      context.out.error(
+          fmt::format("no variable of node '{}' matches '{}' (indurop vars lists all)", context.node, name));
       all_found = false;
     }
   }
@@ -97,7 +98,8 @@ std::vector<std::uint8_t> read_item(const vars::Store& store, const Item& item, 
   std::vector<std::uint8_t> bytes(item.place.type.size());
   const Status status = store.read(*item.entry, item.place.offset, bytes);
   if (!status.ok()) {
-    problem = fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code));
+    problem =
+        fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code));
   }
   return bytes;
 }

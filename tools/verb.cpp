@@ -8,10 +8,14 @@ namespace {
 
 const char* name_of(Format format) {
   switch (format) {
-    case Format::Table: return "table";
-    case Format::Json: return "json";
-    case Format::Csv: return "csv";
-    case Format::Svg: return "svg";
+    case Format::Table:
+      return "table";
+    case Format::Json:
+      return "json";
+    case Format::Csv:
+      return "csv";
+    case Format::Svg:
+      return "svg";
   }
   return "table";
 }
@@ -23,7 +27,8 @@ std::string value_of(const std::string& argument) {
 }
 
 void add_node_option(CLI::App& app, Context& context) {
-  app.add_option("--node", context.node, "Node to talk to (default: $INDUROP_NODE, \"local\", or the only one there is)")
+  app.add_option("--node", context.node,
+                 "Node to talk to (default: $INDUROP_NODE, \"local\", or the only one there is)")
       ->type_name("NAME");
 }
 
@@ -56,7 +61,8 @@ CLI::Option* add_time_option(CLI::App& app, const std::string& names, std::int64
           [&to_ns, names](const std::string& text) {
             const std::int64_t ns = parse_seconds_ns(text);
             if (ns < 0) {
-              throw CLI::ValidationError(names, "'" + text + "' is not a time; write seconds (2, 0.5) or 500ms, 2s, 1min");
+              throw CLI::ValidationError(names,
+                                         "'" + text + "' is not a time; write seconds (2, 0.5) or 500ms, 2s, 1min");
             }
             to_ns = ns;
           },
@@ -64,7 +70,9 @@ CLI::Option* add_time_option(CLI::App& app, const std::string& names, std::int64
       ->type_name("TIME");
 }
 
-JsonValue document() { return JsonValue{{"schema_version", kJsonVersion}}; }
+JsonValue document() {
+  return JsonValue{{"schema_version", kJsonVersion}};
+}
 
 void print_table(Context& context, const Table& table, JsonValue head, const std::string& rows_key) {
   switch (context.format) {

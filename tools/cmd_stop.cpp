@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop stop: asks the node to end and waits until it has.
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "rt/clock.h"
+#include "tools/interrupt.h"
+#include "tools/node_choice.h"
+#include "tools/units.h"
+#include "tools/verbs.h"
+#include "vars/node_lock.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::int64_t timeout_ns = 10'000'000'000;
+};
+
+// A process by a handle that cannot come to mean another one.
+class ProcessHandle {
+ public:
+  explicit ProcessHandle(pid_t pid) : file_(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
+  ProcessHandle(const ProcessHandle&) = delete;
+  ProcessHandle& operator=(const ProcessHandle&) = delete;
+  ~ProcessHandle() {
+    if (file_ >= 0) {
+      close(file_);
+    }
+  }
+  [[nodiscard]] int file() const noexcept { return file_; }
+  // 0 or errno.
+  [[nodiscard]] int send(int signal) const noexcept {
+    return syscall(SYS_pidfd_send_signal, file_, signal, nullptr, 0) == 0 ? 0 : errno;
+  }
+
+ private:
+  int file_;
+};
+
+int stop(Context& context, const Options& options) {
+  int code = kOk;
+  const auto chosen = choose_node(context, code);
+  if (!chosen) {
+    return code;
+  }
+  const std::string& node = *chosen;
+  const pid_t pid = vars::running_node(node);
+  const ProcessHandle process(pid);
+  // Asked again now that the handle is open: the handle means the node, not a later process of the same number.
+  if (pid == 0 || process.file() < 0 || vars::running_node(node) != pid) {
+    context.out.note(fmt::format("node '{}' does not run", node));
+    return kOk;
+  }
+  const int problem = process.send(SIGTERM);
+  if (problem != 0 && problem != ESRCH) {
+    context.out.error(fmt::format("cannot stop node '{}' (pid {}): {}", node, pid, std::strerror(problem)));
+    return kFailed;
+  }
+  const std::int64_t begin = rt::now_ns();
+  while (vars::running_node(node) == pid) {
+    switch (wait_until(begin + options.timeout_ns, process.file())) {
+      case Woken::Readable:
+        break;
+      case Woken::Signal:
+        if (interrupted()) {
+          return kOk;
+        }
+        break;
+      case Woken::Deadline:
+        context.out.error(
+            fmt::format("node '{}' (pid {}) has not ended after {}. It was asked to; to end it at once: kill -9 {}",
+                        node, pid, human_age(options.timeout_ns), pid));
+        return kUnreachable;
+    }
+  }
+  context.out.note(fmt::format("node '{}' stopped after {}", node, human_ns(rt::now_ns() - begin)));
+  return kOk;
+}
+
+Action declare(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  add_node_option(app, context);
+  add_time_option(app, "--timeout", options->timeout_ns, "How long to wait (default 10 s)");
+  return [options](Context& c) { return stop(c, *options); };
+}
+
+}  // namespace
+
+const Verb kStopVerb{
+    "stop", "Start and stop", "Stop a node and wait until it has ended",
+    "Modules get their stop() and retained values are written. Exit code 6 if the node has not ended in time;\n"
+    "0 if it did not run anyway.\n",
+    &declare};
+
+}  // namespace indurop::tools

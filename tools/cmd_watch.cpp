@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop watch: values as they change; painted in place on a terminal, lines in a pipe.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+
+#include "rt/clock.h"
+#include "tools/gentle.h"
+#include "tools/interrupt.h"
+#include "tools/node_choice.h"
+#include "tools/screen.h"
+#include "tools/units.h"
+#include "tools/verbs.h"
+#include "tools/watch_source.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::vector<std::string> names;
+  std::vector<std::string> lists;
+  double hz = 10;
+  std::uint64_t count = 0;  // 0: without end
+  bool once = false;
+  std::int64_t timeout_ns = 0;  // 0: none
+};
+
+constexpr std::size_t kAll = SIZE_MAX;
+
+std::string text_of(const WatchedValue& value) {
+  return value.gone ? "gone" : schema::format_value(value.item.place.type, value.bytes);
+}
+
+std::int64_t wall_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * rt::kNanosPerSecond + now.tv_nsec;
+}
+
+// When to look next; counts rounds and watches the limits.
+class Rounds {
+ public:
+  explicit Rounds(const Options& options)
+      : count_(options.once ? 1 : options.count),
+        interval_ns_(static_cast<std::int64_t>(1e9 / options.hz)),
+        begin_ns_(rt::now_ns()),
+        next_ns_(begin_ns_),
+        end_ns_(options.timeout_ns > 0 ? begin_ns_ + options.timeout_ns : INT64_MAX) {}
+  // True if another round follows: waits for it, on `key_file` too (then *key says so).
+  bool wait(int key_file, bool& key) {
+    key = false;
+    if (count_ > 0 && done_ >= count_) {
+      return false;
+    }
+    const Woken why = wait_until(std::min(next_ns_, end_ns_), key_file);
+    key = why == Woken::Readable;
+    if (interrupted() || (rt::now_ns() >= end_ns_ && next_ns_ > end_ns_)) {
+      return false;
+    }
+    return true;
+  }
+  [[nodiscard]] bool due() const { return rt::now_ns() >= next_ns_; }
+  void done() {
+    ++done_;
+    // On a grid, but rounds that a slow terminal made us miss are not made up for.
+    next_ns_ = std::max(next_ns_ + interval_ns_, rt::now_ns());
+  }
+  [[nodiscard]] std::int64_t elapsed_ns() const { return rt::now_ns() - begin_ns_; }
+
+ private:
+  std::uint64_t count_;
+  std::int64_t interval_ns_;
+  std::int64_t begin_ns_;
+  std::int64_t next_ns_;
+  std::int64_t end_ns_;
+  std::uint64_t done_ = 0;
+};
+
+// ---- lines for a pipe
+
+void print_changes(Context& context, const WatchSource& source, const Rounds& rounds) {
+  const double seconds = static_cast<double>(rounds.elapsed_ns()) / 1e9;
+  for (const auto& value : source.values()) {
+    if (value.changed && !value.gone) {
+      const std::string unit = value.item.place.unit.empty() ? "" : " " + value.item.place.unit;
+      context.out.line(fmt::format("{:.3f}  {} = {}{}", seconds, value.item.name, text_of(value), printable(unit)));
+    }
+  }
+}
+
+void print_csv_heading(Context& context, const WatchSource& source) {
+  std::string line = "time_ns";
+  for (const auto& value : source.values()) {
+    line += "," + csv_field(value.item.name);
+  }
+  context.out.line(line);
+}
+
+void print_csv(Context& context, const WatchSource& source) {
+  std::string line = std::to_string(wall_ns());
+  for (const auto& value : source.values()) {
+    line += "," + (value.gone ? "" : csv_value(raw_value(value.item.place.type, value.bytes)));
+  }
+  context.out.line(line);
+}
+
+void print_json(Context& context, const WatchSource& source) {
+  JsonValue values = JsonValue::object();
+  for (const auto& value : source.values()) {
+    values[value.item.name] = value.gone ? JsonValue() : raw_value(value.item.place.type, value.bytes);
+  }
+  JsonValue whole = document();
+  whole["node"] = source.node();
+  whole["running"] = source.alive();
+  whole["time_ns"] = wall_ns();
+  whole["values"] = std::move(values);
+  context.out.line(dump(whole));
+}
+
+int stream(Context& context, WatchSource& source, const Options& options) {
+  Rounds rounds(options);
+  if (context.format == Format::Csv) {
+    print_csv_heading(context, source);
+  }
+  std::string said;
+  bool first = true;
+  bool key = false;
+  while (rounds.wait(-1, key)) {
+    source.sample(context, 0, kAll);
+    const bool was_gone = !said.empty();
+    if (source.alive() == was_gone) {
+      said = source.absence();
+      context.out.note(fmt::format("node '{}' {}", source.node(), source.alive() ? "runs again" : "is " + said));
+    }
+    switch (context.format) {
+      case Format::Json:
+        print_json(context, source);
+        break;
+      case Format::Csv:
+        print_csv(context, source);
+        break;
+      case Format::Table:
+      case Format::Svg:
+        print_changes(context, source, rounds);
+        break;
+    }
+    rounds.done();
+    if (!context.out.flush()) {
+      break;
+    }
+    first = false;
+  }
+  return first && !interrupted() ? kUnreachable : kOk;
+}
+
+// ---- the terminal
+
+class View {
+ public:
+  View(Context& context, WatchSource& source, const Options& options)
+      : context_(context), source_(source), options_(options), screen_(context.out) {}
+
+  int run() {
+    Rounds rounds(options_);
+    bool key = false;
+    while (rounds.wait(screen_.key_file(), key)) {
+      if (key && !handle_keys()) {
+        break;
+      }
+      if (!rounds.due() && !key) {
+        continue;
+      }
+      if (!paused_) {
+        source_.sample(context_, first_, visible());
+      }
+      if (!key) {
+        rounds.done();
+      }
+      screen_.paint(lines());
+      if (!context_.out.flush()) {
+        break;
+      }
+    }
+    return kOk;
+  }
+
+ private:
+  // Heading and footer take three lines, and the cursor's line must not scroll.
+  [[nodiscard]] std::size_t visible() const {
+    constexpr int kOtherLines = 4;
+    return static_cast<std::size_t>(std::max(1, context_.out.extent().rows - kOtherLines));
+  }
+
+  // False if the user wants to end.
+  bool handle_keys() {
+    const std::size_t page = visible();
+    const std::size_t total = source_.values().size();
+    const std::size_t last = total > page ? total - page : 0;
+    for (char c = screen_.key(); c != 0; c = screen_.key()) {
+      switch (c) {
+        case 'q':
+          return false;
+        case ' ':
+          paused_ = !paused_;
+          break;
+        case 'j':
+          first_ = std::min(first_ + 1, last);
+          break;
+        case 'k':
+          first_ -= first_ > 0 ? 1 : 0;
+          break;
+        case 'f':
+          first_ = std::min(first_ + page, last);
+          break;
+        case 'b':
+          first_ -= std::min(first_, page);
+          break;
+        case 'g':
+          first_ = 0;
+          break;
+        case 'G':
+          first_ = last;
+          break;
+        default:
+          break;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::vector<std::string> lines() const {
+    const Output& out = context_.out;
+    const auto values = source_.values();
+    const std::size_t end = std::min(values.size(), first_ + visible());
+    std::size_t name_width = 4;
+    std::size_t value_width = 5;
+    std::vector<std::string> texts;
+    for (std::size_t i = first_; i < end; ++i) {
+      texts.push_back(printable(text_of(values[i])));
+      name_width = std::max(name_width, display_width(values[i].item.name));
+      constexpr std::size_t kAlignUpTo = 24;
+      if (display_width(texts.back()) <= kAlignUpTo) {
+        value_width = std::max(value_width, display_width(texts.back()));
+      }
+    }
+    std::vector<std::string> out_lines;
+    out_lines.push_back(
+        out.paint(Style::Bold, "node " + source_.node()) + "  " +
+        (source_.alive() ? out.paint(Style::Good, "running") : out.paint(Style::Bad, source_.absence())) +
+        (paused_ ? "  " + out.paint(Style::Warn, "paused") : ""));
+    out_lines.push_back(
+        out.paint(Style::Bold, fmt::format("  {:<{}}  {:>{}}  UNIT", "NAME", name_width, "VALUE", value_width)));
+    for (std::size_t i = first_; i < end; ++i) {
+      const auto& value = values[i];
+      const bool mark = value.changed && !paused_;
+      out_lines.push_back(fmt::format(
+          "{} {:<{}}  {}  {}", mark ? out.paint(Style::Accent, "*") : " ", value.item.name, name_width,
+          out.paint(mark ? Style::Accent : Style::None, fmt::format("{:>{}}", texts[i - first_], value_width)),
+          printable(value.item.place.unit)));
+    }
+    std::string footer = screen_.key_file() >= 0 ? "q quit, space pause" : "Ctrl-C quits";
+    if (values.size() > end - first_) {
+      footer = fmt::format("{} to {} of {}, j k f b scroll, ", first_ + 1, end, values.size()) + footer;
+    }
+    out_lines.push_back(out.paint(Style::Dim, footer));
+    return out_lines;
+  }
+
+  Context& context_;
+  WatchSource& source_;
+  const Options& options_;
+  Screen screen_;
+  std::size_t first_ = 0;
+  bool paused_ = false;
+};
+
+void print_once(Context& context, WatchSource& source) {
+  source.sample(context, 0, kAll);
+  if (!source.alive()) {
+    context.out.note(fmt::format("node '{}' is {}: these are the last values", source.node(), source.absence()));
+  }
+  Table table({{"NAME", ""}, {"VALUE", "", Align::Right}, {"UNIT", ""}});
+  for (const auto& value : source.values()) {
+    table.add({Cell(value.item.name), Cell(text_of(value)), Cell(value.item.place.unit)});
+  }
+  context.out.write(table.text(context.out));
+}
+
+int watch(Context& context, const Options& options) {
+  std::vector<std::string> names = options.names;
+  for (const std::string& list : options.lists) {
+    if (!read_watch_list(context, list, names)) {
+      return kFailed;
+    }
+  }
+  if (names.empty()) {
+    context.out.error("which variables? Name them, or a list with -f; '*' is all (see: indurop help watch)");
+    return kUsage;
+  }
+  int code = kOk;
+  WatchSource source(context.node, names);
+  if (!source.open(context, code)) {
+    return code;
+  }
+  be_gentle(source.node());
+  if (context.format == Format::Table && options.once) {
+    print_once(context, source);
+    return kOk;
+  }
+  if (context.format == Format::Table && context.out.terminal()) {
+    return View(context, source, options).run();
+  }
+  return stream(context, source, options);
+}
+
+Action declare(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  constexpr double kMostHz = 1000;
+  constexpr double kLeastHz = 0.001;
+  app.add_option("names", options->names, "Variables, parts of them, or globs")->type_name("GLOB");
+  app.add_option("-f,--file", options->lists, "Watch list: one name or glob per line, # comments")
+      ->type_name("LIST.watch");
+  app.add_option("--hz", options->hz, "Rounds per second (default 10, at most 1000)")
+      ->check(CLI::Range(kLeastHz, kMostHz))
+      ->type_name("RATE");
+  app.add_option("-n,--count", options->count, "Stop after COUNT rounds")->type_name("COUNT");
+  app.add_flag("--once", options->once, "One round");
+  add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return watch(c, *options); };
+}
+
+}  // namespace
+
+const Verb kWatchVerb{
+    "watch", "Variables", "Follow variables as they change",
+    "On a terminal the values are painted in place, '*' marks what changed since the last round; q quits, space\n"
+    "pauses. In a pipe: one line per changed variable, with -o csv or json one line per round. The node is only read,\n"
+    "never asked; if it stops, the last values stay and the view goes on when it is back.\n"
+    "Examples:\n"
+    "  indurop watch 'knu::Robot::*'\n"
+    "  indurop watch -f arm.watch --hz 2\n"
+    "  indurop watch tick 'joints[0]' -o csv -n 1000 > run.csv\n",
+    &declare};
+
+}  // namespace indurop::tools
