@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -46,6 +47,24 @@ std::string or_dash(const std::string& text) {
   return text.empty() ? "-" : text;
 }
 
+std::string duration_text(std::int64_t ns) {
+  constexpr std::array<std::pair<std::int64_t, std::string_view>, 4> kUnits{
+      {{1'000'000'000, "s"}, {1'000'000, "ms"}, {1'000, "us"}, {1, "ns"}}};
+  for (const auto& [unit, name] : kUnits) {
+    if (ns % unit == 0) {
+      return fmt::format("{} {}", ns / unit, name);
+    }
+  }
+  return {};
+}
+
+// "initial 45", or only "initial" if the value is long.
+std::string value_text(std::string_view what, const schema::Type& type, const std::vector<std::uint8_t>& bytes) {
+  constexpr std::size_t kShort = 32;
+  const std::string value = type.size() > kShort ? std::string() : schema::format_value(type, bytes);
+  return value.empty() || value.size() > kShort ? std::string(what) : fmt::format("{} {}", what, value);
+}
+
 std::string properties(const schema::Variable& v) {
   std::string out;
   const auto add = [&out](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
@@ -53,15 +72,13 @@ std::string properties(const schema::Variable& v) {
     add("retain");
   }
   if (v.maxage_ns != 0) {
-    add(fmt::format("maxage {} ns", v.maxage_ns));
+    add("maxage " + duration_text(v.maxage_ns));
   }
-  if (!v.initial.empty() && schema::size_of(v.type.base) != 0 && v.type.dims.empty()) {
-    add("initial " + initializer_text(v.type, v.initial.data()));
-  } else if (!v.initial.empty()) {
-    add("initial value");
+  if (!v.initial.empty()) {
+    add(value_text("initial", v.type, v.initial));
   }
   if (!v.fallback.empty()) {
-    add("fallback");
+    add(value_text("fallback", v.type, v.fallback));
   }
   return or_dash(out);
 }

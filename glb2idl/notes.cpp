@@ -38,6 +38,9 @@ class Reader {
   Reader(Context& context, const schema::Type& type, NoteTarget target, Notes& notes)
       : context_(context), type_(type), target_(target), notes_(notes) {}
 
+  // What a declarator has itself replaces what stands in front of all.
+  void begin_list() { seen_.clear(); }
+
   void read(const ast::Annotation& annotation) {
     const Rule* rule = nullptr;
     std::vector<std::string> known;
@@ -147,6 +150,7 @@ Notes read_notes(Context& context, const std::vector<ast::Annotation>& leading, 
   notes.description = std::move(comment);
   Reader reader(context, type, target, notes);
   for (const auto* list : {&leading, &own}) {
+    reader.begin_list();
     for (const ast::Annotation& annotation : *list) {
       reader.read(annotation);
     }

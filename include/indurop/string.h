@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <string_view>
+#include <type_traits>
 
 namespace indurop {
 
@@ -17,11 +18,17 @@ struct string {
   char data[N] = {};  // NOLINT: the layout of a C char array is the contract
 
   string() = default;
-  string(std::string_view text) noexcept { assign(text); }  // NOLINT(google-explicit-constructor): used like char[N]
-  string(const char* text) noexcept { assign(text); }       // NOLINT(google-explicit-constructor)
+  constexpr string(std::string_view text) noexcept { assign(text); }  // NOLINT(google-explicit-constructor): like char[N]
+  constexpr string(const char* text) noexcept { assign(text); }       // NOLINT(google-explicit-constructor)
 
-  void assign(std::string_view text) noexcept {
+  constexpr void assign(std::string_view text) noexcept {
     const std::size_t n = text.size() < N ? text.size() : N - 1;
+    if (std::is_constant_evaluated()) {
+      for (std::size_t i = 0; i < N; ++i) {
+        data[i] = i < n ? text[i] : '\0';
+      }
+      return;
+    }
     std::memcpy(data, text.data(), n);
     std::memset(data + n, 0, N - n);
   }

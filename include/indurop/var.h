@@ -256,22 +256,29 @@ struct ArrayRef {
 };
 
 // The members every generated struct shape has besides its fields; it names its Place `indurop_place`, so that a
-// field may be called `place`. A whole struct is read, assigned and compared in one access.
-#define INDUROP_UNION_SHAPE(Self)                                                                                \
-  constexpr Self(::indurop::Place at, ::indurop::detail::Make /*unused*/) noexcept : indurop_place(at) {}        \
-  Self(const Self&) = default;                                                                                   \
-  ~Self() = default;                                                                                             \
-  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                                        \
-    return ::indurop::detail::load<tag_type, whole_type>(kOffset + indurop_place.bytes);                         \
-  }                                                                                                              \
-  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }                                   \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& value) const noexcept {                          \
-    ::indurop::detail::store<tag_type, whole_type>(kOffset + indurop_place.bytes, value);                        \
-    return *this;                                                                                                \
-  }                                                                                                              \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& other) const noexcept { return *this = other.get(); }  \
-  friend bool operator==(const Self& a, const whole_type& b) noexcept { return a.get() == b; }                   \
-  friend bool operator==(const Self& a, const Self& b) noexcept { return a.get() == b.get(); }
+// field may have any name. A whole struct is read, assigned and compared in one access.
+#define INDUROP_UNION_SHAPE(Self)                                                                            \
+  constexpr Self(::indurop::Place indurop_at, ::indurop::detail::Make /*unused*/) noexcept                   \
+      : indurop_place(indurop_at) {}                                                                         \
+  Self(const Self&) = default;                                                                               \
+  ~Self() = default;                                                                                         \
+  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                                    \
+    return ::indurop::detail::load<tag_type, whole_type>(kOffset + indurop_place.bytes);                     \
+  }                                                                                                          \
+  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }                               \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& indurop_value) const noexcept {              \
+    ::indurop::detail::store<tag_type, whole_type>(kOffset + indurop_place.bytes, indurop_value);            \
+    return *this;                                                                                            \
+  }                                                                                                          \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& indurop_value) const noexcept {                    \
+    return *this = indurop_value.get();                                                                      \
+  }                                                                                                          \
+  friend bool operator==(const Self& indurop_left, const whole_type& indurop_right) noexcept {               \
+    return indurop_left.get() == indurop_right;                                                              \
+  }                                                                                                          \
+  friend bool operator==(const Self& indurop_left, const Self& indurop_right) noexcept {                     \
+    return indurop_left.get() == indurop_right.get();                                                        \
+  }
 
 // The members every generated struct shape has besides its fields. A whole struct is read, assigned and compared
 // in one access.
