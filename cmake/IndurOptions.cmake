@@ -17,7 +17,7 @@ endif()
 add_library(indurop_options INTERFACE)
 target_compile_options(indurop_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wnon-virtual-dtor -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion -Wformat=2 -Werror>)
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Werror>)
 target_include_directories(indurop_options INTERFACE ${PROJECT_SOURCE_DIR})
 
 # address;undefined or thread

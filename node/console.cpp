@@ -33,8 +33,7 @@ void Console::line(std::string_view kind, std::string_view text) const {
 void Console::watch(scheduler::RunBlock& run) {
   run_ = &run;
   seen_.assign(run.module_count, Seen{});
-  reader_.clear();
-  reader_.emplace_back(run);
+  reader_.emplace(run);
 }
 
 void Console::report(std::int64_t now_ns, bool last) {
@@ -52,7 +51,7 @@ void Console::report(std::int64_t now_ns, bool last) {
 void Console::print_messages(std::int64_t now_ns) {
   runtime::Message message;
   bool any = false;
-  while (reader_.front().next(message, now_ns)) {
+  while (reader_->next(message, now_ns)) {
     std::fwrite(message.text.data(), 1, message.text.size(), stdout);
     any = true;
   }

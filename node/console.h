@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,7 +57,7 @@ class Console {
   std::string node_;
   bool quiet_;
   scheduler::RunBlock* run_ = nullptr;
-  std::vector<runtime::MessageReader> reader_;  // none before watch()
+  std::optional<runtime::MessageReader> reader_;  // none before watch()
   std::vector<Seen> seen_;
   std::uint64_t seen_lost_ticks_ = 0;
   std::int64_t next_summary_ns_ = 0;

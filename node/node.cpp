@@ -514,7 +514,7 @@ int Node::finish() {
   copy_text(run_->stop_reason, reason_);
   std::uint32_t faulted = 0;
   for (std::uint32_t i = 0; i < run_->module_count; ++i) {
-    faulted += run_->modules()[i].state.load() == ModuleState::Faulted ? 1 : 0;
+    faulted += run_->modules()[i].state.load() == ModuleState::Faulted ? 1U : 0U;
   }
   if (run_->tick.load() > 0) {
     if (!options_.report.empty()) {

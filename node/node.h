@@ -23,6 +23,7 @@
 #include "node/stop_signal.h"
 #include "rt/machine.h"
 #include "scheduler/engine.h"
+#include "scheduler/run_block_setup.h"
 #include "vars/node_lock.h"
 #include "vars/run_file.h"
 #include "vars/store.h"

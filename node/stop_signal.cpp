@@ -3,6 +3,8 @@
 
 #include <pthread.h>
 
+#include <initializer_list>
+
 #include "rt/clock.h"
 
 namespace indurop::node {
