@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(indurop_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/InduRoP)
 set(indurop_share_dir ${CMAKE_INSTALL_DATADIR}/indurop)
 
-install(TARGETS indurop_headers indurop glb2idl indurop-node indurop_cli EXPORT InduRoPTargets
+install(TARGETS indurop_headers indurop glb2idl indurop_cli EXPORT InduRoPTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/indurop DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -35,7 +35,6 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/idl/IndurIdlc.cmake
   DESTINATION ${indurop_package_dir})
 
-install(FILES ${PROJECT_SOURCE_DIR}/deploy/module.xsd DESTINATION ${indurop_share_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${indurop_share_dir} USE_SOURCE_PERMISSIONS)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
   DESTINATION ${CMAKE_INSTALL_DOCDIR})

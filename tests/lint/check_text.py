@@ -31,7 +31,8 @@ def spdx(root):
         if lines[0] != SPDX:
             yield f"{name}:1: first line must be '{SPDX}'"
         elif (len(lines) < 2 or not re.match(r"// \S", lines[1])) and not (
-                name.endswith(".cpp") and (pathlib.Path(root) / name).with_suffix(".h").exists()):
+                name.endswith("_test.cpp")
+                or name.endswith(".cpp") and (pathlib.Path(root) / name).with_suffix(".h").exists()):
             yield f"{name}:2: say in one to four lines of comment what this file is for"
 
 

@@ -170,6 +170,11 @@ class Headers(Sample):
         self.put("rt/a.h", HEAD + "struct A {};\n")
         self.found(check_headers.check(self.root, []), "rt/a.h", "redefinition")
 
+    def test_own_header_not_first(self):
+        self.put("rt/a.h", HEAD + "#pragma once\nstd::string a();\n")
+        self.put("rt/a.cpp", HEAD + '#include <string>\n#include "rt/a.h"\n')
+        self.found(check_headers.check(self.root, []), "rt/a.cpp", "first include")
+
     def test_good_header(self):
         self.put("include/indurop/a.h", HEAD + "#pragma once\n#include <string>\nstd::string a();\n")
         self.assertEqual(check_headers.check(self.root, []), [])
