@@ -16,13 +16,19 @@ std::string type_text(const schema::Type& type) { return fmt::format("{} ({} byt
 
 std::vector<BindingProblem> RefTables::add(abi::Ref* refs, std::uint32_t count, const Attachment* to) {
   std::vector<BindingProblem> problems;
-  tables_.push_back({refs, count, {}});
+  for (Table& table : tables_) {
+    if (table.refs == refs) {
+      ++table.times;
+      return problems;
+    }
+  }
+  tables_.push_back({refs, count, 1, {}});
   bind_table(tables_.back(), to, problems);
   return problems;
 }
 
 void RefTables::remove(const abi::Ref* refs) {
-  std::erase_if(tables_, [refs](const Table& table) { return table.refs == refs; });
+  std::erase_if(tables_, [refs](Table& table) { return table.refs == refs && --table.times == 0; });
 }
 
 std::vector<BindingProblem> RefTables::bind(const Attachment* to) {

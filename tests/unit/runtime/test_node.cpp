@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "test_node.h"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "vars/process.h"
+
+namespace indurop::testing {
+
+namespace {
+
+schema::Type plain(schema::Base base) {
+  schema::Type type;
+  type.base = base;
+  type.element_size = schema::size_of(base);
+  type.align = type.element_size;
+  return type;
+}
+
+schema::Type structure(const std::string& name, std::vector<std::pair<std::string, schema::Type>> fields) {
+  schema::Type type;
+  type.base = schema::Base::Struct;
+  type.name = name;
+  std::uint32_t offset = 0;
+  for (auto& [field_name, field_type] : fields) {
+    schema::Field field;
+    field.name = field_name;
+    field.offset = offset;
+    type.align = field_type.align;
+    offset += static_cast<std::uint32_t>(field_type.size());
+    field.type = std::move(field_type);
+    type.fields.push_back(std::move(field));
+  }
+  type.element_size = fields.empty() ? 1 : offset;
+  return type;
+}
+
+schema::Variable variable(const std::string& name, schema::Type type) {
+  schema::Variable result;
+  result.name = name;
+  result.type_hash = schema::hash_of(type);
+  result.kind = type.dims.empty() && schema::size_of(type.base) != 0 ? abi::Kind::Scalar : abi::Kind::Ring;
+  result.type = std::move(type);
+  return result;
+}
+
+schema::Function function(const std::string& name, schema::Type arguments, schema::Type result) {
+  schema::Function made;
+  made.name = name;
+  made.arguments = std::move(arguments);
+  made.result = std::move(result);
+  made.type_hash = schema::hash_of(made);
+  return made;
+}
+
+}  // namespace
+
+schema::Schema sample_schema() {
+  using schema::Base;
+  schema::Schema result;
+  auto tick = variable("knu::Robot::tick", plain(Base::UInt32));
+  tick.initial = {7, 0, 0, 0};
+  result.variables.push_back(std::move(tick));
+  auto joints = structure("knu::Robot::joints_t",
+                          {{"x", plain(Base::Double)}, {"y", plain(Base::Double)}, {"z", plain(Base::Double)}});
+  joints.dims = {10};
+  result.variables.push_back(variable("knu::Robot::joints", joints));
+  schema::Type label;
+  label.base = Base::Text;
+  label.text_size = 16;
+  label.element_size = 16;
+  result.variables.push_back(variable("knu::Robot::label", label));
+  result.variables.push_back(variable("knu::Robot::ready", plain(Base::Bool)));
+  result.functions.push_back(function(
+      "knu::Robot::add", structure("knu::Robot::add_args", {{"a", plain(Base::Double)}, {"b", plain(Base::Double)}}),
+      plain(Base::Double)));
+  result.functions.push_back(function("knu::Robot::count", structure("knu::Robot::count_args", {}), structure("", {})));
+  result.functions.push_back(function(
+      "knu::Robot::nap", structure("knu::Robot::nap_args", {{"ms", plain(Base::UInt32)}}), plain(Base::UInt32)));
+  return result;
+}
+
+TestNode::TestNode(std::vector<TestModule> modules, const schema::Schema& schema, std::uint32_t ring_capacity)
+    : ring_capacity_(ring_capacity) {
+  static int number = 0;
+  name_ = "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(number++);
+  restart(schema, std::move(modules));
+}
+
+TestNode::~TestNode() {
+  store_.reset();
+  run_.reset();
+  for (const std::string& file : {vars::block_file(name_), vars::run_file(name_), vars::lock_file(name_)}) {
+    (void)vars::remove_shm_file(file);
+  }
+}
+
+void TestNode::restart(const schema::Schema& schema, std::vector<TestModule> modules) {
+  auto store = vars::Store::create(name_, schema);
+  if (!store) {
+    throw std::runtime_error(store.error().where);
+  }
+  store_ = std::make_unique<vars::Store>(std::move(store).value());
+  make_run(modules);
+}
+
+void TestNode::make_run(const std::vector<TestModule>& modules) {
+  using namespace scheduler;
+  const auto count = static_cast<std::uint32_t>(modules.size());
+  std::uint64_t at = sizeof(RunBlock);
+  const auto reserve = [&at](std::uint64_t bytes) {
+    const std::uint64_t offset = (at + 63) / 64 * 64;
+    at = offset + bytes;
+    return offset;
+  };
+  const std::uint64_t records = reserve(count * sizeof(ModuleRecord));
+  const std::uint64_t slots = reserve(count * sizeof(ProcessSlot));
+  const std::uint64_t rings = reserve((count + 1) * sizeof(MessageRing));
+  const std::uint64_t entries = reserve((count + 1) * ring_capacity_ * sizeof(MessageEntry));
+  const std::uint64_t properties = reserve(4096);
+  auto file = vars::RunFile::create(name_, at);
+  if (!file) {
+    throw std::runtime_error(file.error().where);
+  }
+  run_ = std::make_unique<vars::RunFile>(std::move(file).value());
+  RunBlock& block = run();
+  block.abi = kRunAbi;
+  block.module_count = count;
+  block.total_size = at;
+  std::strncpy(block.node_name, name_.c_str(), sizeof block.node_name - 1);
+  block.node_pid = ::getpid();
+  block.node_start_time = vars::process_start_time(::getpid());
+  block.state = NodeState::Running;
+  block.basic_period_ns = 1'000'000;
+  block.modules_offset = records;
+  block.slots_offset = slots;
+  block.rings_offset = rings;
+  std::uint32_t text = static_cast<std::uint32_t>(properties);
+  for (std::uint32_t i = 0; i <= count; ++i) {
+    block.rings()[i].capacity = ring_capacity_;
+    block.rings()[i].entries_offset = entries + i * std::uint64_t{ring_capacity_} * sizeof(MessageEntry);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ModuleRecord& record = block.modules()[i];
+    std::strncpy(record.name, modules[i].name.c_str(), sizeof record.name - 1);
+    std::strncpy(record.file, modules[i].file.c_str(), sizeof record.file - 1);
+    record.type = modules[i].type;
+    record.period_ns = modules[i].period_ns;
+    record.core = -1;
+    record.property_offset = text;
+    for (const auto& [name, value] : modules[i].properties) {
+      for (const std::string& part : {name, value}) {
+        std::memcpy(block.at<char>(text), part.c_str(), part.size() + 1);
+        text += static_cast<std::uint32_t>(part.size()) + 1;
+      }
+    }
+    record.property_size = text - record.property_offset;
+    block.process_slots()[i].wake.init(true);
+    block.process_slots()[i].module = i;
+  }
+  block.magic.store(kRunMagic, std::memory_order_release);
+}
+
+void TestNode::release(std::size_t index, std::uint64_t tick, std::int64_t grid_ns) noexcept {
+  scheduler::ProcessSlot& at = slot(index);
+  at.release_tick = tick;
+  at.release_ns = grid_ns;
+  at.released.fetch_add(1);
+  at.wake.wake();
+}
+
+}  // namespace indurop::testing

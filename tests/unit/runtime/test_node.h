@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node without modules' code: its store and run block under a name of this test process, removed at the end.
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schema/schema.h"
+#include "scheduler/run_block.h"
+#include "vars/run_file.h"
+#include "vars/store.h"
+
+namespace indurop::testing {
+
+// The variables and functions of sample_header.h.
+schema::Schema sample_schema();
+
+struct TestModule {
+  std::string name;
+  scheduler::ModuleType type = scheduler::ModuleType::Thread;
+  std::int64_t period_ns = 1'000'000;
+  std::vector<std::pair<std::string, std::string>> properties;
+  std::string file;
+};
+
+class TestNode {
+ public:
+  explicit TestNode(std::vector<TestModule> modules = {{"m", {}, 1'000'000, {}, ""}},
+                    const schema::Schema& schema = sample_schema(), std::uint32_t ring_capacity = 8);
+  ~TestNode();
+  TestNode(const TestNode&) = delete;
+  TestNode& operator=(const TestNode&) = delete;
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  vars::Store& store() noexcept { return *store_; }
+  scheduler::RunBlock& run() noexcept { return *static_cast<scheduler::RunBlock*>(run_->data()); }
+  scheduler::ModuleRecord& module(std::size_t index) noexcept { return run().modules()[index]; }
+  scheduler::ProcessSlot& slot(std::size_t index) noexcept { return run().process_slots()[index]; }
+  void release(std::size_t index, std::uint64_t tick = 0, std::int64_t grid_ns = 0) noexcept;
+
+  // As after a restart of the node: a new store (another layout retires the old one) and a new run block.
+  void restart(const schema::Schema& schema, std::vector<TestModule> modules);
+
+ private:
+  void make_run(const std::vector<TestModule>& modules);
+  std::string name_;
+  std::uint32_t ring_capacity_;
+  std::unique_ptr<vars::Store> store_;
+  std::unique_ptr<vars::RunFile> run_;
+};
+
+// Waits for a condition, at most 20 s; returns whether it came true.
+template <class Condition>
+bool wait_until(Condition condition);
+
+}  // namespace indurop::testing
+
+#include <chrono>
+#include <thread>
+
+template <class Condition>
+bool indurop::testing::wait_until(Condition condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
