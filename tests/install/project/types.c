@@ -2,5 +2,5 @@
 #include "knuRobot.h"
 
 int main(void) {
-  return knu_Robot_joints_desc.m_size > 0 ? 0 : 1;
+  return knu_Robot_joints__desc.m_size > 0 ? 0 : 1;
 }
