@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "hosted.h"
-#include "sample_header.h"
+#include <indurop/generated.h>
 
 namespace {
 

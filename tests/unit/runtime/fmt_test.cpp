@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <indurop/fmt.h>
 
-#include "sample_header.h"
+#include <indurop/generated.h>
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "hosted.h"
-#include "sample_header.h"
+#include <indurop/generated.h>
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "hosted.h"
-#include "sample_header.h"
+#include <indurop/generated.h>
 
 namespace {
 
@@ -16,16 +16,25 @@ using namespace knu::Robot;
 using indurop::testing::Hosted;
 using indurop::testing::TestNode;
 
+template <class Variable>
+const indurop::abi::Ref& row_of(const Variable& /*shape*/) {
+  return Variable::tag_type::ref();
+}
+
 // Constructed before main: the variables must be there already.
 struct EarlyUser {
-  EarlyUser() : seen(tick) { joints[9].z = 3.5; }
+  EarlyUser() : seen(tick) {
+    joints[9].z = 3.5;
+    stored = joints[9].z;
+  }
   std::uint32_t seen;
+  double stored = 0;
 };
 EarlyUser early_user;
 
 TEST(Refs, Are_bound_before_static_objects_are_constructed) {
   EXPECT_EQ(early_user.seen, 7U);
-  EXPECT_EQ(joints[9].z, 3.5);
+  EXPECT_EQ(early_user.stored, 3.5);
 }
 
 TEST(Refs, Move_to_the_store_and_back) {
@@ -68,20 +77,20 @@ TEST(Refs, Of_another_type_stay_private_and_are_named) {
 }
 
 TEST(Refs, Follow_a_second_table_of_the_same_variable) {
-  indurop::abi::Ref second[] = {indurop_generated_sample::refs[0]};
+  indurop::abi::Ref second[] = {row_of(tick)};
   second[0].entry = nullptr;
   indurop_register_refs(second, 1, indurop::abi::kVersion);
-  EXPECT_EQ(second[0].entry, indurop_generated_sample::refs[0].entry) << "private memory is shared too";
+  EXPECT_EQ(second[0].entry, row_of(tick).entry) << "private memory is shared too";
   {
     TestNode node;
     const Hosted hosted(node);
-    EXPECT_EQ(second[0].entry, indurop_generated_sample::refs[0].entry);
+    EXPECT_EQ(second[0].entry, row_of(tick).entry);
   }
   indurop_unregister_refs(second);
 }
 
 TEST(RefsDeathTest, Of_another_abi_end_the_program) {
-  indurop::abi::Ref refs[] = {indurop_generated_sample::refs[0]};
+  indurop::abi::Ref refs[] = {row_of(tick)};
   EXPECT_EXIT(indurop_register_refs(refs, 1, indurop::abi::kVersion + 1), ::testing::ExitedWithCode(8), "rebuild it");
 }
 

@@ -15,7 +15,7 @@
 
 namespace indurop::testing {
 
-// The variables and functions of sample_header.h.
+// The variables and functions of sample.glb, as this test program carries them.
 schema::Schema sample_schema();
 
 struct TestModule {
