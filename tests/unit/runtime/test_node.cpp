@@ -13,12 +13,12 @@
 
 namespace {
 
-// A node named "local" may be running on this machine; these programs have nothing to do with it. Runs before the
-// constructors through which a generated header looks for its node.
-void keep_away_from_others(int /*argc*/, char** /*argv*/, char** /*environment*/) {
-  ::setenv("INDUROP_NODE", "rttest-none", 0);
-}
-[[gnu::section(".preinit_array"), gnu::used]] void (*const kKeepAway)(int, char**, char**) = keep_away_from_others;
+// A node named "local" may be running on this machine; these programs have nothing to do with it. The priority is one
+// that is reserved, because a generated header looks for its node at 101.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wprio-ctor-dtor"
+[[gnu::constructor(100)]] void keep_away_from_others() { ::setenv("INDUROP_NODE", "rttest-none", 0); }
+#pragma GCC diagnostic pop
 
 }  // namespace
 
