@@ -23,6 +23,18 @@ const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, st
   return nullptr;
 }
 
+std::string describe(const scheduler::RunBlock& run, const scheduler::OverrunEntry& entry) {
+  std::string text = fmt::format("the last at tick {} (slot {}): ", entry.tick, entry.slot);
+  text += entry.started != 0 ? fmt::format("it had been running for {:.1f} us after starting {:.1f} us late",
+                                           microseconds(entry.own_ns), microseconds(entry.latency_ns))
+                             : std::string("it was still waiting for its turn");
+  if (entry.previous >= 0) {
+    text += fmt::format("; before it ran {} for {:.1f} us", run.modules()[entry.previous].name,
+                        microseconds(entry.previous_ns));
+  }
+  return text;
+}
+
 }  // namespace
 
 void Console::line(std::string_view kind, std::string_view text) const {
@@ -85,11 +97,7 @@ void Console::report_overruns(std::int64_t now_ns, bool last) {
         warning("module {}: {} overruns", module.name, fresh);
         continue;
       }
-      const char* before = entry->previous >= 0 ? run_->modules()[entry->previous].name : "nothing";
-      warning("module {}: {} overrun{}, last at tick {} slot {}: {} {:.1f} us, started {:.1f} us late, before it ran {} ({:.1f} us)",
-              module.name, fresh, fresh == 1 ? "" : "s", entry->tick, entry->slot,
-              entry->started != 0 ? "running for" : "not yet started after", microseconds(entry->own_ns),
-              microseconds(entry->latency_ns), before, microseconds(entry->previous_ns));
+      warning("module {}: {} overrun{}, {}", module.name, fresh, fresh == 1 ? "" : "s", describe(*run_, *entry));
     }
     const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
     if (misses > seen_[i].misses) {

@@ -9,10 +9,10 @@ int main() {
     return 1;  // the reason was printed
   }
   while (irp::waitPeriod()) {
-    INDUROP_TYPEOF(joints)::value_type sum = joints[0];
-    sum.x += joints[1].x;
-    sum.y += joints[1].y;
-    joints[2] = sum;
+    INDUROP_TYPEOF(total)::value_type sum = scaled;
+    sum.x += joints[0].x;
+    sum.y += joints[0].y;
+    total = sum;
   }
   return 0;
 }

@@ -11,6 +11,5 @@ extern "C" int condition() {
 
 extern "C" void run(void) {
   // process the corresponding event
-  joint[0].x = 0;
-  limits_reached += 1;
+  limits_reached += 1;  // cntr3 turns back when it sees this
 }

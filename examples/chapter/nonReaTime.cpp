@@ -9,9 +9,8 @@ using namespace knu::Robot;
 
 int main() {
   while (!irp::stop_requested()) {
-    INDUROP_TYPEOF(joints)::value_type v = joints[2];
-    irp::printf("tick %8u  joints[2] = {%7.2f, %7.2f, %7.2f}  limits reached %u, seen by vision %u\n", tick, v.x, v.y,
-                v.z, limits_reached, seen_by_vision);
+    irp::printf("tick %7u  joints[0] = {%6.2f, %6.2f}  total = {%7.2f, %7.2f}  limits reached %u, seen by vision %u\n",
+                tick, joints[0].x, joints[0].y, total.x, total.y, limits_reached, seen_by_vision);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }
   return 0;

@@ -29,6 +29,5 @@ int main(int /*argc*/, char* /*argv*/[]) {
 
 void processEvent(double /*event*/) {
   // process event
-  joint[1].y = 0;
-  seen_by_vision += 1;
+  seen_by_vision += 1;  // cntr3 turns back when it sees this
 }
