@@ -62,7 +62,8 @@ class Builder {
     }
   }
 
-  void from_names(std::size_t module, const std::vector<std::string>& names, const std::vector<Place>& places, bool reads) {
+  void from_names(std::size_t module, const std::vector<std::string>& names, const std::vector<Place>& places,
+                  bool reads) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::string message;
       const auto place = schema::find_place(context_.result.schema, names[i], message);
@@ -91,7 +92,10 @@ class Builder {
     }
     if (reads || writes) {
       context_.report.note(m.places.file,
-                           m.name + (reads && writes ? " reads and writes" : reads ? " reads" : " writes") +
+                           m.name +
+                               (reads && writes ? " reads and writes"
+                                : reads         ? " reads"
+                                                : " writes") +
                                " variables by name (channel), which cannot be seen in its file; name them in "
                                "<access><read>...</read><write>...</write></access>");
     }
@@ -132,6 +136,8 @@ std::vector<std::size_t> execution_order(const CheckResult& result) {
   return order;
 }
 
-AccessMap make_access_map(CheckContext& context) { return Builder(context).build(); }
+AccessMap make_access_map(CheckContext& context) {
+  return Builder(context).build();
+}
 
 }  // namespace indurop::deploy

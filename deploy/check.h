@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "deploy/config.h"
+#include "scheduler/period_table.h"
 #include "schema/elf.h"
 #include "schema/schema.h"
-#include "scheduler/period_table.h"
 
 namespace indurop::deploy {
 
@@ -28,9 +28,9 @@ struct VariableUse {
 
 struct CheckResult {
   std::vector<Diagnostic> diagnostics;
-  scheduler::PeriodTable table;            // periodic modules, indices into `periodic`
-  std::vector<std::size_t> periodic;       // indices into Config::modules
-  std::vector<std::size_t> sporadic;       // by priority
+  scheduler::PeriodTable table;       // periodic modules, indices into `periodic`
+  std::vector<std::size_t> periodic;  // indices into Config::modules
+  std::vector<std::size_t> sporadic;  // by priority
   std::vector<std::size_t> non_real;
   std::vector<ModuleFacts> facts;          // one per Config::modules
   schema::Schema schema;                   // of all modules together

@@ -7,6 +7,7 @@
 #include "deploy/access_map.h"
 #include "deploy/data_flow.h"
 #include "deploy/reader.h"
+#include "deploy/text.h"
 
 namespace indurop::deploy {
 namespace {
@@ -60,9 +61,10 @@ class AccessCheck {
 
   void check_writers(const std::string& name, const VariableAccess& access) {
     if (access.writers.size() > 1) {
-      context_.report.warning(module(access.writers[1]).places.file,
-                              in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
-                                  "; where both write the same part, the one that runs later wins: let one module own it");
+      context_.report.warning(
+          module(access.writers[1]).places.file,
+          in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
+              "; where both write the same part, the one that runs later wins: let one module own it");
     }
     if (!access.writers.empty() || access.readers.empty()) {
       return;
@@ -73,15 +75,16 @@ class AccessCheck {
     if (others.empty()) {
       context_.report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
     } else {
-      context_.report.note(place, text + "no module is known to write it; perhaps " + enumerate(names(others)) + " does");
+      context_.report.note(place,
+                           text + "no module is known to write it; perhaps " + enumerate(names(others)) + " does");
     }
   }
 
   void check_readers(const std::string& name, const VariableAccess& access) {
     if (access.readers.empty() && map_.unknown_readers.empty()) {
-      context_.report.note(module(access.writers.front()).places.file,
-                           in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
-                               " but no module reads it");
+      context_.report.note(
+          module(access.writers.front()).places.file,
+          in_quotes(name) + " is written by " + enumerate(names(access.writers)) + " but no module reads it");
     }
   }
 
@@ -106,8 +109,8 @@ class AccessCheck {
       }
     }
     for (auto& [edge, variables] : found) {
-      flows_.push_back({edge.first, edge.second, std::move(variables),
-                        age_between(release(edge.first), release(edge.second))});
+      flows_.push_back(
+          {edge.first, edge.second, std::move(variables), age_between(release(edge.first), release(edge.second))});
       edges_.push_back(edge);
     }
   }
@@ -123,13 +126,13 @@ class AccessCheck {
       swapped[i] = i == early.reader ? early.writer : i == early.writer ? early.reader : i;
     }
     const bool swap_helps = std::none_of(flows_.begin(), flows_.end(), [&](const Flow& flow) {
-      const bool concerned = flow.reader == early.reader || flow.reader == early.writer || flow.writer == early.reader ||
-                             flow.writer == early.writer;
+      const bool concerned = flow.reader == early.reader || flow.reader == early.writer ||
+                             flow.writer == early.reader || flow.writer == early.writer;
       return concerned && group_[flow.reader] != group_[flow.writer] && swapped[flow.reader] < swapped[flow.writer];
     });
     if (distinct && swap_helps) {
-      return "swap their priorities: " + at(early.writer).name + " " + std::to_string(at(early.reader).priority) + ", " +
-             at(early.reader).name + " " + std::to_string(at(early.writer).priority);
+      return "swap their priorities: " + at(early.writer).name + " " + std::to_string(at(early.reader).priority) +
+             ", " + at(early.reader).name + " " + std::to_string(at(early.writer).priority);
     }
     std::vector<std::string> order;
     for (const std::size_t position : writers_first(count, edges_)) {
@@ -154,11 +157,12 @@ class AccessCheck {
       }
       const Module& reader = at(flow.reader);
       const Module& writer = at(flow.writer);
-      const std::string what = reader.name + " runs before " + writer.name + " and reads the " + names_of_variables(flow) +
-                               " it wrote " + format_duration(flow.age.most) + " before" +
+      const std::string what = reader.name + " runs before " + writer.name + " and reads the " +
+                               names_of_variables(flow) + " it wrote " + format_duration(flow.age.most) + " before" +
                                (flow.age.meetings > 1 ? " whenever both are due" : "");
       if (group_[flow.reader] == group_[flow.writer]) {
-        context_.report.note(reader.places.priority, what + "; values go round between them, so one of them has to be first");
+        context_.report.note(reader.places.priority,
+                             what + "; values go round between them, so one of them has to be first");
       } else {
         context_.report.warning(reader.places.priority, what + "; " + better_order(flow));
       }
@@ -169,8 +173,9 @@ class AccessCheck {
     const Nanos basic = context_.result.table.basic_period;
     for (const Flow& flow : flows_) {
       const auto in_periods = [basic](Nanos age) { return std::to_string(age / basic); };
-      const std::string range = flow.age.least == flow.age.most ? in_periods(flow.age.most)
-                                                                : in_periods(flow.age.least) + " to " + in_periods(flow.age.most);
+      const std::string range = flow.age.least == flow.age.most
+                                    ? in_periods(flow.age.most)
+                                    : in_periods(flow.age.least) + " to " + in_periods(flow.age.most);
       context_.report.note(at(flow.reader).places.file,
                            "age of " + names_of_variables(flow) + " from " + at(flow.writer).name + " to " +
                                at(flow.reader).name + ": " + range + " basic periods, at most " +
@@ -178,8 +183,8 @@ class AccessCheck {
       for (const schema::Variable* variable : flow.variables) {
         if (variable->maxage_ns > 0 && flow.age.most.count() > variable->maxage_ns) {
           context_.report.warning(at(flow.reader).places.file,
-                                  in_quotes(variable->name) + " is up to " + format_duration(flow.age.most) + " old when " +
-                                      at(flow.reader).name + " reads it, its maxage is " +
+                                  in_quotes(variable->name) + " is up to " + format_duration(flow.age.most) +
+                                      " old when " + at(flow.reader).name + " reads it, its maxage is " +
                                       format_duration(Nanos{variable->maxage_ns}) + "; let " + at(flow.writer).name +
                                       " run more often or raise maxage");
         }
@@ -190,12 +195,14 @@ class AccessCheck {
   CheckContext& context_;
   AccessMap map_;
   std::vector<Flow> flows_;
-  std::vector<Edge> edges_;          // of flows_
-  std::vector<std::size_t> group_;   // by position
+  std::vector<Edge> edges_;         // of flows_
+  std::vector<std::size_t> group_;  // by position
 };
 
 }  // namespace
 
-void check_access(CheckContext& context) { AccessCheck(context).run(); }
+void check_access(CheckContext& context) {
+  AccessCheck(context).run();
+}
 
 }  // namespace indurop::deploy

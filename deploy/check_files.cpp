@@ -9,6 +9,7 @@
 #include <map>
 
 #include "deploy/check_parts.h"
+#include "deploy/text.h"
 #include "schema/nearest.h"
 
 namespace indurop::deploy {
@@ -21,7 +22,8 @@ struct Machine {
   std::uint16_t number;
   const char* name;
 };
-constexpr Machine kMachines[] = {{3, "32-bit x86"}, {40, "32-bit ARM"}, {62, "x86-64"}, {183, "AArch64"}, {243, "RISC-V"}};
+constexpr Machine kMachines[] = {
+    {3, "32-bit x86"}, {40, "32-bit ARM"}, {62, "x86-64"}, {183, "AArch64"}, {243, "RISC-V"}};
 #if defined(__x86_64__)
 constexpr std::uint16_t kThisMachine = 62;
 #elif defined(__aarch64__)
@@ -184,8 +186,9 @@ class FileCheck {
   void check_wake_up() {
     if (module_.operation != Operation::NonReal && module_.signal == 0 &&
         !imports_of(facts_.file, "_ZN3irp10waitPeriod")) {
-      warning("neither calls irp::waitPeriod() nor has a <signal>, so nothing tells it when to run; add "
-              "<signal>SIGUSR1</signal>, or make it non-real");
+      warning(
+          "neither calls irp::waitPeriod() nor has a <signal>, so nothing tells it when to run; add "
+          "<signal>SIGUSR1</signal>, or make it non-real");
     }
   }
 
@@ -212,10 +215,11 @@ class Agreement {
       std::string text = difference(*first->second.item, item);
       text = text.empty() ? "other layout" : text;
       const auto source = [](const T& of) { return of.source.empty() ? std::string() : " (" + of.source + ")"; };
-      context_.report.error(modules[module].places.file,
-                            std::string(what_) + " " + in_quotes(item.name) + " differs between " +
-                                modules[first->second.module].name + source(*first->second.item) + " and " +
-                                modules[module].name + source(item) + ": " + text + "; build both with the same .glb file");
+      context_.report.error(modules[module].places.file, std::string(what_) + " " + in_quotes(item.name) +
+                                                             " differs between " + modules[first->second.module].name +
+                                                             source(*first->second.item) + " and " +
+                                                             modules[module].name + source(item) + ": " + text +
+                                                             "; build both with the same .glb file");
     }
   }
 
@@ -236,9 +240,8 @@ void check_agreement(CheckContext& context) {
   std::vector<std::string> reported_above;
   for (std::size_t i = 0; i < result.facts.size(); ++i) {
     const schema::Schema& schema = result.facts[i].schema;
-    variables.add(i, schema.variables, [](const auto& a, const auto& b) {
-      return schema::first_difference(a.type, b.type);
-    });
+    variables.add(i, schema.variables,
+                  [](const auto& a, const auto& b) { return schema::first_difference(a.type, b.type); });
     functions.add(i, schema.functions, [](const auto& a, const auto& b) {
       const std::string arguments = schema::first_difference(a.arguments, b.arguments);
       return !arguments.empty() ? "arguments: " + arguments : "result: " + schema::first_difference(a.result, b.result);
@@ -250,14 +253,14 @@ void check_agreement(CheckContext& context) {
 // A call of a shared function nobody implements fails when it is made; whether there is an implementer at all is known.
 void check_functions(CheckContext& context) {
   const auto& facts = context.result.facts;
-  const bool offered = std::any_of(facts.begin(), facts.end(), [](const ModuleFacts& f) {
-    return has(f.file.imports, "indurop_offer_function");
-  });
+  const bool offered = std::any_of(facts.begin(), facts.end(),
+                                   [](const ModuleFacts& f) { return has(f.file.imports, "indurop_offer_function"); });
   for (std::size_t i = 0; i < facts.size() && !offered; ++i) {
     if (has(facts[i].file.imports, "indurop_call")) {
       const Module& module = context.config.modules[i];
-      context.report.warning(module.places.file, module.name + " calls shared functions, but no module implements one; "
-                                                 "add the module with INDUROP_IMPLEMENT");
+      context.report.warning(module.places.file, module.name +
+                                                     " calls shared functions, but no module implements one; "
+                                                     "add the module with INDUROP_IMPLEMENT");
     }
   }
 }

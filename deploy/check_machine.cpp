@@ -7,6 +7,7 @@
 
 #include "deploy/check_parts.h"
 #include "deploy/reader.h"
+#include "deploy/text.h"
 
 namespace indurop::deploy {
 namespace {
@@ -62,10 +63,10 @@ void check_machine(CheckContext& context) {
   const auto& spin = context.config.spin;
   const Nanos basic = context.result.table.basic_period;
   if (spin && spin->mode == SpinSetting::Mode::Fixed && basic > Nanos::zero() && spin->fixed >= basic / 10 * 9) {
-    context.report.warning(context.config.spin_place,
-                           "<spin>: " + format_duration(spin->fixed) + " of every basic period of " +
-                               format_duration(basic) + " leaves the modules no time and the kernel stops real-time "
-                               "threads at 95 %; write auto or a shorter time");
+    context.report.warning(context.config.spin_place, "<spin>: " + format_duration(spin->fixed) +
+                                                          " of every basic period of " + format_duration(basic) +
+                                                          " leaves the modules no time and the kernel stops real-time "
+                                                          "threads at 95 %; write auto or a shorter time");
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "deploy/check_parts.h"
 #include "deploy/reader.h"
+#include "deploy/text.h"
 #include "scheduler/bands.h"
 
 namespace indurop::deploy {
@@ -19,7 +20,9 @@ using scheduler::PeriodicItem;
 
 constexpr std::size_t kMaxBands = 80;
 
-Nanos minimum_of(const Config& config) { return config.minimum_period.value_or(kDefaultMinimumPeriod); }
+Nanos minimum_of(const Config& config) {
+  return config.minimum_period.value_or(kDefaultMinimumPeriod);
+}
 
 std::vector<std::size_t> modules_of(const Config& config, Operation operation) {
   std::vector<std::size_t> found;
@@ -61,9 +64,8 @@ std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, Nanos m
       items[i].period = periods[i];
     }
   }
-  if (common_divisor(items, true) >= minimum && std::all_of(items.begin(), items.end(), [](const PeriodicItem& item) {
-        return item.offset < item.period;
-      })) {
+  if (common_divisor(items, true) >= minimum &&
+      std::all_of(items.begin(), items.end(), [](const PeriodicItem& item) { return item.offset < item.period; })) {
     return items;
   }
   // Offsets go to multiples of the finest grid the periods allow.
@@ -209,9 +211,9 @@ void check_macro_period(CheckContext& context, const std::vector<PeriodicItem>& 
   const Place place = items.empty() ? Place{} : context.config.modules[context.result.periodic.front()].places.period;
   if (!table) {
     const bool overflow = table.error().code == Errc::Overflow;
-    context.report.error(place, overflow ? "the macro period (LCM of the periods) exceeds 292 years; " +
-                                               long_macro_hint(context, items)
-                                         : std::string(table.error().where));
+    context.report.error(
+        place, overflow ? "the macro period (LCM of the periods) exceeds 292 years; " + long_macro_hint(context, items)
+                        : std::string(table.error().where));
     return;
   }
   context.result.table = std::move(table.value());

@@ -56,27 +56,27 @@ struct ModulePlaces {
 };
 
 struct Module {
-  std::string name;                  // <name>, else the file name without directory and extension; unique
-  std::filesystem::path file;        // absolute, relative ones taken from the XML file's directory
+  std::string name;            // <name>, else the file name without directory and extension; unique
+  std::filesystem::path file;  // absolute, relative ones taken from the XML file's directory
   std::string file_as_written;
   scheduler::ModuleType type = scheduler::ModuleType::Thread;
   scheduler::Operation operation = scheduler::Operation::Periodic;
   Nanos period{};
   Nanos offset{};
-  Nanos deadline{};                  // 0: none given (sporadic: required; periodic: the period)
-  Nanos budget{};                    // 0: default (10 periods, at least 5 ms); kNoBudget: off
+  Nanos deadline{};  // 0: none given (sporadic: required; periodic: the period)
+  Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: off
   int priority = 0;
-  int core = -1;                     // -1: the node's
+  int core = -1;  // -1: the node's
   scheduler::OverrunPolicy overrun = scheduler::OverrunPolicy::Skip;
-  bool after_base = false;           // sporadic: <position>after-base</position>
-  int signal = 0;                    // legacy process: POSIX signal number each release, 0: none
+  bool after_base = false;  // sporadic: <position>after-base</position>
+  int signal = 0;           // legacy process: POSIX signal number each release, 0: none
   std::vector<std::string> arguments;
-  std::vector<std::string> reads;    // <access> by name (channel): variables read / written
+  std::vector<std::string> reads;  // <access> by name (channel): variables read / written
   std::vector<std::string> writes;
   Restart restart;
   std::vector<FailSafe> failsafe;
   std::vector<Property> properties;
-  Place place;                       // of <module>
+  Place place;  // of <module>
   ModulePlaces places;
 };
 inline constexpr Nanos kNoBudget{-1};
@@ -88,10 +88,10 @@ struct SpinSetting {
 
 struct Config {
   std::filesystem::path file;
-  std::vector<Module> modules;       // in file order
+  std::vector<Module> modules;          // in file order
   std::optional<Nanos> minimum_period;  // <minimum_period>; default kDefaultMinimumPeriod
   std::optional<SpinSetting> spin;
-  int core = -1;                     // -1: the last one this process may use
+  int core = -1;  // -1: the last one this process may use
   Place core_place;
   Place spin_place;
 };

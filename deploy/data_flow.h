@@ -23,8 +23,8 @@ struct Release {
 struct Age {
   Nanos least{};
   Nanos most{};
-  bool meet = false;            // both are released in some common basic period
-  std::uint64_t meetings = 0;   // one of so many of the reader's releases, if they meet
+  bool meet = false;           // both are released in some common basic period
+  std::uint64_t meetings = 0;  // one of so many of the reader's releases, if they meet
 };
 Age age_between(const Release& writer, const Release& reader);
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "deploy/reader.h"
-#include "deploy/report.h"
+#include "deploy/text.h"
 #include "deploy/values.h"
 
 namespace indurop::deploy {
@@ -16,8 +16,8 @@ constexpr std::int64_t kLongest = std::numeric_limits<std::int64_t>::max();
 
 struct Unit {
   std::string_view name;
-  std::int64_t nanos;   // of one; 0: a frequency
-  std::int64_t hertz;   // of one; 0: a time
+  std::int64_t nanos;  // of one; 0: a frequency
+  std::int64_t hertz;  // of one; 0: a time
 };
 constexpr std::array<Unit, 11> kUnits{{
     {"", 1, 0},
@@ -34,7 +34,9 @@ constexpr std::array<Unit, 11> kUnits{{
 }};
 constexpr std::string_view kForms = "write nanoseconds (100000) or a number with a unit: 100us, 0.5ms, 2s, 10kHz";
 
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+bool is_digit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) {
@@ -87,7 +89,9 @@ std::optional<Decimal> take_decimal(std::string_view& text, bool& too_large) {
   return number;
 }
 
-DurationText problem(std::string text) { return {std::nullopt, std::move(text)}; }
+DurationText problem(std::string text) {
+  return {std::nullopt, std::move(text)};
+}
 
 DurationText from_time(std::string_view text, Decimal number, std::int64_t unit) {
   // Common factors first: "0.000001s" is exact.
@@ -117,7 +121,8 @@ DurationText from_frequency(std::string_view text, Decimal number, std::int64_t 
   }
   const std::int64_t numerator = kSecond * number.scale;
   const std::int64_t denominator = number.digits * hertz;
-  const std::int64_t nanos = numerator / denominator + (numerator % denominator >= denominator - denominator / 2 ? 1 : 0);
+  const std::int64_t nanos =
+      numerator / denominator + (numerator % denominator >= denominator - denominator / 2 ? 1 : 0);
   if (nanos == 0) {
     return problem(in_quotes(text) + " is faster than one nanosecond; " + std::string(kForms));
   }
@@ -138,23 +143,27 @@ DurationText read_duration(std::string_view text, bool zero_allowed) {
   bool too_large = false;
   const auto number = take_decimal(rest, too_large);
   if (!number) {
-    return problem(in_quotes(whole) + (too_large ? " has more digits than a duration can have; " : " is not a duration; ") +
+    return problem(in_quotes(whole) +
+                   (too_large ? " has more digits than a duration can have; " : " is not a duration; ") +
                    std::string(kForms));
   }
   rest = trim(rest);
   const auto* unit = std::find_if(kUnits.begin(), kUnits.end(), [rest](const Unit& u) { return u.name == rest; });
   if (unit == kUnits.end()) {
-    return problem(in_quotes(whole) + ": unknown unit " + in_quotes(rest) + "; units are ns, us, ms, s, min, Hz, kHz, MHz");
+    return problem(in_quotes(whole) + ": unknown unit " + in_quotes(rest) +
+                   "; units are ns, us, ms, s, min, Hz, kHz, MHz");
   }
-  DurationText result = unit->hertz != 0 ? from_frequency(whole, *number, unit->hertz)
-                                         : from_time(whole, *number, unit->nanos);
+  DurationText result =
+      unit->hertz != 0 ? from_frequency(whole, *number, unit->hertz) : from_time(whole, *number, unit->nanos);
   if (result.value == Nanos::zero() && !zero_allowed) {
     return problem("0 is not possible here; " + std::string(kForms));
   }
   return result;
 }
 
-std::optional<Nanos> parse_duration(std::string_view text) { return read_duration(text, false).value; }
+std::optional<Nanos> parse_duration(std::string_view text) {
+  return read_duration(text, false).value;
+}
 
 std::string format_duration(Nanos value) {
   // The largest unit that needs at most three decimals, so that every digit is shown.

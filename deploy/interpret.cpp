@@ -9,6 +9,7 @@
 #include "deploy/element.h"
 #include "deploy/module_reader.h"
 #include "deploy/report.h"
+#include "deploy/text.h"
 #include "deploy/values.h"
 
 namespace indurop::deploy {
@@ -30,8 +31,9 @@ class RootReader {
 
   void read() {
     if (root_.name != "root") {
-      report_.error(root_.place, "the root element is <" + root_.name + ">; a module.xml is <root> with one <module> "
-                                 "per program");
+      report_.error(root_.place, "the root element is <" + root_.name +
+                                     ">; a module.xml is <root> with one <module> "
+                                     "per program");
       return;
     }
     check_root_attributes();
@@ -110,7 +112,8 @@ class RootReader {
       config_.spin = SpinSetting{SpinSetting::Mode::Fixed, *read.value};
     } else {
       report_.error(e.text_place, "<spin>: " + (e.text.empty() ? "no value given" : in_quotes(e.text)) +
-                                      (e.text.empty() ? "" : " is not possible") + "; write auto, off or a time such as 20us");
+                                      (e.text.empty() ? "" : " is not possible") +
+                                      "; write auto, off or a time such as 20us");
     }
   }
 
@@ -161,8 +164,8 @@ bool is_leaf(const Element& element, Report& report) {
     return true;
   }
   report.error(element.children.front().place, "<" + element.name + "> takes a value, not the element " +
-                                                   in_quotes("<" + element.children.front().name + ">") +
-                                                   "; is </" + element.name + "> missing before it?");
+                                                   in_quotes("<" + element.children.front().name + ">") + "; is </" +
+                                                   element.name + "> missing before it?");
   return false;
 }
 
@@ -190,7 +193,8 @@ int read_core(const Element& element, Report& report) {
   constexpr std::int64_t kMostCores = 4096;
   const auto value = read_integer(element.text, 0, kMostCores - 1);
   if (!value) {
-    report.error(element.text_place, "<core>: " + in_quotes(element.text) + " is not a processor number; write 0 for the first");
+    report.error(element.text_place,
+                 "<core>: " + in_quotes(element.text) + " is not a processor number; write 0 for the first");
     return -1;
   }
   return static_cast<int>(*value);
@@ -199,9 +203,11 @@ int read_core(const Element& element, Report& report) {
 void interpret(const Element& root, Config& config, std::vector<Diagnostic>& diagnostics) {
   Report report(config.file.string(), diagnostics);
   RootReader(root, config, report).read();
-  std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return a.place.line != b.place.line ? a.place.line < b.place.line : a.place.column < b.place.column;
-  });
+  const auto key = [](const Diagnostic& d) {
+    return std::pair(d.place.line == 0 ? std::numeric_limits<int>::max() : d.place.line, d.place.column);
+  };
+  std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                   [key](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
 }
 
 }  // namespace indurop::deploy

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <span>
 
 #include "deploy/reader.h"
+#include "deploy/text.h"
 #include "deploy/values.h"
 
 namespace indurop::deploy {
@@ -35,9 +35,7 @@ class ModuleReader {
     for (const Element& child : element_.children) {
       read_child(child);
     }
-    check_missing();
-    check_without_effect();
-    check_times();
+    check_rules(module_, given_, report_);
     return std::move(module_);
   }
 
@@ -79,11 +77,12 @@ class ModuleReader {
       for (const Known& k : known) {
         names.emplace_back(k.name);
       }
+      given_.misspelt.insert(meant(child.name, names));
       report_.error(child.place, "unknown element " + in_quotes("<" + child.name + ">") + " in <module>" +
                                      suggestion(child.name, names));
       return;
     }
-    const auto [first, is_first] = given_.try_emplace(child.name, child.place);
+    const auto [first, is_first] = given_.elements.try_emplace(child.name, child.place);
     if (!is_first && !found->repeatable) {
       report_.error(child.place, "a second <" + child.name + "> in this <module>; the first is in line " +
                                      std::to_string(first->second.line) + ", remove one");
@@ -175,7 +174,8 @@ class ModuleReader {
              (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.' || c == '+';
     });
     if (!plain) {
-      report_.error(e.text_place, in_quotes(*text) + " is not a module name; use letters, digits, '_', '-', '.' and '+'");
+      report_.error(e.text_place,
+                    in_quotes(*text) + " is not a module name; use letters, digits, '_', '-', '.' and '+'");
     } else if (text->size() >= scheduler::kNameLength) {
       report_.error(e.text_place, "this name is longer than " + std::to_string(scheduler::kNameLength - 1) +
                                       " bytes; choose a shorter one");
@@ -187,13 +187,13 @@ class ModuleReader {
   void read_type(const Element& e) {
     static constexpr std::array<Choice<ModuleType>, 2> kTypes{
         {{"thread", ModuleType::Thread}, {"process", ModuleType::Process}}};
-    type_known_ = choose(e, kTypes, module_.type);
+    given_.type = choose(e, kTypes, module_.type);
   }
 
   void read_operation(const Element& e) {
     static constexpr std::array<Choice<Operation>, 3> kOperations{
         {{"periodic", Operation::Periodic}, {"sporadic", Operation::Sporadic}, {"non-real", Operation::NonReal}}};
-    operation_known_ = choose(e, kOperations, module_.operation);
+    given_.operation = choose(e, kOperations, module_.operation);
   }
 
   void read_period(const Element& e) { duration(e, false, module_.period, module_.places.period); }
@@ -220,8 +220,9 @@ class ModuleReader {
     if (const auto value = read_integer(*text, kLow, kHigh)) {
       module_.priority = static_cast<int>(*value);
     } else {
-      report_.error(e.text_place, "<priority>: " + in_quotes(*text) + " is not a whole number from " + std::to_string(kLow) +
-                                      " to " + std::to_string(kHigh) + "; the lowest value runs first");
+      report_.error(e.text_place, "<priority>: " + in_quotes(*text) + " is not a whole number from " +
+                                      std::to_string(kLow) + " to " + std::to_string(kHigh) +
+                                      "; the lowest value runs first");
     }
   }
 
@@ -304,7 +305,8 @@ class ModuleReader {
       } else if (a.name == "escalate" && a.value == "stop-node") {
         module_.restart.escalate = Restart::Escalate::StopNode;
       } else if (a.name == "escalate" && a.value != "stop-module") {
-        report_.error(a.value_place, in_quotes(a.value) + " is not a value of escalate; write stop-module or stop-node");
+        report_.error(a.value_place,
+                      in_quotes(a.value) + " is not a value of escalate; write stop-module or stop-node");
       }
     }
   }
@@ -328,7 +330,8 @@ class ModuleReader {
       return;
     }
     if (e.text.empty()) {
-      report_.error(e.place, "<failsafe> has no value; write the value " + in_quotes(*variable) + " gets when the module fails");
+      report_.error(e.place,
+                    "<failsafe> has no value; write the value " + in_quotes(*variable) + " gets when the module fails");
       return;
     }
     module_.failsafe.push_back({*variable, e.text, e.place});
@@ -359,99 +362,11 @@ class ModuleReader {
     }
   }
 
-  [[nodiscard]] bool given(const char* name) const { return given_.count(name) != 0; }
-
-  void require(const char* name, std::string_view why, std::string_view example) {
-    if (!given(name)) {
-      report_.error(element_.place, std::string(why) + " has no <" + name + ">; add, for example, <" + name + ">" +
-                                        std::string(example) + "</" + name + ">");
-    }
-  }
-
-  void check_missing() {
-    require("filename", "this <module>", "./control.so");
-    require("moduletype", "this <module>", "thread");
-    require("operationtype", "this <module>", "periodic");
-    if (!operation_known_) {
-      return;
-    }
-    switch (module_.operation) {
-      case Operation::Periodic:
-        require("period", "this periodic <module>", "1ms");
-        require("priority", "this periodic <module>", "1");
-        break;
-      case Operation::Sporadic:
-        require("deadline", "this sporadic <module>", "1ms");
-        require("priority", "this sporadic <module>", "1");
-        break;
-      case Operation::NonReal:
-        if (type_known_ && module_.type == ModuleType::Thread) {
-          report_.error(given_["moduletype"], "a non-real-time module is a program of its own; write "
-                                              "<moduletype>process</moduletype>, or make it periodic with a long period");
-        }
-        break;
-    }
-  }
-
-  void without_effect(std::initializer_list<const char*> names, std::string_view on) {
-    for (const char* name : names) {
-      if (given(name)) {
-        report_.warning(given_[name], "<" + std::string(name) + "> has no effect on a " + std::string(on) +
-                                          " module; remove it");
-      }
-    }
-  }
-
-  void check_without_effect() {
-    if (type_known_ && module_.type == ModuleType::Thread) {
-      without_effect({"signal", "argument", "restart"}, "thread");
-    }
-    if (!operation_known_) {
-      return;
-    }
-    switch (module_.operation) {
-      case Operation::Periodic:
-        without_effect({"position"}, "periodic");
-        break;
-      case Operation::Sporadic:
-        without_effect({"period", "offset"}, "sporadic");
-        module_.period = Nanos::zero();
-        module_.offset = Nanos::zero();
-        break;
-      case Operation::NonReal:
-        without_effect({"period", "offset", "priority", "deadline", "budget", "overrun", "position", "signal"},
-                       "non-real-time");
-        module_.period = Nanos::zero();
-        module_.offset = Nanos::zero();
-        module_.deadline = Nanos::zero();
-        break;
-    }
-  }
-
-  void check_times() {
-    if (!operation_known_ || module_.operation != Operation::Periodic || module_.period <= Nanos::zero()) {
-      return;
-    }
-    if (module_.offset >= module_.period) {
-      report_.error(module_.places.offset, "the offset " + format_duration(module_.offset) +
-                                               " is not shorter than the period " + format_duration(module_.period) +
-                                               "; write what is left beyond whole periods");
-      module_.offset = Nanos::zero();
-    }
-    if (module_.deadline > module_.period) {
-      report_.warning(module_.places.deadline, "the deadline " + format_duration(module_.deadline) +
-                                                   " is longer than the period " + format_duration(module_.period) +
-                                                   "; a run that long is an overrun first");
-    }
-  }
-
   const Element& element_;
   const std::filesystem::path& folder_;
   Report& report_;
   Module module_;
-  bool type_known_ = false;
-  bool operation_known_ = false;
-  std::map<std::string, Place, std::less<>> given_;
+  Given given_;
 };
 
 }  // namespace

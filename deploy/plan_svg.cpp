@@ -8,6 +8,7 @@
 #include "deploy/plan_parts.h"
 #include "deploy/reader.h"
 #include "deploy/svg.h"
+#include "deploy/text.h"
 
 namespace indurop::deploy {
 namespace {
@@ -19,10 +20,11 @@ constexpr int kLaneHeight = 36;
 constexpr int kBoxHeight = 22;
 constexpr int kGroupGap = 14;
 constexpr int kShortestSlot = 132;
-constexpr int kMostWidth = 2200;       // of all slots together; more basic periods are left out
+constexpr int kMostWidth = 2200;  // of all slots together; more basic periods are left out
 constexpr std::size_t kMostSlots = 60;
 constexpr std::size_t kLongestLabel = 28;
-constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"};
+constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                              "#E69F00", "#56B4E9", "#7F7F7F"};
 constexpr const char* kInk = "#1F2933";
 constexpr const char* kFaint = "#66727F";
 constexpr const char* kGrid = "#B8C2CC";
@@ -48,9 +50,10 @@ class Diagram {
 
   std::string draw() {
     Svg svg(width_, height_);
-    svg.raw("<defs><pattern id=\"rest\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-            "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#F2F4F6\"/>"
-            "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"7\" stroke=\"#C3CCD5\" stroke-width=\"3\"/></pattern></defs>\n");
+    svg.raw(
+        "<defs><pattern id=\"rest\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+        "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#F2F4F6\"/>"
+        "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"7\" stroke=\"#C3CCD5\" stroke-width=\"3\"/></pattern></defs>\n");
     draw_title(svg);
     draw_grid(svg);
     draw_labels(svg);
@@ -117,8 +120,9 @@ class Diagram {
   static std::string rule_of(const Module& m) {
     switch (m.operation) {
       case scheduler::Operation::Periodic:
-        return "every " + format_duration(m.period) + (m.offset > Nanos::zero() ? " + " + format_duration(m.offset) : "") +
-               ", priority " + std::to_string(m.priority);
+        return "every " + format_duration(m.period) +
+               (m.offset > Nanos::zero() ? " + " + format_duration(m.offset) : "") + ", priority " +
+               std::to_string(m.priority);
       case scheduler::Operation::Sporadic:
         return "within " + format_duration(m.deadline) + ", priority " + std::to_string(m.priority);
       case scheduler::Operation::NonReal:
@@ -204,7 +208,8 @@ class Diagram {
   // Light line from one box down or up to the next: the way of the processor.
   static void step(Svg& svg, int x, int& from_y, int to_y) {
     if (from_y != 0) {
-      svg.line(x, std::min(from_y, to_y) + kBoxHeight / 2, x, std::max(from_y, to_y) + kBoxHeight / 2, "#9AA5B1", 1, "2 2");
+      svg.line(x, std::min(from_y, to_y) + kBoxHeight / 2, x, std::max(from_y, to_y) + kBoxHeight / 2, "#9AA5B1", 1,
+               "2 2");
     }
     from_y = to_y;
   }
@@ -262,9 +267,8 @@ class Diagram {
     for (const Nanos period : periods_) {
       entries.push_back({Sample::Period, period, "thread, every " + format_duration(period)});
     }
-    const auto process = std::find_if(check_.periodic.begin(), check_.periodic.end(), [this](std::size_t i) {
-      return config_.modules[i].type == ModuleType::Process;
-    });
+    const auto process = std::find_if(check_.periodic.begin(), check_.periodic.end(),
+                                      [this](std::size_t i) { return config_.modules[i].type == ModuleType::Process; });
     if (process != check_.periodic.end()) {
       entries.push_back({Sample::Process, config_.modules[*process].period, "process (frame only)"});
     }
@@ -310,8 +314,9 @@ class Diagram {
       ++index;
     }
     svg.text(kMargin, height_ - 14,
-             "Releases and order are exact. Execution times are not known before the run: the boxes of all modules are equally long.", 11,
-             kFaint);
+             "Releases and order are exact. Execution times are not known before the run: the boxes of all modules are "
+             "equally long.",
+             11, kFaint);
   }
 
   const Config& config_;
@@ -319,7 +324,7 @@ class Diagram {
   std::vector<Nanos> periods_;  // distinct, ascending
   std::vector<Lane> lanes_;     // by module
   int handler_y_ = 0;
-  int left_ = 0;                // of the first basic period
+  int left_ = 0;  // of the first basic period
   int right_ = 0;
   int top_ = 0;
   int bottom_ = 0;
@@ -327,12 +332,14 @@ class Diagram {
   int height_ = 0;
   int box_width_ = 0;
   int slot_width_ = 0;
-  std::size_t shown_ = 0;       // basic periods
+  std::size_t shown_ = 0;  // basic periods
   bool complete_ = false;
 };
 
 }  // namespace
 
-std::string plan_svg(const Config& config, const CheckResult& check) { return Diagram(config, check).draw(); }
+std::string plan_svg(const Config& config, const CheckResult& check) {
+  return Diagram(config, check).draw();
+}
 
 }  // namespace indurop::deploy

@@ -5,6 +5,7 @@
 
 #include "deploy/plan_parts.h"
 #include "deploy/reader.h"
+#include "deploy/text.h"
 
 namespace indurop::deploy {
 namespace {
@@ -15,12 +16,6 @@ constexpr std::size_t kMostRows = 400;
 constexpr const char* kGap = "  ";
 
 enum class Align { Left, Right };
-
-// Characters, not bytes: module names may be in any language.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
-}
 
 class TextTable {
  public:
@@ -39,9 +34,9 @@ class TextTable {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       std::size_t width = 0;
       for (const auto& row : rows_) {
-        width = std::max(width, width_of(row[c]));
+        width = std::max(width, characters(row[c]));
       }
-      widths.push_back(width == 0 ? 0 : std::max(width, width_of(columns_[c].heading)));
+      widths.push_back(width == 0 ? 0 : std::max(width, characters(columns_[c].heading)));
       heading.push_back(columns_[c].heading);
     }
     std::string all = line(heading, widths);
@@ -58,7 +53,7 @@ class TextTable {
       if (widths[c] == 0) {
         continue;
       }
-      const std::string padding(widths[c] - std::min(width_of(cells[c]), widths[c]), ' ');
+      const std::string padding(widths[c] - std::min(characters(cells[c]), widths[c]), ' ');
       text += text.empty() ? "" : kGap;
       text += columns_[c].align == Align::Right ? padding + cells[c] : cells[c] + padding;
     }
@@ -127,12 +122,26 @@ std::string modules_table(const Config& config, const CheckResult& check) {
   return text.text();
 }
 
-std::string list(const Config& config, const std::vector<std::size_t>& modules, bool ordered) {
+// Modules that satisfy `wanted`; empty if none does.
+template <class Wanted>
+std::string list(const Config& config, const std::vector<std::size_t>& modules, const char* separator, Wanted wanted) {
   std::string text;
   for (const std::size_t i : modules) {
-    text += text.empty() ? "" : ordered ? " > " : ", ";
-    text += config.modules[i].name;
+    if (wanted(config.modules[i])) {
+      text += (text.empty() ? "" : separator) + config.modules[i].name;
+    }
   }
+  return text;
+}
+
+std::string others(const Config& config, const CheckResult& check) {
+  const std::string after_base = list(config, check.sporadic, " > ", [](const Module& m) { return m.after_base; });
+  const std::string sporadic = list(config, check.sporadic, " > ", [](const Module& m) { return !m.after_base; });
+  const std::string non_real = list(config, check.non_real, ", ", [](const Module&) { return true; });
+  std::string text;
+  text += after_base.empty() ? "" : "Sporadic, right behind the modules of every basic period: " + after_base + "\n";
+  text += sporadic.empty() ? "" : "Sporadic, behind all periodic modules of a basic period: " + sporadic + "\n";
+  text += non_real.empty() ? "" : "Non-real-time, in the time left: " + non_real + "\n";
   return text;
 }
 
@@ -147,12 +156,8 @@ std::string plan_table(const Config& config, const CheckResult& check) {
             format_duration(check.table.macro_period) + ", " + std::to_string(check.table.slot_count) +
             (check.table.slot_count == 1 ? " basic period\n\n" : " basic periods\n\n") + schedule(config, check);
   }
-  if (!check.sporadic.empty()) {
-    text += "\nSporadic, after the periodic modules of each basic period: " + list(config, check.sporadic, true) + "\n";
-  }
-  if (!check.non_real.empty()) {
-    text += std::string(check.sporadic.empty() ? "\n" : "") + "Non-real-time, in the time left: " +
-            list(config, check.non_real, false) + "\n";
+  if (const std::string rest = others(config, check); !rest.empty()) {
+    text += "\n" + rest;
   }
   return config.modules.empty() ? text : text + "\n" + modules_table(config, check);
 }

@@ -21,7 +21,8 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::size_t kMaxSize = std::size_t{4} * 1024 * 1024;
-constexpr std::string_view kTooLarge = "the file is larger than 4 MB; no configuration needs that, is it the right file?";
+constexpr std::string_view kTooLarge =
+    "the file is larger than 4 MB; no configuration needs that, is it the right file?";
 
 bool has_error(const std::vector<Diagnostic>& diagnostics) noexcept {
   return std::any_of(diagnostics.begin(), diagnostics.end(),
@@ -116,7 +117,8 @@ class Copier {
     std::size_t index = 0;
     for (const auto* a = from.FirstAttribute(); a != nullptr; a = a->Next(), ++index) {
       const bool known = tag != nullptr && index < tag->attributes.size();
-      element.attributes.push_back({a->Name(), trimmed(a->Value()), known ? tag->attributes[index].place : element.place,
+      element.attributes.push_back({a->Name(), trimmed(a->Value()),
+                                    known ? tag->attributes[index].place : element.place,
                                     known ? tag->attributes[index].value : element.place});
     }
     for (const auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
@@ -181,7 +183,9 @@ void parse(std::string_view xml, ReadResult& result) {
 
 }  // namespace
 
-bool ReadResult::ok() const noexcept { return !has_error(diagnostics); }
+bool ReadResult::ok() const noexcept {
+  return !has_error(diagnostics);
+}
 
 ReadResult read_config(const std::filesystem::path& file) {
   std::string problem;

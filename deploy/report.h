@@ -5,7 +5,6 @@
 
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "deploy/config.h"
@@ -29,12 +28,5 @@ class Report {
   std::vector<Diagnostic>& out_;
   std::array<std::size_t, 3> count_{};  // by severity
 };
-
-// Text as users wrote it, in quotes, shortened if long.
-std::string in_quotes(std::string_view text);
-// "; did you mean 'period'?" or, if nothing is near, "; known are: a, b, c".
-std::string suggestion(std::string_view name, const std::vector<std::string>& known);
-// "a", "a and b", "a, b and c"; beyond `most` "a, b, c and 4 more".
-std::string enumerate(const std::vector<std::string>& names, std::size_t most = 6);
 
 }  // namespace indurop::deploy

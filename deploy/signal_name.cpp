@@ -7,7 +7,7 @@
 #include <array>
 #include <charconv>
 
-#include "deploy/report.h"
+#include "deploy/text.h"
 #include "deploy/values.h"
 
 namespace indurop::deploy {
@@ -17,14 +17,14 @@ struct Name {
   std::string_view name;
   int number;
 };
-constexpr std::array<Name, 31> kNames{{
-    {"HUP", SIGHUP},   {"INT", SIGINT},       {"QUIT", SIGQUIT}, {"ILL", SIGILL},   {"TRAP", SIGTRAP},
-    {"ABRT", SIGABRT}, {"BUS", SIGBUS},       {"FPE", SIGFPE},   {"KILL", SIGKILL}, {"USR1", SIGUSR1},
-    {"SEGV", SIGSEGV}, {"USR2", SIGUSR2},     {"PIPE", SIGPIPE}, {"ALRM", SIGALRM}, {"TERM", SIGTERM},
-    {"CHLD", SIGCHLD}, {"CONT", SIGCONT},     {"STOP", SIGSTOP}, {"TSTP", SIGTSTP}, {"TTIN", SIGTTIN},
-    {"TTOU", SIGTTOU}, {"URG", SIGURG},       {"XCPU", SIGXCPU}, {"XFSZ", SIGXFSZ}, {"VTALRM", SIGVTALRM},
-    {"PROF", SIGPROF}, {"WINCH", SIGWINCH},   {"IO", SIGIO},     {"POLL", SIGPOLL}, {"SYS", SIGSYS},
-    {"PWR", SIGPWR},
+constexpr std::array<Name, 32> kNames{{
+    {"HUP", SIGHUP},       {"INT", SIGINT},   {"QUIT", SIGQUIT},   {"ILL", SIGILL},   {"TRAP", SIGTRAP},
+    {"ABRT", SIGABRT},     {"BUS", SIGBUS},   {"FPE", SIGFPE},     {"KILL", SIGKILL}, {"USR1", SIGUSR1},
+    {"STKFLT", SIGSTKFLT}, {"SEGV", SIGSEGV}, {"USR2", SIGUSR2},   {"PIPE", SIGPIPE}, {"ALRM", SIGALRM},
+    {"TERM", SIGTERM},     {"CHLD", SIGCHLD}, {"CONT", SIGCONT},   {"STOP", SIGSTOP}, {"TSTP", SIGTSTP},
+    {"TTIN", SIGTTIN},     {"TTOU", SIGTTOU}, {"URG", SIGURG},     {"XCPU", SIGXCPU}, {"XFSZ", SIGXFSZ},
+    {"VTALRM", SIGVTALRM}, {"PROF", SIGPROF}, {"WINCH", SIGWINCH}, {"IO", SIGIO},     {"POLL", SIGPOLL},
+    {"SYS", SIGSYS},       {"PWR", SIGPWR},
 }};
 
 std::optional<int> real_time(std::string_view name) {
@@ -88,7 +88,8 @@ SignalText read_signal(std::string_view text) {
 }
 
 std::string signal_name(int signal) {
-  const auto* found = std::find_if(kNames.begin(), kNames.end(), [signal](const Name& n) { return n.number == signal; });
+  const auto* found =
+      std::find_if(kNames.begin(), kNames.end(), [signal](const Name& n) { return n.number == signal; });
   if (found != kNames.end()) {
     return "SIG" + std::string(found->name);
   }

@@ -6,8 +6,6 @@
 namespace indurop::deploy {
 namespace {
 
-bool continues(char c) noexcept { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
-
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -34,27 +32,6 @@ std::string dash_attribute(std::string_view dashes) {
 
 }  // namespace
 
-std::size_t characters(std::string_view text) {
-  std::size_t count = 0;
-  for (const char c : text) {
-    count += continues(c) ? 0U : 1U;
-  }
-  return count;
-}
-
-std::string shortened(std::string_view text, std::size_t most) {
-  if (characters(text) <= most) {
-    return std::string(text);
-  }
-  std::size_t end = 0;
-  for (std::size_t kept = 0; end < text.size(); ++end) {
-    if (!continues(text[end]) && ++kept == most) {
-      break;
-    }
-  }
-  return std::string(text.substr(0, end)) + "\u2026";
-}
-
 Svg::Svg(int width, int height)
     : out_(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
                        "font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n",
@@ -66,21 +43,22 @@ void Svg::rect(int x, int y, int width, int height, std::string_view fill) {
   out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", x, y, width, height, fill);
 }
 
-void Svg::box(int x, int y, int width, int height, std::string_view fill, std::string_view frame, std::string_view dashes,
-              double frame_width) {
+void Svg::box(int x, int y, int width, int height, std::string_view fill, std::string_view frame,
+              std::string_view dashes, double frame_width) {
   out_ += fmt::format(
-      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"2\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x, y,
-      width, height, fill, frame, frame_width, dash_attribute(dashes));
+      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"2\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n",
+      x, y, width, height, fill, frame, frame_width, dash_attribute(dashes));
 }
 
 void Svg::line(int x1, int y1, int x2, int y2, std::string_view colour, double width, std::string_view dashes) {
-  out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x1, y1, x2, y2,
-                      colour, width, dash_attribute(dashes));
+  out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", x1, y1,
+                      x2, y2, colour, width, dash_attribute(dashes));
 }
 
-void Svg::text(int x, int y, std::string_view text, int size, std::string_view colour, std::string_view anchor, bool bold) {
-  out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, size,
-                      colour, anchor, bold ? " font-weight=\"bold\"" : "", escaped(text));
+void Svg::text(int x, int y, std::string_view text, int size, std::string_view colour, std::string_view anchor,
+               bool bold) {
+  out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
+                      size, colour, anchor, bold ? " font-weight=\"bold\"" : "", escaped(text));
 }
 
 std::string Svg::finish() {

@@ -8,19 +8,14 @@
 
 namespace indurop::deploy {
 
-// Number of characters of UTF-8 text.
-std::size_t characters(std::string_view text);
-// At most `most` characters, the last an ellipsis if some were cut off.
-std::string shortened(std::string_view text, std::size_t most);
-
 class Svg {
  public:
   Svg(int width, int height);
 
   void rect(int x, int y, int width, int height, std::string_view fill);
   // A rectangle with rounded corners and a frame.
-  void box(int x, int y, int width, int height, std::string_view fill, std::string_view frame, std::string_view dashes = "",
-           double frame_width = 1);
+  void box(int x, int y, int width, int height, std::string_view fill, std::string_view frame,
+           std::string_view dashes = "", double frame_width = 1);
   void line(int x1, int y1, int x2, int y2, std::string_view colour, double width, std::string_view dashes = "");
   // `anchor`: start, middle or end of the text lies at x.
   void text(int x, int y, std::string_view text, int size, std::string_view colour, std::string_view anchor = "start",

@@ -3,40 +3,27 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 
-#include "deploy/report.h"
+#include "deploy/text.h"
 
 namespace indurop::deploy {
 namespace {
 
 constexpr std::size_t kMaxAttributes = 32;
 
-bool is_space(char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_space(char c) noexcept {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
 bool is_name_start(char c) noexcept {
   const auto byte = static_cast<unsigned char>(c);
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || byte >= 0x80;
 }
-bool is_name(char c) noexcept { return is_name_start(c) || (c >= '0' && c <= '9') || c == '.' || c == '-'; }
+bool is_name(char c) noexcept {
+  return is_name_start(c) || (c >= '0' && c <= '9') || c == '.' || c == '-';
+}
 
-std::string at(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
-
-// Length of the UTF-8 sequence at the start of `text`, 0 if it is none.
-std::size_t utf8_length(std::string_view text) noexcept {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-  if (length == 0 || length > text.size()) {
-    return 0;
-  }
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80) {
-      return 0;
-    }
-  }
-  const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool beyond = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
-  return overlong || beyond ? 0 : length;
+std::string at(Place place) {
+  return std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
 class Scanner {
@@ -195,7 +182,8 @@ class Scanner {
     std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
     if (upper != "UTF-8" && upper != "UTF8" && upper != "US-ASCII" && upper != "ASCII") {
-      stop(start, "encoding " + in_quotes(encoding) + " is not accepted; save the file as UTF-8 and write encoding=\"UTF-8\"");
+      stop(start,
+           "encoding " + in_quotes(encoding) + " is not accepted; save the file as UTF-8 and write encoding=\"UTF-8\"");
     }
   }
 
@@ -212,7 +200,8 @@ class Scanner {
     }
     advance();
     if (open_.empty()) {
-      stop(start, "</" + std::string(closed) + "> closes nothing; remove it or add <" + std::string(closed) + "> before");
+      stop(start,
+           "</" + std::string(closed) + "> closes nothing; remove it or add <" + std::string(closed) + "> before");
       return;
     }
     const TagPlaces& tag = found_.tags[open_.back()];
@@ -235,7 +224,8 @@ class Scanner {
       return;
     }
     if (open_.size() >= kMaxDepth) {
-      stop(start, "elements are nested deeper than " + std::to_string(kMaxDepth) + " levels; no configuration needs that");
+      stop(start,
+           "elements are nested deeper than " + std::to_string(kMaxDepth) + " levels; no configuration needs that");
       return;
     }
     TagPlaces tag;
@@ -269,7 +259,8 @@ class Scanner {
       } else if (!separated) {
         stop(here(), "a space is missing before this attribute");
       } else if (tag.attributes.size() >= kMaxAttributes) {
-        stop(here(), "more than " + std::to_string(kMaxAttributes) + " attributes in one tag; no element has that many");
+        stop(here(),
+             "more than " + std::to_string(kMaxAttributes) + " attributes in one tag; no element has that many");
       } else {
         attribute(tag);
       }
@@ -309,7 +300,8 @@ class Scanner {
       return;
     }
     if (at_end() || peek() == '<') {
-      stop(attribute.value, "the value of " + in_quotes(attribute.name) + " has no closing quote before the next tag" + hint);
+      stop(attribute.value,
+           "the value of " + in_quotes(attribute.name) + " has no closing quote before the next tag" + hint);
       return;
     }
     advance();
@@ -398,6 +390,8 @@ class Scanner {
 
 }  // namespace
 
-XmlPlaces find_places(std::string_view xml) { return Scanner(xml).run(); }
+XmlPlaces find_places(std::string_view xml) {
+  return Scanner(xml).run();
+}
 
 }  // namespace indurop::deploy

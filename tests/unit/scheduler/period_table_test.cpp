@@ -20,7 +20,9 @@ using testing::IsEmpty;
 
 constexpr Nanos kLongest = Nanos::max();
 
-PeriodicItem item(Nanos period, int priority, Nanos offset = Nanos::zero()) { return {period, offset, priority}; }
+PeriodicItem item(Nanos period, int priority, Nanos offset = Nanos::zero()) {
+  return {period, offset, priority};
+}
 
 std::vector<std::vector<std::uint32_t>> items_of(const PeriodTable& table) {
   std::vector<std::vector<std::uint32_t>> all;
@@ -31,8 +33,8 @@ std::vector<std::vector<std::uint32_t>> items_of(const PeriodTable& table) {
 }
 
 TEST(PeriodTable, Figure_1_gives_table_3) {
-  const std::vector<PeriodicItem> cntr{item(microseconds(500), 3), item(microseconds(100), 2), item(microseconds(100), 1),
-                                       item(microseconds(500), 4)};
+  const std::vector<PeriodicItem> cntr{item(microseconds(500), 3), item(microseconds(100), 2),
+                                       item(microseconds(100), 1), item(microseconds(500), 4)};
   auto sut = make_period_table(cntr);
   ASSERT_TRUE(sut.ok());
   EXPECT_EQ(sut->basic_period, microseconds(100));
@@ -66,8 +68,9 @@ TEST(PeriodTable, Offsets_refine_the_basic_period) {
 }
 
 TEST(PeriodTable, Refuses_what_is_no_period_or_offset) {
-  for (const PeriodicItem& bad : {item(Nanos(0), 1), item(Nanos(-1), 1), item(Nanos::min(), 1), item(Nanos(10), 1, Nanos(-1)),
-                                  item(Nanos(10), 1, Nanos(10)), item(Nanos(10), 1, kLongest)}) {
+  for (const PeriodicItem& bad :
+       {item(Nanos(0), 1), item(Nanos(-1), 1), item(Nanos::min(), 1), item(Nanos(10), 1, Nanos(-1)),
+        item(Nanos(10), 1, Nanos(10)), item(Nanos(10), 1, kLongest)}) {
     auto sut = make_period_table(std::vector{bad});
     ASSERT_FALSE(sut.ok());
     EXPECT_EQ(sut.error().code, Errc::InvalidArgument);
@@ -196,7 +199,8 @@ TEST(AdjustPeriods, Leaves_periods_alone_that_work) {
 
 TEST(AdjustPeriods, Rounds_the_one_that_does_not_fit) {
   const std::vector<Nanos> periods{microseconds(100), microseconds(151), milliseconds(1)};
-  EXPECT_THAT(adjust_periods(periods, microseconds(50)), ElementsAre(microseconds(100), microseconds(150), milliseconds(1)));
+  EXPECT_THAT(adjust_periods(periods, microseconds(50)),
+              ElementsAre(microseconds(100), microseconds(150), milliseconds(1)));
 }
 
 TEST(AdjustPeriods, Raises_periods_below_the_minimum) {

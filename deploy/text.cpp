@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/text.h"
+
+#include "schema/nearest.h"
+
+namespace indurop::deploy {
+namespace {
+
+bool continues(char c) noexcept {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kShown = 60;
+  std::string shown = shortened(text, kShown);
+  for (char& c : shown) {
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // a diagnostic is one line
+  }
+  return "'" + shown + "'";
+}
+
+std::string meant(std::string_view name, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongestName = 100;
+  constexpr std::size_t kShortestPart = 3;
+  if (name.size() > kLongestName) {
+    return {};
+  }
+  std::string near = schema::nearest(name, known);
+  for (const std::string& candidate : known) {
+    const bool part = name.size() >= kShortestPart && candidate.find(name) != std::string::npos;
+    near = near.empty() && part ? candidate : near;
+  }
+  return near;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& known) {
+  const std::string near = meant(name, known);
+  if (!near.empty()) {
+    return "; did you mean " + in_quotes(near) + "?";
+  }
+  return known.empty() ? std::string{} : "; known are: " + enumerate(known, known.size());
+}
+
+std::string enumerate(const std::vector<std::string>& names, std::size_t most) {
+  std::string text;
+  const std::size_t shown = names.size() > most ? most : names.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == names.size();
+    text += i == 0 ? "" : last ? " and " : ", ";
+    text += names[i];
+  }
+  if (shown < names.size()) {
+    text += " and " + std::to_string(names.size() - shown) + " more";
+  }
+  return text;
+}
+
+std::size_t utf8_length(std::string_view text) noexcept {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || length > text.size()) {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80) {
+      return 0;
+    }
+  }
+  const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool beyond = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
+  return overlong || beyond ? 0 : length;
+}
+
+std::size_t characters(std::string_view text) noexcept {
+  std::size_t count = 0;
+  for (const char c : text) {
+    count += continues(c) ? 0U : 1U;
+  }
+  return count;
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (characters(text) <= most) {
+    return std::string(text);
+  }
+  std::size_t end = 0;
+  for (std::size_t kept = 0; end < text.size(); ++end) {
+    if (!continues(text[end]) && ++kept == most) {
+      break;
+    }
+  }
+  return std::string(text.substr(0, end)) + "\u2026";
+}
+
+}  // namespace indurop::deploy
