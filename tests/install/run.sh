@@ -46,7 +46,11 @@ fi
 sed -i '/nowhere/d' "$work/project/event1.cpp"
 cmake --build . >/dev/null
 
-"$programs/indurop" check module.xml
+# And it runs, with the programs found beside the library.
 node=install-test-$$
-INDUROP_STATE_DIR=$work/state "$programs/indurop" run module.xml --node "$node" --duration 1s --report report.json
-grep -q '"name"' report.json
+export INDUROP_STATE_DIR="$work/state"
+trap '"$programs/indurop" clean --node "$node" >/dev/null 2>&1 || true' EXIT
+"$programs/indurop" check module.xml
+"$programs/indurop" run module.xml --node "$node" --duration 1s --report report.json >run.log 2>&1 || { cat run.log; exit 1; }
+grep -q '"name": "observer"' report.json
+grep -q 'joints\[0\] = {' run.log
