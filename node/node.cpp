@@ -10,6 +10,7 @@
 #include "deploy/reader.h"
 #include "node/report.h"
 #include "node/setup.h"
+#include "rt/guard.h"
 #include "rt/clock.h"
 #include "runtime/host.h"
 #include "vars/process.h"
@@ -66,6 +67,7 @@ Node::~Node() {
 }
 
 int Node::run() {
+  rt::install_guard_handlers();
   const bool ready = check() && claim_name() && obtain_rights() && make_memory() && load_modules() && start_modules() &&
                      start_schedule();
   if (ready) {
@@ -322,7 +324,7 @@ bool Node::start_modules() {
   const bool ok = call_phase("start", &ModuleDescriptor::start);
   console_.report(rt::now_ns(), false);
   started_ = true;
-  if (!ok) {
+  if (!ok && !interrupted()) {
     console_.error("a module could not be started: nothing was run");
     return fail(kFailed);
   }

@@ -57,7 +57,7 @@ scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const depl
   constexpr deploy::Nanos kIdlePeriod = std::chrono::milliseconds(1);
   scheduler::RunBlockSetup setup;
   setup.node_name = node;
-  setup.config_file = config.file.string();
+  setup.config_file = std::filesystem::absolute(config.file).string();
   const bool empty = check.periodic.empty();
   setup.basic_period_ns = (empty ? kIdlePeriod : check.table.basic_period).count();
   setup.macro_period_ns = (empty ? kIdlePeriod : check.table.macro_period).count();

@@ -77,6 +77,10 @@ bool init_shared_mutex(pthread_mutex_t& mutex) noexcept {
   return made;
 }
 
+bool held_by(const pthread_mutex_t& mutex, pid_t thread) noexcept {
+  return (lock_word(mutex) & kOwnerMask) == static_cast<std::uint32_t>(thread);
+}
+
 LockResult try_lock(pthread_mutex_t& mutex) noexcept {
   return translate(mutex, ::pthread_mutex_trylock(&mutex));
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <pthread.h>
+#include <sys/types.h>
 
 #include <chrono>
 
@@ -37,6 +38,9 @@ inline LockResult lock_within(pthread_mutex_t& mutex, std::chrono::nanoseconds l
 
 // Never waits; Timeout if another thread has it.
 LockResult try_lock(pthread_mutex_t& mutex) noexcept;
+
+// True if the thread with this kernel id (gettid) has the lock. Real-time safe.
+bool held_by(const pthread_mutex_t& mutex, pid_t thread) noexcept;
 
 // False, and nothing happened, if the calling thread does not hold it. Real-time safe.
 inline bool unlock(pthread_mutex_t& mutex) noexcept {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -114,6 +115,25 @@ int fifo_priority() noexcept {
 
 Status pin_to_core(int core) noexcept { return pin(0, core, "pin a thread to a core"); }
 Status pin_process_to_core(pid_t process, int core) noexcept { return pin(process, core, "pin a process to a core"); }
+
+bool StackBounds::overflowed_at(const void* address) const noexcept {
+  constexpr std::size_t kAround = 64 * 1024;
+  const auto at = reinterpret_cast<std::uintptr_t>(address);
+  const auto low = reinterpret_cast<std::uintptr_t>(lowest);
+  return lowest != nullptr && at < low + 4096 && at + kAround >= low;
+}
+
+StackBounds own_stack() noexcept {
+  StackBounds bounds;
+  pthread_attr_t attributes;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) == 0) {
+    void* lowest = nullptr;
+    ::pthread_attr_getstack(&attributes, &lowest, &bounds.bytes);
+    bounds.lowest = static_cast<const char*>(lowest);
+    ::pthread_attr_destroy(&attributes);
+  }
+  return bounds;
+}
 
 void request_exact_timers() noexcept { ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
 

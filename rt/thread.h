@@ -27,6 +27,15 @@ int fifo_priority() noexcept;
 Status pin_to_core(int core) noexcept;
 Status pin_process_to_core(pid_t process, int core) noexcept;
 
+// The calling thread's stack. Not real-time safe to ask for.
+struct StackBounds {
+  const char* lowest = nullptr;
+  std::size_t bytes = 0;
+  // An access there means the stack was too small: just below it, where the guard pages are.
+  [[nodiscard]] bool overflowed_at(const void* address) const noexcept;
+};
+StackBounds own_stack() noexcept;
+
 // Sleeps of a thread without real-time priority end up to 50 us late by default; asks for 1 ns.
 void request_exact_timers() noexcept;
 

@@ -72,6 +72,13 @@ void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t b
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
 }
 
+void Band::miss_due(std::uint64_t end_tick) noexcept {
+  if (end_tick > next_due_) {
+    skip((end_tick - 1 - next_due_) / period_ticks_ + 1);
+    next_due_ = end_tick;
+  }
+}
+
 void Band::release(const Release& release) noexcept {
   if (plan_.kind == BandKind::Process) {
     release_process(*tasks_.front(), release);
@@ -97,7 +104,8 @@ void Band::release(const Release& release) noexcept {
 void Band::overrun(const Release& release) noexcept {
   TaskState* running = runner_.current();
   TaskState& culprit = running != nullptr ? *running : *tasks_.front();
-  record_overrun(culprit, release.tick, running != nullptr, release.time_ns - plan_.period_ns);
+  const Release& unfinished = pending_[done_.load(std::memory_order_acquire) % kBacklog];
+  record_overrun(culprit, release.tick, running != nullptr, unfinished.time_ns);
 }
 
 void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept {
@@ -190,6 +198,7 @@ void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t
     runner_.run(tasks_, tick, release_ns);
   }
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
+  next_due_ = tick + 1;
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
 }
 

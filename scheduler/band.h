@@ -41,6 +41,9 @@ class Band {
   // counted as skipped.
   void release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t basic_period_ns) noexcept;
 
+  // Tick thread, at the end of the run: counts as skipped what was due in ticks before `end_tick` that never began.
+  void miss_due(std::uint64_t end_tick) noexcept;
+
   // Tick thread, inline band only: runs here and now. `lost` = ticks that never began.
   void run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost, std::int64_t basic_ns) noexcept;
 

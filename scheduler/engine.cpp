@@ -2,6 +2,7 @@
 #include "scheduler/engine.h"
 
 #include <algorithm>
+#include <array>
 
 namespace indurop::scheduler {
 namespace {
@@ -212,8 +213,11 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   if (!settings_.realtime) {
     rt::request_exact_timers();
   }
-  if (core.inline_band != nullptr) {
-    core.inline_band->runner().attach_thread();
+  std::array<Band*, 2> here = {core.inline_band, core.primary ? after_base_.get() : nullptr};
+  for (Band* band : here) {
+    if (band != nullptr) {
+      band->runner().attach_thread();
+    }
   }
   const std::int64_t basic = settings_.basic_period_ns;
   Spinner spinner(clock_, settings_.spin, basic);
@@ -226,6 +230,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     const std::uint64_t lost = static_cast<std::uint64_t>(late / basic);
     tick += lost;
     if (ticks != 0 && tick >= ticks) {
+      end_run(core, ticks, ticks - (tick - lost));
       break;
     }
     if (core.primary) {
@@ -237,10 +242,22 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     }
     do_tick(core, tick, lost);
   }
-  if (core.inline_band != nullptr) {
-    core.inline_band->runner().detach_thread();
+  for (Band* band : here) {
+    if (band != nullptr) {
+      band->runner().detach_thread();
+    }
   }
   ticking_.fetch_sub(1, std::memory_order_acq_rel);
+}
+
+void Engine::end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept {
+  if (core.primary) {
+    block_.lost_ticks.fetch_add(lost, std::memory_order_relaxed);
+    block_.tick.store(ticks, std::memory_order_release);
+  }
+  for (Band* band : core.bands) {
+    band->miss_due(ticks);
+  }
 }
 
 void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept {
@@ -253,15 +270,7 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
     core.inline_band->run_inline(tick, release, lost, basic);
   }
   if (core.primary && after_base_ != nullptr) {
-    if (core.inline_band != nullptr) {
-      core.inline_band->runner().detach_thread();
-    }
-    after_base_->runner().attach_thread();
     after_base_->run_inline(tick, release, 0, basic);
-    after_base_->runner().detach_thread();
-    if (core.inline_band != nullptr) {
-      core.inline_band->runner().attach_thread();
-    }
   }
   for (Band* band : core.bands) {
     if (band != core.inline_band) {

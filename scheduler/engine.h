@@ -59,6 +59,7 @@ class Engine {
   Core& core(int number);
   Status start_band_threads();
   void tick_loop(Core& core, std::uint64_t ticks) noexcept;
+  void end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept;
   void do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
   void wake_waiting() noexcept;
   void watchdog_loop() noexcept;

@@ -49,7 +49,7 @@ Runner::Runner(RunBlock& block, Clock& clock, const Hooks& hooks, CoreTrace& tra
 
 void Runner::attach_thread() noexcept {
   thread_ = ::pthread_self();
-  guard_.enter();
+  stack_ = rt::own_stack();
   attached_.store(true, std::memory_order_release);
 }
 
@@ -63,6 +63,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int
   tick_ = tick;
   release_ns_ = release_ns;
   position_ = 0;
+  guard_.enter();
   // A fault comes back here, behind the module that caused it. No signal mask is saved: that would be a system call.
   if (sigsetjmp(guard_.target(), 0) != 0) [[unlikely]] {
     contain_jump();
@@ -133,6 +134,8 @@ void Runner::contain_jump() noexcept {
   if (guard_.signal_number() == rt::Guard::kOrder) {
     kind = FaultKind::Budget;
     std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>((end - start) / 1000));
+  } else if (guard_.signal_number() == SIGSEGV && stack_.overflowed_at(guard_.fault_address())) {
+    std::snprintf(text, sizeof text, "stack overflow: the module's thread has %zu KiB of stack", stack_.bytes / 1024);
   } else if (guard_.signal_number() == SIGSEGV || guard_.signal_number() == SIGBUS) {
     std::snprintf(text, sizeof text, "%s at address %p", signal_text(guard_.signal_number()), guard_.fault_address());
   } else {

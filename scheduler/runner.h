@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rt/guard.h"
+#include "rt/thread.h"
 #include "scheduler/clock.h"
 #include "scheduler/statistics.h"
 #include "scheduler/task.h"
@@ -76,6 +77,7 @@ class Runner {
   CoreTrace& trace_;
   rt::Guard guard_;
   pthread_t thread_{};
+  rt::StackBounds stack_;
   std::atomic<bool> attached_{false};
   // Members, not locals: they must keep their values when a fault jumps back into run().
   std::span<TaskState* const> tasks_;

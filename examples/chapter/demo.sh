@@ -38,8 +38,8 @@ sleep 2
 show indurop watch 'knu::Robot::tick' 'joint[0].x' 'total' -n 3
 show indurop status
 say "A process module dies (kill -9) and comes back:"
-victim=$(indurop status -o json | sed -n 's/.*"name": *"cntr4".*//p; /"name": *"cntr4"/,/"pid"/s/.*"pid": *\([0-9]*\).*/\1/p' | head -n 1)
-[ -z "$victim" ] || { echo "\$ kill -9 $victim"; kill -9 "$victim"; }
+victim=$(indurop status -o csv | awk -F, '$1 == "cntr4" { print $7 }')
+echo "\$ kill -9 $victim"; kill -9 "$victim"
 sleep 1
 show indurop status
 wait "$runner"
