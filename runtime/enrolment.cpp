@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -54,6 +55,10 @@ std::uint32_t find_module(const RunBlock& run) {
   return kNoModule;
 }
 
+int exit_code_of(Errc code) noexcept {
+  return code == Errc::TypeMismatch || code == Errc::VersionMismatch ? kExitSchemaMismatch : EXIT_FAILURE;
+}
+
 // With a limit on locked memory, locking what is still to come would make later allocations fail.
 bool may_lock_everything() noexcept {
   rlimit limit{};
@@ -77,7 +82,7 @@ Status Enrolment::begin() {
   std::fprintf(stderr, "indurop: initPeriodExe: %s\n", outcome.text.c_str());
   if (outcome.code != Errc::NotFound) {
     end_wanted_ = true;
-    exit_code_ = outcome.code == Errc::TypeMismatch || outcome.code == Errc::VersionMismatch ? kExitSchemaMismatch : 1;
+    exit_code_ = exit_code_of(outcome.code);
   }
   phase_ = Phase::NoNode;
   return Error{outcome.code, 0, "enrol with a node"};
@@ -194,7 +199,7 @@ bool Enrolment::take_release() noexcept {
 
 bool Enrolment::wait() {
   if (phase_ == Phase::Ending) {
-    std::exit(exit_code_);  // NOLINT(concurrency-mt-unsafe): the module ignored that it should end
+    std::exit(EXIT_SUCCESS);  // NOLINT(concurrency-mt-unsafe): the module ignored that it should end
   }
   if (phase_ == Phase::None) {
     (void)begin();
@@ -207,6 +212,9 @@ bool Enrolment::wait() {
       publish();
     }
     if (end_wanted_) {
+      if (exit_code_ != EXIT_SUCCESS) {
+        std::exit(exit_code_);  // NOLINT(concurrency-mt-unsafe): whoever started it must see that it did not run
+      }
       phase_ = Phase::Ending;
       return false;
     }
@@ -255,9 +263,8 @@ void Enrolment::try_again() {
   }
   std::fprintf(stderr, "indurop: waitPeriod: %s\n", outcome.text.c_str());
   end_wanted_ = true;
-  exit_code_ = outcome.code == Errc::TypeMismatch || outcome.code == Errc::VersionMismatch ? kExitSchemaMismatch
-               : outcome.code == Errc::Busy                                                  ? 0
-                                                                                             : 1;
+  // Another process of this module is nothing wrong.
+  exit_code_ = outcome.code == Errc::Busy ? EXIT_SUCCESS : exit_code_of(outcome.code);
 }
 
 bool Enrolment::stop_requested() noexcept {

@@ -51,10 +51,11 @@ int printf(const char* format, const Argument&... arguments) noexcept {
 // else "local". Takes the module's priority, core and locked memory as far as the system permits, and binds the shared
 // variables. Call it once, early in main(); releases begin with the first waitPeriod(). Not real-time safe.
 // Returns 0, else a negative indurop::Errc after a message on stderr saying what to do:
-//   NotFound      no such node runs, or it has no such module. waitPeriod() goes on trying
-//   Busy          another living process is enrolled for this module
-//   TypeMismatch  a variable this program uses has another layout in the node; waitPeriod() will end the program
-//   VersionMismatch, PermissionDenied, System
+//   NotFound      no such node runs, or it has no such module; waitPeriod() goes on trying
+//   TypeMismatch  a variable this program uses has another layout in the node; waitPeriod() exits with code 8
+//   VersionMismatch  the node is of another version; exits with code 8
+//   Busy          another living process is enrolled for this module; waitPeriod() exits with code 1
+//   PermissionDenied, Corrupt, InvalidArgument, System: the same
 int initPeriodExe();
 
 // Ends the current run and sleeps until the node releases the next one. True: run now. False: the node asks this

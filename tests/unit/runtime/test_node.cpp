@@ -20,6 +20,8 @@ namespace {
 [[gnu::constructor(100)]] void keep_away_from_others() { ::setenv("INDUROP_NODE", "rttest-none", 0); }
 #pragma GCC diagnostic pop
 
+int g_nodes = 0;
+
 }  // namespace
 
 namespace indurop::testing {
@@ -32,10 +34,12 @@ schema::Schema sample_schema() {
   return schema::from_json(self.value().schema_json).value();
 }
 
+std::string TestNode::next_name() { return "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(g_nodes); }
+
 TestNode::TestNode(std::vector<TestModule> modules, const schema::Schema& schema, std::uint32_t ring_capacity)
     : ring_capacity_(ring_capacity) {
-  static int number = 0;
-  name_ = "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(number++);
+  name_ = next_name();
+  ++g_nodes;
   restart(schema, std::move(modules));
 }
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes killed while they print: the reader sees whole messages only, and goes on.
+
+#include <gtest/gtest.h>
+#include <indurop/indurop.h>
+
+#include <random>
+#include <regex>
+#include <thread>
+
+#include "child.h"
+#include "hosted.h"
+#include "rt/clock.h"
+
+namespace {
+
+using indurop::testing::Hosted;
+using indurop::testing::TestNode;
+
+TEST(PrintFault, Killed_producers_leave_only_whole_messages) {
+  TestNode node({{"m", {}, 0, {}, ""}}, {}, 64);
+  const Hosted hosted(node);
+  indurop::runtime::MessageReader reader(node.run());
+  indurop::runtime::Message message;
+  const std::string tail(200, 'x');
+  std::mt19937 random(3);
+  int whole = 0;
+  for (int i = 0; i < 300; ++i) {
+    const pid_t producer = ::fork();
+    if (producer == 0) {
+      for (int n = 0;; ++n) {
+        irp::printf("message %d of %d %s\n", n, i, tail);
+      }
+    }
+    const auto until = indurop::rt::now_ns() + static_cast<std::int64_t>(random() % 1'000'000);
+    while (indurop::rt::now_ns() < until) {
+      while (reader.next(message, indurop::rt::now_ns())) {
+        static const std::regex kWhole("message [0-9]+ of [0-9]+ x{200}\n");
+        ASSERT_TRUE(std::regex_match(message.text.begin(), message.text.end(), kWhole)) << message.text;
+        ++whole;
+      }
+    }
+    ::kill(producer, SIGKILL);
+    ::waitpid(producer, nullptr, 0);
+  }
+  EXPECT_GT(whole, 0);
+  // However many were killed with a ticket in hand: the ring works again after the reader's patience is over.
+  EXPECT_TRUE(indurop::testing::wait_until([&] {
+    irp::printf("last\n");
+    bool last = false;
+    while (reader.next(message, indurop::rt::now_ns())) {
+      last = last || message.text == "last\n";
+    }
+    return last;
+  }));
+}
+
+}  // namespace
