@@ -9,7 +9,6 @@ import common
 
 THIRD_PARTY = {
     "fmt": ("fmt/",),
-    "spdlog": ("spdlog/",),
     "json": ("nlohmann/",),
     "cli": ("CLI/",),
     "xml": ("tinyxml2.h", "libxml/", "expat.h", "pugixml.hpp"),
@@ -46,7 +45,10 @@ def groups_of(root, name, quote, target):
     groups = set()
     if ".." in target.split("/"):
         return groups
-    if (root / name).parent.joinpath(target).is_file():
+    # Test suites of one room share helpers: tests/fault/vars/ sees those of tests/unit/vars/.
+    suite = pathlib.PurePath(name).parent.name
+    if (root / name).parent.joinpath(target).is_file() or (
+            name.startswith("tests/") and (root / "tests/unit" / suite / target).is_file()):
         groups.add("own")
     if "/" in target:
         groups.add(target.split("/", 1)[0] + "/")
