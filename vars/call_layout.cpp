@@ -13,7 +13,9 @@ namespace indurop::vars {
 namespace {
 
 constexpr std::uint64_t kLine = 64;
-constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept { return (value + to - 1) / to * to; }
+constexpr std::uint64_t round_up(std::uint64_t value, std::uint64_t to) noexcept {
+  return (value + to - 1) / to * to;
+}
 
 struct Shape {
   std::uint32_t args_size;

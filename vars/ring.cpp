@@ -160,8 +160,10 @@ void abort(RingHeader& ring) noexcept {
   rt::unlock(ring.lock);
 }
 
-void release_if_mine(RingHeader& ring) noexcept {
-  rt::unlock(ring.lock);
+void release_if_mine(RingHeader& ring, pid_t thread) noexcept {
+  if (rt::held_by(ring.lock, thread)) {
+    rt::unlock(ring.lock);
+  }
 }
 
 bool try_read(const RingHeader& ring, std::uint32_t value_size, std::uint32_t offset, void* to,

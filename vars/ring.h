@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
+#include <sys/types.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,8 +33,9 @@ void abort(abi::RingHeader& ring) noexcept;   // the current version stays
 // what a killed writer left. Does not wait.
 bool check_ring(abi::RingHeader& ring, std::uint32_t value_size) noexcept;
 
-// Drops the unpublished version if the calling thread is between begin and commit; else nothing happens.
-void release_if_mine(abi::RingHeader& ring) noexcept;
+// Drops the unpublished version if the calling thread is between begin and commit; else nothing happens. `thread` is
+// its gettid(), asked for once when there are many rings.
+void release_if_mine(abi::RingHeader& ring, pid_t thread) noexcept;
 
 // One consistent version of value bytes [offset, offset + length). False if kReadTries copies were all overtaken by
 // three commits. Works on read-only memory. `value_size` is the caller's: what the memory says is not trusted.

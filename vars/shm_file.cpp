@@ -32,6 +32,10 @@ std::string path_of(const std::string& name) {
   return std::string(kShmDirectory) + "/" + name;
 }
 
+std::string unfinished(const std::string& name) {
+  return name + ".tmp";
+}
+
 class Descriptor {
  public:
   explicit Descriptor(int number) noexcept : number_(number) {}
@@ -143,11 +147,11 @@ Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
 }
 
 Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
-  const std::string temporary_name = name + ".tmp";
-  const std::string temporary = path_of(temporary_name);
-  if (::unlink(temporary.c_str()) != 0 && errno != ENOENT) {  // a creator was killed
-    return os_error(errno, "remove unfinished shared memory");
+  if (Status status = remove_unfinished(name); !status) {
+    return status.error();
   }
+  const std::string temporary_name = unfinished(name);
+  const std::string temporary = path_of(temporary_name);
   const Descriptor file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kShmMode));
   if (file.get() < 0) {
     return os_error(errno, "create shared memory");
@@ -226,6 +230,10 @@ void ShmFile::prefault() const noexcept {
   for (std::size_t i = 0; i < size(); i += kSmallestPage) {
     static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(data()) + i, __ATOMIC_RELAXED));
   }
+}
+
+Status remove_unfinished(const std::string& name) noexcept {
+  return remove_shm_file(unfinished(name));
 }
 
 Status remove_shm_file(const std::string& name) noexcept {

@@ -61,6 +61,8 @@ class ShmFile {
   std::unique_ptr<Impl> impl_;
 };
 
+// Removes what a killed creator of the file left. Errors: PermissionDenied, System.
+Status remove_unfinished(const std::string& name) noexcept;
 // Removes a file; fine if there is none. Errors: PermissionDenied, System.
 Status remove_shm_file(const std::string& name) noexcept;
 

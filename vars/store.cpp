@@ -151,6 +151,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     BlockHeader& old = *header_of(previous->file->data());
     generation = old.generation.load(std::memory_order_acquire) + 1;
     if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
+      static_cast<void>(remove_unfinished(block_file(node)));
       sign_in(old, generation);
       old.state.store(BlockState::Ready, std::memory_order_release);
       return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));
@@ -293,9 +294,10 @@ void Store::release_locks_of_this_thread() noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return;
   }
+  const pid_t thread = ::gettid();
   for (const DirectoryEntry& variable : impl_->index.directory) {
     if (variable.kind == abi::Kind::Ring) {
-      release_if_mine(impl_->ring(variable));
+      release_if_mine(impl_->ring(variable), thread);
     }
   }
 }

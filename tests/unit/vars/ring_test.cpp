@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <indurop/detail/access.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>
@@ -144,11 +145,11 @@ TEST(Ring, Write_of_a_thread_that_ended_inside_is_dropped_without_traces) {
 
 TEST(Ring, Release_frees_only_what_the_caller_holds) {
   Ring sut(24);
-  release_if_mine(*sut);
+  release_if_mine(*sut, ::gettid());
   ASSERT_NE(begin_edit(*sut), nullptr);
-  std::thread([&] { release_if_mine(*sut); }).join();
+  std::thread([&] { release_if_mine(*sut, ::gettid()); }).join();
   std::thread([&] { EXPECT_EQ(begin_edit(*sut), nullptr); }).join();
-  release_if_mine(*sut);
+  release_if_mine(*sut, ::gettid());
   std::thread([&] {
     EXPECT_NE(begin_edit(*sut), nullptr);
     commit(*sut);

@@ -127,6 +127,14 @@ TEST(StoreFiles, Unfinished_file_of_a_killed_creator_is_in_nobodys_way) {
   EXPECT_FALSE(exists(block_file(node.name()) + ".tmp"));
 }
 
+TEST(StoreFiles, Unfinished_file_is_removed_when_the_block_is_adopted) {
+  const TestNode node("tmp2");
+  ASSERT_TRUE(Store::create(node.name(), small_schema()).ok());
+  std::ofstream(node.path() + ".tmp") << "half";
+  EXPECT_EQ(Store::create(node.name(), small_schema())->origin(), Origin::Adopted);
+  EXPECT_FALSE(exists(block_file(node.name()) + ".tmp"));
+}
+
 TEST(StoreFiles, Retired_block_without_a_successor_is_used_again) {
   const TestNode node("retired");
   ASSERT_TRUE(Store::create(node.name(), small_schema()).ok());

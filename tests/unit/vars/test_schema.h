@@ -61,7 +61,7 @@ class TestNode {
   void remove() const {
     for (const std::string& file : {block_file(name_), run_file(name_), lock_file(name_)}) {
       static_cast<void>(remove_shm_file(file));
-      static_cast<void>(remove_shm_file(file + ".tmp"));
+      static_cast<void>(remove_unfinished(file));
     }
   }
 
