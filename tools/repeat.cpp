@@ -9,13 +9,14 @@ namespace indurop::tools {
 void add_repeat_options(CLI::App& app, Repeat& repeat) {
   app.add_flag("-w,--watch", repeat.on, "Again every second until Ctrl-C");
   app.add_flag("--once", repeat.once, "One round (the default without -w)");
-  app.add_option("-n,--count", repeat.count, "With -w: stop after COUNT rounds")->type_name("COUNT");
+  app.add_option("-n,--count", repeat.count, "COUNT rounds")->type_name("COUNT");
   add_time_option(app, "--interval", repeat.interval_ns, "With -w: time between rounds (default 1 s)");
   add_time_option(app, "--timeout", repeat.timeout_ns, "With -w: stop after this time");
 }
 
 int repeat_rounds(Context& context, const Repeat& repeat, const std::function<int()>& round) {
-  if (!repeat.on || repeat.once) {
+  const bool repeated = repeat.on || repeat.count > 0;
+  if (!repeated || repeat.once) {
     return round();
   }
   constexpr std::int64_t kShortestNs = 10'000'000;

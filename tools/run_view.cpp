@@ -10,21 +10,13 @@ namespace {
 
 constexpr std::uint32_t kMostModules = 100'000;
 
-// `count` objects of `size` bytes at `offset` lie inside `total` and are aligned.
-bool inside(std::uint64_t offset, std::uint64_t count, std::uint64_t size, std::uint64_t align, std::uint64_t total) {
-  return offset >= sizeof(scheduler::RunBlock) && offset % align == 0 && offset <= total &&
-         count <= (total - offset) / size;
-}
-
-bool well_formed(const scheduler::RunBlock& block, std::uint64_t file_size) {
-  const std::uint64_t total = block.total_size;
-  return total <= file_size && block.module_count <= kMostModules &&
-         inside(block.modules_offset, block.module_count, sizeof(scheduler::ModuleRecord),
-                alignof(scheduler::ModuleRecord), total) &&
-         inside(block.slot_log_offset, block.slot_log_capacity, sizeof(scheduler::SlotEntry),
-                alignof(scheduler::SlotEntry), total) &&
-         inside(block.overrun_log_offset, block.overrun_log_capacity, sizeof(scheduler::OverrunEntry),
-                alignof(scheduler::OverrunEntry), total);
+// Where `count` objects begin if they all lie inside `total` bytes and are aligned, else null.
+template <class T>
+const T* inside(const scheduler::RunBlock& block, std::uint64_t offset, std::uint64_t count,
+                std::uint64_t total) noexcept {
+  const bool good = offset >= sizeof(scheduler::RunBlock) && offset % alignof(T) == 0 && offset <= total &&
+                    count <= (total - offset) / sizeof(T);
+  return good ? block.at<T>(offset) : nullptr;
 }
 
 SlotSample plain(const scheduler::SlotEntry& entry, std::uint64_t number) {
@@ -58,8 +50,19 @@ std::vector<Sample> read_log(const Entry* ring, std::uint64_t capacity, std::uin
 
 }  // namespace
 
-RunView::RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block) noexcept
-    : mapping_(std::move(mapping)), block_(block), modules_(block->module_count) {}
+bool RunView::check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept {
+  const std::uint64_t total = block.total_size;
+  out.module_count = block.module_count;
+  out.slot_capacity = block.slot_log_capacity;
+  out.overrun_capacity = block.overrun_log_capacity;
+  if (total > file_size || out.module_count > kMostModules) {
+    return false;
+  }
+  out.modules = inside<scheduler::ModuleRecord>(block, block.modules_offset, out.module_count, total);
+  out.slots = inside<scheduler::SlotEntry>(block, block.slot_log_offset, out.slot_capacity, total);
+  out.overruns = inside<scheduler::OverrunEntry>(block, block.overrun_log_offset, out.overrun_capacity, total);
+  return out.modules != nullptr && out.slots != nullptr && out.overruns != nullptr;
+}
 
 Result<RunView> RunView::open(const std::string& node) {
   auto opened = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
@@ -71,10 +74,11 @@ Result<RunView> RunView::open(const std::string& node) {
   if (block->abi != scheduler::kRunAbi) {
     return Error{Errc::VersionMismatch, 0, "run block of another version"};
   }
-  if (!well_formed(*block, mapping->size())) {
+  Checked checked;
+  if (!check(*block, mapping->size(), checked)) {
     return Error{Errc::Corrupt, 0, "run block damaged"};
   }
-  return RunView(mapping, block);
+  return RunView(mapping, block, checked);
 }
 
 const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexcept {
@@ -82,7 +86,7 @@ const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexce
 }
 
 std::string RunView::module_name(std::int64_t index) const {
-  return index >= 0 && index < modules_ ? fixed_text(module(static_cast<std::uint32_t>(index)).name) : "?";
+  return index >= 0 && index < checked_.module_count ? fixed_text(module(static_cast<std::uint32_t>(index)).name) : "?";
 }
 
 bool RunView::node_alive() const noexcept {
@@ -90,14 +94,13 @@ bool RunView::node_alive() const noexcept {
 }
 
 std::vector<SlotSample> RunView::slot_log(std::uint64_t most) const {
-  return read_log<SlotSample>(block_->at<scheduler::SlotEntry>(block_->slot_log_offset), block_->slot_log_capacity,
+  return read_log<SlotSample>(checked_.slots, checked_.slot_capacity,
                               block_->slot_log_next.load(std::memory_order_acquire), most);
 }
 
 std::vector<OverrunSample> RunView::overrun_log(std::uint64_t most) const {
-  return read_log<OverrunSample>(block_->at<scheduler::OverrunEntry>(block_->overrun_log_offset),
-                                 block_->overrun_log_capacity, block_->overrun_log_next.load(std::memory_order_acquire),
-                                 most);
+  return read_log<OverrunSample>(checked_.overruns, checked_.overrun_capacity,
+                                 block_->overrun_log_next.load(std::memory_order_acquire), most);
 }
 
 const char* to_text(scheduler::NodeState state) noexcept {

@@ -47,7 +47,7 @@ class RunView {
   static Result<RunView> open(const std::string& node);
 
   [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
-  [[nodiscard]] std::uint32_t module_count() const noexcept { return modules_; }
+  [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
   [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
   // Name for an index found in a log; "?" if it leads nowhere.
   [[nodiscard]] std::string module_name(std::int64_t index) const;
@@ -58,10 +58,23 @@ class RunView {
   [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
 
  private:
-  RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block) noexcept;
+  // What was checked, so that nobody can change it under us afterwards.
+  struct Checked {
+    const scheduler::ModuleRecord* modules = nullptr;
+    const scheduler::SlotEntry* slots = nullptr;
+    const scheduler::OverrunEntry* overruns = nullptr;
+    std::uint32_t module_count = 0;
+    std::uint32_t slot_capacity = 0;
+    std::uint32_t overrun_capacity = 0;
+  };
+  RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block,
+          const Checked& checked) noexcept
+      : mapping_(std::move(mapping)), block_(block), checked_(checked) {}
+  static bool check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept;
+
   std::shared_ptr<const vars::RunFile> mapping_;
   const scheduler::RunBlock* block_;
-  std::uint32_t modules_;  // as checked; the block's own could change under us
+  Checked checked_;
 };
 
 // Text of a fixed char array, NUL or not.

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands for a node in tests of the tools: has its lock, store and run block and moves numbers, but runs no modules.
+// fake_node NAME [ignore-term] [config FILE]   prints "ready" when everything is there; ends at SIGTERM.
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "rt/clock.h"
+#include "scheduler/run_block_setup.h"
+#include "scheduler/statistics.h"
+#include "schema/schema.h"
+#include "vars/node_lock.h"
+#include "vars/process.h"
+#include "vars/run_file.h"
+#include "vars/store.h"
+
+namespace {
+
+using namespace indurop;
+
+volatile sig_atomic_t stop_asked = 0;
+void on_term(int /*signal*/) {
+  stop_asked = 1;
+}
+
+schema::Type scalar(schema::Base base) {
+  schema::Type type;
+  type.base = base;
+  type.element_size = schema::size_of(base);
+  type.align = type.element_size;
+  return type;
+}
+
+schema::Variable variable(const std::string& name, schema::Type type) {
+  schema::Variable out;
+  out.name = name;
+  const bool small = type.dims.empty() && type.base != schema::Base::Struct && type.base != schema::Base::Text;
+  out.kind = small ? abi::Kind::Scalar : abi::Kind::Ring;
+  out.type = std::move(type);
+  out.type_hash = schema::hash_of(out.type);
+  return out;
+}
+
+template <class T>
+void set_initial(schema::Variable& to, T value) {
+  to.initial.resize(sizeof value);
+  std::memcpy(to.initial.data(), &value, sizeof value);
+}
+
+schema::Schema make_schema() {
+  schema::Schema schema;
+  schema::Type joint;
+  joint.base = schema::Base::Struct;
+  joint.name = "knu::Robot::joints_t";
+  joint.element_size = 24;
+  joint.align = 8;
+  for (const char* name : {"x", "y", "z"}) {
+    schema::Field field;
+    field.name = name;
+    field.type = scalar(schema::Base::Double);
+    field.offset = static_cast<std::uint32_t>(joint.fields.size() * 8);
+    field.unit = "deg";
+    joint.fields.push_back(field);
+  }
+  joint.fields[1].range = schema::Range{-180, 180};
+  joint.dims = {10};
+  schema.variables.push_back(variable("knu::Robot::tick", scalar(schema::Base::UInt32)));
+  schema.variables.push_back(variable("knu::Robot::joints", joint));
+
+  auto gain = variable("knu::Robot::gain", scalar(schema::Base::Double));
+  gain.range = schema::Range{0, 10};
+  gain.unit = "mm";
+  gain.description = "amplitude";
+  set_initial(gain, 1.0);
+  schema.variables.push_back(gain);
+
+  schema::Type mode = scalar(schema::Base::Enum);
+  mode.name = "knu::Robot::mode_t";
+  mode.enumerators = {{"OFF", 0}, {"AUTO", 1}, {"MANUAL", 2}};
+  schema.variables.push_back(variable("knu::Robot::mode", mode));
+
+  schema::Type text;
+  text.base = schema::Base::Text;
+  text.text_size = 16;
+  text.element_size = 16;
+  schema.variables.push_back(variable("station::name", text));
+
+  auto starts = variable("station::starts", scalar(schema::Base::Int32));
+  starts.retain = true;
+  set_initial(starts, std::int32_t{5});
+  schema.variables.push_back(starts);
+  return schema;
+}
+
+scheduler::RunBlockSetup make_setup(const std::string& node, const std::string& config) {
+  scheduler::RunBlockSetup setup;
+  setup.node_name = node;
+  setup.config_file = config;
+  setup.basic_period_ns = 1'000'000;
+  setup.macro_period_ns = 2'000'000;
+  setup.slot_count = 2;
+  setup.modules.resize(3);
+  setup.modules[0].name = "modify";
+  setup.modules[0].period_ns = 1'000'000;
+  setup.modules[0].priority = 1;
+  setup.modules[1].name = "output";
+  setup.modules[1].type = scheduler::ModuleType::Process;
+  setup.modules[1].period_ns = 2'000'000;
+  setup.modules[1].priority = 2;
+  setup.modules[2].name = "show";
+  setup.modules[2].type = scheduler::ModuleType::Process;
+  setup.modules[2].operation = scheduler::Operation::NonReal;
+  return setup;
+}
+
+void fill(scheduler::RunBlock& block) {
+  block.obtained.tick_core = -1;
+  std::strcpy(block.obtained.why, "SCHED_FIFO refused: see indurop doctor");
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    block.modules()[i].state.store(scheduler::ModuleState::Running);
+  }
+  auto& output = block.modules()[1];
+  std::strcpy(output.last_fault, "SIGSEGV at address 0x0");
+  output.fault_tick.store(42);
+  output.faults.store(1);
+  output.restarts.store(1);
+  output.fault_kind.store(static_cast<std::uint32_t>(scheduler::FaultKind::Signal));
+  output.overruns.store(1);
+  scheduler::log_overrun(block, {41, 1, 1'200'000, 30'000, 0, 2'500'000, true});
+}
+
+// One round of 1 ms: both modules "run", tick and joints move.
+void step(scheduler::RunBlock& block, vars::Store& store, std::uint64_t tick, std::int64_t grid_ns,
+          std::vector<scheduler::JitterReference>& jitter) {
+  const std::int64_t late = 1'000 + static_cast<std::int64_t>(tick * 37 % 400);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    if (tick % (i + 1) == 0) {
+      const scheduler::RunTimes times{grid_ns, grid_ns + late * (i + 1), grid_ns + late * (i + 1) + 20'000};
+      scheduler::account_run(block.modules()[i], jitter[i], times);
+      scheduler::log_slot(block, {tick, i, times});
+    }
+  }
+  scheduler::add_sample(block.tick_lateness, late);
+  const auto put = [&store](const char* name, std::uint32_t offset, const auto& value) {
+    const auto* entry = store.find(abi::fnv1a64(name, std::strlen(name)));
+    std::uint8_t bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    return store.write(*entry, offset, bytes).ok();
+  };
+  static_cast<void>(put("knu::Robot::tick", 0, static_cast<std::uint32_t>(tick)));
+  static_cast<void>(put("knu::Robot::joints", 0, static_cast<double>(tick) * 0.5));
+  store.beat(rt::now_ns());
+  block.tick.store(tick + 1);
+}
+
+int run(const std::string& node, const std::string& config) {
+  pid_t holder = 0;
+  const auto lock = vars::NodeLock::acquire(node, holder);
+  auto store = vars::Store::create(node, make_schema());
+  const auto setup = make_setup(node, config);
+  auto file = vars::RunFile::create(node, scheduler::run_block_size(setup));
+  if (!lock.ok() || !store.ok() || !file.ok()) {
+    std::fprintf(stderr, "fake_node: cannot set up\n");
+    return 1;
+  }
+  auto& block = *static_cast<scheduler::RunBlock*>(file.value().data());
+  block.node_pid.store(getpid());
+  block.node_start_time = vars::process_start_time(getpid());
+  block.state.store(scheduler::NodeState::Running);
+  block.epoch_ns = rt::now_ns();
+  scheduler::init_run_block(block, setup);
+  fill(block);
+  std::vector<scheduler::JitterReference> jitter(2);
+  const std::int64_t begin = rt::now_ns();
+  for (std::uint64_t tick = 0; stop_asked == 0; ++tick) {
+    const std::int64_t grid = begin + static_cast<std::int64_t>(tick) * setup.basic_period_ns;
+    rt::sleep_until(grid);
+    step(block, store.value(), tick, grid, jitter);
+    if (tick == 20) {
+      std::puts("ready");
+      std::fflush(stdout);
+    }
+  }
+  block.state.store(scheduler::NodeState::Stopped);
+  std::strcpy(block.stop_reason, "SIGTERM");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  std::string config = "module.xml";
+  bool ignore = false;
+  for (int i = 2; i < argc; ++i) {
+    ignore = ignore || std::string(argv[i]) == "ignore-term";
+    if (std::string(argv[i]) == "config" && i + 1 < argc) {
+      config = argv[i + 1];
+    }
+  }
+  signal(SIGTERM, ignore ? SIG_IGN : &on_term);
+  return argc > 1 ? run(argv[1], config) : 2;
+}

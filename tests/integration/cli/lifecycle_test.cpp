@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// stop, reset, clean, run, new.
+#include <filesystem>
+
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(WithNode, Stop_ends_the_node_and_waits_for_it) {
+  const auto sut = indurop({"stop"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_THAT(sut.err, HasSubstr("stopped after"));
+  EXPECT_EQ(node_->wait(), 0);
+  const auto again = indurop({"stop"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(again.err, HasSubstr("does not run"));
+}
+
+TEST_F(CommandLine, Stop_gives_up_on_a_node_that_does_not_listen) {
+  Background node(fake_node("deaf", {"ignore-term"}));
+  ASSERT_TRUE(node.wait_for("ready"));
+  const auto sut = indurop({"stop", "--node", "deaf", "--timeout", "100ms"});
+  EXPECT_EQ(sut.code, 6);
+  EXPECT_THAT(sut.err, HasSubstr("kill -9 " + std::to_string(node.pid())));
+}
+
+TEST_F(WithNode, Reset_asks_first_where_nobody_can_answer_it_refuses) {
+  EXPECT_EQ(indurop({"set", "gain=3", "starts=9"}).code, 0);
+  const auto sut = indurop({"reset", "--cold"});
+  EXPECT_EQ(sut.code, 2);
+  EXPECT_THAT(sut.err, HasSubstr("--yes"));
+  EXPECT_EQ(indurop({"get", "starts"}).out, "9\n");
+  EXPECT_EQ(indurop({"reset", "--cold", "--warm", "--yes"}).code, 2);
+}
+
+TEST_F(WithNode, Warm_reset_keeps_retained_values_and_cold_does_not) {
+  EXPECT_EQ(indurop({"set", "gain=3", "starts=9"}).code, 0);
+  EXPECT_EQ(indurop({"reset", "--warm", "--yes"}).code, 0);
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+  EXPECT_EQ(indurop({"get", "starts"}).out, "9\n");
+  EXPECT_EQ(indurop({"reset", "--cold", "--yes"}).code, 0);
+  EXPECT_EQ(indurop({"get", "starts"}).out, "5\n");
+}
+
+TEST_F(WithNode, Cold_reset_removes_the_retain_files) {
+  kill_node();
+  const fs::path folder = scratch() / "state" / "local";
+  fs::create_directories(folder);
+  put((folder / "retain.a").string(), "old");
+  put((folder / "retain.b").string(), "older");
+  EXPECT_EQ(indurop({"reset", "--warm", "--yes"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder / "retain.a"));
+  EXPECT_EQ(indurop({"reset", "--cold", "--yes"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder / "retain.a"));
+  EXPECT_FALSE(fs::exists(folder / "retain.b"));
+}
+
+TEST_F(WithNode, Cold_reset_works_on_retain_files_alone) {
+  kill_node();
+  ASSERT_EQ(indurop({"clean"}).code, 0);
+  const fs::path folder = scratch() / "state" / "local";
+  fs::create_directories(folder);
+  put((folder / "retain.a").string(), "old");
+  EXPECT_EQ(indurop({"reset", "--cold", "--yes", "--node", "local"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder / "retain.a"));
+}
+
+TEST_F(WithNode, Clean_never_touches_a_running_node) {
+  const auto named = indurop({"clean", "--node", "local"});
+  EXPECT_EQ(named.code, 1);
+  EXPECT_THAT(named.err, HasSubstr("stop it first"));
+  Background other(fake_node("other"));
+  ASSERT_TRUE(other.wait_for("ready"));
+  other.signal(SIGKILL);
+  ASSERT_EQ(other.wait(), 128 + SIGKILL);
+  const auto all = indurop({"clean", "--all"});
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("'other'"));
+  EXPECT_EQ(indurop({"nodes", "--names"}).out, "local\n");
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+}
+
+TEST_F(CommandLine, Clean_with_nothing_to_remove_is_content) {
+  const auto sut = indurop({"clean"});
+  EXPECT_EQ(sut.code, 0);
+  EXPECT_THAT(sut.err, HasSubstr("nothing to remove"));
+}
+
+TEST_F(CommandLine, Run_hands_arguments_and_exit_code_through) {
+  const fs::path folder = scratch() / "bin";
+  fs::create_directories(folder);
+  const std::string program = (folder / "indurop-node").string();
+  put(program, "#!/bin/sh\necho \"$@\"\nexit 4\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const fs::path copy = folder / "indurop";
+  fs::copy_file(INDUROP_PROGRAM, copy, fs::copy_options::overwrite_existing);
+  Background sut({copy.string(), "run", "a b.xml", "--duration", "5s", "-q"});
+  EXPECT_TRUE(sut.wait_for("a b.xml --duration 5s -q\n")) << sut.output();
+  EXPECT_EQ(sut.wait(), 4);
+}
+
+TEST_F(CommandLine, New_makes_a_project_and_never_overwrites) {
+  const std::string folder = (scratch() / "cell7").string();
+  const auto sut = indurop({"new", folder});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  for (const char* file :
+       {"CMakeLists.txt", "Makefile", "demo.glb", "module.xml", "README.md", "src/wave.cpp", "src/monitor.cpp"}) {
+    EXPECT_TRUE(fs::exists(fs::path(folder) / file)) << file;
+  }
+  EXPECT_EQ(indurop({"check", folder + "/module.xml"}).code, 4);  // the modules are not built yet
+  EXPECT_EQ(indurop({"plan", folder + "/module.xml"}).code, 0);
+  const auto again = indurop({"new", folder});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, HasSubstr("nothing was written"));
+}
+
+TEST_F(CommandLine, New_refuses_names_that_make_trouble) {
+  for (const char* name : {"", "7up", "a b", "x;y", "-x", "sp\xc3\xa4t", "."}) {
+    EXPECT_EQ(indurop({"new", name}).code, 2) << name;
+  }
+}
+
+}  // namespace
+}  // namespace indurop::test

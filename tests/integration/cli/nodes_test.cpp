@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which node is meant, status, and files that are no node.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+TEST_F(WithNode, Status_shows_node_rights_and_modules) {
+  const auto sut = indurop({"status"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_THAT(sut.out, StartsWith("local  running  pid "));
+  EXPECT_THAT(sut.out, HasSubstr("basic period 1 ms, macro period 2 ms"));
+  EXPECT_THAT(sut.out, HasSubstr("no FIFO"));
+  EXPECT_THAT(sut.out, HasSubstr("SCHED_FIFO refused"));
+  EXPECT_THAT(sut.out, ContainsRegex("output +process +2 ms +2 +running"));
+  EXPECT_THAT(sut.out, HasSubstr("SIGSEGV at address 0x0 (tick 42)"));
+}
+
+TEST_F(WithNode, Status_as_json_has_ns_and_stable_names) {
+  const auto json = json_of(indurop({"status", "-o", "json"}));
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["running"], true);
+  EXPECT_EQ(json["basic_period_ns"], 1'000'000);
+  EXPECT_EQ(json["rt"]["fifo"], false);
+  ASSERT_EQ(json["modules"].size(), 3U);
+  EXPECT_EQ(json["modules"][0]["name"], "modify");
+  EXPECT_GT(json["modules"][0]["runs"], 0);
+  EXPECT_EQ(json["modules"][0]["last_exec_ns"], 20'000);
+  EXPECT_EQ(json["modules"][1]["restarts"], 1);
+}
+
+TEST_F(WithNode, Status_of_a_killed_node_shows_its_last_figures) {
+  kill_node();
+  const auto sut = indurop({"status"});
+  EXPECT_EQ(sut.code, 6);
+  EXPECT_THAT(sut.out, StartsWith("local  killed"));
+  EXPECT_THAT(sut.out, HasSubstr("modify"));
+  EXPECT_EQ(json_of(indurop({"nodes", "-o", "json"}))["nodes"][0]["state"], "killed");
+}
+
+TEST_F(WithNode, Status_repeats_as_often_as_asked) {
+  const auto sut = indurop({"status", "-w", "-n", "3", "--interval", "20ms", "-o", "json"});
+  EXPECT_EQ(sut.code, 0);
+  EXPECT_EQ(std::count(sut.out.begin(), sut.out.end(), '\n'), 3);
+}
+
+TEST_F(CommandLine, The_only_node_is_taken_whatever_its_name) {
+  Background node(fake_node("press_2"));
+  ASSERT_TRUE(node.wait_for("ready"));
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+  EXPECT_EQ(indurop({"nodes", "--names"}).out, "press_2\n");
+}
+
+TEST_F(CommandLine, Of_several_nodes_one_must_be_named) {
+  Background first(fake_node("press_1"));
+  Background second(fake_node("press_2"));
+  ASSERT_TRUE(first.wait_for("ready") && second.wait_for("ready"));
+  const auto which = indurop({"status"});
+  EXPECT_EQ(which.code, 2);
+  EXPECT_THAT(which.err, HasSubstr("press_1, press_2"));
+  EXPECT_EQ(indurop({"set", "gain", "7", "--node", "press_2"}).code, 0);
+  EXPECT_EQ(indurop({"get", "gain"}, {.environment = {"INDUROP_NODE=press_2"}}).out, "7\n");
+  EXPECT_EQ(indurop({"--node", "press_1", "get", "gain"}).out, "1\n");
+  const auto wrong = indurop({"status", "--node", "pres_1"});
+  EXPECT_EQ(wrong.code, 6);
+  EXPECT_THAT(wrong.err, HasSubstr("Did you mean 'press_1'?"));
+  Background local(fake_node("local"));
+  ASSERT_TRUE(local.wait_for("ready"));
+  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["node"], "local");
+}
+
+TEST_F(CommandLine, Garbage_in_shared_memory_is_an_error_and_never_a_crash) {
+  std::mt19937_64 random(11);
+  for (const std::size_t size : {0UL, 1UL, 100UL, 4096UL, 100'000UL}) {
+    std::string bytes(size, '\0');
+    for (char& c : bytes) {
+      c = static_cast<char>(random());
+    }
+    put("/dev/shm/indurop.junk", bytes);
+    put("/dev/shm/indurop.junk.run", bytes);
+    for (const auto& words : std::vector<std::vector<std::string>>{
+             {"status"}, {"vars"}, {"get", "x"}, {"watch", "--once", "*"}, {"jitter"}, {"log"}}) {
+      const auto sut = indurop(words);
+      EXPECT_TRUE(sut.code == 1 || sut.code == 6) << words[0] << " " << size << " code " << sut.code;
+      EXPECT_THAT(sut.err, HasSubstr("junk")) << words[0] << " " << size;
+    }
+    EXPECT_EQ(indurop({"nodes"}).code, 0);
+  }
+  EXPECT_EQ(indurop({"clean"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists("/dev/shm/indurop.junk"));
+  EXPECT_FALSE(std::filesystem::exists("/dev/shm/indurop.junk.run"));
+}
+
+TEST_F(WithNode, Damage_anywhere_in_the_run_block_never_crashes_a_reader) {
+  kill_node();
+  const int file = open("/dev/shm/indurop.local.run", O_RDWR | O_CLOEXEC);
+  ASSERT_GE(file, 0);
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 40; ++round) {
+    for (int i = 0; i < 8; ++i) {
+      const std::uint64_t value = random();
+      ASSERT_EQ(pwrite(file, &value, sizeof value, static_cast<off_t>(8 + random() % 4096)), 8);
+    }
+    for (const char* verb : {"status", "jitter"}) {
+      const auto sut = indurop({verb, "-o", "json"});
+      EXPECT_TRUE(sut.code == 0 || sut.code == 1 || sut.code == 6 || sut.code == 8) << verb << " " << sut.code;
+    }
+  }
+  close(file);
+}
+
+TEST_F(WithNode, Memory_closed_to_others_is_explained) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "needs root to become somebody else";
+  }
+  ASSERT_EQ(chmod("/dev/shm/indurop.local", 0600), 0);
+  const auto sut = indurop({"get", "gain"}, {.user = 65534});
+  if (sut.code == 127) {
+    GTEST_SKIP() << "the build directory is closed to others";
+  }
+  EXPECT_EQ(sut.code, 1);
+  EXPECT_THAT(sut.err, HasSubstr("no permission to look at node 'local'"));
+}
+
+}  // namespace
+}  // namespace indurop::test

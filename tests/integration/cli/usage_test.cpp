@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wrong usage, help, output that goes nowhere.
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+TEST_F(CommandLine, Unknown_verb_is_answered_with_the_nearest) {
+  const auto sut = indurop({"statsu"});
+  EXPECT_EQ(sut.code, 2);
+  EXPECT_THAT(sut.err, HasSubstr("Did you mean 'status'?"));
+  EXPECT_THAT(sut.out, IsEmpty());
+}
+
+TEST_F(CommandLine, Without_a_verb_it_says_so) {
+  EXPECT_EQ(indurop({}).code, 2);
+}
+
+TEST_F(CommandLine, Help_lists_every_verb_and_each_has_its_own) {
+  const auto all = indurop({"help"});
+  EXPECT_EQ(all.code, 0);
+  for (const char* verb : {"new", "check", "plan", "doctor", "stop", "reset", "clean", "status", "nodes", "vars", "get",
+                           "set", "watch", "hz", "jitter", "overruns", "log"}) {
+    EXPECT_THAT(all.out, HasSubstr(std::string("\n  ") + verb + " "));
+    const auto one = indurop({"help", verb});
+    EXPECT_EQ(one.code, 0) << verb;
+    EXPECT_THAT(one.out, HasSubstr(std::string("Usage: indurop ") + verb)) << verb;
+    EXPECT_EQ(indurop({verb, "--help"}).out, one.out) << verb;
+  }
+}
+
+TEST_F(CommandLine, Version_is_printed) {
+  const auto sut = indurop({"--version"});
+  EXPECT_EQ(sut.code, 0);
+  EXPECT_THAT(sut.out, ContainsRegex("^indurop [0-9]+[.][0-9]+[.][0-9]+\n$"));
+}
+
+TEST_F(CommandLine, Wrong_options_are_usage_errors_that_point_to_the_help) {
+  for (const auto& words : std::vector<std::vector<std::string>>{{"status", "--nodee"},
+                                                                 {"status", "-o", "xml"},
+                                                                 {"get"},
+                                                                 {"watch", "--hz", "0", "x"},
+                                                                 {"watch", "--timeout", "soon", "x"},
+                                                                 {"nodes", "--color", "blue"},
+                                                                 {"jitter", "--quantity", "mood"},
+                                                                 {"reset"}}) {
+    const auto sut = indurop(words);
+    EXPECT_EQ(sut.code, 2) << words[0] << " " << sut.err;
+    EXPECT_THAT(sut.err, Not(IsEmpty()));
+    EXPECT_THAT(sut.out, IsEmpty());
+  }
+}
+
+TEST_F(CommandLine, Options_may_stand_before_the_verb) {
+  const auto sut = indurop({"-o", "json", "nodes"});
+  EXPECT_EQ(sut.code, 0);
+  EXPECT_EQ(json_of(sut)["schema_version"], 1);
+}
+
+TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
+  for (const char* verb : {"status", "vars", "jitter", "overruns", "log"}) {
+    const auto sut = indurop({verb});
+    EXPECT_EQ(sut.code, 6) << verb;
+    EXPECT_THAT(sut.err, HasSubstr("indurop run module.xml")) << verb;
+  }
+  EXPECT_EQ(indurop({"watch", "*"}).code, 6);
+  EXPECT_EQ(indurop({"get", "x"}).code, 6);
+  EXPECT_EQ(indurop({"set", "x", "1"}).code, 6);
+  const auto nodes = indurop({"nodes"});
+  EXPECT_EQ(nodes.code, 0);
+  EXPECT_THAT(nodes.err, HasSubstr("no node"));
+}
+
+TEST_F(CommandLine, Impossible_node_names_are_usage_errors) {
+  EXPECT_EQ(indurop({"status", "--node", "../../etc/passwd"}).code, 2);
+  EXPECT_EQ(indurop({"status"}, {.environment = {"INDUROP_NODE=a b"}}).code, 2);
+  EXPECT_EQ(indurop({"clean", "--node", "a/b"}).code, 2);
+}
+
+TEST_F(CommandLine, Full_disk_behind_stdout_is_an_error) {
+  const auto sut = indurop({"help"}, {.stdout_to = "/dev/full"});
+  EXPECT_EQ(sut.code, 1);
+  EXPECT_THAT(sut.err, HasSubstr("No space left on device"));
+}
+
+TEST_F(CommandLine, Colour_only_when_asked_for_in_a_pipe) {
+  EXPECT_THAT(indurop({"help"}).out, Not(HasSubstr("\x1b[")));
+  EXPECT_THAT(indurop({"--color", "always", "statsu"}).code, 2);
+  EXPECT_THAT(indurop({"doctor", "--no-test", "--color", "always"}).out, HasSubstr("\x1b["));
+  EXPECT_THAT(indurop({"doctor", "--no-test", "--color", "never"}).out, Not(HasSubstr("\x1b[")));
+}
+
+TEST_F(CommandLine, Doctor_grades_every_check_in_json) {
+  const auto sut = indurop({"doctor", "--duration", "100ms", "-o", "json"});
+  const auto json = json_of(sut);
+  ASSERT_TRUE(json.is_object()) << sut.out;
+  EXPECT_EQ(sut.code, json["fit"] == true ? 0 : 1);
+  EXPECT_GE(json["checks"].size(), 10U);
+  for (const auto& check : json["checks"]) {
+    EXPECT_TRUE(check["grade"] == "OK" || check["grade"] == "WARN" || check["grade"] == "FAIL");
+  }
+}
+
+}  // namespace
+}  // namespace indurop::test

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// vars, get, set, hz.
+#include <unistd.h>
+
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+TEST_F(WithNode, Get_prints_nothing_but_the_value_of_one_name) {
+  EXPECT_EQ(indurop({"get", "knu::Robot::gain"}).out, "1\n");
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+  EXPECT_EQ(indurop({"get", "knu.Robot.mode"}).out, "OFF\n");
+  EXPECT_EQ(indurop({"get", "starts"}).out, "5\n");
+}
+
+TEST_F(WithNode, Get_of_several_is_a_table_csv_or_json) {
+  const auto text = indurop({"get", "gain", "joints[1].y"});
+  EXPECT_EQ(text.out,
+            "NAME                     VALUE  UNIT\n"
+            "knu::Robot::gain             1  mm\n"
+            "knu::Robot::joints[1].y      0  deg\n");
+  EXPECT_EQ(indurop({"get", "gain", "starts", "-o", "csv"}).out,
+            "name,value,unit\nknu::Robot::gain,1.0,mm\nstation::starts,5,\n");
+  const auto json = json_of(indurop({"get", "joints[1]", "-o", "json"}));
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["node"], "local");
+  EXPECT_EQ(json["values"][0]["name"], "knu::Robot::joints[1]");
+  EXPECT_EQ(json["values"][0]["value"]["z"], 0.0);
+}
+
+TEST_F(WithNode, Globs_select_and_nothing_comes_twice) {
+  const auto json = json_of(indurop({"get", "station::*", "starts", "-o", "json"}));
+  EXPECT_EQ(json["values"].size(), 2U);
+}
+
+TEST_F(WithNode, Unknown_names_are_answered_with_the_nearest) {
+  const auto sut = indurop({"get", "gian", "nothing*"});
+  EXPECT_EQ(sut.code, 1);
+  EXPECT_THAT(sut.err, HasSubstr("gain"));
+  EXPECT_THAT(sut.err, HasSubstr("nothing*"));
+  EXPECT_THAT(indurop({"get", "joints[10]"}).err, HasSubstr("10"));
+  EXPECT_EQ(indurop({"get", "joints[10]"}).code, 1);
+  EXPECT_EQ(indurop({"get", "joints[1].w"}).code, 1);
+}
+
+TEST_F(WithNode, Set_changes_a_variable_or_a_part_of_it) {
+  EXPECT_EQ(indurop({"set", "gain", "2.5"}).code, 0);
+  EXPECT_EQ(indurop({"get", "gain"}).out, "2.5\n");
+  EXPECT_EQ(indurop({"set", "joints[1].y", "-12.5"}).code, 0);
+  EXPECT_EQ(indurop({"get", "joints[1].y"}).out, "-12.5\n");
+  EXPECT_EQ(indurop({"set", "joints[2]={x: 1, y: 2, z: 3}", "mode=AUTO", "station::name=\"cell 7\""}).code, 0);
+  EXPECT_EQ(indurop({"get", "joints[2].z"}).out, "3\n");
+  EXPECT_EQ(indurop({"get", "mode"}).out, "AUTO\n");
+  EXPECT_EQ(indurop({"get", "station::name"}).out, "\"cell 7\"\n");
+}
+
+TEST_F(WithNode, Set_takes_arrays_and_negative_values_after_options) {
+  EXPECT_EQ(indurop({"set", "starts", "-3", "--node", "local"}).code, 0);
+  EXPECT_EQ(indurop({"get", "starts"}).out, "-3\n");
+}
+
+TEST_F(WithNode, Set_changes_nothing_if_one_value_is_bad) {
+  const auto sut = indurop({"set", "gain=2", "mode=SIDEWAYS", "starts=abc"});
+  EXPECT_EQ(sut.code, 1);
+  EXPECT_THAT(sut.err, HasSubstr("SIDEWAYS"));
+  EXPECT_THAT(sut.err, HasSubstr("abc"));
+  EXPECT_THAT(sut.err, HasSubstr("nothing was changed"));
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+}
+
+TEST_F(WithNode, Set_keeps_to_declared_ranges_of_variables_and_fields) {
+  const auto above = indurop({"set", "gain", "11"});
+  EXPECT_EQ(above.code, 1);
+  EXPECT_THAT(above.err, HasSubstr("0..10"));
+  EXPECT_EQ(indurop({"set", "gain", "nan"}).code, 1);
+  EXPECT_EQ(indurop({"set", "joints[0].y", "181"}).code, 1);
+  EXPECT_EQ(indurop({"set", "joints[0]", "{x: 0, y: -200, z: 0}"}).code, 1);
+  EXPECT_EQ(indurop({"set", "starts", "99999999999"}).code, 1);
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+}
+
+TEST_F(WithNode, Set_explains_what_is_no_assignment) {
+  EXPECT_EQ(indurop({"set", "gain"}).code, 2);
+  EXPECT_EQ(indurop({"set", "gain=1", "mode"}).code, 2);
+  EXPECT_EQ(indurop({"set", "=1"}).code, 2);
+  EXPECT_EQ(indurop({"set", "*", "1"}).code, 1);
+}
+
+TEST_F(WithNode, Another_user_may_look_but_not_change) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "needs root to become somebody else";
+  }
+  constexpr uid_t kNobody = 65534;
+  const auto get = indurop({"get", "gain"}, {.user = kNobody});
+  if (get.code == 127 || get.code == 126) {
+    GTEST_SKIP() << "the build directory is closed to others";
+  }
+  EXPECT_EQ(get.out, "1\n") << get.err;
+  const auto set = indurop({"set", "gain", "2"}, {.user = kNobody});
+  EXPECT_EQ(set.code, 1);
+  EXPECT_THAT(set.err, HasSubstr("no permission to change values"));
+  EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
+}
+
+TEST_F(WithNode, Vars_lists_types_units_and_values) {
+  const auto text = indurop({"vars", "gain"});
+  EXPECT_EQ(text.code, 0);
+  EXPECT_THAT(text.out, HasSubstr("knu::Robot::gain  double      1  mm    0..10"));
+  EXPECT_EQ(indurop({"vars", "--names", "-t", "double"}).out, "knu::Robot::gain\n");
+  const auto json = json_of(indurop({"vars", "-o", "json"}));
+  EXPECT_EQ(json["variables"].size(), 6U);
+  EXPECT_EQ(json["variables"][0]["name"], "knu::Robot::gain");
+  EXPECT_EQ(json["variables"][0]["range"], nlohmann::json::parse("[0.0,10.0]"));
+  EXPECT_EQ(json["variables"][0]["description"], "amplitude");
+}
+
+TEST_F(WithNode, Values_outlive_the_node_and_can_be_changed_for_the_next) {
+  kill_node();
+  const auto get = indurop({"get", "gain"});
+  EXPECT_EQ(get.code, 0);
+  EXPECT_EQ(get.out, "1\n");
+  EXPECT_THAT(get.err, HasSubstr("not running, last seen"));
+  EXPECT_EQ(indurop({"set", "gain", "3"}).code, 0);
+  EXPECT_EQ(indurop({"get", "-q", "gain"}).out, "3\n");
+  EXPECT_THAT(indurop({"get", "-q", "gain"}).err, IsEmpty());
+}
+
+TEST_F(WithNode, Hz_counts_every_update_of_a_struct) {
+  const auto sut = indurop({"hz", "joints", "--once", "-o", "json"});
+  const auto json = json_of(sut);
+  ASSERT_TRUE(json.is_object()) << sut.out << sut.err;
+  EXPECT_TRUE(json["exact"]);
+  EXPECT_GT(json["rate_hz"], 0.0);
+  EXPECT_THAT(indurop({"hz", "tick", "--once"}).out, HasSubstr("average rate: "));
+  EXPECT_EQ(indurop({"hz", "nothing"}).code, 1);
+}
+
+}  // namespace
+}  // namespace indurop::test

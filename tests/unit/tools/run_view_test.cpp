@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run block as a stranger's file: nothing in it is believed before it was checked.
+#include "tools/run_view.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "scheduler/run_block_setup.h"
+#include "scheduler/statistics.h"
+#include "vars/process.h"
+#include "vars/run_file.h"
+
+namespace indurop::tools {
+namespace {
+
+class RunViewTest : public ::testing::Test {
+ protected:
+  RunViewTest() : node_("run_view_test_" + std::to_string(getpid())) {
+    scheduler::RunBlockSetup setup;
+    setup.node_name = node_;
+    setup.config_file = "module.xml";
+    setup.basic_period_ns = 1'000'000;
+    setup.macro_period_ns = 2'000'000;
+    setup.slot_count = 2;
+    setup.modules.resize(2);
+    setup.modules[0].name = "first";
+    setup.modules[1].name = "second";
+    auto file = vars::RunFile::create(node_, scheduler::run_block_size(setup));
+    EXPECT_TRUE(file.ok());
+    block_ = static_cast<scheduler::RunBlock*>(file.value().data());
+    file_.emplace(std::move(file).value());
+    scheduler::init_run_block(*block_, setup);
+  }
+  ~RunViewTest() override { EXPECT_TRUE(vars::remove_shm_file(vars::run_file(node_)).ok()); }
+
+  std::string node_;
+  std::optional<vars::RunFile> file_;
+  scheduler::RunBlock* block_ = nullptr;
+};
+
+TEST_F(RunViewTest, Shows_names_and_logs_oldest_first) {
+  for (std::uint64_t tick = 0; tick < 5; ++tick) {
+    scheduler::log_slot(*block_, {tick, 1, {100, 110, 150}});
+  }
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  EXPECT_EQ(sut.value().module_name(1), "second");
+  EXPECT_EQ(sut.value().module_name(2), "?");
+  EXPECT_EQ(sut.value().module_name(-1), "?");
+  const auto log = sut.value().slot_log(3);
+  ASSERT_EQ(log.size(), 3U);
+  EXPECT_EQ(log.front().tick, 2U);
+  EXPECT_EQ(log.back().tick, 4U);
+  EXPECT_EQ(log.back().slot, 0U);
+}
+
+TEST_F(RunViewTest, Log_that_went_round_keeps_the_newest) {
+  const std::uint64_t total = block_->slot_log_capacity + 100U;
+  for (std::uint64_t tick = 0; tick < total; ++tick) {
+    scheduler::log_slot(*block_, {tick, 0, {1, 2, 3}});
+  }
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  const auto log = sut.value().slot_log(UINT64_MAX);
+  EXPECT_EQ(log.size(), block_->slot_log_capacity);
+  EXPECT_EQ(log.front().tick, 100U);
+}
+
+TEST_F(RunViewTest, Entry_being_written_is_left_out) {
+  scheduler::log_slot(*block_, {1, 0, {1, 2, 3}});
+  block_->at<scheduler::SlotEntry>(block_->slot_log_offset)[0].sequence.store(0);
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  EXPECT_TRUE(sut.value().slot_log(10).empty());
+}
+
+TEST_F(RunViewTest, Knows_whether_the_node_lives) {
+  block_->node_pid.store(getpid());
+  block_->node_start_time = vars::process_start_time(getpid());
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  EXPECT_TRUE(sut.value().node_alive());
+  block_->node_start_time += 1;  // the number was given to another process
+  EXPECT_FALSE(sut.value().node_alive());
+}
+
+TEST_F(RunViewTest, Missing_and_foreign_files_are_named_errors) {
+  EXPECT_EQ(RunView::open(node_ + "x").error().code, Errc::NotFound);
+  block_->abi += 1;
+  EXPECT_EQ(RunView::open(node_).error().code, Errc::VersionMismatch);
+  block_->magic.store(77);
+  EXPECT_EQ(RunView::open(node_).error().code, Errc::Corrupt);
+}
+
+TEST_F(RunViewTest, Offsets_and_counts_that_lead_outside_are_refused) {
+  const auto refused = [this](auto& field, auto value) {
+    const auto before = field;
+    field = value;
+    const bool ok = RunView::open(node_).ok();
+    field = before;
+    return !ok;
+  };
+  EXPECT_TRUE(refused(block_->module_count, 100'000'000U));
+  EXPECT_TRUE(refused(block_->modules_offset, UINT64_MAX - 63));
+  EXPECT_TRUE(refused(block_->modules_offset, std::uint64_t{8}));
+  EXPECT_TRUE(refused(block_->slot_log_offset, block_->total_size));
+  EXPECT_TRUE(refused(block_->slot_log_offset, block_->slot_log_offset + 1));
+  EXPECT_TRUE(refused(block_->overrun_log_capacity, UINT32_MAX));
+  EXPECT_TRUE(refused(block_->total_size, UINT64_MAX));
+}
+
+TEST_F(RunViewTest, Random_damage_never_crashes_a_reader) {
+  std::mt19937_64 random(3);
+  auto* bytes = reinterpret_cast<unsigned char*>(block_);
+  const std::vector<unsigned char> good(bytes, bytes + sizeof(scheduler::RunBlock));
+  for (int round = 0; round < 3000; ++round) {
+    std::copy(good.begin(), good.end(), bytes);
+    for (int i = 0; i < 3; ++i) {
+      bytes[16 + random() % 1024 % (sizeof(scheduler::RunBlock) - 16)] = static_cast<unsigned char>(random());
+    }
+    const auto sut = RunView::open(node_);
+    if (sut.ok()) {
+      static_cast<void>(sut.value().slot_log(100).size() + sut.value().overrun_log(100).size());
+      for (std::uint32_t i = 0; i < sut.value().module_count(); ++i) {
+        static_cast<void>(sut.value().module_name(i).size());
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace indurop::tools
