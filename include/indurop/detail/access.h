@@ -55,20 +55,35 @@ INDUROP_ALWAYS_INLINE unsigned char* slot(abi::RingHeader* ring, std::uint64_t s
   return reinterpret_cast<unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
 }
 
-template <class T, std::size_t Size>
-INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
-  T value;
-  constexpr int kTries = 16;
+// Copies a part of the current version; false if writers overtook it. The slot is written again only after three more
+// commits: two are harmless.
+template <std::size_t Size>
+INDUROP_ALWAYS_INLINE bool try_copy(abi::RingHeader* ring, std::uint64_t seq, void* to, std::uint32_t offset,
+                                    std::size_t length) noexcept {
+  copy_from_shared(to, slot(ring, seq, abi::slot_stride(Size)) + offset, length);
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return ring->seq.load(std::memory_order_relaxed) - seq <= abi::kSlots - 2;
+}
+
+template <std::size_t Size>
+[[gnu::noinline, gnu::cold]] void ring_read_again(abi::RingHeader* ring, void* to, std::uint32_t offset,
+                                                  std::size_t length) noexcept {
+  constexpr int kTries = 15;
   for (int i = 0; i < kTries; ++i) {
-    const std::uint64_t before = ring->seq.load(std::memory_order_acquire);
-    copy_from_shared(&value, slot(ring, before, abi::slot_stride(Size)) + offset, sizeof(T));
-    std::atomic_thread_fence(std::memory_order_acquire);
-    // The slot is written again only after three more commits: two are harmless.
-    if (ring->seq.load(std::memory_order_relaxed) - before <= abi::kSlots - 2) [[likely]] {
-      return value;
+    if (try_copy<Size>(ring, ring->seq.load(std::memory_order_acquire), to, offset, length)) {
+      return;
     }
   }
-  indurop_read_slow(ring, &value, offset, sizeof(T));
+  indurop_read_slow(ring, to, offset, static_cast<std::uint32_t>(length));
+}
+
+template <class T, std::size_t Size>
+INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
+  const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
+  T value;  // declared here, so that its initial zeros are seen to be overwritten and cost nothing
+  if (!try_copy<Size>(ring, seq, &value, offset, sizeof(T))) [[unlikely]] {
+    ring_read_again<Size>(ring, &value, offset, sizeof(T));
+  }
   return value;
 }
 
