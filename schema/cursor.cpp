@@ -6,7 +6,7 @@
 namespace indurop::schema {
 namespace {
 
-using std::string_view_literals::operator""sv;
+using namespace std::string_view_literals;
 
 bool is_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -49,7 +49,7 @@ std::string_view Cursor::word(char stop) noexcept {
   skip_spaces();
   const std::size_t begin = at_;
   while (!at_end() && !is_space(text_[at_]) && text_[at_] != stop &&
-         ",[]{}\"'"sv.find(text_[at_]) == std::string_view::npos) {
+         R"(,[]{}"')"sv.find(text_[at_]) == std::string_view::npos) {
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
@@ -130,7 +130,7 @@ const char* Cursor::escape(Unit& to) {
       return nullptr;
     }
   }
-  return "unknown escape; there are \\n \\t \\r \\b \\f \\0 \\\\ \\\" \\' \\/ \\xNN \\uNNNN";
+  return R"(unknown escape; there are \n \t \r \b \f \0 \\ \" \' \/ \xNN \uNNNN)";
 }
 
 }  // namespace indurop::schema

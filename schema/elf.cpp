@@ -367,12 +367,12 @@ class Reader {
 
 }  // namespace
 
-Result<ModuleFile> read_module_file(const std::filesystem::path& path) {
-  const File file(path);
-  if (const Status status = file.status(); !status.ok()) {
+Result<ModuleFile> read_module_file(const std::filesystem::path& file) {
+  const File opened(file);
+  if (const Status status = opened.status(); !status.ok()) {
     return status.error();
   }
-  return Reader(file).run();
+  return Reader(opened).run();
 }
 
 }  // namespace indurop::schema

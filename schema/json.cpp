@@ -216,7 +216,7 @@ bool read_base(const json& value, Base& to) {
   if (!value.is_string()) {
     return false;
   }
-  const auto found = std::find(kBaseNames.begin(), kBaseNames.end(), value.get_ref<const std::string&>());
+  const auto* found = std::find(kBaseNames.begin(), kBaseNames.end(), value.get_ref<const std::string&>());
   to = static_cast<Base>(found - kBaseNames.begin());
   return found != kBaseNames.end();
 }

@@ -62,8 +62,10 @@ Failure split(std::string_view whole, Path& path) {
   bool after_colons = false;
   for (bool name_next = true;;) {
     if (name_next) {
-      const auto end = std::find_if_not(rest.begin(), rest.end(), letter_or_digit);
-      const auto length = static_cast<std::size_t>(end - rest.begin());
+      std::size_t length = 0;
+      while (length < rest.size() && letter_or_digit(rest[length])) {
+        ++length;
+      }
       if (length == 0) {
         return syntax(whole,
                       rest.empty() ? "the end is missing" : fmt::format("no name begins with '{}'", rest.front()));
@@ -130,7 +132,7 @@ class Walk {
 
   Failure run(Place& to) {
     for (std::size_t i = first_; i < steps_.size(); ++i) {
-      const Failure failure = steps_[i].name.empty() ? index(i) : field(i);
+      Failure failure = steps_[i].name.empty() ? index(i) : field(i);
       if (failure.code != Errc::Ok) {
         return failure;
       }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "schema/leaf.h"
@@ -31,13 +32,10 @@ class Checker {
       return true;
     }
     if (type.base == Base::Struct) {
-      for (const Field& field : type.fields) {
+      return std::all_of(type.fields.begin(), type.fields.end(), [&](const Field& field) {
         const std::string name = path.empty() ? field.name : path + "." + field.name;
-        if (!value(field.range.value_or(range), field.type, 0, at + field.offset, name)) {
-          return false;
-        }
-      }
-      return true;
+        return value(field.range.value_or(range), field.type, 0, at + field.offset, name);
+      });
     }
     return number(range, type.base, at, path);
   }

@@ -314,8 +314,7 @@ class Parser {
       return fail(Errc::OutOfRange, fmt::format("{} bytes of text do not fit char[{}], which holds {}", text.size(),
                                                 type.text_size, type.text_size - 1));
     }
-    std::memset(to, 0, type.text_size);
-    std::memcpy(to, text.data(), text.size());
+    std::fill(std::copy(text.begin(), text.end(), to), to + type.text_size, std::uint8_t{0});
     return true;
   }
 
