@@ -9,6 +9,8 @@
 namespace indurop::tools {
 namespace {
 
+constexpr std::size_t kAlignedValue = 24;
+
 int get(Context& context, const std::vector<std::string>& names) {
   int code = kOk;
   const auto store = open_store(context, vars::Mode::ReadOnly, code);
@@ -23,7 +25,7 @@ int get(Context& context, const std::vector<std::string>& names) {
   if (!select_items(context, *store, names, items)) {
     return kFailed;
   }
-  Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right}, {"UNIT", "unit"}});
+  Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
   for (const Item& item : items) {
     std::string problem;
     const auto bytes = read_item(*store, item, problem);

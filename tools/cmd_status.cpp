@@ -46,7 +46,7 @@ Cell duration(std::int64_t ns, bool known = true) {
   return {known ? human_ns(ns) : "-", ns};
 }
 
-std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
+std::vector<Cell> module_row(const scheduler::ModuleRecord& module, bool alive) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
   const auto state = module.state.load(kRelaxed);
   const auto exec = scheduler::summarize(module.exec);
@@ -60,7 +60,8 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
           {period, module.period_ns},
           {"", to_text(module.operation)},
           {real ? std::to_string(module.priority) : "-", module.priority},
-          Cell(to_text(state), style_of(state)),
+          {alive ? to_text(state) : fmt::format("({})", to_text(state)), to_text(state),
+           alive ? style_of(state) : Style::Dim},
           {"", module.pid.load(kRelaxed)},
           counter(module.runs.load(kRelaxed)),
           counter(module.skipped.load(kRelaxed), Style::Warn),
@@ -77,30 +78,30 @@ std::vector<Cell> module_row(const scheduler::ModuleRecord& module) {
           {fault_text(module), fault_text(module), Style::Bad}};
 }
 
-Table module_table(const RunView& run) {
+Table module_table(const RunView& run, bool alive) {
   constexpr Align kRight = Align::Right;
   Table table({{"MODULE", "name"},
-               {"TYPE", "type"},
+               {"TYPE", "type", Align::Left, 4},
                {"PERIOD", "period_ns", kRight},
                {"", "operation"},
-               {"PRIO", "priority", kRight},
+               {"PRIO", "priority", kRight, 2},
                {"STATE", "state"},
                {"", "pid"},
                {"RUNS", "runs", kRight},
-               {"SKIPPED", "skipped", kRight},
+               {"SKIPPED", "skipped", kRight, 1},
                {"OVERRUNS", "overruns", kRight},
                {"MISSES", "deadline_misses", kRight},
-               {"LAST", "last_exec_ns", kRight},
-               {"AVG", "mean_exec_ns", kRight},
+               {"EXEC LAST", "last_exec_ns", kRight, 6},
+               {"EXEC AVG", "mean_exec_ns", kRight},
                {"MAX", "max_exec_ns", kRight},
-               {"JITTER P50", "jitter_p50_ns", kRight},
-               {"P99", "jitter_p99_ns", kRight},
-               {"MAX", "jitter_max_ns", kRight},
-               {"RESTARTS", "restarts", kRight},
+               {"JITTER P50", "jitter_p50_ns", kRight, 3},
+               {"JITTER P99", "jitter_p99_ns", kRight},
+               {"MAX", "jitter_max_ns", kRight, 1},
+               {"RESTARTS", "restarts", kRight, 5},
                {"", "lost_messages"},
                {"LAST FAULT", "last_fault"}});
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
-    table.add(module_row(run.module(i)));
+    table.add(module_row(run.module(i), alive));
   }
   return table;
 }
@@ -113,7 +114,7 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
     }
     context.out.line();
   }
-  print_table(context, module_table(run), json_of(report), "modules");
+  print_table(context, module_table(run, report.alive), json_of(report), "modules");
   return report.alive ? kOk : kUnreachable;
 }
 
@@ -136,7 +137,8 @@ Action declare(CLI::App& app, Context& context) {
 
 const Verb kStatusVerb{
     "status", "A running node", "Show how the node and its modules do",
-    "Columns: LAST, AVG, MAX are execution times; JITTER is |J_n|, how far a start was from its place on the grid.\n"
+    "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the grid. A state in\n"
+    "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
     "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown).\n",
     &declare};
 

@@ -16,7 +16,8 @@
 namespace indurop::tools {
 namespace {
 
-constexpr std::size_t kLongestValue = 48;
+constexpr std::size_t kAlignedValue = 24;
+constexpr std::size_t kLongestValue = 40;
 
 struct Options {
   std::vector<std::string> globs;
@@ -62,7 +63,7 @@ std::vector<Cell> row(const Item& item, const std::vector<std::uint8_t>& bytes, 
                       bool uses_known) {
   const schema::Variable& variable = *item.place.variable;
   const auto modules = [uses_known](const std::vector<std::string>& names) {
-    return uses_known ? name_list(names) : Cell("?", JsonValue());
+    return uses_known ? name_list(names) : Cell("", JsonValue());
   };
   return {Cell(item.name),
           Cell(schema::display_name(variable.type)),
@@ -103,14 +104,14 @@ int list(Context& context, const Options& options) {
   const Uses uses = known_uses(context.node);
   Table table({{"NAME", "name"},
                {"TYPE", "type"},
-               {"VALUE", "value", Align::Right},
+               {"VALUE", "value", Align::Right, 0, kAlignedValue},
                {"UNIT", "unit"},
-               {"NOTES", ""},
+               {"NOTES", "", Align::Left, 3},
                {"", "retain"},
                {"", "range"},
-               {"WRITTEN BY", "writers"},
-               {"READ BY", "readers"},
-               {"DESCRIPTION", "description"},
+               {"WRITTEN BY", "writers", Align::Left, 1},
+               {"READ BY", "readers", Align::Left, 2},
+               {"DESCRIPTION", "description", Align::Left, 4},
                {"", "source"}});
   for (const Item& item : items) {
     std::string problem;
@@ -146,7 +147,8 @@ Action declare(CLI::App& app, Context& context) {
 
 const Verb kVarsVerb{
     "vars", "Variables", "List shared variables: type, value, unit, who writes and reads them",
-    "Writers and readers come from the module files of the running configuration; '?' if these cannot be read.\n"
+    "Writers and readers come from the module files of the node's configuration and are left out if these cannot be\n"
+    "read (null in JSON).\n"
     "Examples:\n"
     "  indurop vars\n"
     "  indurop vars 'knu::Robot::*' -o json\n"

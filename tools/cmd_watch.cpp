@@ -28,6 +28,7 @@ struct Options {
 };
 
 constexpr std::size_t kAll = SIZE_MAX;
+constexpr std::size_t kAlignUpTo = 24;  // longer values stick out to the right
 
 std::string text_of(const WatchedValue& value) {
   return value.gone ? "gone" : schema::format_value(value.item.place.type, value.bytes);
@@ -240,7 +241,6 @@ class View {
     for (std::size_t i = first_; i < end; ++i) {
       texts.push_back(printable(text_of(values[i])));
       name_width = std::max(name_width, display_width(values[i].item.name));
-      constexpr std::size_t kAlignUpTo = 24;
       if (display_width(texts.back()) <= kAlignUpTo) {
         value_width = std::max(value_width, display_width(texts.back()));
       }
@@ -281,7 +281,7 @@ void print_once(Context& context, WatchSource& source) {
   if (!source.alive()) {
     context.out.note(fmt::format("node '{}' is {}: these are the last values", source.node(), source.absence()));
   }
-  Table table({{"NAME", ""}, {"VALUE", "", Align::Right}, {"UNIT", ""}});
+  Table table({{"NAME", ""}, {"VALUE", "", Align::Right, 0, kAlignUpTo}, {"UNIT", ""}});
   for (const auto& value : source.values()) {
     table.add({Cell(value.item.name), Cell(text_of(value)), Cell(value.item.place.unit)});
   }

@@ -8,57 +8,81 @@
 namespace indurop::tools {
 namespace {
 
-std::string padded(std::string_view text, std::size_t width, Align align) {
-  const std::size_t have = display_width(text);
-  const std::string gap(width > have ? width - have : 0, ' ');
-  return align == Align::Right ? gap + std::string(text) : std::string(text) + gap;
-}
-
-void trim_right(std::string& text) {
-  const auto last = text.find_last_not_of(' ');
-  text.erase(last == std::string::npos ? 0 : last + 1);
-}
+constexpr std::size_t kGap = 2;
 
 }  // namespace
+
+std::vector<std::size_t> Table::widths(const Output& output) const {
+  std::vector<std::size_t> out(columns_.size());
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Column& column = columns_[c];
+    if (column.title.empty()) {
+      continue;
+    }
+    bool any = false;
+    for (const auto& row : rows_) {
+      const std::size_t width = display_width(printable(row[c].text));
+      any = any || width > 0;
+      out[c] = std::max(out[c], column.most == 0 || width <= column.most ? width : 0);
+    }
+    out[c] = any ? std::max(out[c], display_width(column.title)) : 0;
+  }
+  const auto total = [&out] {
+    std::size_t sum = 0;
+    for (const std::size_t width : out) {
+      sum += width > 0 ? width + kGap : 0;
+    }
+    return sum;
+  };
+  while (output.terminal() && total() > static_cast<std::size_t>(output.extent().columns) + kGap) {
+    std::size_t victim = columns_.size();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (out[c] > 0 && columns_[c].drop > (victim < columns_.size() ? columns_[victim].drop : 0)) {
+        victim = c;
+      }
+    }
+    if (victim == columns_.size()) {
+      break;
+    }
+    out[victim] = 0;
+  }
+  return out;
+}
+
+std::string Table::row_text(const std::vector<Cell>& row, const std::vector<std::size_t>& widths,
+                            const Output& output) const {
+  std::string out;
+  std::string gap;  // written only when something follows, so no line ends in spaces
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (widths[c] == 0) {
+      continue;
+    }
+    const std::string cell = printable(row[c].text);
+    const std::size_t have = display_width(cell);
+    const std::string fill(widths[c] > have ? widths[c] - have : 0, ' ');
+    const bool right = columns_[c].align == Align::Right;
+    if (!cell.empty()) {
+      out += gap + (right ? fill : "") + output.paint(row[c].style, cell);
+      gap.clear();
+    }
+    gap += (right && !cell.empty() ? "" : fill) + std::string(kGap, ' ');
+  }
+  return out;
+}
 
 std::string Table::text(const Output& output) const {
   if (rows_.empty()) {
     return {};
   }
-  std::vector<std::size_t> widths(columns_.size());
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    widths[c] = display_width(columns_[c].title);
-    for (const auto& row : rows_) {
-      widths[c] = std::max(widths[c], display_width(printable(row[c].text)));
-    }
+  const auto columns = widths(output);
+  std::vector<Cell> heading;
+  for (const Column& column : columns_) {
+    heading.emplace_back(column.title);
   }
-  std::string out;
-  std::string heading;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (!columns_[c].title.empty()) {
-      heading += padded(columns_[c].title, widths[c], columns_[c].align) + "  ";
-    }
-  }
-  trim_right(heading);
-  out += output.paint(Style::Bold, heading) + "\n";
+  const Output plain(ColorWhen::Never);
+  std::string out = output.paint(Style::Bold, row_text(heading, columns, plain)) + "\n";
   for (const auto& row : rows_) {
-    std::string plain;
-    std::string gap;  // written only when something follows, so no line ends in spaces
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (columns_[c].title.empty()) {
-        continue;
-      }
-      const std::string cell = printable(row[c].text);
-      const std::string filled = padded(cell, widths[c], columns_[c].align);
-      if (cell.empty()) {
-        gap += filled + "  ";
-        continue;
-      }
-      const auto first = filled.find(cell);
-      plain += gap + filled.substr(0, first) + output.paint(row[c].style, cell);
-      gap = filled.substr(first + cell.size()) + "  ";
-    }
-    out += plain + "\n";
+    out += row_text(row, columns, output) + "\n";
   }
   return out;
 }

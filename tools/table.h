@@ -25,6 +25,8 @@ struct Column {
   std::string title;  // as printed in the heading
   std::string key;    // JSON field and CSV heading
   Align align = Align::Left;
+  int drop = 0;          // on a terminal too narrow for the table, columns with the highest go first; 0: never
+  std::size_t most = 0;  // longer cells do not widen the column, they stick out; 0: no limit
 };
 
 struct Cell {
@@ -43,13 +45,19 @@ class Table {
   void add(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
   [[nodiscard]] bool empty() const noexcept { return rows_.empty(); }
 
-  // Heading and rows, columns separated by two spaces, no trailing spaces; empty if there are no rows.
+  // Heading and rows, columns separated by two spaces, no trailing spaces, columns without any text left out; empty if
+  // there are no rows.
   [[nodiscard]] std::string text(const Output& output) const;
   // RFC 4180 with a heading, lines ended by \n.
   [[nodiscard]] std::string csv() const;
   [[nodiscard]] JsonValue json() const;
 
  private:
+  // Width per column, 0 for columns that are not shown.
+  [[nodiscard]] std::vector<std::size_t> widths(const Output& output) const;
+  [[nodiscard]] std::string row_text(const std::vector<Cell>& row, const std::vector<std::size_t>& widths,
+                                     const Output& output) const;
+
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;
 };
