@@ -70,7 +70,7 @@ TEST_F(EngineInVirtualTime, CallsSporadicModulesAfterThePeriodicOnesWhenTheirCon
   Task event;
   event.index = 1;
   event.operation = Operation::Sporadic;
-  event.condition = [] { return g_order.size() == 2 ? 1 : 0; };
+  event.condition = +[] { return g_order.size() == 2 ? 1 : 0; };
   event.run = note<9>;
   auto sut = make({periodic(0, 100'000, 1, note<1>), event}, 100'000, 100'000);
   steps(*sut, 0, 3, 100'000);

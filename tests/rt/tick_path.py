@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the chapter's modules and looks at the real-time threads from outside: how often they allocated (a preloaded
+counter) and which system calls they made (strace). Allowed are the sleep of the tick thread, the wake-ups it gives
+and the waits of the bands. Both are compared between a short and a long run, so what threads do when they begin and end
+cancels out."""
+
+import argparse
+import collections
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# Periods of 1 ms: strace stops a thread at each call, which 100 us would not survive.
+XML = """<root>
+  <module><filename>{modules}/cntr3.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>1ms</period><priority>1</priority></module>
+  <module><filename>{modules}/cntr2.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>1ms</period><priority>2</priority></module>
+  <module><filename>{modules}/cntr1.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>5ms</period><priority>3</priority></module>
+  <module><filename>{modules}/output.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>5ms</period><priority>4</priority></module>
+  <module><filename>{modules}/event1.so</filename><moduletype>thread</moduletype><operationtype>sporadic</operationtype>
+    <deadline>1ms</deadline><priority>1</priority></module>
+</root>
+"""
+ALLOWED = {"clock_nanosleep", "futex"}
+SHORT, LONG = 200, 600  # ms = ticks
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(77)
+
+
+def run(command, environment):
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+
+
+def node_command(arguments, xml, milliseconds):
+    return [os.path.join(arguments.bin, "indurop-node"), xml, "--node", f"tickpath{os.getpid()}", "-q", "--duration",
+            f"{milliseconds}ms"]
+
+
+def allocations(arguments, xml, folder, milliseconds):
+    report = os.path.join(folder, f"allocations{milliseconds}")
+    run(node_command(arguments, xml, milliseconds),
+        dict(os.environ, LD_PRELOAD=arguments.counter, INDUROP_ALLOCATION_REPORT=report, INDUROP_STATE_DIR=folder))
+    counts = collections.Counter()
+    with open(report, encoding="utf-8") as lines:
+        for line in lines:
+            name, calls = line.split()
+            counts[name] += int(calls)
+    if "end" not in counts:
+        sys.exit("the allocation counter wrote no complete report")
+    del counts["end"]
+    return counts
+
+
+def system_calls(arguments, xml, folder, milliseconds):
+    log = os.path.join(folder, f"strace{milliseconds}")
+    command = ["strace", "-f", "-Y", "-qq", "-o", log] + node_command(arguments, xml, milliseconds)
+    run(command, dict(os.environ, INDUROP_STATE_DIR=folder))
+    counts = collections.Counter()
+    with open(log, encoding="utf-8", errors="replace") as lines:
+        for line in lines:
+            # A call that was interrupted by another thread's line is counted where it begins.
+            match = re.match(r"\d+<(irp-(?:tick|band|events)[^>]*)> (\w+)\(", line)
+            if match:
+                counts[match.groups()] += 1
+    return counts
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", required=True)
+    parser.add_argument("--modules", required=True)
+    parser.add_argument("--counter", required=True)
+    arguments = parser.parse_args()
+    with open(os.path.join(arguments.bin, "indurop-node"), "rb") as program:
+        if b"__asan_init" in program.read() or b"__tsan_init" in open(program.name, "rb").read():
+            skip("a sanitizer has its own allocator and system calls")
+    folder = tempfile.mkdtemp(prefix="indurop-tick-path-")
+    failed = False
+    try:
+        xml = os.path.join(folder, "module.xml")
+        with open(xml, "w", encoding="utf-8") as file:
+            file.write(XML.format(modules=arguments.modules))
+        short, long = (allocations(arguments, xml, folder, ms) for ms in (SHORT, LONG))
+        threads = {name for name in list(short) + list(long) if re.match(r"irp-(tick|band|events)", name)}
+        for name in sorted(threads):
+            print(f"{name}: {short[name]} allocator calls in {SHORT} ticks, {long[name]} in {LONG}")
+            if long[name] > short[name]:
+                print(f"  FAILED: {name} allocates while it runs")
+                failed = True
+        if shutil.which("strace") is None or subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode != 0:
+            if failed:
+                sys.exit(1)
+            skip("strace may not trace here; allocations were counted and are fine")
+        short, long = (system_calls(arguments, xml, folder, ms) for ms in (SHORT, LONG))
+        if not any(name.startswith("irp-tick") for name, _ in long):
+            sys.exit("strace saw no tick thread: the test would not have noticed anything")
+        for (name, call), count in sorted(long.items()):
+            grown = count - short[name, call]
+            print(f"{name}: {call} {count} ({grown:+d} against the short run)")
+            if call not in ALLOWED and grown > 0:
+                print(f"  FAILED: {name} calls {call} while it runs")
+                failed = True
+            if call == "clock_nanosleep" and grown > (LONG - SHORT) * 1.05 + 5:
+                print(f"  FAILED: {name} sleeps more than once per tick")
+                failed = True
+    finally:
+        for suffix in ("", ".run", ".lock"):
+            path = f"/dev/shm/indurop.tickpath{os.getpid()}{suffix}"
+            if os.path.exists(path):
+                os.remove(path)
+        shutil.rmtree(folder)
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

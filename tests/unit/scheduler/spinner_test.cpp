@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scheduler/spinner.h"
+
+#include <gtest/gtest.h>
+
+#include "scheduler/histogram.h"
+#include "scheduler/statistics.h"
+
+namespace indurop::scheduler {
+namespace {
+
+// Sleeps end `late` ns after they should; reading the clock takes 20 ns.
+class LateClock final : public Clock {
+ public:
+  std::int64_t now() noexcept override { return now_ += 20; }
+  void sleep_until(std::int64_t deadline_ns) noexcept override {
+    ++sleeps;
+    if (deadline_ns + late > now_) {
+      now_ = deadline_ns + late;
+    }
+  }
+  std::int64_t late = 0;
+  int sleeps = 0;
+
+ private:
+  std::int64_t now_ = 0;
+};
+
+TEST(Spinner, LearnsToWakeEarlyEnough) {
+  LateClock clock;
+  clock.late = 30'000;
+  Spinner sut(clock, {}, 1'000'000);
+  std::int64_t last = 0;
+  for (std::int64_t n = 1; n <= 200; ++n) {
+    last = sut.wait_until(n * 1'000'000) - n * 1'000'000;
+  }
+  EXPECT_LT(last, 100);
+  EXPECT_GT(sut.margin_ns(), 30'000);
+  EXPECT_LT(sut.margin_ns(), 50'000);
+}
+
+TEST(Spinner, NeverSpinsMoreThanHalfThePeriod) {
+  LateClock clock;
+  clock.late = 90'000;
+  Spinner sut(clock, {}, 100'000);
+  for (std::int64_t n = 1; n <= 2000; ++n) {
+    sut.wait_until(n * 200'000);
+  }
+  EXPECT_LE(sut.margin_ns(), 50'000);
+}
+
+TEST(Spinner, OffOnlySleeps) {
+  LateClock clock;
+  clock.late = 7'000;
+  Spinner sut(clock, {SpinMode::Off, 0}, 1'000'000);
+  EXPECT_GE(sut.wait_until(1'000'000), 1'007'000);
+  EXPECT_EQ(sut.margin_ns(), 0);
+}
+
+TEST(Spinner, ATimeInThePastReturnsAtOnce) {
+  LateClock clock;
+  Spinner sut(clock, {}, 1'000'000);
+  sut.wait_until(-5);
+  EXPECT_EQ(clock.sleeps, 0);
+}
+
+TEST(Histogram, EveryValueLiesInsideItsBucket) {
+  for (std::uint64_t value : {0ULL, 1ULL, 15ULL, 16ULL, 17ULL, 100ULL, 4095ULL, 4096ULL, 123'456'789ULL}) {
+    const std::size_t bucket = Histogram::bucket_of(value);
+    EXPECT_LE(Histogram::lower_bound(bucket), value);
+    EXPECT_GT(Histogram::upper_bound(bucket), value);
+  }
+  EXPECT_EQ(Histogram::bucket_of(~0ULL), Histogram::kBuckets - 1);
+}
+
+TEST(JitterReference, OneLateFirstExecutionDoesNotShiftTheOthers) {
+  Distribution jitter{};
+  JitterReference sut;
+  sut.add(jitter, 50'000);
+  for (int n = 0; n < 99; ++n) {
+    sut.add(jitter, 100);
+  }
+  EXPECT_EQ(jitter.count.load(), 100U);
+  EXPECT_EQ(jitter.max.load(), 49'900);
+  EXPECT_EQ(jitter.sum.load(), 49'900);
+}
+
+TEST(JitterReference, FewExecutionsAreCountedAtTheEnd) {
+  Distribution jitter{};
+  JitterReference sut;
+  sut.add(jitter, 10);
+  sut.add(jitter, 30);
+  sut.add(jitter, 20);
+  EXPECT_EQ(jitter.count.load(), 0U);
+  sut.flush(jitter);
+  EXPECT_EQ(jitter.count.load(), 3U);
+  EXPECT_EQ(jitter.max.load(), 10);
+}
+
+}  // namespace
+}  // namespace indurop::scheduler
