@@ -42,7 +42,7 @@ tidy: all ## clang-tidy over all sources
 	@$(CTEST) -L tidy
 
 format: ## clang-format all C++ files in place
-	@git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format -i
+	@python3 tests/lint/check_format.py . --fix
 
 bench: ## compare with cyclictest, raw globals and futexes; prints ratios
 	@.ci/install-deps build bench

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every C++ file is as clang-format 14 writes it. check_format.py ROOT"""
+"""Every C++ file is as clang-format 14 writes it. check_format.py ROOT [--fix]"""
 
 import pathlib
 import subprocess
@@ -21,6 +21,8 @@ def check(root):
 
 
 if __name__ == "__main__":
+    if "--fix" in sys.argv:
+        subprocess.run(["clang-format", "-i", "--style=file", *common.cxx_files(sys.argv[1])], cwd=sys.argv[1], check=True)
     found = check(pathlib.Path(sys.argv[1]))
     if found:
         print("run: make format", file=sys.stderr)
