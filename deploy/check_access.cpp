@@ -169,17 +169,22 @@ class AccessCheck {
     }
   }
 
+  static std::string age_text(const Age& age, Nanos basic) {
+    if (age.most == Nanos::zero()) {
+      return "within the same basic period";
+    }
+    const std::string most = std::to_string(age.most / basic);
+    const std::string periods = age.most == basic ? " basic period)" : " basic periods)";
+    return age.least == age.most ? format_duration(age.most) + " old (" + most + periods
+                                 : "up to " + format_duration(age.most) + " old (" + std::to_string(age.least / basic) +
+                                       " to " + most + periods;
+  }
+
   void report_ages() {
-    const Nanos basic = context_.result.table.basic_period;
     for (const Flow& flow : flows_) {
-      const auto in_periods = [basic](Nanos age) { return std::to_string(age / basic); };
-      const std::string range = flow.age.least == flow.age.most
-                                    ? in_periods(flow.age.most)
-                                    : in_periods(flow.age.least) + " to " + in_periods(flow.age.most);
-      context_.report.note(at(flow.reader).places.file,
-                           "age of " + names_of_variables(flow) + " from " + at(flow.writer).name + " to " +
-                               at(flow.reader).name + ": " + range + " basic periods, at most " +
-                               (flow.age.most == Nanos::zero() ? "the same one" : format_duration(flow.age.most)));
+      context_.report.note(at(flow.reader).places.file, at(flow.reader).name + " gets " + names_of_variables(flow) +
+                                                            " from " + at(flow.writer).name + " " +
+                                                            age_text(flow.age, context_.result.table.basic_period));
       for (const schema::Variable* variable : flow.variables) {
         if (variable->maxage_ns > 0 && flow.age.most.count() > variable->maxage_ns) {
           context_.report.warning(at(flow.reader).places.file,

@@ -19,8 +19,9 @@ constexpr int kMargin = 24;
 constexpr int kLaneHeight = 36;
 constexpr int kBoxHeight = 22;
 constexpr int kGroupGap = 14;
-constexpr int kShortestSlot = 132;
-constexpr int kMostWidth = 2200;  // of all slots together; more basic periods are left out
+constexpr int kShortestSlot = 100;
+constexpr int kMostWidth = 1600;         // of all slots together; more basic periods are left out
+constexpr std::size_t kWantedSlots = 5;  // so many should be seen however many modules there are
 constexpr std::size_t kMostSlots = 60;
 constexpr std::size_t kLongestLabel = 28;
 constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -73,11 +74,12 @@ class Diagram {
   [[nodiscard]] int slot_x(std::size_t slot) const { return left_ + static_cast<int>(slot) * slot_width_; }
 
   void measure() {
-    std::size_t label = 12;
+    int label = 96;
     for (const Module& module : config_.modules) {
-      label = std::max({label, std::min(characters(module.name), kLongestLabel), characters(rule_of(module)) * 5 / 6});
+      const int name = static_cast<int>(std::min(characters(module.name), kLongestLabel)) * 9;
+      label = std::max({label, name, static_cast<int>(characters(rule_of(module))) * 7});
     }
-    left_ = kMargin + static_cast<int>(label) * 8 + 16;
+    left_ = kMargin + label + 16;
 
     std::size_t busiest = 0;
     for (const scheduler::Slot& slot : check_.table.slots) {
@@ -85,7 +87,8 @@ class Diagram {
     }
     const int boxes = static_cast<int>(busiest + check_.sporadic.size()) + (check_.sporadic.empty() ? 0 : 1);
     const int rest = check_.non_real.empty() ? 1 : 2;  // what is left of a basic period, in boxes
-    box_width_ = std::clamp(kMostWidth / std::max(boxes + rest, 1), 4, 26);
+    const int slots = static_cast<int>(std::clamp<std::size_t>(check_.table.slots.size(), 1, kWantedSlots));
+    box_width_ = std::clamp(kMostWidth / (slots * (boxes + rest)), 4, 26);
     slot_width_ = std::max(kShortestSlot, box_width_ * (boxes + rest) + 8);
     const auto fit = static_cast<std::size_t>(std::max(kMostWidth / slot_width_, 1));
     shown_ = std::min({check_.table.slots.size(), fit, kMostSlots});
@@ -265,12 +268,12 @@ class Diagram {
   [[nodiscard]] std::vector<Entry> legend() const {
     std::vector<Entry> entries;
     for (const Nanos period : periods_) {
-      entries.push_back({Sample::Period, period, "thread, every " + format_duration(period)});
+      entries.push_back({Sample::Period, period, "every " + format_duration(period)});
     }
     const auto process = std::find_if(check_.periodic.begin(), check_.periodic.end(),
                                       [this](std::size_t i) { return config_.modules[i].type == ModuleType::Process; });
     if (process != check_.periodic.end()) {
-      entries.push_back({Sample::Process, config_.modules[*process].period, "process (frame only)"});
+      entries.push_back({Sample::Process, config_.modules[*process].period, "frame only: a process"});
     }
     if (!check_.sporadic.empty()) {
       entries.push_back({Sample::Handler, {}, "event handler"});

@@ -139,8 +139,8 @@ std::string others(const Config& config, const CheckResult& check) {
   const std::string sporadic = list(config, check.sporadic, " > ", [](const Module& m) { return !m.after_base; });
   const std::string non_real = list(config, check.non_real, ", ", [](const Module&) { return true; });
   std::string text;
-  text += after_base.empty() ? "" : "Sporadic, right behind the modules of every basic period: " + after_base + "\n";
-  text += sporadic.empty() ? "" : "Sporadic, behind all periodic modules of a basic period: " + sporadic + "\n";
+  text += after_base.empty() ? "" : "Sporadic, right after the modules of every basic period: " + after_base + "\n";
+  text += sporadic.empty() ? "" : "Sporadic, after the periodic modules of each basic period: " + sporadic + "\n";
   text += non_real.empty() ? "" : "Non-real-time, in the time left: " + non_real + "\n";
   return text;
 }

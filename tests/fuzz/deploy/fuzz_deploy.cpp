@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as module.xml: read, checked, adjusted, planned in every form. Besides not crashing: what is wrong has a
+// place inside the text, a diagnostic is one line, and an adjusted schedule keeps the minimum period.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "deploy/plan.h"
+#include "deploy/reader.h"
+
+namespace {
+
+using namespace indurop::deploy;  // NOLINT(google-build-using-namespace)
+
+void require(bool condition) {
+  if (!condition) {
+    std::abort();
+  }
+}
+
+void check_diagnostics(const std::vector<Diagnostic>& diagnostics, std::string_view text) {
+  const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
+  for (const Diagnostic& d : diagnostics) {
+    require(d.place.line >= 0 && d.place.line <= lines);
+    require(d.place.column >= 0 && d.place.column <= static_cast<long>(text.size()) + 1);
+    require(!d.text.empty() && to_string(d).find('\n') == std::string::npos);
+  }
+}
+
+// Tables of thousands of basic periods only cost time.
+bool is_small(const CheckResult& check) {
+  return check.table.slot_count < 500;
+}
+
+void plan(const Config& config, const CheckResult& check) {
+  if (is_small(check)) {
+    require(!plan_table(config, check).empty());
+    require(!plan_csv(config, check).empty());
+    require(!plan_json(config, check).empty());
+    require(!plan_svg(config, check).empty());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ReadResult read = read_config_text(text, "in.xml");
+  check_diagnostics(read.diagnostics, text);
+  if (!read.ok()) {
+    return 0;
+  }
+  const CheckResult check = check_config(read.config, {.files = false, .adjust = false});
+  check_diagnostics(check.diagnostics, text);
+  plan(read.config, check);
+  const CheckResult adjusted = check_config(read.config, {.files = false, .adjust = true});
+  require(adjusted.periodic.empty() || adjusted.table.slots.empty() ||
+          adjusted.table.basic_period >= read.config.minimum_period.value_or(kDefaultMinimumPeriod));
+  plan(read.config, adjusted);
+  return 0;
+}
