@@ -29,9 +29,13 @@ Result<Attachment> Attachment::open(const std::string& node) {
   return Attachment(std::move(store).value());
 }
 
-Attachment::Attachment(vars::Store& store) : borrowed_(&store) { find_functions(); }
+Attachment::Attachment(vars::Store& store) : borrowed_(&store) {
+  find_functions();
+}
 
-Attachment::Attachment(vars::Store&& store) : owned_(std::move(store)) { find_functions(); }
+Attachment::Attachment(vars::Store&& store) : owned_(std::move(store)) {
+  find_functions();
+}
 
 void Attachment::find_functions() {
   const vars::BlockHeader& header = store().header();
@@ -50,8 +54,9 @@ void Attachment::find_functions() {
 }
 
 vars::CallFunction* Attachment::function(std::uint64_t name_hash) const noexcept {
-  const auto found = std::lower_bound(functions_.begin(), functions_.end(), name_hash,
-                                      [](const auto& function, std::uint64_t hash) { return function.name_hash < hash; });
+  const auto found =
+      std::lower_bound(functions_.begin(), functions_.end(), name_hash,
+                       [](const auto& function, std::uint64_t hash) { return function.name_hash < hash; });
   return found != functions_.end() && found->name_hash == name_hash ? &*found : nullptr;
 }
 

@@ -36,7 +36,9 @@ call_error::call_error(const char* function, Errc code) noexcept : code_(code), 
 
 call_error::~call_error() = default;
 
-const char* call_error::what() const noexcept { return text_; }
+const char* call_error::what() const noexcept {
+  return text_;
+}
 
 }  // namespace indurop
 

@@ -163,15 +163,16 @@ class FunctionServers::Server {
         function->result_size != offer.result_size) {
       Process::get().report(fmt::format(
           "shared function {}: {} in node '{}', so this module's implementation is not used: rebuild against the same "
-          ".glb and restart the node", offer.name, function == nullptr ? "is not known" : "has another type",
-          attachment_->node()));
+          ".glb and restart the node",
+          offer.name, function == nullptr ? "is not known" : "has another type", attachment_->node()));
       return;
     }
     if (!rt::is_locked(rt::lock_within(function->serving))) {
       if (++served.tries == kTriesBeforeComplaint) {  // a server that is just ending still has it
-        Process::get().report(fmt::format("shared function {}: implemented twice, process {} serves it already: "
-                                          "implement it in one module only", offer.name,
-                                          function->server_pid.load(std::memory_order_relaxed)));
+        Process::get().report(
+            fmt::format("shared function {}: implemented twice, process {} serves it already: "
+                        "implement it in one module only",
+                        offer.name, function->server_pid.load(std::memory_order_relaxed)));
       }
       return;
     }
@@ -221,7 +222,8 @@ class FunctionServers::Server {
     working_sequence_ = sequence;
     working_offer_ = served.offer;
     guard_.arm();
-    const Errc code = invoke_contained(*served.offer, bytes + vars::kCallArgsOffset, bytes + served.function->result_offset);
+    const Errc code =
+        invoke_contained(*served.offer, bytes + vars::kCallArgsOffset, bytes + served.function->result_offset);
     guard_.disarm();
     working_ = nullptr;
     answer(slot, sequence, code);
@@ -289,8 +291,8 @@ void FunctionServers::withdraw(const FunctionOffer& offer) {
   {
     const std::lock_guard lock(mutex_);
     std::erase_if(offers_, [&offer](const Offered& one) { return one.offer == &offer; });
-    const auto server = std::find_if(servers_.begin(), servers_.end(),
-                                     [&offer](const auto& one) { return one->serves(offer); });
+    const auto server =
+        std::find_if(servers_.begin(), servers_.end(), [&offer](const auto& one) { return one->serves(offer); });
     if (server != servers_.end()) {
       ended = std::move(*server);
       servers_.erase(server);

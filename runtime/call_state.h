@@ -13,7 +13,11 @@ namespace indurop::runtime {
 constexpr std::uint64_t word_of(std::uint64_t sequence, vars::CallState state) noexcept {
   return sequence << 8U | static_cast<std::uint64_t>(state);
 }
-constexpr std::uint64_t sequence_of(std::uint64_t word) noexcept { return word >> 8U; }
-constexpr vars::CallState state_of(std::uint64_t word) noexcept { return static_cast<vars::CallState>(word & 0xFFU); }
+constexpr std::uint64_t sequence_of(std::uint64_t word) noexcept {
+  return word >> 8U;
+}
+constexpr vars::CallState state_of(std::uint64_t word) noexcept {
+  return static_cast<vars::CallState>(word & 0xFFU);
+}
 
 }  // namespace indurop::runtime

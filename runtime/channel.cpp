@@ -75,8 +75,8 @@ bool is_made_of(const Resolved& part, detail::Basic basic) noexcept {
 
 struct Handle::Impl {
   std::string node = runtime::default_node();
-  std::optional<runtime::Attachment> own;              // of a node this process is not bound to
-  const runtime::Attachment* attachment = nullptr;     // in use; the names below belong to it
+  std::optional<runtime::Attachment> own;           // of a node this process is not bound to
+  const runtime::Attachment* attachment = nullptr;  // in use; the names below belong to it
   std::map<std::string, Resolved, std::less<>> names;
   std::int64_t next_try_ns = 0;
 

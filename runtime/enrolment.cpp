@@ -28,13 +28,17 @@ using scheduler::ModuleType;
 using scheduler::NodeState;
 using scheduler::RunBlock;
 
-constexpr std::int64_t kIdleNs = 100'000'000;       // how often a waiting process looks after its node
+constexpr std::int64_t kIdleNs = 100'000'000;  // how often a waiting process looks after its node
 constexpr unsigned kIdlesPerThoroughLook = 10;
 constexpr int kExitSchemaMismatch = 8;
 
-bool process_exists(std::int32_t pid) noexcept { return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM); }
+bool process_exists(std::int32_t pid) noexcept {
+  return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
+}
 
-std::string_view text_of(const char* text, std::size_t size) { return {text, strnlen(text, size)}; }
+std::string_view text_of(const char* text, std::size_t size) {
+  return {text, strnlen(text, size)};
+}
 
 // The module this process is: what the node said, else the process module made of the same file.
 std::uint32_t find_module(const RunBlock& run) {
@@ -90,18 +94,22 @@ Status Enrolment::begin() {
 
 Enrolment::Outcome Enrolment::enrol(Again again) {
   if (!vars::valid_node_name(node_)) {
-    return {Errc::InvalidArgument, fmt::format("INDUROP_NODE is '{}', which is no node name ([A-Za-z0-9_-], at most 40)", node_)};
+    return {Errc::InvalidArgument,
+            fmt::format("INDUROP_NODE is '{}', which is no node name ([A-Za-z0-9_-], at most 40)", node_)};
   }
   auto mapping = RunMapping::open(node_);
   if (!mapping) {
     const Errc code = mapping.error().code;
     if (code == Errc::NotFound || code == Errc::Busy) {
-      return {Errc::NotFound, fmt::format("node '{}' does not run; start it with: indurop run module.xml --node {}", node_, node_)};
+      return {Errc::NotFound,
+              fmt::format("node '{}' does not run; start it with: indurop run module.xml --node {}", node_, node_)};
     }
     return {code, fmt::format("cannot use node '{}': {} ({})", node_, to_string(code), mapping.error().where)};
   }
   if (!mapping->node_alive() || is_ending(mapping->block())) {
-    return {Errc::NotFound, fmt::format("node '{}' does not run any more; start it with: indurop run module.xml --node {}", node_, node_)};
+    return {
+        Errc::NotFound,
+        fmt::format("node '{}' does not run any more; start it with: indurop run module.xml --node {}", node_, node_)};
   }
   if (again == Again::Yes && mapping->block().state.load(std::memory_order_acquire) != NodeState::Running) {
     return {Errc::NotFound, {}};  // it is still starting: wait whether it brings its own process for this module
@@ -122,8 +130,8 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   const std::uint32_t index = find_module(run);
   if (index == kNoModule) {
     return {Errc::NotFound, fmt::format("node '{}' has no process module for this program: name it in {} with "
-                                        "<moduletype>process</moduletype>", node_,
-                                        text_of(run.config_file, sizeof run.config_file))};
+                                        "<moduletype>process</moduletype>",
+                                        node_, text_of(run.config_file, sizeof run.config_file))};
   }
   ModuleRecord& record = run.modules()[index];
   auto& slot = run.process_slots()[index];
@@ -158,7 +166,8 @@ void Enrolment::publish() {
   idle_ = 0;
   phase_ = Phase::Enrolled;
   if (!slot_->pid.compare_exchange_strong(holder_, enrolled_as_, std::memory_order_acq_rel)) {
-    std::fprintf(stderr, "indurop: waitPeriod: process %d was just enrolled for this module of node '%s'; this one ends\n",
+    std::fprintf(stderr,
+                 "indurop: waitPeriod: process %d was just enrolled for this module of node '%s'; this one ends\n",
                  holder_, node_.c_str());
     end_wanted_ = true;
   }
@@ -273,7 +282,8 @@ bool Enrolment::stop_requested() noexcept {
     return false;
   }
   const std::uint32_t index = current_module();
-  if (is_ending(*run) || (index < run->module_count && run->process_slots()[index].stop.load(std::memory_order_acquire) != 0)) {
+  if (is_ending(*run) ||
+      (index < run->module_count && run->process_slots()[index].stop.load(std::memory_order_acquire) != 0)) {
     return true;
   }
   if (Process::get().hosted()) {

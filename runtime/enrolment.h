@@ -63,11 +63,11 @@ class Enrolment {
   std::int32_t pid_ = 0;
   std::int32_t holder_ = 0;       // who was in the slot before
   std::int32_t enrolled_as_ = 0;  // pid the node knows us by
-  std::uint64_t seen_ = 0;       // last release taken
+  std::uint64_t seen_ = 0;        // last release taken
   bool running_ = false;
   int exit_code_ = 0;
   bool end_wanted_ = false;
-  unsigned idle_ = 0;            // waits in a row that no release ended
+  unsigned idle_ = 0;  // waits in a row that no release ended
   std::atomic<std::uint64_t> release_tick_{0};
   std::atomic<std::int64_t> release_ns_{0};
   std::atomic<std::int64_t> next_look_ns_{0};

@@ -13,7 +13,9 @@ namespace {
 
 }  // namespace
 
-void set_current_module(std::uint32_t index) noexcept { t_module = index; }
+void set_current_module(std::uint32_t index) noexcept {
+  t_module = index;
+}
 
 std::uint32_t current_module() noexcept {
   return t_module != kNoModule ? t_module : hot.process_module.load(std::memory_order_relaxed);
@@ -23,14 +25,20 @@ std::vector<std::string> attach_process(vars::Store& store, scheduler::RunBlock&
   return Process::get().host(store, run);
 }
 
-void detach_process() { Process::get().unhost(); }
+void detach_process() {
+  Process::get().unhost();
+}
 
-std::vector<std::string> take_binding_errors() { return Process::get().take_errors(); }
+std::vector<std::string> take_binding_errors() {
+  return Process::get().take_errors();
+}
 
 Status start_function_servers(int fifo_priority, int core) {
   return Process::get().servers().start(fifo_priority, core);
 }
 
-void stop_function_servers() { Process::get().servers().stop(); }
+void stop_function_servers() {
+  Process::get().servers().stop();
+}
 
 }  // namespace indurop::runtime

@@ -89,8 +89,8 @@ bool MessageReader::next_of(std::uint32_t index, Message& message, std::int64_t 
       detail::copy_from_shared(&copy_.module, &place.entry->module, sizeof copy_ - offsetof(MessageEntry, module));
       place.entry->sequence.store(place.free + 2, std::memory_order_release);
       ring.tail.store(ticket + 1, std::memory_order_relaxed);
-      message = {copy_.module, copy_.time_ns,
-                 {copy_.text, std::min<std::size_t>(copy_.length, scheduler::kMessageText)}};
+      message = {
+          copy_.module, copy_.time_ns, {copy_.text, std::min<std::size_t>(copy_.length, scheduler::kMessageText)}};
       return true;
     }
     if (ring.head.load(std::memory_order_relaxed) == ticket) {

@@ -56,7 +56,9 @@ class Writer {
     to_[used_] = '\0';
     return used_;
   }
-  [[nodiscard]] bool full() const noexcept { return cut_; }
+  [[nodiscard]] bool full() const noexcept {
+    return cut_;
+  }
 
  private:
   char* to_;
@@ -101,12 +103,23 @@ class Formatter {
     Conversion c;
     for (;; ++at_) {
       switch (*at_) {
-        case '-': c.left = true; continue;
-        case '+': c.plus = true; continue;
-        case ' ': c.blank = true; continue;
-        case '#': c.alternate = true; continue;
-        case '0': c.zero = true; continue;
-        default: break;
+        case '-':
+          c.left = true;
+          continue;
+        case '+':
+          c.plus = true;
+          continue;
+        case ' ':
+          c.blank = true;
+          continue;
+        case '#':
+          c.alternate = true;
+          continue;
+        case '0':
+          c.zero = true;
+          continue;
+        default:
+          break;
       }
       break;
     }
@@ -131,7 +144,8 @@ class Formatter {
     if (*at_ == '*') {
       ++at_;
       const bool there = next_ < arguments_.size() && arguments_[next_].kind <= Kind::Unsigned;
-      return there ? static_cast<int>(std::clamp<std::int64_t>(arguments_[next_++].as_signed, -kMaxField, kMaxField)) : 0;
+      return there ? static_cast<int>(std::clamp<std::int64_t>(arguments_[next_++].as_signed, -kMaxField, kMaxField))
+                   : 0;
     }
     int value = 0;
     for (; *at_ >= '0' && *at_ <= '9'; ++at_) {
@@ -157,18 +171,31 @@ class Formatter {
   void print_integer(const Conversion& c, const PrintArgument& argument) noexcept {
     const bool is_signed = argument.kind == Kind::Signed;
     switch (c.type) {
-      case 'e': case 'E': case 'f': case 'F': case 'g': case 'G': case 'a': case 'A':
-        return print_real(c, is_signed ? static_cast<double>(argument.as_signed) : static_cast<double>(argument.as_unsigned));
+      case 'e':
+      case 'E':
+      case 'f':
+      case 'F':
+      case 'g':
+      case 'G':
+      case 'a':
+      case 'A':
+        return print_real(
+            c, is_signed ? static_cast<double>(argument.as_signed) : static_cast<double>(argument.as_unsigned));
       case 'c':
         out_.print(spec(c, "", 'c'), c.width, static_cast<int>(static_cast<unsigned char>(argument.as_unsigned)));
         return;
-      case 'o': case 'u': case 'x': case 'X': case 'U': case 'O':
+      case 'o':
+      case 'u':
+      case 'x':
+      case 'X':
+      case 'U':
+      case 'O':
         out_.print(spec(c, "ll", c.type == 'U' ? 'u' : (c.type == 'O' ? 'o' : c.type)), c.width, c.precision,
                    static_cast<unsigned long long>(narrowed(c, argument)));
         return;
       default:  // d, i, s, p: as the number it is
         if (is_signed) {
-          const long long value = c.narrow == 0 ? argument.as_signed
+          const long long value = c.narrow == 0   ? argument.as_signed
                                   : c.narrow == 1 ? static_cast<short>(argument.as_signed)
                                                   : static_cast<signed char>(argument.as_signed);
           out_.print(spec(c, "ll", 'd'), c.width, c.precision, value);
@@ -200,8 +227,11 @@ class Formatter {
     char* to = spec_;
     *to++ = '%';
     const bool number = type != 'c' && type != 'p';
-    for (const auto& [set, flag] : {std::pair{c.left, '-'}, {c.plus && number, '+'}, {c.blank && number, ' '},
-                                    {c.alternate && number, '#'}, {c.zero && number, '0'}}) {
+    for (const auto& [set, flag] : {std::pair{c.left, '-'},
+                                    {c.plus && number, '+'},
+                                    {c.blank && number, ' '},
+                                    {c.alternate && number, '#'},
+                                    {c.zero && number, '0'}}) {
       if (set) {
         *to++ = flag;
       }

@@ -11,8 +11,8 @@
 
 namespace indurop::runtime {
 
-// Writes at most `size` - 1 bytes and a NUL into `to` (size >= kCutMark + 1); longer text is cut and ends with "[cut]\n".
-// Returns the bytes written without the NUL. Real-time safe.
+// Writes at most `size` - 1 bytes and a NUL into `to` (size >= kCutMark + 1); longer text is cut and ends with
+// "[cut]\n". Returns the bytes written without the NUL. Real-time safe.
 std::size_t format_message(char* to, std::size_t size, const char* format,
                            std::span<const detail::PrintArgument> arguments) noexcept;
 inline constexpr std::size_t kCutMark = 6;

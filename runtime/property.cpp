@@ -100,7 +100,8 @@ bool property_signed(const char* name, std::int64_t min, std::int64_t max, std::
   const bool negative = digits.starts_with('-');
   digits.remove_prefix(negative || digits.starts_with('+') ? 1 : 0);
   std::uint64_t magnitude = 0;
-  const std::uint64_t limit = negative ? std::uint64_t{0} - static_cast<std::uint64_t>(min) : static_cast<std::uint64_t>(max);
+  const std::uint64_t limit =
+      negative ? std::uint64_t{0} - static_cast<std::uint64_t>(min) : static_cast<std::uint64_t>(max);
   if (!parse_unsigned(digits, magnitude) || magnitude > limit) {
     return complain(name, text, fmt::format("a whole number from {} to {}", min, max));
   }

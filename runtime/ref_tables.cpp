@@ -10,7 +10,9 @@ namespace indurop::runtime {
 
 namespace {
 
-std::string type_text(const schema::Type& type) { return fmt::format("{} ({} bytes)", display_name(type), type.size()); }
+std::string type_text(const schema::Type& type) {
+  return fmt::format("{} ({} bytes)", display_name(type), type.size());
+}
 
 }  // namespace
 
@@ -66,17 +68,18 @@ BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Atta
   if (entry == nullptr) {
     problem.text = fmt::format(
         "variable {}: node '{}' does not have it, so nobody else sees it: name this program in the node's module.xml "
-        "and restart the node", ref.name, to.node());
+        "and restart the node",
+        ref.name, to.node());
     return problem;
   }
   const auto& variables = to.store().schema().variables;
   const schema::Variable* theirs = entry->schema_index < variables.size() ? &variables[entry->schema_index] : nullptr;
   const std::string difference = mine != nullptr && theirs != nullptr ? first_difference(mine->type, theirs->type) : "";
-  problem.text = fmt::format(
-      "variable {}: this program was built with {}, node '{}' has {}{}{}: rebuild against the same .glb", ref.name,
-      mine != nullptr ? type_text(mine->type) : fmt::format("{} bytes", ref.value_size), to.node(),
-      theirs != nullptr ? type_text(theirs->type) : fmt::format("{} bytes", entry->value_size),
-      difference.empty() ? "" : "; ", difference);
+  problem.text =
+      fmt::format("variable {}: this program was built with {}, node '{}' has {}{}{}: rebuild against the same .glb",
+                  ref.name, mine != nullptr ? type_text(mine->type) : fmt::format("{} bytes", ref.value_size),
+                  to.node(), theirs != nullptr ? type_text(theirs->type) : fmt::format("{} bytes", entry->value_size),
+                  difference.empty() ? "" : "; ", difference);
   return problem;
 }
 

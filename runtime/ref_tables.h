@@ -35,7 +35,7 @@ class RefTables {
   struct Table {
     abi::Ref* refs;
     std::uint32_t count;
-    std::uint32_t times;  // one for each source file of the module that includes the header
+    std::uint32_t times;               // one for each source file of the module that includes the header
     std::optional<ModuleFacts> facts;  // read when first needed
   };
   void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);

@@ -21,14 +21,18 @@ using indurop::Errc;
 using indurop::scheduler::ModuleRecord;
 using indurop::scheduler::RunBlock;
 
-int negative(Errc code) noexcept { return -static_cast<int>(code); }
+int negative(Errc code) noexcept {
+  return -static_cast<int>(code);
+}
 
 const ModuleRecord* calling_module(const RunBlock* run) noexcept {
   const std::uint32_t index = runtime::current_module();
   return run != nullptr && index < run->module_count ? &run->modules()[index] : nullptr;
 }
 
-const RunBlock* current_run() noexcept { return runtime::hot.run.load(std::memory_order_acquire); }
+const RunBlock* current_run() noexcept {
+  return runtime::hot.run.load(std::memory_order_acquire);
+}
 
 // The basic period whose grid point released the calling thread module: the last one that is its own.
 std::uint64_t own_tick(const RunBlock& run, const ModuleRecord* record) noexcept {
@@ -44,17 +48,21 @@ std::uint64_t own_tick(const RunBlock& run, const ModuleRecord* record) noexcept
 
 }  // namespace
 
-int initPeriodExe() { return negative(runtime::Enrolment::get().begin().error().code); }
+int initPeriodExe() {
+  return negative(runtime::Enrolment::get().begin().error().code);
+}
 
-bool waitPeriod() { return runtime::Enrolment::get().wait(); }
+bool waitPeriod() {
+  return runtime::Enrolment::get().wait();
+}
 
 int attach(const char* node) {
   const std::string name = node == nullptr || *node == '\0' ? runtime::default_node() : node;
   auto& process = runtime::Process::get();
   std::size_t unbound = 0;
   if (const auto status = process.attach(name, unbound); !status) {
-    process.report(fmt::format("cannot attach to node '{}': {} ({})", name, to_string(status.error().code),
-                               status.error().where));
+    process.report(
+        fmt::format("cannot attach to node '{}': {} ({})", name, to_string(status.error().code), status.error().where));
     return negative(status.error().code);
   }
   if (!process.hosted()) {
@@ -89,8 +97,12 @@ std::int64_t release_ns() noexcept {
   return run->epoch_ns + static_cast<std::int64_t>(own_tick(*run, calling_module(run))) * run->basic_period_ns;
 }
 
-std::int64_t now_ns() noexcept { return indurop::rt::now_ns(); }
+std::int64_t now_ns() noexcept {
+  return indurop::rt::now_ns();
+}
 
-bool stop_requested() noexcept { return runtime::Enrolment::get().stop_requested(); }
+bool stop_requested() noexcept {
+  return runtime::Enrolment::get().stop_requested();
+}
 
 }  // namespace irp

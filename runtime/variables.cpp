@@ -22,25 +22,36 @@ extern "C" {
 void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::uint32_t abi_version) {
   if (abi_version != indurop::abi::kVersion) {
     // The rows have another layout, so the variables cannot even be given private memory.
-    std::fprintf(stderr, "indurop: this program was built for version %u of the variables' layout, libindurop.so has %u: rebuild it\n",
-                 abi_version, indurop::abi::kVersion);
+    std::fprintf(
+        stderr,
+        "indurop: this program was built for version %u of the variables' layout, libindurop.so has %u: rebuild it\n",
+        abi_version, indurop::abi::kVersion);
     std::_Exit(kExitSchemaMismatch);
   }
   indurop::runtime::Process::get().register_refs(refs, count);
 }
 
-void indurop_unregister_refs(indurop::abi::Ref* refs) { indurop::runtime::Process::get().unregister_refs(refs); }
+void indurop_unregister_refs(indurop::abi::Ref* refs) {
+  indurop::runtime::Process::get().unregister_refs(refs);
+}
 
 void* indurop_begin_write(indurop::abi::RingHeader* ring, std::uint32_t offset, std::uint32_t length) noexcept {
   return indurop::vars::begin_write(*ring, offset, length);
 }
-void* indurop_begin_edit(indurop::abi::RingHeader* ring) noexcept { return indurop::vars::begin_edit(*ring); }
-void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept { indurop::vars::commit(*ring); }
-void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept { indurop::vars::abort(*ring); }
+void* indurop_begin_edit(indurop::abi::RingHeader* ring) noexcept {
+  return indurop::vars::begin_edit(*ring);
+}
+void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept {
+  indurop::vars::commit(*ring);
+}
+void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept {
+  indurop::vars::abort(*ring);
+}
 
 void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
                        std::uint32_t length) noexcept {
-  indurop::vars::read_slow(const_cast<indurop::abi::RingHeader&>(*ring), to, offset, length);  // NOLINT: mapped writable
+  indurop::vars::read_slow(const_cast<indurop::abi::RingHeader&>(*ring), to, offset,
+                           length);  // NOLINT: mapped writable
 }
 
 void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound) {

@@ -7,8 +7,8 @@
 
 #pragma once
 
-#include <indurop/detail/mark.h>
 #include <indurop/detail/call.h>
+#include <indurop/detail/mark.h>
 #include <indurop/result.h>
 
 #include <chrono>
@@ -32,7 +32,9 @@ class [[gnu::visibility("default")]] call_error : public std::exception {  // NO
   ~call_error() override;
   // "knu::Robot::add: no module implements it"
   [[nodiscard]] const char* what() const noexcept override;
-  [[nodiscard]] Errc code() const noexcept { return code_; }
+  [[nodiscard]] Errc code() const noexcept {
+    return code_;
+  }
 
  private:
   Errc code_;
@@ -138,7 +140,8 @@ class Function<Tag, R(Argument...)> {
   static Call<R> call(std::int64_t deadline_ns, const Argument&... arguments) noexcept {
     using Args = typename Tag::args;
     const Args packed{arguments...};
-    detail::CallRequest request{Tag::kNameHash, Tag::kTypeHash, &packed, nullptr, detail::packed_size<Args>(), 0, deadline_ns};
+    detail::CallRequest request{Tag::kNameHash, Tag::kTypeHash, &packed, nullptr, detail::packed_size<Args>(), 0,
+                                deadline_ns};
     if constexpr (std::is_void_v<R>) {
       return Call<void>(Tag::kName, static_cast<Errc>(indurop_call(&request)));
     } else {
@@ -203,6 +206,6 @@ class Implementation {
 // Makes `code` (a function, or a captureless lambda) the implementation of the shared function `shared`: at namespace
 // scope of one source file of the one module that implements it, with or without a semicolon. Calls are served one
 // after the other by a thread of that module; a thrown exception reaches the caller as Errc::Failed.
-#define INDUROP_IMPLEMENT(shared, ...)                                                                           \
+#define INDUROP_IMPLEMENT(shared, ...)                                                                             \
   static const ::indurop::detail::Implementation<std::remove_cvref_t<decltype(shared)>, __VA_ARGS__> INDUROP_JOIN( \
       indurop_implementation_, __COUNTER__);

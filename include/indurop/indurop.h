@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything a module author needs, besides <indurop/generated.h> with the shared variables of the project's .glb files.
+// Everything a module author needs, besides <indurop/generated.h> with the shared variables of the project's .glb
+// files.
 
 #pragma once
 

@@ -75,8 +75,7 @@ int attach(const char* node = "");
 // type (then one message says so). Integers may be written 0x..., bool as true/false/1/0/on/off/yes/no.
 // Not real-time safe: read properties in start().
 template <class T>
-  requires std::is_arithmetic_v<T>
-T property(const char* name, T fallback) {
+requires std::is_arithmetic_v<T> T property(const char* name, T fallback) {
   if constexpr (std::same_as<T, bool>) {
     detail::property_bool(name, fallback);
   } else if constexpr (std::floating_point<T>) {
@@ -94,14 +93,14 @@ T property(const char* name, T fallback) {
   return fallback;
 }
 template <class T = std::string>
-  requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>)
-T property(const char* name, const char* fallback) {
+requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>) T
+    property(const char* name, const char* fallback) {
   const char* text = detail::property_text(name);
   return T(text != nullptr ? text : fallback);
 }
 template <class T>
-  requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>)
-T property(const char* name, const T& fallback) {
+requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>) T
+    property(const char* name, const T& fallback) {
   const char* text = detail::property_text(name);
   return text != nullptr ? T(text) : fallback;
 }

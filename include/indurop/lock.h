@@ -73,16 +73,16 @@ std::tuple<Locked<typename Variable::whole_type>...> adopt(const std::array<Pend
 // into a struct. Errors: throws std::runtime_error if a lock is not free within 5 ms (its holder is stopped) or is
 // already held by the caller.
 template <class... Variable>
-  requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
-[[nodiscard]] auto lock(const Variable&... /*variables*/) {
+requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
+    [[nodiscard]] auto lock(const Variable&... /*variables*/) {
   static_assert(((Variable::tag_type::kKind == abi::Kind::Ring) && ...),
                 "a scalar is an atomic and has no lock: use +=, modify(), or put it into a struct");
   static_assert(((sizeof(typename Variable::whole_type) == Variable::tag_type::kSize) && ...),
                 "lock whole variables, not parts of them");
   (detail::record_access<typename Variable::tag_type, detail::kRead | detail::kWrite>(), ...);
   constexpr std::size_t n = sizeof...(Variable);
-  std::array<detail::Pending, n> pending{detail::Pending{detail::ring_of<typename Variable::tag_type>(), nullptr,
-                                                         Variable::tag_type::ref().name}...};
+  std::array<detail::Pending, n> pending{
+      detail::Pending{detail::ring_of<typename Variable::tag_type>(), nullptr, Variable::tag_type::ref().name}...};
   std::array<detail::Pending*, n> order{};
   for (std::size_t i = 0; i < n; ++i) {
     order[i] = &pending[i];

@@ -62,22 +62,22 @@ inline void hand_over(const ModuleDescriptor& from, ModuleDescriptor* to) noexce
 }  // namespace indurop::detail
 
 // INDUROP_MODULE(run = &::onRun, start = &::onStart, name = "gripper") on one line of one source file of a thread
-// module, with or without a semicolon. In any order and all optional: run, start, stop, condition (functions; captureless
-// lambdas work too), name, description, author, license (text). Functions are named with :: as in the chapter, because
-// run, start, stop and the others stand for the fields inside the parentheses.
-#define INDUROP_MODULE(...)                                                            \
-  _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wshadow\"")       \
-  extern "C" void indurop_module_describe(::indurop::ModuleDescriptor* indurop_to_) {  \
-    ::indurop::ModuleDescriptor indurop_d_;                                            \
-    [[maybe_unused]] auto& run = indurop_d_.run;                                       \
-    [[maybe_unused]] auto& start = indurop_d_.start;                                   \
-    [[maybe_unused]] auto& stop = indurop_d_.stop;                                     \
-    [[maybe_unused]] auto& condition = indurop_d_.condition;                           \
-    [[maybe_unused]] auto& name = indurop_d_.name;                                     \
-    [[maybe_unused]] auto& description = indurop_d_.description;                       \
-    [[maybe_unused]] auto& author = indurop_d_.author;                                 \
-    [[maybe_unused]] auto& license = indurop_d_.license;                               \
-    (__VA_ARGS__);                                                                     \
-    ::indurop::detail::hand_over(indurop_d_, indurop_to_);                             \
-  }                                                                                    \
+// module, with or without a semicolon. In any order and all optional: run, start, stop, condition (functions;
+// captureless lambdas work too), name, description, author, license (text). Functions are named with :: as in the
+// chapter, because run, start, stop and the others stand for the fields inside the parentheses.
+#define INDUROP_MODULE(...)                                                                     \
+  _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wshadow\"") extern "C" void \
+  indurop_module_describe(::indurop::ModuleDescriptor* indurop_to_) {                           \
+    ::indurop::ModuleDescriptor indurop_d_;                                                     \
+    [[maybe_unused]] auto& run = indurop_d_.run;                                                \
+    [[maybe_unused]] auto& start = indurop_d_.start;                                            \
+    [[maybe_unused]] auto& stop = indurop_d_.stop;                                              \
+    [[maybe_unused]] auto& condition = indurop_d_.condition;                                    \
+    [[maybe_unused]] auto& name = indurop_d_.name;                                              \
+    [[maybe_unused]] auto& description = indurop_d_.description;                                \
+    [[maybe_unused]] auto& author = indurop_d_.author;                                          \
+    [[maybe_unused]] auto& license = indurop_d_.license;                                        \
+    (__VA_ARGS__);                                                                              \
+    ::indurop::detail::hand_over(indurop_d_, indurop_to_);                                      \
+  }                                                                                             \
   _Pragma("GCC diagnostic pop")

@@ -20,7 +20,9 @@ struct IgnoreField {
 
 // A struct from a .glb file; glb2idl writes indurop_fields(value, f) beside it.
 template <class T>
-concept ValueStruct = std::is_class_v<T> && requires(const T& value) { indurop_fields(value, IgnoreField{}); };
+concept ValueStruct = std::is_class_v<T> && requires(const T& value) {
+  indurop_fields(value, IgnoreField{});
+};
 
 template <class T>
 struct IsArray : std::false_type {};
@@ -56,7 +58,8 @@ void print_value(std::ostream& out, const T& value) {
     out << '}';
   } else if constexpr (std::is_enum_v<T>) {
     out << static_cast<long long>(value);
-  } else if constexpr (sizeof(T) == 1 && std::is_integral_v<T> && !std::is_same_v<T, char> && !std::is_same_v<T, bool>) {
+  } else if constexpr (sizeof(T) == 1 && std::is_integral_v<T> && !std::is_same_v<T, char> &&
+                       !std::is_same_v<T, bool>) {
     out << static_cast<int>(value);  // int8_t and uint8_t are numbers
   } else if constexpr (std::is_convertible_v<const T&, std::string_view>) {
     out << '"' << std::string_view(value) << '"';
@@ -67,11 +70,10 @@ void print_value(std::ostream& out, const T& value) {
 
 // Leaves and texts print like the C++ type they stand for.
 template <class T>
-concept WholeShape =
-    Shape<T> && (IsArray<typename T::whole_type>::value || ValueStruct<typename T::whole_type>);
+concept WholeShape = Shape<T> &&(IsArray<typename T::whole_type>::value || ValueStruct<typename T::whole_type>);
 
 template <class T>
-concept PrintableValue = ValueStruct<T> || (IsArray<T>::value && ValueStruct<typename InnermostOf<T>::type>);
+concept PrintableValue = ValueStruct<T> ||(IsArray<T>::value&& ValueStruct<typename InnermostOf<T>::type>);
 
 }  // namespace indurop::detail
 

@@ -36,8 +36,8 @@ enum class Errc : int {
 
 struct Error {
   Errc code = Errc::Ok;
-  int sys_errno = 0;        // 0 if no system call was involved
-  const char* where = "";   // static text: what was being done
+  int sys_errno = 0;       // 0 if no system call was involved
+  const char* where = "";  // static text: what was being done
 };
 
 // Either a value or an Error. value() requires ok().

@@ -18,8 +18,10 @@ struct string {
   char data[N] = {};  // NOLINT: the layout of a C char array is the contract
 
   string() = default;
-  constexpr string(std::string_view text) noexcept { assign(text); }  // NOLINT(google-explicit-constructor): like char[N]
-  constexpr string(const char* text) noexcept { assign(text); }       // NOLINT(google-explicit-constructor)
+  constexpr string(std::string_view text) noexcept {
+    assign(text);
+  }                                                              // NOLINT(google-explicit-constructor): like char[N]
+  constexpr string(const char* text) noexcept { assign(text); }  // NOLINT(google-explicit-constructor)
 
   constexpr void assign(std::string_view text) noexcept {
     const std::size_t n = text.size() < N ? text.size() : N - 1;

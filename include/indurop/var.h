@@ -36,7 +36,7 @@ template <class T>
 concept Shape = requires(const T& shape) {
   typename T::whole_type;
   typename T::tag_type;
-  { shape.get() };
+  {shape.get()};
 };
 
 template <class T>
@@ -124,11 +124,12 @@ struct Leaf {
     return detail::modify<Tag, T>(Offset + place.bytes, change);
   }
 
-#define INDUROP_COMPOUND(op)                                                       \
-  template <class U>                                                               \
-  INDUROP_ALWAYS_INLINE T operator op##=(const U& operand) const noexcept {        \
-    const auto by = detail::value_of(operand);                                     \
-    return modify([by](T old) { return static_cast<T>(old op static_cast<std::common_type_t<T, decltype(by)>>(by)); });              \
+#define INDUROP_COMPOUND(op)                                                                                  \
+  template <class U>                                                                                          \
+  INDUROP_ALWAYS_INLINE T operator op##=(const U& operand) const noexcept {                                   \
+    const auto by = detail::value_of(operand);                                                                \
+    return modify(                                                                                            \
+        [by](T old) { return static_cast<T>(old op static_cast<std::common_type_t<T, decltype(by)>>(by)); }); \
   }
   INDUROP_COMPOUND(+)
   INDUROP_COMPOUND(-)
@@ -142,10 +143,18 @@ struct Leaf {
   INDUROP_COMPOUND(>>)
 #undef INDUROP_COMPOUND
 
-  INDUROP_ALWAYS_INLINE T operator++() const noexcept { return *this += 1; }
-  INDUROP_ALWAYS_INLINE T operator--() const noexcept { return *this -= 1; }
-  INDUROP_ALWAYS_INLINE T operator++(int) const noexcept { return static_cast<T>((*this += 1) - 1); }
-  INDUROP_ALWAYS_INLINE T operator--(int) const noexcept { return static_cast<T>((*this -= 1) + 1); }
+  INDUROP_ALWAYS_INLINE T operator++() const noexcept {
+    return *this += 1;
+  }
+  INDUROP_ALWAYS_INLINE T operator--() const noexcept {
+    return *this -= 1;
+  }
+  INDUROP_ALWAYS_INLINE T operator++(int) const noexcept {
+    return static_cast<T>((*this += 1) - 1);
+  }
+  INDUROP_ALWAYS_INLINE T operator--(int) const noexcept {
+    return static_cast<T>((*this -= 1) + 1);
+  }
 };
 
 // A char array: text of at most N - 1 characters, read and assigned as a whole.
@@ -257,45 +266,55 @@ struct ArrayRef {
 
 // The members every generated struct shape has besides its fields; it names its Place `indurop_place`, so that a
 // field may have any name. A whole struct is read, assigned and compared in one access.
-#define INDUROP_UNION_SHAPE(Self)                                                                            \
-  constexpr Self(::indurop::Place indurop_at, ::indurop::detail::Make /*unused*/) noexcept                   \
-      : indurop_place(indurop_at) {}                                                                         \
-  Self(const Self&) = default;                                                                               \
-  ~Self() = default;                                                                                         \
-  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                                    \
-    return ::indurop::detail::load<tag_type, whole_type>(kOffset + indurop_place.bytes);                     \
-  }                                                                                                          \
-  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }                               \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& indurop_value) const noexcept {              \
-    ::indurop::detail::store<tag_type, whole_type>(kOffset + indurop_place.bytes, indurop_value);            \
-    return *this;                                                                                            \
-  }                                                                                                          \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& indurop_value) const noexcept {                    \
-    return *this = indurop_value.get();                                                                      \
-  }                                                                                                          \
-  friend bool operator==(const Self& indurop_left, const whole_type& indurop_right) noexcept {               \
-    return indurop_left.get() == indurop_right;                                                              \
-  }                                                                                                          \
-  friend bool operator==(const Self& indurop_left, const Self& indurop_right) noexcept {                     \
-    return indurop_left.get() == indurop_right.get();                                                        \
+#define INDUROP_UNION_SHAPE(Self)                                                                 \
+  constexpr Self(::indurop::Place indurop_at, ::indurop::detail::Make /*unused*/) noexcept        \
+      : indurop_place(indurop_at) {}                                                              \
+  Self(const Self&) = default;                                                                    \
+  ~Self() = default;                                                                              \
+  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                         \
+    return ::indurop::detail::load<tag_type, whole_type>(kOffset + indurop_place.bytes);          \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept {                                    \
+    return get();                                                                                 \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& indurop_value) const noexcept {   \
+    ::indurop::detail::store<tag_type, whole_type>(kOffset + indurop_place.bytes, indurop_value); \
+    return *this;                                                                                 \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& indurop_value) const noexcept {         \
+    return *this = indurop_value.get();                                                           \
+  }                                                                                               \
+  friend bool operator==(const Self& indurop_left, const whole_type& indurop_right) noexcept {    \
+    return indurop_left.get() == indurop_right;                                                   \
+  }                                                                                               \
+  friend bool operator==(const Self& indurop_left, const Self& indurop_right) noexcept {          \
+    return indurop_left.get() == indurop_right.get();                                             \
   }
 
 // The members every generated struct shape has besides its fields. A whole struct is read, assigned and compared
 // in one access.
-#define INDUROP_STRUCT_SHAPE(Self)                                                                            \
-  constexpr Self(::indurop::Place at, ::indurop::detail::Make /*unused*/) noexcept : place(at) {}             \
-  Self(const Self&) = default;                                                                                \
-  ~Self() = default;                                                                                          \
-  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                                     \
-    return ::indurop::detail::load<Tag, whole_type>(Offset + place.bytes);                                    \
-  }                                                                                                           \
-  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept { return get(); }                                \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& value) const noexcept {                       \
-    ::indurop::detail::store<Tag, whole_type>(Offset + place.bytes, value);                                   \
-    return *this;                                                                                             \
-  }                                                                                                           \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& other) const noexcept { return *this = other.get(); } \
-  friend bool operator==(const Self& a, const whole_type& b) noexcept { return a.get() == b; }                \
-  friend bool operator==(const Self& a, const Self& b) noexcept { return a.get() == b.get(); }
+#define INDUROP_STRUCT_SHAPE(Self)                                                                \
+  constexpr Self(::indurop::Place at, ::indurop::detail::Make /*unused*/) noexcept : place(at) {} \
+  Self(const Self&) = default;                                                                    \
+  ~Self() = default;                                                                              \
+  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                         \
+    return ::indurop::detail::load<Tag, whole_type>(Offset + place.bytes);                        \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept {                                    \
+    return get();                                                                                 \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& value) const noexcept {           \
+    ::indurop::detail::store<Tag, whole_type>(Offset + place.bytes, value);                       \
+    return *this;                                                                                 \
+  }                                                                                               \
+  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& other) const noexcept {                 \
+    return *this = other.get();                                                                   \
+  }                                                                                               \
+  friend bool operator==(const Self& a, const whole_type& b) noexcept {                           \
+    return a.get() == b;                                                                          \
+  }                                                                                               \
+  friend bool operator==(const Self& a, const Self& b) noexcept {                                 \
+    return a.get() == b.get();                                                                    \
+  }
 
 }  // namespace indurop

@@ -33,10 +33,10 @@ struct alignas(8) DirtyRange {
 // slot (seq + 1) % kSlots, then stores seq + 1. A writer that dies leaves a slot nobody was told about.
 struct RingHeader {
   std::atomic<std::uint64_t> seq;
-  pthread_mutex_t lock;                     // robust, priority inheriting, process shared
-  std::atomic<std::uint64_t> lost_writes;   // writes given up because the lock was not free in time
-  std::uint64_t begun;                      // version last begun; not yet seq: that slot is half changed
-  DirtyRange dirty[kSlots];                 // what the commit that made this slot's version changed
+  pthread_mutex_t lock;                    // robust, priority inheriting, process shared
+  std::atomic<std::uint64_t> lost_writes;  // writes given up because the lock was not free in time
+  std::uint64_t begun;                     // version last begun; not yet seq: that slot is half changed
+  DirtyRange dirty[kSlots];                // what the commit that made this slot's version changed
   std::uint32_t value_size;
   std::uint32_t slot_stride;
   std::uint64_t reserved1[3];
@@ -57,7 +57,7 @@ struct Ref {
   std::uint64_t name_hash;  // fnv1a64 of the full name, "knu::Robot::joints"
   std::uint64_t type_hash;  // fnv1a64 of the canonical type text
   void* entry;
-  const void* initial;      // value_size bytes, or null for all zero
+  const void* initial;  // value_size bytes, or null for all zero
   std::uint32_t value_size;
   Kind kind;
   const char* name;

@@ -134,7 +134,8 @@ TEST(CallFault, A_second_implementation_is_told_so) {
   Child first(SERVER_PROGRAM, node.name(), "");
   ASSERT_TRUE(served());
   Child second(SERVER_PROGRAM, node.name(), "");
-  EXPECT_TRUE(second.prints("shared function knu::Robot::add: implemented twice, process " + std::to_string(first.pid())));
+  EXPECT_TRUE(
+      second.prints("shared function knu::Robot::add: implemented twice, process " + std::to_string(first.pid())));
   first.kill();
   EXPECT_TRUE(served()) << "the second one takes over";
 }

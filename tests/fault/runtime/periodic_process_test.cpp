@@ -29,7 +29,9 @@ std::uint32_t tick_of(TestNode& node) {
   return value;
 }
 
-void launched(TestNode& node, const Child& child) { node.module(1).pid = child.pid(); }
+void launched(TestNode& node, const Child& child) {
+  node.module(1).pid = child.pid();
+}
 bool enrolled(TestNode& node, const Child& child) {
   return wait_until([&] { return node.slot(1).pid == child.pid(); });
 }
@@ -80,7 +82,8 @@ TEST(PeriodicProcess, Started_before_the_node_waits_for_it) {
   const std::string name = TestNode::next_name();
   Child child(PERIODIC_PROGRAM, name, "");
   ASSERT_TRUE(child.prints("initPeriodExe -2"));
-  EXPECT_NE(child.output().find("node '" + name + "' does not run; start it with: indurop run module.xml"), std::string::npos)
+  EXPECT_NE(child.output().find("node '" + name + "' does not run; start it with: indurop run module.xml"),
+            std::string::npos)
       << child.output();
   TestNode node(one_process());
   ASSERT_EQ(node.name(), name);
@@ -96,8 +99,10 @@ TEST(PeriodicProcess, Of_a_module_that_runs_already_is_refused) {
   ASSERT_TRUE(enrolled(node, first));
   Child second(PERIODIC_PROGRAM, node.name(), "1");
   EXPECT_EQ(second.exit_code(), 1);
-  EXPECT_NE(second.output().find("module 'cntr4.exe' of node '" + node.name() + "' is process " + std::to_string(first.pid())),
-            std::string::npos) << second.output();
+  EXPECT_NE(second.output().find("module 'cntr4.exe' of node '" + node.name() + "' is process " +
+                                 std::to_string(first.pid())),
+            std::string::npos)
+      << second.output();
   EXPECT_TRUE(first.running());
 }
 
@@ -114,7 +119,9 @@ TEST(PeriodicProcess, Whose_variables_do_not_fit_refuses_to_run) {
   EXPECT_EQ(child.exit_code(), 8);
   EXPECT_NE(child.output().find("initPeriodExe -10"), std::string::npos) << child.output();
   EXPECT_NE(child.output().find("variable knu::Robot::tick: this program was built with uint32_t (4 bytes), node '" +
-                                node.name() + "' has uint16_t (2 bytes)"), std::string::npos) << child.output();
+                                node.name() + "' has uint16_t (2 bytes)"),
+            std::string::npos)
+      << child.output();
 }
 
 TEST(PeriodicProcess, Does_not_mind_variables_its_code_never_uses) {

@@ -23,10 +23,10 @@ std::atomic<std::uint64_t> g_allocations{0};
 
 #if INDUROP_COUNTS_ALLOCATIONS
 extern "C" {
-void* __libc_malloc(std::size_t size);                                // NOLINT(bugprone-reserved-identifier): glibc's
-void* __libc_calloc(std::size_t count, std::size_t size);             // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* old, std::size_t size);                    // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t alignment, std::size_t size);       // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier): glibc's
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* old, std::size_t size);               // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) noexcept {
   ++g_allocations;

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "hosted.h"
 #include <indurop/generated.h>
+#include "hosted.h"
 
 namespace {
 
@@ -164,7 +164,9 @@ TEST_F(Calls, Thrown_out_of_by_a_fault_leave_no_slot_behind) {
   EXPECT_TRUE(nap(0).ok());
 }
 
-TEST(CallsWithoutANode, Fail) { EXPECT_EQ(add(1, 2).error(), Errc::NotFound); }
+TEST(CallsWithoutANode, Fail) {
+  EXPECT_EQ(add(1, 2).error(), Errc::NotFound);
+}
 
 TEST(CallsOfAnotherType, Fail) {
   auto schema = indurop::testing::sample_schema();

@@ -5,8 +5,8 @@
 #include <indurop/indurop.h>
 #include <unistd.h>
 
-#include "hosted.h"
 #include <indurop/generated.h>
+#include "hosted.h"
 
 namespace {
 
@@ -15,7 +15,9 @@ using indurop::testing::Hosted;
 using indurop::testing::TestNode;
 namespace robot = knu::Robot;
 
-constexpr std::ptrdiff_t error(Errc code) { return -static_cast<std::ptrdiff_t>(code); }
+constexpr std::ptrdiff_t error(Errc code) {
+  return -static_cast<std::ptrdiff_t>(code);
+}
 
 TEST(Channel, Reads_and_writes_parts_by_name) {
   TestNode node;

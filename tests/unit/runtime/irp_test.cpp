@@ -6,8 +6,8 @@
 
 #include <thread>
 
-#include "hosted.h"
 #include <indurop/generated.h>
+#include "hosted.h"
 
 namespace {
 
@@ -43,9 +43,18 @@ TEST(Printf, Tells_that_the_ring_is_full) {
 }
 
 TEST(Property, Converts_to_the_type_asked_for) {
-  TestNode node({{"m", {}, 0,
-                  {{"intialize value", "5"}, {"hex", " 0x1F "}, {"gain", "2.5"}, {"on", "true"}, {"off", "off"},
-                   {"config", "/etc/io.xml"}, {"minus", "-128"}, {"empty", ""}}, ""}});
+  TestNode node({{"m",
+                  {},
+                  0,
+                  {{"intialize value", "5"},
+                   {"hex", " 0x1F "},
+                   {"gain", "2.5"},
+                   {"on", "true"},
+                   {"off", "off"},
+                   {"config", "/etc/io.xml"},
+                   {"minus", "-128"},
+                   {"empty", ""}},
+                  ""}});
   const Hosted hosted(node);
   EXPECT_EQ(irp::property<int>("intialize value", 0), 5);
   EXPECT_EQ(irp::property("hex", 0U), 31U);
@@ -64,12 +73,14 @@ TEST(Property, Converts_to_the_type_asked_for) {
 }
 
 TEST(Property, Of_wrong_form_gives_the_default_and_one_message) {
-  TestNode node({{"m", {}, 0, {{"counter", "5x"}, {"big", "300"}, {"minus", "-129"}, {"flag", "maybe"}, {"sign", "-1"}}, ""}});
+  TestNode node(
+      {{"m", {}, 0, {{"counter", "5x"}, {"big", "300"}, {"minus", "-129"}, {"flag", "maybe"}, {"sign", "-1"}}, ""}});
   const Hosted hosted(node);
   EXPECT_EQ(irp::property("counter", 3), 3);
   EXPECT_EQ(irp::property("counter", 3), 3);
-  EXPECT_EQ(printed(node),
-            "property 'counter' is \"5x\", expected a whole number from -2147483648 to 2147483647: using the default\n");
+  EXPECT_EQ(
+      printed(node),
+      "property 'counter' is \"5x\", expected a whole number from -2147483648 to 2147483647: using the default\n");
   EXPECT_EQ(irp::property<std::uint8_t>("big", 1), 1);
   EXPECT_EQ(irp::property<std::int8_t>("minus", 1), 1);
   EXPECT_EQ(irp::property("sign", 2U), 2U);
@@ -78,7 +89,9 @@ TEST(Property, Of_wrong_form_gives_the_default_and_one_message) {
   EXPECT_NE(printed(node).find("property 'flag' is \"maybe\", expected true or false"), std::string::npos);
 }
 
-TEST(Property, Outside_a_node_is_the_default) { EXPECT_EQ(irp::property("counter", 3), 3); }
+TEST(Property, Outside_a_node_is_the_default) {
+  EXPECT_EQ(irp::property("counter", 3), 3);
+}
 
 TEST(Schedule, Of_a_thread_module_follows_its_own_period) {
   TestNode node({{"m", {}, 5'000'000, {}, ""}, {"event", {}, 0, {}, ""}});

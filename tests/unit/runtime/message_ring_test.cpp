@@ -92,7 +92,8 @@ TEST(MessageRing, Keeps_every_message_of_several_threads_whole) {
   for (int t = 0; t < kThreads; ++t) {
     producers.emplace_back([&node, &finished, t] {
       for (int i = 0; i < kMessages;) {
-        const std::string text = std::to_string(t) + " " + std::to_string(i) + std::string(static_cast<std::size_t>(i % 300), 'x');
+        const std::string text =
+            std::to_string(t) + " " + std::to_string(i) + std::string(static_cast<std::size_t>(i % 300), 'x');
         if (push_message(node.run(), 0, text, i)) {
           ++i;
         } else {

@@ -9,14 +9,21 @@ namespace {
 int g_runs = 0;
 [[maybe_unused]] int name = 0;
 
-void start() { g_runs += 100; }
-void onRun() { ++g_runs; }
-bool event() { return true; }
+void start() {
+  g_runs += 100;
+}
+void onRun() {
+  ++g_runs;
+}
+bool event() {
+  return true;
+}
 
 }  // namespace
 
-INDUROP_MODULE(run = &::onRun, license = "Apache-2.0", start = &::start, condition = &::event, name = "gripper",
-               stop = [] { g_runs = -1; }, description = "opens", author = "me")
+INDUROP_MODULE(
+    run = &::onRun, license = "Apache-2.0", start = &::start, condition = &::event, name = "gripper",
+    stop = [] { g_runs = -1; }, description = "opens", author = "me")
 
 TEST(ModuleDescriptor, Carries_all_fields_in_any_order) {
   indurop::ModuleDescriptor sut;

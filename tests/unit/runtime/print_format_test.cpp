@@ -33,8 +33,8 @@ std::string in_c(const char* text, Value... values) {
 enum class Color : int { Red, Green = 5 };
 
 TEST(FormatMessage, Prints_what_C_prints) {
-  for (const char* text : {"%d", "%5d|", "%-5d|", "%05d", "%+d", "% d", "%.4d", "%x", "%#x", "%X", "%o", "%u", "%c", "%i",
-                           "%hhd", "%hd", "%8.3d|"}) {
+  for (const char* text : {"%d", "%5d|", "%-5d|", "%05d", "%+d", "% d", "%.4d", "%x", "%#x", "%X", "%o", "%u", "%c",
+                           "%i", "%hhd", "%hd", "%8.3d|"}) {
     for (const int value : {0, 1, -1, 65, 300, -70000}) {
       EXPECT_EQ(format(text, value), in_c(text, value)) << text << ' ' << value;
     }

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "hosted.h"
 #include <indurop/generated.h>
+#include "hosted.h"
 
 namespace {
 
@@ -67,10 +67,12 @@ TEST(Refs, Of_another_type_stay_private_and_are_named) {
   const Hosted hosted(node);
   ASSERT_EQ(hosted.problems.size(), 2U);
   EXPECT_NE(hosted.problems[0].find("variable knu::Robot::joints: this program was built with"), std::string::npos);
-  EXPECT_NE(hosted.problems[0].find("node '" + node.name() + "' has knu::Robot::joints_t[12] (288 bytes)"), std::string::npos)
+  EXPECT_NE(hosted.problems[0].find("node '" + node.name() + "' has knu::Robot::joints_t[12] (288 bytes)"),
+            std::string::npos)
       << hosted.problems[0];
   EXPECT_NE(hosted.problems[0].find("rebuild against the same .glb"), std::string::npos);
-  EXPECT_NE(hosted.problems[1].find("variable knu::Robot::ready: node '" + node.name() + "' does not have it"), std::string::npos);
+  EXPECT_NE(hosted.problems[1].find("variable knu::Robot::ready: node '" + node.name() + "' does not have it"),
+            std::string::npos);
   joints[0].x = 1;  // private, harmless
   EXPECT_EQ(joints[0].x, 1.0);
   EXPECT_EQ(tick, 7U);

@@ -17,7 +17,9 @@ namespace {
 // that is reserved, because a generated header looks for its node at 101.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wprio-ctor-dtor"
-[[gnu::constructor(100)]] void keep_away_from_others() { ::setenv("INDUROP_NODE", "rttest-none", 0); }
+[[gnu::constructor(100)]] void keep_away_from_others() {
+  ::setenv("INDUROP_NODE", "rttest-none", 0);
+}
 #pragma GCC diagnostic pop
 
 int g_nodes = 0;
@@ -34,7 +36,9 @@ schema::Schema sample_schema() {
   return schema::from_json(self.value().schema_json).value();
 }
 
-std::string TestNode::next_name() { return "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(g_nodes); }
+std::string TestNode::next_name() {
+  return "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(g_nodes);
+}
 
 TestNode::TestNode(std::vector<TestModule> modules, const schema::Schema& schema, std::uint32_t ring_capacity)
     : ring_capacity_(ring_capacity) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "schema/schema.h"
 #include "scheduler/run_block.h"
+#include "schema/schema.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
 
