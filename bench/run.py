@@ -142,6 +142,37 @@ class Bench:
         per_module = (t["inline_band/256"] - t["inline_band/16"]) / 240
         self.row("per module of 256", f"{per_module:.1f}", f"{t['clock_read']:.1f} clock", per_module, 60, " ns")
 
+    def many(self, count, attribute):
+        """A configuration of `count` modules of 1 ms in priority order."""
+        path = os.path.join(self.folder, f"many{count}.xml")
+        module = os.path.join(self.programs, "tick.so")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("<root>\n")
+            for i in range(count):
+                file.write(f"<module><name>m{i}</name><filename>{module}</filename><moduletype>thread</moduletype>"
+                           f"<operationtype>periodic</operationtype><period>1ms</period><priority>{i}</priority>"
+                           f"{attribute(i)}</module>\n")
+            file.write("</root>\n")
+        return path
+
+    def bands(self):
+        self.title("Further bands, and 256 modules in one tick of 1 ms")
+        # Neighbours with different overrun policies do not share a band.
+        xml = self.many(17, lambda i: f"<overrun>{'skip' if i % 2 == 0 else 'catch-up'}</overrun>")
+        costs = []
+        for _ in range(self.rounds):
+            modules = self.run_node(xml, "--duration", f"{self.seconds}s")["modules"]
+            costs.append((modules[16]["latency_ns"]["p50"] - modules[4]["latency_ns"]["p50"]) / 12 / 1000)
+        self.row("every further band, us", f"{statistics.median(costs):.2f}", "-", statistics.median(costs), 4, " us")
+        xml = self.many(256, lambda i: "")
+        last, lost = [], []
+        for _ in range(self.rounds):
+            report = self.run_node(xml, "--duration", f"{self.seconds}s")
+            last.append(report["modules"][255]["latency_ns"]["p50"] / 1000)
+            lost.append(report["lost_ticks"])
+        self.row("256 modules: start of the last, us after its tick", f"{statistics.median(last):.1f}", "-",
+                 statistics.median(last), 256 * 0.06, " us")
+
     def wake(self):
         self.title("Waking a process module on the same core (ns, to its first instruction)")
         ratios = []
@@ -176,14 +207,7 @@ class Bench:
 
     def start(self):
         self.title("Start and memory of a node with 10 modules")
-        path = os.path.join(self.folder, "ten.xml")
-        module = os.path.join(self.programs, "tick.so")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write("<root>\n")
-            for i in range(10):
-                file.write(f"<module><name>m{i}</name><filename>{module}</filename><moduletype>thread</moduletype>"
-                           f"<operationtype>periodic</operationtype><period>1ms</period><priority>{i}</priority></module>\n")
-            file.write("</root>\n")
+        path = self.many(10, lambda i: "")
         times, memory = [], []
         for _ in range(self.rounds):
             begin = time.monotonic()
@@ -220,13 +244,13 @@ def main():
     parser.add_argument("--programs", required=True)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=int, default=5)
-    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,wake,watch,start")
+    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,bands,wake,watch,start")
     arguments = parser.parse_args()
     bench = Bench(arguments)
     only = set(filter(None, arguments.only.split(",")))
     bench.hold_idle_states()
     try:
-        for name in ("access", "dispatch", "wake", "start", "watch"):
+        for name in ("access", "dispatch", "bands", "wake", "start", "watch"):
             if not only or name in only:
                 getattr(bench, name)()
         if not only or "lateness" in only:
