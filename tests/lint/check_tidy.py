@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""clang-tidy over our sources, remembering clean files by the hash of everything that went in.
+"""clang-tidy over our sources, remembering the findings of a file by the hash of everything that went in.
 check_tidy.py families ROOT | check_tidy.py run ROOT BUILD [path prefix...]"""
 
 import concurrent.futures
@@ -71,14 +71,17 @@ def tidy_one(root, build, entry, folder, common_part):
     arguments = clang_arguments(entry)
     key = fingerprint(root, entry, arguments, common_part) if folder else None
     if key and (folder / key).exists():
-        return []
+        return (folder / key).read_text().splitlines()
     run = subprocess.run(["clang-tidy", "--quiet", entry["file"], "--", *arguments], cwd=entry["directory"],
                          capture_output=True, text=True, check=False)
-    findings = [line for line in run.stdout.splitlines() if re.search(r": (error|warning):", line)]
+    findings = [line.replace(f"{root}/", "") for line in run.stdout.splitlines() if re.search(r": (error|warning):", line)]
     if run.returncode != 0 and not findings:
-        findings = [f"{entry['file']}: clang-tidy failed: {(run.stderr or run.stdout).strip()[:500]}"]
-    if key and not findings:
-        (folder / key).touch()
+        return [f"{entry['file']}: clang-tidy failed: {(run.stderr or run.stdout).strip()[:500]}"]
+    if key:
+        # Renamed into place: another run never reads half of it.
+        part = folder / f"{key}.{os.getpid()}"
+        part.write_text("\n".join(findings))
+        part.rename(folder / key)
     return findings
 
 

@@ -240,6 +240,10 @@ class Tidy(Sample):
         self.assertEqual(self.tidy("int twice(int a) { return a * 2; }\n"), [])
         self.assertTrue([path for path in self.root.iterdir() if len(path.name) == 64])
 
+    def test_findings_are_remembered(self):
+        text = "int* f() { return 0; }\n"
+        self.assertEqual(self.tidy(text), self.tidy(text))
+
     def test_function_name(self):
         self.found(self.tidy("int TwiceAsMuch(int a) { return a * 2; }\n"), "readability-identifier-naming")
 
