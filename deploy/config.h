@@ -61,7 +61,7 @@ struct Module {
   std::string file_as_written;
   scheduler::ModuleType type = scheduler::ModuleType::Thread;
   scheduler::Operation operation = scheduler::Operation::Periodic;
-  Nanos period{};
+  Nanos period{};  // non-real thread: 0 runs it once
   Nanos offset{};
   Nanos deadline{};  // 0: none given (sporadic: required; periodic: the period)
   Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: off

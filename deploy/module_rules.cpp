@@ -82,21 +82,24 @@ class Rules {
     without_effect({"period", "offset"}, "sporadic");
     module_.period = Nanos::zero();
     module_.offset = Nanos::zero();
+    if (given_.type && module_.type == ModuleType::Process) {
+      without_effect({"position"}, "sporadic process");
+      module_.after_base = false;
+    } else if (given_.type) {
+      without_effect({"core"}, "sporadic thread");
+      module_.core = -1;
+    }
   }
 
   void check_non_real() {
-    if (given_.type && module_.type == ModuleType::Thread) {
-      report_.error(
-          given_.elements.find("moduletype")->second,
-          "a non-real-time module is a program of its own; write <moduletype>process</moduletype>, or make it "
-          "periodic with a long period");
-    }
-    without_effect({"period", "offset", "priority", "deadline", "budget", "overrun", "position", "signal"},
-                   "non-real-time");
-    module_.period = Nanos::zero();
+    without_effect({"offset", "priority", "deadline", "budget", "overrun", "position", "signal"}, "non-real-time");
     module_.offset = Nanos::zero();
     module_.deadline = Nanos::zero();
     module_.signal = 0;
+    if (given_.type && module_.type == ModuleType::Process) {
+      without_effect({"period"}, "non-real-time process");
+      module_.period = Nanos::zero();
+    }
   }
 
   Module& module_;

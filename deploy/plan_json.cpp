@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan for programs: JSON and CSV. Names and order of the fields are a promise, see docs/module_xml.md.
+// The plan for programs: JSON and CSV. Names and order of the fields are a promise, see docs/report.md.
 
 #include <nlohmann/json.hpp>
 

@@ -195,12 +195,19 @@ TEST(Reader, Elements_without_effect_are_warnings) {
               ElementsAre(HasSubstr("warning: <priority> has no effect on a non-real-time module")));
   EXPECT_THAT(errors_of(root(periodic("a.so", "1ms", 1, "<position>after-base</position>"))),
               ElementsAre(HasSubstr("warning: <position>")));
+  EXPECT_THAT(errors_of(root(sporadic("a.exe", "process", 1, "<position>after-base</position><core>0</core>"))),
+              ElementsAre(HasSubstr("warning: <position> has no effect on a sporadic process")));
+  EXPECT_THAT(errors_of(root(sporadic("a.so", "thread", 1, "<core>0</core>"))),
+              ElementsAre(HasSubstr("warning: <core> has no effect on a sporadic thread")));
 }
 
-TEST(Reader, Non_real_time_thread_is_refused) {
-  EXPECT_THAT(errors_of("<root><module><filename>a.so</filename><moduletype>thread</moduletype><operationtype>non-real"
-                        "</operationtype></module></root>"),
-              ElementsAre(HasSubstr("a program of its own")));
+TEST(Reader, Non_real_time_thread_may_have_a_period) {
+  const Config sut = config_of(
+      "<root><module><filename>a.so</filename><moduletype>thread</moduletype><operationtype>non-real</operationtype>"
+      "<period>1s</period></module></root>");
+  EXPECT_EQ(sut.modules[0].period, Nanos(seconds(1)));
+  EXPECT_THAT(errors_of(root(non_real("a.exe", "<period>1s</period>"))),
+              ElementsAre(HasSubstr("warning: <period> has no effect on a non-real-time process")));
 }
 
 TEST(Reader, Forgotten_end_of_an_element_is_recognised) {
