@@ -54,7 +54,6 @@ class Enrolment {
   bool take_release() noexcept;
   void look_after_node();
   void try_again();
-  bool end(int exit_code, const char* why);
 
   Phase phase_ = Phase::None;
   std::string node_;

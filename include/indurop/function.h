@@ -205,7 +205,9 @@ class Implementation {
 
 // Makes `code` (a function, or a captureless lambda) the implementation of the shared function `shared`: at namespace
 // scope of one source file of the one module that implements it, with or without a semicolon. Calls are served one
-// after the other by a thread of that module; a thrown exception reaches the caller as Errc::Failed.
+// after the other by a thread of that module, so an implementation that calls into a module which just waits for this
+// one ends in a time-out; functions of its own module it can call freely. A thrown exception reaches the caller as
+// Errc::Failed.
 #define INDUROP_IMPLEMENT(shared, ...)                                                                             \
   static const ::indurop::detail::Implementation<std::remove_cvref_t<decltype(shared)>, __VA_ARGS__> INDUROP_JOIN( \
       indurop_implementation_, __COUNTER__);

@@ -5,11 +5,13 @@
 #include <indurop/indurop.h>
 
 #include <atomic>
+#include <csignal>
 #include <stdexcept>
 #include <thread>
 
 #include <indurop/generated.h>
 #include "hosted.h"
+#include "rt/guard.h"
 
 namespace {
 
@@ -23,6 +25,7 @@ using indurop::testing::wait_until;
 std::atomic<int> g_counted{0};
 std::atomic<int> g_sleeping{0};
 std::atomic<bool> g_wake{false};
+constexpr std::uint32_t kCrash = 666;
 
 double my_add(double a, const double& b) {
   if (a > 1000) {
@@ -33,6 +36,9 @@ double my_add(double a, const double& b) {
 
 // Sleeps until the test says so; calls another function of the same module.
 std::uint32_t my_nap(std::uint32_t value) {
+  if (value == kCrash) {
+    ::raise(SIGFPE);
+  }
   ++g_sleeping;
   while (value != 0 && !g_wake) {
     std::this_thread::sleep_for(1ms);
@@ -162,6 +168,15 @@ TEST_F(Calls, Thrown_out_of_by_a_fault_leave_no_slot_behind) {
   // A jump out of the wait is the same as never reaching the end of the call: the slot stays locked by this thread.
   indurop::runtime::release_calls_of_this_thread();
   EXPECT_TRUE(nap(0).ok());
+}
+
+TEST_F(Calls, Of_a_crashing_implementation_fail_and_its_module_serves_no_more) {
+  indurop::rt::install_guard_handlers();
+  serve();
+  EXPECT_EQ(nap.within(60s)(kCrash).error(), Errc::Failed);
+  EXPECT_NE(indurop::testing::printed(node_).find("knu::Robot::nap crashed with signal 8"), std::string::npos);
+  EXPECT_TRUE(wait_until([] { return add(1, 1).error() == Errc::NotFound; }));
+  EXPECT_EQ(nap(1).error(), Errc::NotFound);
 }
 
 TEST(CallsWithoutANode, Fail) {
