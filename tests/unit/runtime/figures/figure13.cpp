@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The statements of Figure 13 with the least of the application around them. Plain C symbols, no INDUROP_MODULE.
 
-// clang-format off: printed like this
+// clang-format off
 #include <indurop/indurop.h>
 #include <indurop/generated.h>
 
