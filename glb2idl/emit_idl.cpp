@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
@@ -35,14 +36,12 @@ class IdlWriter {
   explicit IdlWriter(const Unit& unit) : unit_(unit) {}
 
   std::string run(const Program& program) {
-    std::string guard = "INDUROP_IDL_";
-    for (const char c : unit_.stem) {
-      guard += c == '-' ? '_' : c;
-    }
+    std::string word = unit_.stem;
+    std::replace(word.begin(), word.end(), '-', '_');
     line("// {}.idl: DDS types of the shared variables in {}.glb, written by glb2idl. Do not edit.", unit_.stem,
          unit_.stem);
-    line("#ifndef {}", guard);
-    line("#define {}", guard);
+    line("#ifndef INDUROP_IDL_{}", word);
+    line("#define INDUROP_IDL_{}", word);
     for (const std::size_t other : unit_.includes) {
       line("#include \"{}.idl\"", program.units[other].stem);
     }
@@ -50,6 +49,11 @@ class IdlWriter {
       std::visit(*this, item);
     }
     enter("");
+    if (!any_) {
+      line("");
+      line("// No types: some compilers refuse a file without a definition.");
+      line("module indurop_glb {{ const int32 file_{} = 1; }};", word);
+    }
     line("");
     line("#endif");
     return std::move(out_);
@@ -66,6 +70,7 @@ class IdlWriter {
     } else if (constant.value.integer == static_cast<std::int32_t>(constant.value.integer)) {
       type = "int32";
     }
+    any_ = true;
     line("const {} {} = {};{}", type, last_of(constant.name), to_text(constant.value.integer),
          comment(constant.description));
   }
@@ -79,11 +84,13 @@ class IdlWriter {
     for (const schema::Enumerator& e : enumeration.type.enumerators) {
       values += (values.empty() ? "" : ", ") + idl_name(e.name);
     }
+    any_ = true;
     line("enum {} {{ {} }};{}", last_of(enumeration.type.name), values, comment(enumeration.description));
   }
 
   void operator()(const Structure& structure) {
     enter(scope_of(structure.type.name));
+    any_ = true;
     line("@final struct {} {{{}", last_of(structure.type.name), comment(structure.description));
     for (const schema::Field& field : structure.type.fields) {
       line("  {} {}{};{}", idl_type(field.type), idl_name(field.name), dims(field.type),
@@ -95,20 +102,21 @@ class IdlWriter {
   void operator()(const Alias& /*unused*/) {}
 
   void operator()(const schema::Variable& variable) {
-    enter(scope_of(variable.name));
-    const std::string_view name = last_of(variable.name);
     const std::string about = notes(variable.description, variable.unit, variable.range);
-    if (is_wrapped(variable.type)) {
-      line("@final struct {}_ {{ {} value{}; }};{}", name, idl_type(variable.type), dims(variable.type),
-           comment(fmt::format("variable {}{}{}", name, about.empty() ? "" : ": ", about)));
-    } else {
-      line("// variable {}: {}{}{}", name, variable.type.name, about.empty() ? "" : ": ", comment_line(about));
+    const std::string text = about.empty() ? about : ": " + about;
+    if (!is_wrapped(variable.type)) {
+      remark("variable {}: {}{}", variable.name, variable.type.name, text);
+      return;
     }
+    enter(scope_of(variable.name));
+    any_ = true;
+    const std::string_view name = last_of(variable.name);
+    line("@final struct {}_ {{ {} value{}; }};{}", name, idl_type(variable.type), dims(variable.type),
+         comment(fmt::format("variable {}{}", name, text)));
   }
 
   void operator()(const schema::Function& function) {
-    enter(scope_of(function.name));
-    line("// shared function {}: called on its board only, no DDS type", last_of(function.name));
+    remark("shared function {}: called on its board only, no DDS type", function.name);
   }
 
  private:
@@ -117,6 +125,12 @@ class IdlWriter {
     out_ += std::string(2 * depth_, ' ');
     fmt::format_to(std::back_inserter(out_), format, std::forward<Argument>(arguments)...);
     out_ += '\n';
+  }
+
+  // A comment by itself, wherever the text is: an empty module is no IDL.
+  template <class... Argument>
+  void remark(fmt::format_string<Argument...> format, Argument&&... arguments) {
+    line("// {}", comment_line(fmt::format(format, std::forward<Argument>(arguments)...)));
   }
 
   // Closes and opens modules until `scope` is reached.
@@ -168,6 +182,7 @@ class IdlWriter {
   std::size_t depth_ = 0;
   std::string current_;
   bool started_ = false;
+  bool any_ = false;  // a definition has been written
 };
 
 }  // namespace

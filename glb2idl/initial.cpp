@@ -99,7 +99,8 @@ class Filler {
       return fail(from.at, fmt::format("expected a list of up to {} values in braces, such as {{ ... }}", count));
     }
     if (from.list.size() > count) {
-      return fail(from.list[count].at, fmt::format("more than the {} values of this array, remove the rest", count));
+      return fail(from.list[count].at,
+                  fmt::format("the array has room for {} value{}, remove the rest", count, count == 1 ? "" : "s"));
     }
     std::uint64_t stride = type.element_size;
     for (std::size_t i = level + 1; i < type.dims.size(); ++i) {
@@ -118,7 +119,8 @@ class Filler {
     }
     if (from.list.size() > type.fields.size()) {
       return fail(from.list[type.fields.size()].at,
-                  fmt::format("more than the {} fields of {}, remove the rest", type.fields.size(), type.name));
+                  fmt::format("{} has {} field{}, remove the rest", type.name, type.fields.size(),
+                              type.fields.size() == 1 ? "" : "s"));
     }
     bool good = true;
     for (std::size_t i = 0; i < from.list.size(); ++i) {

@@ -116,7 +116,7 @@ const Words& macros() {
 const Words& system_types() {
   static const Words words = split(
       "DIR FILE blkcnt_t blksize_t byte caddr_t char8_t clock_t clockid_t daddr_t dev_t div_t double_t errno_t "
-      "error_t fd_set float_t fpos_t gid_t id_t ino_t int_t intmax_t intptr_t jmp_buf key_t ldiv_t locale_t loff_t "
+      "error_t fd_set float_t fpos_t gid_t id_t ino_t intmax_t intptr_t jmp_buf key_t ldiv_t locale_t loff_t "
       "max_align_t mode_t nlink_t nullptr_t off_t pid_t ptrdiff_t quad_t register_t sem_t siginfo_t sigset_t size_t "
       "ssize_t stack_t suseconds_t time_t timer_t u_char u_int u_long u_short uid_t uint uintmax_t uintptr_t ulong "
       "useconds_t ushort va_list wint_t ");
@@ -238,7 +238,7 @@ std::string proposal(std::string_view name, NameRole role, bool global) {
     word.pop_back();
   }
   if (word.empty() || lower(word).starts_with("indurop") || (word[0] >= '0' && word[0] <= '9')) {
-    word.insert(0, "my_");
+    word = word.empty() ? "my" : "my_" + word;
   }
   if (!objection(word, role, global)) {
     return word;

@@ -55,8 +55,10 @@ class Reader {
                                                  : fmt::format("there is no annotation '@{}', did you mean '@{}'?",
                                                                annotation.name.text, near));
     } else if (annotation.arguments.size() != rule->arguments) {
-      context_.error(annotation.at, fmt::format("expected {} value{} here, write {}", rule->arguments,
-                                                rule->arguments == 1 ? "" : "s", rule->usage));
+      const auto count = rule->arguments == 0   ? std::string("no value")
+                         : rule->arguments == 1 ? "one value"
+                                                : "two values";
+      context_.error(annotation.at, fmt::format("@{} takes {}, write {}", rule->name, count, rule->usage));
     } else if (!seen_.insert(rule->name).second) {
       context_.error(annotation.at, fmt::format("@{} is given twice, remove one", rule->name));
     } else if (is_allowed(*rule, annotation)) {
@@ -69,8 +71,8 @@ class Reader {
     const bool good =
         target_ == NoteTarget::Variable || rule.name == "desc" || (target_ == NoteTarget::Field && rule.on_fields);
     if (!good) {
-      context_.error(annotation.at, fmt::format("@{} belongs to a variable{}, remove it here", rule.name,
-                                                rule.on_fields ? " or a field" : ", which has it as a whole"));
+      const char* where = rule.on_fields ? "a variable or a field" : "a whole variable";
+      context_.error(annotation.at, fmt::format("@{} belongs to {}, remove it here", rule.name, where));
       return false;
     }
     if ((rule.name == "unit" || rule.name == "range") && !is_number(type_)) {

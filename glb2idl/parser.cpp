@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kStarters{"struct",  "enum", "typedef", "const", "namespace",
                                                     "include", "#",    "@",       "union"};
+constexpr std::array<std::string_view, 4> kOutermost{"namespace", "include", "#", "typedef"};
 constexpr std::array<std::string_view, 12> kMeaningless{"volatile", "static",       "extern",   "register",
                                                         "inline",   "mutable",      "auto",     "constinit",
                                                         "signal",   "thread_local", "restrict", "friend"};
@@ -61,7 +62,8 @@ class Parser {
       const Token& token = in_.peek();
       const bool next_named = token.newline_before && token.kind == TokenKind::Identifier &&
                               in_.peek(1).kind == TokenKind::Identifier && !in_.peek(1).newline_before;
-      if (depth == 0 && !first && (begins_declaration(token) || next_named)) {
+      const bool outer = token.newline_before && contains(kOutermost, token.text);  // a '}' is missing
+      if (!first && (outer || (depth == 0 && (begins_declaration(token) || next_named)))) {
         return;
       }
       if (token.is("}") && depth == 0 && in_struct) {
@@ -97,6 +99,11 @@ class Parser {
       in_.take();
       return include();
     }
+    if (in_.peek().is("}") && ignored_braces_ > 0) {
+      in_.take();
+      --ignored_braces_;
+      return true;
+    }
     if (in_.peek().is("}")) {
       in_.error(in_.take().at, "this '}' closes nothing, remove it");
       return true;
@@ -115,11 +122,13 @@ class Parser {
       return false;
     }
     if (in_.peek().is("{")) {
-      in_.error(in_.peek().at,
+      in_.error(in_.take().at,
                 fmt::format("a namespace has no braces here, write 'namespace {};': it holds until the next "
                             "'namespace'",
                             join_names(path->parts, ".")));
-      return false;
+      ++ignored_braces_;
+      out_.items.emplace_back(ast::Namespace{std::move(*path)});
+      return true;
     }
     out_.items.emplace_back(ast::Namespace{std::move(*path)});
     return finish("the namespace");
@@ -430,7 +439,7 @@ class Parser {
     } else if (!dimensions(result)) {
       return std::nullopt;
     }
-    if (!trailing_annotations(result)) {
+    if (!trailing_annotations(result) || !deadline(result)) {
       return std::nullopt;
     }
     const bool braces = in_.peek().is("{") && !in_.peek().newline_before;
@@ -526,12 +535,17 @@ class Parser {
         return false;
       }
     }
-    if (in_.peek().is("deadline")) {
-      in_.take();
-      to.deadline = values_.expression();
-      return to.deadline.has_value();
+    return deadline(to);
+  }
+
+  // Before or behind the annotations.
+  bool deadline(ast::Declarator& to) {
+    if (!to.is_function || to.deadline || !in_.peek().is("deadline") || in_.peek().newline_before) {
+      return true;
     }
-    return true;
+    in_.take();
+    to.deadline = values_.expression();
+    return to.deadline.has_value();
   }
 
   // ---- descriptions
@@ -577,6 +591,7 @@ class Parser {
   ExpressionParser values_;
   ast::File out_;
   int depth_ = 0;
+  int ignored_braces_ = 0;  // of namespaces, already reported
 };
 
 }  // namespace

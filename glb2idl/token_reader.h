@@ -45,7 +45,13 @@ class TokenReader {
     if (accept(symbol)) {
       return true;
     }
-    error(peek().at, fmt::format("expected '{}' {}, found {}", symbol, where, spelled(peek())));
+    const Token& found = peek();
+    if (found.newline_before) {  // the line ended too early: point behind it
+      const Span last = previous().at;
+      error({last.file, last.offset + last.length, 1}, fmt::format("expected '{}' {}", symbol, where));
+    } else {
+      error(found.at, fmt::format("expected '{}' {}, found {}", symbol, where, spelled(found)));
+    }
     return false;
   }
   void error(Span at, std::string text) { diagnostics_.error(at, std::move(text)); }

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each folder beside this file is a case: in.glb and what glb2idl must make of it. After a wanted change of the
+// output run the test with INDUROP_UPDATE_GOLDEN=1 and look at the difference.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "glb2idl/compiler.h"
+#include "glb2idl/emit.h"
+
+namespace indurop::glb2idl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
+
+void expect_file(const fs::path& path, const std::string& text) {
+  if (std::getenv("INDUROP_UPDATE_GOLDEN") != nullptr) {
+    if (text.empty()) {
+      fs::remove(path);
+    } else {
+      std::ofstream(path, std::ios::binary) << text;
+    }
+    return;
+  }
+  EXPECT_EQ(text.empty(), !fs::exists(path)) << path;
+  EXPECT_EQ(slurp(path), text) << path;
+}
+
+class Golden : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, Output_is_as_expected) {
+  const fs::path folder = fs::path(GLB2IDL_GOLDEN) / GetParam();
+  // Names in messages do not depend on where the tree lies.
+  const auto read = [&](const std::string& path) {
+    ReadResult got = read_source_file((folder / path).string());
+    got.identity = fs::path(path).lexically_normal().string();
+    return got;
+  };
+  const Compilation sut = compile({"in.glb"}, read);
+
+  EXPECT_EQ(sut.ok, sut.messages.empty());
+  expect_file(folder / "expected.err", sut.messages);
+  std::string idl;
+  std::string header;
+  std::string layout;
+  if (sut.ok) {
+    ASSERT_FALSE(sut.program.units.empty());
+    const std::size_t last = sut.program.units.size() - 1;
+    idl = emit_idl(sut.program, sut.program.units[last]);
+    header = emit_cpp(sut.program, last, hidden_names(sut.program));
+    layout = emit_layout(sut.program, sut.program.units[last]);
+  }
+  expect_file(folder / "expected.idl", idl);
+  expect_file(folder / "expected.h", header);
+  expect_file(folder / "expected.layout", layout);
+}
+
+TEST_P(Golden, Schema_in_the_header_can_be_read_back) {
+  const Compilation sut = compile({(fs::path(GLB2IDL_GOLDEN) / GetParam() / "in.glb").string()});
+  for (const Unit& unit : sut.program.units) {
+    const schema::Schema written = schema_of(unit);
+    const auto read = schema::from_json(schema::to_json(written));
+    ASSERT_TRUE(read.ok()) << unit.stem;
+    ASSERT_EQ(read.value().variables.size(), written.variables.size());
+    ASSERT_EQ(read.value().functions.size(), written.functions.size());
+    for (std::size_t i = 0; i < written.variables.size(); ++i) {
+      EXPECT_EQ(read.value().variables[i].type_hash, written.variables[i].type_hash) << written.variables[i].name;
+      EXPECT_EQ(read.value().variables[i].initial, written.variables[i].initial) << written.variables[i].name;
+      EXPECT_EQ(read.value().variables[i].description, written.variables[i].description) << written.variables[i].name;
+    }
+  }
+}
+
+std::vector<std::string> cases() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(GLB2IDL_GOLDEN)) {
+    if (fs::exists(entry.path() / "in.glb")) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace indurop::glb2idl
