@@ -259,6 +259,10 @@ Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::sp
   if (try_read(ring, variable.value_size, offset, to.data(), length)) {
     return {};
   }
+  if (impl_->file.mode() == Mode::ReadWrite) {
+    read_slow(impl_->ring(variable), to.data(), offset, length);
+    return {};
+  }
   const std::int64_t limit = rt::now_ns() + kReadLimitNs;
   while (rt::now_ns() < limit) {
     ::sched_yield();

@@ -57,7 +57,9 @@ class Store {
   [[nodiscard]] const DirectoryEntry* find(std::uint64_t name_hash) const noexcept;
   [[nodiscard]] std::span<const DirectoryEntry> directory() const noexcept;
 
-  // One consistent version of a variable's bytes. Works on a read-only mapping. Errors: OutOfRange, Timeout.
+  // One consistent version of a variable's bytes. If writers keep overtaking the copy, a read-write store makes them
+  // wait by taking the lock; a read-only one cannot, and tries for 50 ms, yielding the processor.
+  // Errors: OutOfRange, Timeout (read-only: the variable is written without a pause).
   Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
   // One commit, of the whole value or a part of it.
   // Errors: OutOfRange, Busy (lock not free in 5 ms: its holder is stopped), PermissionDenied (read-only).
