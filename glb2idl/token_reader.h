@@ -22,6 +22,7 @@ class TokenReader {
     return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
   }
   [[nodiscard]] const Token& previous() const noexcept { return tokens_[at_ == 0 ? 0 : at_ - 1]; }
+  [[nodiscard]] const Token& at(std::size_t position) const noexcept { return tokens_[position]; }
   [[nodiscard]] bool at_end() const noexcept { return peek().kind == TokenKind::End; }
   [[nodiscard]] std::size_t position() const noexcept { return at_; }
   void rewind(std::size_t position) noexcept { at_ = position; }

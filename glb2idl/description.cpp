@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Comments as descriptions.
+
+#include "glb2idl/description.h"
+
+#include <algorithm>
+
+namespace indurop::glb2idl {
+namespace {
+
+bool lies_before(const Comment& comment, std::uint32_t offset) noexcept {
+  return comment.offset < offset;
+}
+
+}  // namespace
+
+std::string Descriptions::find(const TokenReader& in, std::size_t begin) const {
+  const Span last = in.previous().at;
+  const auto behind = std::lower_bound(comments_.begin(), comments_.end(), last.offset + last.length, lies_before);
+  if (behind != comments_.end() && behind->first_line == sources_.line_of(last) &&
+      behind->offset < in.peek().at.offset && !behind->text.empty()) {
+    return behind->text;
+  }
+  return above(in.at(begin).at);
+}
+
+std::string Descriptions::above(Span first) const {
+  const std::string& path = sources_.file(file_).path;
+  const std::string_view file_name = std::string_view(path).substr(path.rfind('/') + 1);
+  std::uint32_t line = sources_.line_of(first);
+  std::string text;
+  auto i = std::lower_bound(comments_.begin(), comments_.end(), first.offset, lies_before);
+  while (i != comments_.begin()) {
+    --i;
+    if (!i->own_line || i->last_line + 1 != line || i->text == file_name) {
+      break;
+    }
+    text = text.empty() || i->text.empty() ? i->text + text : i->text + " " + text;
+    line = i->first_line;
+  }
+  return text;
+}
+
+}  // namespace indurop::glb2idl
