@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program started by a test, with what it prints; killed at the latest when the object ends.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace indurop::test {
+
+// Machines that run tests are slow and busy; no test fails for being slower than it should.
+inline constexpr std::chrono::seconds kPatience{30};
+
+// Waits until `condition` holds; false if it does not in all the time there is.
+template <class Condition>
+bool wait_until(Condition condition, std::chrono::milliseconds patience = kPatience) {
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) {
+      return condition();
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+struct Environment {
+  std::vector<std::string> variables{};  // "NAME=value" on top of the test's own
+  uid_t user = static_cast<uid_t>(-1);   // run as this user (needs root)
+  std::function<bool()> prepare{};       // runs in the new process before the program; false: the program is not run
+};
+
+class Program {
+ public:
+  // Exit code of a program whose preparation failed.
+  static constexpr int kNotPrepared = 126;
+
+  explicit Program(const std::vector<std::string>& command, const Environment& environment = {});
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+  [[nodiscard]] bool running();
+  void signal(int number) const;
+  void kill();
+  // Exit code or 128 + signal once it has ended by itself; -1 if it does not.
+  int wait();
+
+  void input(const std::string& text) const;
+  [[nodiscard]] std::string out() const { return contents(out_); }
+  [[nodiscard]] std::string err() const { return contents(err_); }
+  bool prints(const std::string& text);  // on stdout, sooner or later
+  bool says(const std::string& text);    // on stderr
+
+ private:
+  static std::string contents(int file);
+  int in_ = -1;
+  int out_ = -1;
+  int err_ = -1;
+  pid_t pid_ = -1;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+// False also for a process that has ended and that its parent has not asked about yet.
+bool alive(pid_t pid);
+
+// For Environment::prepare: a private view of the file system with an empty one of this size at `folder`.
+bool mount_small(const std::string& folder, const std::string& size);
+
+}  // namespace indurop::test

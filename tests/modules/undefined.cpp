@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls a function that no library it was linked with defines.
+extern "C" void function_nobody_wrote();
+
+extern "C" void run() { function_nobody_wrote(); }
