@@ -273,15 +273,23 @@ bool Node::call_guarded(std::uint32_t index, const char* phase, void (*function)
                    describe(thread.error()));
     return false;
   }
-  std::int64_t give_up = 0;
+  // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
+  const std::int64_t began = rt::now_ns();
+  std::int64_t give_up = std::string_view(phase) == "stop" ? began + kStopGraceNs : 0;
+  bool told = false;
   while (!done.load(std::memory_order_acquire)) {
     const int number = signals_.wait(kLookNs / 10);
-    console_.report(rt::now_ns(), false);
+    const std::int64_t now = rt::now_ns();
+    console_.report(now, false);
     if (number != 0 && give_up == 0) {
-      give_up = rt::now_ns() + kStopGraceNs;
+      give_up = now + kStopGraceNs;
     }
-    if (give_up != 0 && rt::now_ns() > give_up) {
-      runner.enforce_budget(rt::now_ns(), true, 1);
+    if (give_up != 0 && now > give_up) {
+      runner.enforce_budget(now, true, 1);
+    } else if (!told && now - began > kStopGraceNs) {
+      console_.warning("module {}: {}() has not returned for {} s; the node waits for it", config_.modules[index].name,
+                       phase, kStopGraceNs / rt::kNanosPerSecond);
+      told = true;
     }
   }
   thread.value().join();
