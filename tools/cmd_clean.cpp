@@ -49,7 +49,8 @@ std::vector<std::string> chosen(Context& context, bool all, int& code) {
       code = kUsage;
       return {};
     }
-    return {name};
+    const auto there = nodes_with_files();
+    return std::find(there.begin(), there.end(), name) != there.end() ? std::vector{name} : std::vector<std::string>{};
   }
   auto names = nodes_with_files();
   if (all || names.size() <= 1) {

@@ -45,8 +45,8 @@ class Counter {
       squares_ += each * each * static_cast<double>(updates);
       window_ += updates;
     }
-    if (updates > 0 || last_ns_ == 0) {
-      last_ns_ = now_ns;
+    if (updates > 0) {
+      last_ns_ = now_ns;  // the first update seen begins the window
     }
   }
 

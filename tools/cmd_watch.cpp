@@ -231,18 +231,16 @@ class View {
     return true;
   }
 
-  [[nodiscard]] std::vector<std::string> lines() const {
+  [[nodiscard]] std::vector<std::string> lines() {
     const Output& out = context_.out;
     const auto values = source_.values();
     const std::size_t end = std::min(values.size(), first_ + visible());
-    std::size_t name_width = 4;
-    std::size_t value_width = 5;
     std::vector<std::string> texts;
     for (std::size_t i = first_; i < end; ++i) {
       texts.push_back(printable(text_of(values[i])));
-      name_width = std::max(name_width, display_width(values[i].item.name));
+      name_width_ = std::max(name_width_, display_width(values[i].item.name));
       if (display_width(texts.back()) <= kAlignUpTo) {
-        value_width = std::max(value_width, display_width(texts.back()));
+        value_width_ = std::max(value_width_, display_width(texts.back()));
       }
     }
     std::vector<std::string> out_lines;
@@ -251,13 +249,13 @@ class View {
         (source_.alive() ? out.paint(Style::Good, "running") : out.paint(Style::Bad, source_.absence())) +
         (paused_ ? "  " + out.paint(Style::Warn, "paused") : ""));
     out_lines.push_back(
-        out.paint(Style::Bold, fmt::format("  {:<{}}  {:>{}}  UNIT", "NAME", name_width, "VALUE", value_width)));
+        out.paint(Style::Bold, fmt::format("  {:<{}}  {:>{}}  UNIT", "NAME", name_width_, "VALUE", value_width_)));
     for (std::size_t i = first_; i < end; ++i) {
       const auto& value = values[i];
       const bool mark = value.changed && !paused_;
       out_lines.push_back(fmt::format(
-          "{} {:<{}}  {}  {}", mark ? out.paint(Style::Accent, "*") : " ", value.item.name, name_width,
-          out.paint(mark ? Style::Accent : Style::None, fmt::format("{:>{}}", texts[i - first_], value_width)),
+          "{} {:<{}}  {}  {}", mark ? out.paint(Style::Accent, "*") : " ", value.item.name, name_width_,
+          out.paint(mark ? Style::Accent : Style::None, fmt::format("{:>{}}", texts[i - first_], value_width_)),
           printable(value.item.place.unit)));
     }
     std::string footer = screen_.key_file() >= 0 ? "q quit, space pause" : "Ctrl-C quits";
@@ -274,6 +272,9 @@ class View {
   Screen screen_;
   std::size_t first_ = 0;
   bool paused_ = false;
+  // Columns only grow: nothing jumps when a value has fewer digits.
+  std::size_t name_width_ = 4;
+  std::size_t value_width_ = 5;
 };
 
 void print_once(Context& context, WatchSource& source) {

@@ -32,6 +32,7 @@ INDUROP_PACKAGE ?= @PACKAGE@
 INDUROP_PROGRAMS ?= @PROGRAMS@
 INDUROP = $(firstword $(wildcard $(INDUROP_PROGRAMS)/indurop) indurop)
 
+MAKEFLAGS += --no-print-directory
 .PHONY: all check run clean
 all:
 	@cmake -S . -B build $(if $(wildcard $(INDUROP_PACKAGE)/InduRoPConfig.cmake),"-DInduRoP_DIR=$(INDUROP_PACKAGE)")
