@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::int64_t kSummaryNs = 1'000'000'000;
 
-double microseconds(std::int64_t ns) noexcept { return static_cast<double>(ns) / 1000; }
+double microseconds(std::int64_t ns) noexcept {
+  return static_cast<double>(ns) / 1000;
+}
 
 // The newest record of an overrun of `module`, null if it was overwritten.
 const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, std::uint32_t module) {

@@ -61,8 +61,9 @@ bool ModuleLibrary::load(const std::filesystem::path& file, bool own_copy, std::
   }
   if (handle_ == nullptr) {
     const char* reason = ::dlerror();
-    problem = fmt::format("cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
-                          reason != nullptr ? reason : "unknown reason");
+    problem = fmt::format(
+        "cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
+        reason != nullptr ? reason : "unknown reason");
     return false;
   }
   find_functions();

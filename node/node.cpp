@@ -10,8 +10,8 @@
 #include "deploy/reader.h"
 #include "node/report.h"
 #include "node/setup.h"
-#include "rt/guard.h"
 #include "rt/clock.h"
+#include "rt/guard.h"
 #include "runtime/host.h"
 #include "vars/process.h"
 
@@ -23,8 +23,7 @@ using scheduler::ModuleType;
 using scheduler::Operation;
 
 constexpr std::int64_t kLookNs = 10'000'000;
-constexpr std::int64_t kEnrolNs = 500'000'000;     // how long the first tick waits for process modules
-constexpr std::int64_t kStopGraceNs = 3'000'000'000;
+constexpr std::int64_t kEnrolNs = 500'000'000;  // how long the first tick waits for process modules
 
 template <std::size_t N>
 void copy_text(char (&to)[N], std::string_view from) {
@@ -52,8 +51,8 @@ scheduler::SpinSettings to_spin(const deploy::SpinSetting& setting) {
 
 bool ended_well(const std::string& node) {
   const auto file = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
-  return file.ok() && static_cast<const scheduler::RunBlock*>(file.value().data())->state.load() ==
-                          scheduler::NodeState::Stopped;
+  return file.ok() &&
+         static_cast<const scheduler::RunBlock*>(file.value().data())->state.load() == scheduler::NodeState::Stopped;
 }
 
 }  // namespace
@@ -114,9 +113,10 @@ bool Node::claim_name() {
   auto lock = vars::NodeLock::acquire(options_.node, holder);
   if (!lock) {
     if (lock.error().code == Errc::Busy) {
-      console_.error("a node of this name is already running{}; stop it with `indurop stop --node {}` or choose another "
-                     "name with --node",
-                     holder > 0 ? fmt::format(" (pid {})", holder) : "", options_.node);
+      console_.error(
+          "a node of this name is already running{}; stop it with `indurop stop --node {}` or choose another "
+          "name with --node",
+          holder > 0 ? fmt::format(" (pid {})", holder) : "", options_.node);
     } else {
       console_.error("{}; choose another name with --node, or let their owner remove /dev/shm/indurop.{}*",
                      describe(lock.error()), options_.node);
@@ -166,16 +166,18 @@ bool Node::make_memory() {
   previous_run_ended_well_ = ended_well(options_.node);
   auto store = vars::Store::create(options_.node, check_.schema);
   if (!store) {
-    console_.error("cannot make the shared variables: {}{}", describe(store.error()),
-                   store.error().code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
+    console_.error(
+        "cannot make the shared variables: {}{}", describe(store.error()),
+        store.error().code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
     return fail(kFailed);
   }
   store_ = std::move(store).value();
   setup_ = make_run_setup(config_, check_, options_.node, {core_, obtained_.fifo != 0});
   auto file = vars::RunFile::create(options_.node, scheduler::run_block_size(setup_));
   if (!file) {
-    console_.error("cannot make the run's shared memory: {}{}", describe(file.error()),
-                   file.error().code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
+    console_.error(
+        "cannot make the run's shared memory: {}{}", describe(file.error()),
+        file.error().code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
     return fail(kFailed);
   }
   run_file_ = std::move(file).value();
@@ -247,81 +249,6 @@ bool Node::load_modules() {
   return !interrupted();
 }
 
-bool Node::call_guarded(std::uint32_t index, const char* phase, void (*function)()) {
-  // The scheduler's runner contains faults; start() and stop() are one run of it without a schedule.
-  scheduler::CoreTrace trace;
-  scheduler::Task task;
-  task.index = index;
-  task.run = function;
-  scheduler::TaskState state;
-  scheduler::ModuleRecord scratch{};
-  state.task = task;
-  state.record = &scratch;
-  scheduler::RunBlock& block = *run_;
-  scheduler::Runner runner(block, clock_, hooks(), trace, 1);
-  std::atomic<bool> done{false};
-  auto thread = rt::Thread::start({"irp-phase", 0, -1, 8 * 1024 * 1024}, [&] {
-    const rt::HandlerStack handler_stack;
-    runner.attach_thread();
-    scheduler::TaskState* const only[] = {&state};
-    runner.run(only, 0, clock_.now());
-    runner.detach_thread();
-    done.store(true, std::memory_order_release);
-  });
-  if (!thread) {
-    console_.error("module {}: {}() could not be called: {}", config_.modules[index].name, phase,
-                   describe(thread.error()));
-    return false;
-  }
-  // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
-  const std::int64_t began = rt::now_ns();
-  std::int64_t give_up = std::string_view(phase) == "stop" ? began + kStopGraceNs : 0;
-  bool told = false;
-  while (!done.load(std::memory_order_acquire)) {
-    const int number = signals_.wait(kLookNs / 10);
-    const std::int64_t now = rt::now_ns();
-    console_.report(now, false);
-    if (number != 0 && give_up == 0) {
-      give_up = now + kStopGraceNs;
-    }
-    if (give_up != 0 && now > give_up) {
-      runner.enforce_budget(now, true, 1);
-    } else if (!told && now - began > kStopGraceNs) {
-      console_.warning("module {}: {}() has not returned for {} s; the node waits for it", config_.modules[index].name,
-                       phase, kStopGraceNs / rt::kNanosPerSecond);
-      told = true;
-    }
-  }
-  thread.value().join();
-  if (state.enabled.load()) {
-    return true;
-  }
-  scheduler::ModuleRecord& record = run_->modules()[index];
-  const std::string text = fmt::format("{}() failed: {}", phase, scratch.last_fault);
-  copy_text(record.last_fault, text);
-  record.fault_kind.store(static_cast<std::uint32_t>(scheduler::FaultKind::StartFailed));
-  record.state.store(ModuleState::Faulted);
-  record.faults.fetch_add(1, std::memory_order_release);
-  return false;
-}
-
-bool Node::call_phase(const char* phase, void (*ModuleDescriptor::*function)()) {
-  std::vector<std::uint32_t> order(config_.modules.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return config_.modules[a].priority < config_.modules[b].priority;
-  });
-  bool ok = true;
-  for (const std::uint32_t i : order) {
-    if (auto* call = libraries_[i].functions().*function; call != nullptr) {
-      ok = call_guarded(i, phase, call) && ok;
-    }
-  }
-  return ok;
-}
-
 bool Node::start_modules() {
   engine_ = std::make_unique<scheduler::Engine>(
       *run_, tasks_,
@@ -329,7 +256,9 @@ bool Node::start_modules() {
                                 to_spin(options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}))),
                                 rt::kNanosPerSecond},
       hooks(), clock_);
-  const bool ok = call_phase("start", &ModuleDescriptor::start);
+  phases_ = std::make_unique<Phases>(config_, *run_, libraries_, console_, signals_, hooks());
+  normal_threads_ = std::make_unique<NormalThreads>(config_, *run_, libraries_, hooks());
+  const bool ok = phases_->call_all("start", &ModuleDescriptor::start);
   console_.report(rt::now_ns(), false);
   started_ = true;
   if (!ok && !interrupted()) {
@@ -360,34 +289,6 @@ bool Node::start_modules() {
   return !interrupted();
 }
 
-void Node::run_non_real(std::uint32_t index) {
-  const deploy::Nanos period = config_.modules[index].period;
-  scheduler::ModuleRecord& record = run_->modules()[index];
-  std::int64_t next = rt::now_ns();
-  const rt::HandlerStack handler_stack;
-  scheduler::CoreTrace trace;
-  scheduler::TaskState state;
-  state.task.index = index;
-  state.task.operation = Operation::NonReal;
-  state.task.run = libraries_[index].functions().run;
-  state.record = &record;
-  scheduler::Runner runner(*run_, clock_, hooks(), trace, 1);
-  runner.attach_thread();
-  record.state.store(ModuleState::Running);
-  scheduler::TaskState* const only[] = {&state};
-  do {
-    runner.run(only, run_->tick.load(std::memory_order_relaxed), rt::now_ns());
-    next = std::max(next + period.count(), rt::now_ns());
-    while (period.count() > 0 && rt::now_ns() < next && !engine_->stopping()) {
-      rt::sleep_until(std::min(next, rt::now_ns() + kLookNs));
-    }
-  } while (period.count() > 0 && !engine_->stopping() && state.enabled.load());
-  runner.detach_thread();
-  if (state.enabled.load()) {
-    record.state.store(ModuleState::Exited);
-  }
-}
-
 bool Node::start_schedule() {
   store_->prefault();
   run_file_->prefault();
@@ -416,15 +317,7 @@ bool Node::start_schedule() {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return fail(kFailed);
   }
-  for (std::uint32_t i = 0; i < config_.modules.size(); ++i) {
-    if (config_.modules[i].type == ModuleType::Thread && config_.modules[i].operation == Operation::NonReal) {
-      if (auto thread = rt::Thread::start({"irp-normal", 0, config_.modules[i].core, 8 * 1024 * 1024},
-                                          [this, i] { run_non_real(i); });
-          thread) {
-        non_real_.push_back(std::move(thread).value());
-      }
-    }
-  }
+  normal_threads_->start();
   run_->state.store(scheduler::NodeState::Running);
   console_.info("running {} modules of {}: basic period {}, macro period {}{}", config_.modules.size(),
                 config_.file.filename().string(), deploy::format_duration(deploy::Nanos(setup_.basic_period_ns)),
@@ -479,9 +372,9 @@ void Node::supervise() {
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
     exit_ = kFailed;
-    stop_because(fmt::format("module {}: {}", run_->modules()[order - 1].name,
-                             run_->modules()[order - 1].faults.load() > 0 ? "faulted (policy stop-node)"
-                                                                           : "overrun (policy stop-node)"));
+    stop_because(fmt::format(
+        "module {}: {}", run_->modules()[order - 1].name,
+        run_->modules()[order - 1].faults.load() > 0 ? "faulted (policy stop-node)" : "overrun (policy stop-node)"));
   }
 }
 
@@ -494,13 +387,15 @@ void Node::shut_down() {
     engine_->request_stop();
     engine_->join();
   }
-  non_real_.clear();
+  if (normal_threads_ != nullptr) {
+    normal_threads_->stop();
+  }
   if (processes_ != nullptr) {
     processes_->end_all();
   }
   runtime::stop_function_servers();
   if (started_) {
-    (void)call_phase("stop", &ModuleDescriptor::stop);
+    (void)phases_->call_all("stop", &ModuleDescriptor::stop);
   }
   if (retainer_ != nullptr) {
     retainer_->stop(console_);

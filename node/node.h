@@ -17,7 +17,9 @@
 #include "node/console.h"
 #include "node/failsafe.h"
 #include "node/module_library.h"
+#include "node/normal_threads.h"
 #include "node/options.h"
+#include "node/phases.h"
 #include "node/processes.h"
 #include "node/retainer.h"
 #include "node/stop_signal.h"
@@ -56,9 +58,6 @@ class Node {
   bool fail(int code);
   bool interrupted();
   void stop_because(const std::string& reason);
-  bool call_phase(const char* phase, void (*ModuleDescriptor::*function)());
-  bool call_guarded(std::uint32_t index, const char* phase, void (*function)());
-  void run_non_real(std::uint32_t index);
   scheduler::Hooks hooks();
 
   Options options_;
@@ -85,7 +84,8 @@ class Node {
   scheduler::SystemClock clock_;
   std::unique_ptr<scheduler::Engine> engine_;
   std::unique_ptr<Processes> processes_;
-  std::vector<rt::Thread> non_real_;
+  std::unique_ptr<Phases> phases_;
+  std::unique_ptr<NormalThreads> normal_threads_;
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   bool started_ = false;
 };

@@ -13,7 +13,8 @@ namespace indurop::node {
 namespace {
 
 std::string check_duration(const std::string& text) {
-  return deploy::parse_duration(text) ? "" : fmt::format("'{}' is no duration: write 500ms, 5s, 100us or nanoseconds", text);
+  return deploy::parse_duration(text) ? ""
+                                      : fmt::format("'{}' is no duration: write 500ms, 5s, 100us or nanoseconds", text);
 }
 
 std::string check_node(const std::string& text) {

@@ -26,11 +26,11 @@ enum ExitCode : int {
 struct Options {
   std::filesystem::path config;
   std::string node = "local";
-  std::optional<deploy::Nanos> duration;   // empty: until stopped
-  std::filesystem::path report;            // empty: none
+  std::optional<deploy::Nanos> duration;  // empty: until stopped
+  std::filesystem::path report;           // empty: none
   bool require_rt = false;
   bool adjust = false;
-  bool quiet = false;                      // no summary, no messages of the node but warnings and errors
+  bool quiet = false;  // no summary, no messages of the node but warnings and errors
   std::optional<int> core;
   std::optional<deploy::SpinSetting> spin;
 };

@@ -40,7 +40,9 @@ Processes::Processes(const deploy::Config& config, scheduler::RunBlock& run, std
   }
 }
 
-Processes::~Processes() { end_all(); }
+Processes::~Processes() {
+  end_all();
+}
 
 bool Processes::managed(const Child& child) const noexcept {
   return child.module->operation != Operation::NonReal && child.module->signal == 0;
@@ -178,8 +180,8 @@ void Processes::enforce_budget(Child& child, std::int64_t now_ns) {
   }
   const std::uint64_t done = at.done.load(std::memory_order_acquire);
   const std::int64_t start = at.start_ns.load(std::memory_order_relaxed);
-  const bool running = done != at.released.load(std::memory_order_relaxed) &&
-                       start >= at.release_ns.load(std::memory_order_relaxed);
+  const bool running =
+      done != at.released.load(std::memory_order_relaxed) && start >= at.release_ns.load(std::memory_order_relaxed);
   if (running && now_ns - start > module.budget_ns) {
     child.killed_for_budget = true;
     ::kill(child.pid, SIGKILL);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Process modules: launched, watched, restarted within limits, ended in order. A normal thread's business; the real-time
-// threads only see ModuleRecord::state and the release slots.
+// Process modules: launched, watched, restarted within limits, ended in order. A normal thread's business; the
+// real-time threads only see ModuleRecord::state and the release slots.
 
 #pragma once
 
@@ -20,8 +20,8 @@ namespace indurop::node {
 
 class Processes {
  public:
-  Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
-            Console& console, FailSafe& failsafe);
+  Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
+            FailSafe& failsafe);
   ~Processes();
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;

@@ -18,7 +18,9 @@ using scheduler::ModuleState;
 using scheduler::ModuleType;
 using scheduler::Operation;
 
-const char* text_of(ModuleType type) noexcept { return type == ModuleType::Thread ? "thread" : "process"; }
+const char* text_of(ModuleType type) noexcept {
+  return type == ModuleType::Thread ? "thread" : "process";
+}
 
 const char* text_of(Operation operation) noexcept {
   switch (operation) {
@@ -81,7 +83,9 @@ ordered_json module_json(const scheduler::ModuleRecord& module) {
   return json;
 }
 
-double microseconds(std::int64_t ns) noexcept { return static_cast<double>(ns) / 1000; }
+double microseconds(std::int64_t ns) noexcept {
+  return static_cast<double>(ns) / 1000;
+}
 
 }  // namespace
 
@@ -133,9 +137,9 @@ std::string summary_table(const scheduler::RunBlock& run) {
   for (std::uint32_t i = 0; i < run.module_count; ++i) {
     width = std::max(width, std::strlen(run.modules()[i].name));
   }
-  std::string out = fmt::format("{:<{}} {:>9} {:>7} {:>8} {:>7}  {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}\n", "module", width,
-                                "runs", "skipped", "overruns", "misses", "jit p50", "jit p99", "jit max", "exec p50",
-                                "exec p99", "exec max");
+  std::string out =
+      fmt::format("{:<{}} {:>9} {:>7} {:>8} {:>7}  {:>9} {:>9} {:>9}  {:>9} {:>9} {:>9}\n", "module", width, "runs",
+                  "skipped", "overruns", "misses", "jit p50", "jit p99", "jit max", "exec p50", "exec p99", "exec max");
   for (std::uint32_t i = 0; i < run.module_count; ++i) {
     const scheduler::ModuleRecord& module = run.modules()[i];
     const auto jitter = scheduler::summarize(module.jitter);

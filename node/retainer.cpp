@@ -15,8 +15,7 @@ constexpr std::int64_t kLookNs = 20'000'000;
 
 }  // namespace
 
-Retainer::Retainer(vars::Store& store, const std::string& node)
-    : store_(store), file_(vars::state_directory(node)) {
+Retainer::Retainer(vars::Store& store, const std::string& node) : store_(store), file_(vars::state_directory(node)) {
   const auto variables = store_.directory();
   any_ = std::any_of(variables.begin(), variables.end(),
                      [](const vars::DirectoryEntry& v) { return (v.flags & vars::kRetain) != 0; });

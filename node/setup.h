@@ -12,8 +12,8 @@
 namespace indurop::node {
 
 struct Placement {
-  int core = 0;           // of modules that name none
-  bool realtime = true;   // without real-time rights nothing is pinned
+  int core = 0;          // of modules that name none
+  bool realtime = true;  // without real-time rights nothing is pinned
 };
 
 scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const deploy::CheckResult& check,

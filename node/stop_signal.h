@@ -11,7 +11,8 @@ namespace indurop::node {
 class StopSignal {
  public:
   StopSignal() noexcept;
-  // Waits at most this long for a stop signal or the end of a child. Returns the stop signal that has come so far, 0 if none.
+  // Waits at most this long for a stop signal or the end of a child. Returns the stop signal that has come so far, 0 if
+  // none.
   int wait(std::int64_t timeout_ns) noexcept;
   [[nodiscard]] int received() const noexcept { return received_; }
 

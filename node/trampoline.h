@@ -16,8 +16,8 @@ namespace indurop::node {
 struct Launch {
   std::string file;
   std::vector<std::string> arguments;
-  std::string node;       // INDUROP_NODE
-  std::string module;     // INDUROP_MODULE
+  std::string node;    // INDUROP_NODE
+  std::string module;  // INDUROP_MODULE
   int core = -1;
 };
 

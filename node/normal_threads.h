@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Non-real-time thread modules: run() once, or every period as well as a normal thread can. One thread per module.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "deploy/config.h"
+#include "node/module_library.h"
+#include "rt/thread.h"
+#include "scheduler/runner.h"
+
+namespace indurop::node {
+
+class NormalThreads {
+ public:
+  NormalThreads(const deploy::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
+                const scheduler::Hooks& hooks);
+  ~NormalThreads();
+  NormalThreads(const NormalThreads&) = delete;
+  NormalThreads& operator=(const NormalThreads&) = delete;
+
+  void start();
+  // Waits for the runs in progress, 2 s at most: what does not return by then is ended like an overdue run().
+  void stop();
+
+ private:
+  struct Normal;
+  void loop(Normal& normal) noexcept;
+
+  const deploy::Config& config_;
+  scheduler::RunBlock& run_;
+  const std::vector<ModuleLibrary>& libraries_;
+  scheduler::Hooks hooks_;
+  scheduler::SystemClock clock_;
+  scheduler::CoreTrace trace_;
+  std::vector<std::unique_ptr<Normal>> normals_;
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace indurop::node
