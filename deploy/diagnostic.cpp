@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How a diagnostic is printed: the form compilers use, which editors can jump to.
 #include "deploy/config.h"
 
 namespace indurop::deploy {
