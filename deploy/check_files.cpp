@@ -118,7 +118,8 @@ class FileCheck {
 
   void report_unreadable(const Error& failure) {
     if (failure.code == Errc::NotFound) {
-      report_.error(place_, "no such file: " + in_quotes(module_.file_as_written) + missing_hint(module_.file));
+      report_.error(place_, "no such file: " + in_quotes(module_.file_as_written) +
+                                (report_.full() ? "" : missing_hint(module_.file)));
     } else if (failure.code == Errc::PermissionDenied) {
       error("must not be read by this user; check the permissions of the file and its folders (ls -l)");
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "deploy/reader.h"
@@ -352,8 +353,7 @@ class ModuleReader {
       if (!leaf || name == nullptr) {
         continue;
       }
-      const bool twice = std::any_of(module_.properties.begin(), module_.properties.end(),
-                                     [name](const Property& p) { return p.name == *name; });
+      const bool twice = !property_names_.insert(*name).second;
       if (twice) {
         report_.error(child.place, "a second property " + in_quotes(*name) + " in this module; remove one");
       } else {
@@ -367,6 +367,7 @@ class ModuleReader {
   Report& report_;
   Module module_;
   Given given_;
+  std::set<std::string> property_names_;
 };
 
 }  // namespace

@@ -20,6 +20,8 @@ class Report {
   void error(Place place, std::string text) { add(Diagnostic::Severity::Error, place, std::move(text)); }
   void warning(Place place, std::string text) { add(Diagnostic::Severity::Warning, place, std::move(text)); }
   void note(Place place, std::string text) { add(Diagnostic::Severity::Note, place, std::move(text)); }
+  // So many errors that further ones are not shown: searching for their causes is in vain.
+  [[nodiscard]] bool full() const noexcept { return count_[0] > kMost; }
 
  private:
   void add(Diagnostic::Severity severity, Place place, std::string text);

@@ -10,6 +10,7 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::size_t kMaxAttributes = 32;
+constexpr std::size_t kMaxMistakes = 200;
 
 bool is_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -101,7 +102,10 @@ class Scanner {
     return xml_.substr(start, pos_ - start);
   }
 
-  void note(Place place, std::string text) { found_.mistakes.push_back({place, std::move(text)}); }
+  void note(Place place, std::string text) {
+    found_.mistakes.push_back({place, std::move(text)});
+    stopped_ = stopped_ || found_.mistakes.size() >= kMaxMistakes;
+  }
   void stop(Place place, std::string text) {
     note(place, std::move(text));
     stopped_ = true;
