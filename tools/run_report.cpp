@@ -8,14 +8,6 @@
 #include "tools/units.h"
 
 namespace indurop::tools {
-namespace {
-
-std::string yes_no(bool yes, const char* what) {
-  return fmt::format("{}{}", yes ? "" : "no ", what);
-}
-
-}  // namespace
-
 NodeReport report_of(const std::string& node, const RunView& run) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
   const auto& block = run.block();
@@ -50,8 +42,8 @@ std::string rt_text(const scheduler::Obtained& rt) {
   if (rt.pinned != 0) {
     text += fmt::format(" on core {}", rt.tick_core);
   }
-  text += ", " + yes_no(rt.memory_locked != 0, "locked memory");
-  text += ", " + yes_no(rt.cpu_dma_latency != 0, "idle states held short");
+  text += rt.memory_locked != 0 ? ", memory locked" : ", memory not locked";
+  text += rt.cpu_dma_latency != 0 ? ", idle states held short" : ", idle states not held short";
   text += rt.preempt_rt != 0 ? ", PREEMPT_RT kernel" : ", kernel without PREEMPT_RT";
   return text;
 }

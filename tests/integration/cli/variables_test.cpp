@@ -21,7 +21,7 @@ TEST_F(WithNode, Get_of_several_is_a_table_csv_or_json) {
             "knu::Robot::gain             1  mm\n"
             "knu::Robot::joints[1].y      0  deg\n");
   EXPECT_EQ(indurop({"get", "gain", "starts", "-o", "csv"}).out,
-            "name,value,unit\nknu::Robot::gain,1.0,mm\nstation::starts,5,\n");
+            "name,value,unit\nknu::Robot::gain,1,mm\nstation::starts,5,\n");
   const auto json = json_of(indurop({"get", "joints[1]", "-o", "json"}));
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["node"], "local");

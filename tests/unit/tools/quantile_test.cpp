@@ -54,7 +54,7 @@ TEST_F(Quantile, One_outlier_in_a_thousand_is_not_in_p99) {
 TEST_F(Quantile, Two_outliers_in_a_thousand_are_in_p99_9) {
   add(100, 998);
   add(5'000'000, 2);
-  EXPECT_EQ(summarize(*distribution_).p99_9, 5'000'000);
+  EXPECT_NEAR(static_cast<double>(summarize(*distribution_).p99_9), 5'000'000, 312'500);
 }
 
 TEST_F(Quantile, Small_values_are_exact) {

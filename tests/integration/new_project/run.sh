@@ -1,0 +1,45 @@
+#!/bin/sh
+# run.sh FOLDER_OF_PROGRAMS: makes a project, builds it as it is, checks it, runs it, looks at it from outside.
+set -eu
+programs=$1
+folder=$(mktemp -d)
+export INDUROP_NODE=new_project_$$ INDUROP_STATE_DIR="$folder/state"
+runner=
+cleanup() {
+  [ -z "$runner" ] || kill "$runner" 2>/dev/null || true
+  [ -z "$runner" ] || wait "$runner" 2>/dev/null || true
+  "$programs/indurop" clean -q --node "$INDUROP_NODE" >/dev/null 2>&1 || true
+  rm -rf "$folder"
+}
+trap cleanup EXIT
+fail() { echo "FAILED: $*"; [ ! -f run.log ] || cat run.log; exit 1; }
+
+if nm -C "$programs/indurop" 2>/dev/null | grep -qE '__(asan|tsan)_init'; then
+  echo "modules of a plain project cannot be loaded into a sanitizer build"
+  exit 77
+fi
+cd "$folder"
+"$programs/indurop" new cell-7
+cd cell-7
+make
+PATH="$programs:$PATH"
+indurop check || fail "check of a fresh project"
+indurop plan -o json | grep -q '"basic_period_ns": *1000000' || fail "plan"
+indurop run --duration 20s >run.log 2>&1 &
+runner=$!
+tries=0
+until indurop get seen.samples >/dev/null 2>&1 && [ "$(indurop get -q seen.samples)" -ge 12 ]; do
+  tries=$((tries + 1))
+  [ $tries -lt 200 ] || fail "the monitor process does not run"
+  sleep 0.05
+done
+indurop set gain 2.5
+[ "$(indurop get gain)" = 2.5 ] || fail "set"
+indurop set gain 11 2>/dev/null && fail "a value beyond its range was taken"
+indurop status || fail "status"
+indurop vars | grep -q 'wave.*smooth' || fail "vars does not know writers and readers"
+indurop jitter | grep -q response || fail "jitter"
+indurop stop || fail "stop"
+wait "$runner" || true
+runner=
+grep -q smoothed run.log || fail "the monitor printed nothing"
