@@ -45,10 +45,8 @@ def groups_of(root, name, quote, target):
     groups = set()
     if ".." in target.split("/"):
         return groups
-    # Test suites of one room share helpers: tests/fault/vars/ sees those of tests/unit/vars/.
-    suite = pathlib.PurePath(name).parent.name
-    if (root / name).parent.joinpath(target).is_file() or (
-            name.startswith("tests/") and (root / "tests/unit" / suite / target).is_file()):
+    # Suites share helpers and generate headers; a name without a folder cannot be a room's.
+    if (root / name).parent.joinpath(target).is_file() or (name.startswith(("tests/", "bench/")) and "/" not in target):
         groups.add("own")
     if "/" in target:
         groups.add(target.split("/", 1)[0] + "/")
