@@ -28,8 +28,8 @@ bool write_file(const char* path, const std::string& text) {
 }
 
 bool private_mounts() {
-  if (geteuid() == 0) {
-    return unshare(CLONE_NEWNS) == 0;
+  if (geteuid() == 0 && unshare(CLONE_NEWNS) == 0) {
+    return true;
   }
   const std::string user = std::to_string(getuid());
   const std::string group = std::to_string(getgid());
@@ -123,8 +123,8 @@ struct Scratch {
 }  // namespace
 
 bool enter_sandbox() {
-  return private_mounts() && mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-         mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, "size=64m,mode=1777") == 0;
+  static const bool kPrivate = private_mounts() && mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0;
+  return kPrivate && mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, "size=64m,mode=1777") == 0;
 }
 
 fs::path scratch() {

@@ -17,7 +17,8 @@ struct Outcome {
   std::string err;
 };
 
-// Gives this process a private, empty /dev/shm. False if the system does not allow that.
+// Gives this process a private, empty /dev/shm, an empty one again at each further call. False if the system does not
+// allow that.
 bool enter_sandbox();
 
 // Folder for this process's files, removed at its end; $INDUROP_STATE_DIR of all programs run lies in it.
@@ -25,10 +26,10 @@ std::filesystem::path scratch();
 
 struct RunOptions {
   std::vector<std::string> environment{};  // "NAME=value" on top of ours
-  uid_t user = static_cast<uid_t>(-1);   // run as this user (needs root)
+  uid_t user = static_cast<uid_t>(-1);     // run as this user (needs root)
   std::string stdout_to{};                 // file instead of a pipe
   std::string input{};                     // on stdin
-  int seconds = 20;                      // then it is killed and `code` is -1
+  int seconds = 20;                        // then it is killed and `code` is -1
 };
 
 // Runs `indurop` with these arguments to its end.

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "node_fixture.h"
-#include "rt/machine.h"
+#include "rt/thread.h"
 
 namespace indurop::test {
 namespace {
