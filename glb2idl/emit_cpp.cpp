@@ -92,8 +92,8 @@ class CppWriter {
     line("  friend bool operator==(const {0}&, const {0}&) = default;", name);
     line("}};");
     layout_check(type, name);
-    line("template <class F>");
-    line("constexpr void indurop_fields(const {}& v, F f) {{", name);
+    line("template <class indurop_visitor>");
+    line("constexpr void indurop_fields(const {}& v, indurop_visitor f) {{", name);
     for (const schema::Field& field : type.fields) {
       line("  f(\"{0}\", v.{0});", field.name);
     }
@@ -250,7 +250,8 @@ class CppWriter {
     line("inline constinit ::indurop::abi::Ref refs[] = {{");
     for (const schema::Variable* v : variables_) {
       line("    {{{}, {}, nullptr, {}, {}, ::indurop::abi::Kind::{}, \"{}\"}},", hex(v->name_hash()), hex(v->type_hash),
-           v->initial.empty() ? "nullptr" : "&initial_" + mangled(v->name), v->type.size(), kind(*v), v->name);
+           v->initial.empty() ? "nullptr" : fmt::format("&initial_{}", mangled(v->name)), v->type.size(), kind(*v),
+           v->name);
     }
     line("}};");
     // Each object file of a module has this constructor; the table is made known once.
@@ -286,7 +287,7 @@ class CppWriter {
   }
 
   void shape_union(const schema::Type& type) {
-    const std::string name = "ref_" + mangled(type.name);
+    const std::string name = fmt::format("ref_{}", mangled(type.name));
     line("template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>");
     line("union {} {{", name);
     line("  using value_type = ::{};", type.name);

@@ -103,7 +103,7 @@ class IdlWriter {
 
   void operator()(const schema::Variable& variable) {
     const std::string about = notes(variable.description, variable.unit, variable.range);
-    const std::string text = about.empty() ? about : ": " + about;
+    const std::string text = about.empty() ? about : fmt::format(": {}", about);
     if (!is_wrapped(variable.type)) {
       remark("variable {}: {}{}", variable.name, variable.type.name, text);
       return;

@@ -72,7 +72,7 @@ std::string properties(const schema::Variable& v) {
     add("retain");
   }
   if (v.maxage_ns != 0) {
-    add("maxage " + duration_text(v.maxage_ns));
+    add(fmt::format("maxage {}", duration_text(v.maxage_ns)));
   }
   if (!v.initial.empty()) {
     add(value_text("initial", v.type, v.initial));
@@ -125,10 +125,10 @@ std::string emit_layout(const Program& program, const Unit& unit) {
     out += fmt::format("includes {}.glb\n", program.units[other].stem);
   }
   if (variables.size() > 1) {
-    out += "\n" + table(variables, "  r");
+    out += fmt::format("\n{}", table(variables, "  r"));
   }
   out += structs;
-  return out + (functions.empty() ? "" : "\nshared functions\n" + functions);
+  return functions.empty() ? out : fmt::format("{}\nshared functions\n{}", out, functions);
 }
 
 std::vector<Output> emit_all(const Program& program) {

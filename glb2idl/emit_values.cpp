@@ -79,7 +79,7 @@ std::string scalar_text(const schema::Type& type, const std::uint8_t* bytes) {
       const auto value = read_as<std::int32_t>(bytes);
       for (const schema::Enumerator& e : type.enumerators) {
         if (e.value == value) {
-          return "::" + qualified(scope_of(type.name), e.name);
+          return fmt::format("::{}", qualified(scope_of(type.name), e.name));
         }
       }
       return {};
@@ -93,7 +93,7 @@ std::string scalar_text(const schema::Type& type, const std::uint8_t* bytes) {
     out += out.empty() ? "" : ", ";
     out += zero ? "{}" : initializer_text(field.type, bytes + field.offset);
   }
-  return "{" + out + "}";
+  return fmt::format("{{{}}}", out);
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes
     out += i == 0 ? "" : ", ";
     out += is_zero(bytes + i * stride, stride) ? "{}" : initializer_text(element, bytes + i * stride);
   }
-  return "{{" + out + "}}";
+  return fmt::format("{{{{{}}}}}", out);
 }
 
 std::string cpp_type(const schema::Type& type) {
@@ -126,7 +126,7 @@ std::string cpp_type(const schema::Type& type) {
                                                     "float",          "double"};
   std::string out = type.base == Base::Text ? fmt::format("::indurop::string<{}>", type.text_size)
                     : type.name.empty()     ? std::string(kNames[static_cast<std::size_t>(type.base)])
-                                            : "::" + type.name;
+                                            : fmt::format("::{}", type.name);
   for (auto dim = type.dims.rbegin(); dim != type.dims.rend(); ++dim) {
     out = fmt::format("::std::array<{}, {}>", out, *dim);
   }

@@ -39,6 +39,9 @@ concept Shape = requires(const T& shape) {
   {shape.get()};
 };
 
+template <class T, class Whole>
+concept ShapeOf = Shape<T> && std::is_same_v<typename T::whole_type, Whole>;
+
 template <class T>
 INDUROP_ALWAYS_INLINE decltype(auto) value_of(const T& argument) noexcept {
   if constexpr (Shape<T>) {
@@ -188,13 +191,19 @@ struct Text {
     return {Place{place.bytes + static_cast<std::uint32_t>(index)}, detail::Make{}};
   }
 
-  friend bool operator==(const Text& a, std::string_view b) noexcept { return a.get().view() == b; }
-  friend bool operator==(const Text& a, const Text& b) noexcept { return a.get() == b.get(); }
-  template <class Stream>
-  friend auto operator<<(Stream& out, const Text& text) -> decltype(out << std::string_view{}) {
-    return out << text.get().view();
+  bool operator==(std::string_view other) const noexcept { return get().view() == other; }
+  bool operator==(const char* other) const noexcept { return get().view() == other; }
+  bool operator==(const string<N>& other) const noexcept { return get() == other; }
+  template <detail::ShapeOf<whole_type> Other>
+  bool operator==(const Other& other) const noexcept {
+    return get() == other.get();
   }
 };
+
+template <class Stream, class Tag, std::size_t N, std::uint32_t Offset>
+auto operator<<(Stream& out, const Text<Tag, N, Offset>& text) -> decltype(out << std::string_view{}) {
+  return out << text.get().view();
+}
 
 // N equal elements. Elements are shapes (one access each); get(), assignment and comparison take the whole array
 // in one access. An index beyond the end throws std::out_of_range, which the scheduler reports as module fault.
@@ -260,8 +269,12 @@ struct ArrayRef {
   [[nodiscard]] iterator begin() const noexcept { return {*this, 0}; }
   [[nodiscard]] iterator end() const noexcept { return {*this, N}; }
 
-  friend bool operator==(const ArrayRef& a, const whole_type& b) noexcept { return a.get() == b; }
-  friend bool operator==(const ArrayRef& a, const ArrayRef& b) noexcept { return a.get() == b.get(); }
+  // Members, not friends: thousands of variables must not become one overload set.
+  bool operator==(const whole_type& other) const noexcept { return get() == other; }
+  template <detail::ShapeOf<whole_type> Other>
+  bool operator==(const Other& other) const noexcept {
+    return get() == other.get();
+  }
 };
 
 // The members every generated struct shape has besides its fields; it names its Place `indurop_place`, so that a
@@ -284,11 +297,12 @@ struct ArrayRef {
   INDUROP_ALWAYS_INLINE const Self& operator=(const Self& indurop_value) const noexcept {         \
     return *this = indurop_value.get();                                                           \
   }                                                                                               \
-  friend bool operator==(const Self& indurop_left, const whole_type& indurop_right) noexcept {    \
-    return indurop_left.get() == indurop_right;                                                   \
+  bool operator==(const whole_type& indurop_other) const noexcept {                               \
+    return get() == indurop_other;                                                                \
   }                                                                                               \
-  friend bool operator==(const Self& indurop_left, const Self& indurop_right) noexcept {          \
-    return indurop_left.get() == indurop_right.get();                                             \
+  template <::indurop::detail::ShapeOf<whole_type> indurop_shape>                                 \
+  bool operator==(const indurop_shape& indurop_other) const noexcept {                            \
+    return get() == indurop_other.get();                                                          \
   }
 
 // The members every generated struct shape has besides its fields. A whole struct is read, assigned and compared

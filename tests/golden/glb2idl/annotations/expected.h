@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_10c5105d6b40c46d,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_7d7553fbd1bccaed,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
 .ascii "\"description\":\"angle of the arm\",\"range\":[0.0,180.0],\"retain\":true,\"maxage_ns\":10000000,\"initial\":\"0"
 .ascii "000000000804640\",\"fallback\":\"0000000000a05640\",\"source\":\"in.glb:2\"},{\"name\":\"demo::pos\",\"type\":\"doub"
@@ -40,15 +40,15 @@ static_assert(sizeof(Axis) == 16 && alignof(Axis) == 4);
 static_assert(offsetof(Axis, position) == 0);
 static_assert(offsetof(Axis, status) == 4);
 static_assert(offsetof(Axis, speed) == 8);
-template <class F>
-constexpr void indurop_fields(const Axis& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Axis& v, indurop_visitor f) {
   f("position", v.position);
   f("status", v.status);
   f("speed", v.speed);
 }
 }  // namespace demo
 
-namespace indurop_generated_10c5105d6b40c46d __attribute__((visibility("hidden"))) {
+namespace indurop_generated_7d7553fbd1bccaed __attribute__((visibility("hidden"))) {
 inline constexpr double initial_demo_angle{45.0};
 inline constexpr ::indurop::string<32> initial_demo_note{"fine"};
 inline constinit ::indurop::abi::Ref refs[] = {
@@ -132,15 +132,15 @@ union ref_demo_Axis {
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, float, indurop_offset + 8>, 2> speed;
   INDUROP_UNION_SHAPE(ref_demo_Axis)
 };
-}  // namespace indurop_generated_10c5105d6b40c46d
+}  // namespace indurop_generated_7d7553fbd1bccaed
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_10c5105d6b40c46d::ref_demo_Axis<::indurop_generated_10c5105d6b40c46d::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
-inline constexpr ::indurop::Text<::indurop_generated_10c5105d6b40c46d::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_10c5105d6b40c46d::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_7d7553fbd1bccaed::ref_demo_Axis<::indurop_generated_7d7553fbd1bccaed::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
+inline constexpr ::indurop::Text<::indurop_generated_7d7553fbd1bccaed::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
 }  // namespace demo

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_3fbe6de57829ca52,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_d5d8752cdfe389a6,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"PLC_ROBOT::I0\",\"type\":\"int16\",\"kind\":\"scalar\",\"description"
 .ascii "\":\"PLC input point 0\",\"source\":\"in.glb:2\"},{\"name\":\"PLC_ROBOT::I1\",\"type\":\"int16\",\"kind\":\"scalar\",\"d"
 .ascii "escription\":\"PLC input point 1\",\"source\":\"in.glb:3\"},{\"name\":\"PLC_ROBOT::O0\",\"type\":\"int16\",\"kind\":\""
@@ -75,8 +75,8 @@ static_assert(offsetof(ROBOT_MODULE_STATE_t, dJointSpeed) == 256);
 static_assert(offsetof(ROBOT_MODULE_STATE_t, dBaseSpeed) == 304);
 static_assert(offsetof(ROBOT_MODULE_STATE_t, dWorldSpeed) == 352);
 static_assert(offsetof(ROBOT_MODULE_STATE_t, nposeINFO) == 400);
-template <class F>
-constexpr void indurop_fields(const ROBOT_MODULE_STATE_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const ROBOT_MODULE_STATE_t& v, indurop_visitor f) {
   f("nAXESGROUP", v.nAXESGROUP);
   f("MotionDone", v.MotionDone);
   f("Busy", v.Busy);
@@ -107,8 +107,8 @@ static_assert(offsetof(ROBOT_MODULE_SERVICE_t, t_pl) == 4);
 static_assert(offsetof(ROBOT_MODULE_SERVICE_t, t_speed) == 8);
 static_assert(offsetof(ROBOT_MODULE_SERVICE_t, p_Target) == 16);
 static_assert(offsetof(ROBOT_MODULE_SERVICE_t, p_Mid) == 18);
-template <class F>
-constexpr void indurop_fields(const ROBOT_MODULE_SERVICE_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const ROBOT_MODULE_SERVICE_t& v, indurop_visitor f) {
   f("eOpCode", v.eOpCode);
   f("t_pl", v.t_pl);
   f("t_speed", v.t_speed);
@@ -127,8 +127,8 @@ static_assert(offsetof(AXIS1_IN_t, error) == 0);
 static_assert(offsetof(AXIS1_IN_t, status) == 2);
 static_assert(offsetof(AXIS1_IN_t, mode) == 4);
 static_assert(offsetof(AXIS1_IN_t, position) == 8);
-template <class F>
-constexpr void indurop_fields(const AXIS1_IN_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const AXIS1_IN_t& v, indurop_visitor f) {
   f("error", v.error);
   f("status", v.status);
   f("mode", v.mode);
@@ -136,7 +136,7 @@ constexpr void indurop_fields(const AXIS1_IN_t& v, F f) {
 }
 }  // namespace PLC_ROBOT
 
-namespace indurop_generated_3fbe6de57829ca52 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_d5d8752cdfe389a6 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xa2e56741e5d74570, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I0"},
     {0xa2e56841e5d74723, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I1"},
@@ -243,13 +243,13 @@ union ref_PLC_ROBOT_AXIS1_IN_t {
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 8> position;
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_AXIS1_IN_t)
 };
-}  // namespace indurop_generated_3fbe6de57829ca52
+}  // namespace indurop_generated_d5d8752cdfe389a6
 
 namespace PLC_ROBOT {
-inline constexpr ::indurop::Leaf<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
-inline constexpr ::indurop::Leaf<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
-inline constexpr ::indurop::Leaf<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
-inline constexpr ::indurop_generated_3fbe6de57829ca52::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
-inline constexpr ::indurop_generated_3fbe6de57829ca52::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
-inline constexpr ::indurop_generated_3fbe6de57829ca52::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_3fbe6de57829ca52::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
+inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
+inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
+inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
+inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
+inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace PLC_ROBOT

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_467b302d7c10dc32,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_6dbf80c0c4579202,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
 .ascii "\"values\":[[\"SLOW\",0],[\"FAST\",1]]},\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:5\"},{\"name\":"
 .ascii "\"demo::mode\",\"type\":{\"base\":\"enum\",\"name\":\"demo::Mode\",\"values\":[[\"OFF\",0],[\"AUTO\",1],[\"MANUAL\",2]]}"
@@ -37,8 +37,8 @@ struct Motor {
 static_assert(sizeof(Motor) == 8 && alignof(Motor) == 4);
 static_assert(offsetof(Motor, mode) == 0);
 static_assert(offsetof(Motor, side) == 4);
-template <class F>
-constexpr void indurop_fields(const Motor& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Motor& v, indurop_visitor f) {
   f("mode", v.mode);
   f("side", v.side);
 }
@@ -46,7 +46,7 @@ inline constexpr ::demo::Mode DEFAULT_MODE{static_cast<::demo::Mode>(1)};
 inline constexpr ::demo::Mode START_MODE{static_cast<::demo::Mode>(0)};
 }  // namespace demo
 
-namespace indurop_generated_467b302d7c10dc32 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_6dbf80c0c4579202 __attribute__((visibility("hidden"))) {
 inline constexpr ::demo::speed_t initial_demo_speed{::demo::FAST};
 inline constexpr ::demo::Mode initial_demo_mode{::demo::AUTO};
 inline constexpr ::std::array<::demo::Gear, 2> initial_demo_gears{{::demo::DRIVE}};
@@ -110,12 +110,12 @@ union ref_demo_Motor {
   ::indurop::Leaf<indurop_tag, ::demo::Motor_side_t, indurop_offset + 4> side;
   INDUROP_UNION_SHAPE(ref_demo_Motor)
 };
-}  // namespace indurop_generated_467b302d7c10dc32
+}  // namespace indurop_generated_6dbf80c0c4579202
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_467b302d7c10dc32::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_467b302d7c10dc32::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_467b302d7c10dc32::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_467b302d7c10dc32::ref_demo_Motor<::indurop_generated_467b302d7c10dc32::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_467b302d7c10dc32::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_6dbf80c0c4579202::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_6dbf80c0c4579202::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_6dbf80c0c4579202::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_6dbf80c0c4579202::ref_demo_Motor<::indurop_generated_6dbf80c0c4579202::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_6dbf80c0c4579202::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

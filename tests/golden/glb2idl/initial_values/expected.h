@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_e6642aabac53b380,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_207b02532b7eca2c,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"demo::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"0500000"
 .ascii "0\",\"source\":\"in.glb:3\"},{\"name\":\"demo::zero\",\"type\":\"int32\",\"kind\":\"scalar\",\"source\":\"in.glb:4\"},{\"n"
 .ascii "ame\":\"demo::least8\",\"type\":\"int8\",\"kind\":\"scalar\",\"initial\":\"80\",\"source\":\"in.glb:5\"},{\"name\":\"demo:"
@@ -54,8 +54,8 @@ struct P {
 static_assert(sizeof(P) == 16 && alignof(P) == 8);
 static_assert(offsetof(P, x) == 0);
 static_assert(offsetof(P, y) == 8);
-template <class F>
-constexpr void indurop_fields(const P& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const P& v, indurop_visitor f) {
   f("x", v.x);
   f("y", v.y);
 }
@@ -69,15 +69,15 @@ static_assert(sizeof(nested_t) == 32 && alignof(nested_t) == 8);
 static_assert(offsetof(nested_t, p) == 0);
 static_assert(offsetof(nested_t, n) == 16);
 static_assert(offsetof(nested_t, on) == 24);
-template <class F>
-constexpr void indurop_fields(const nested_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const nested_t& v, indurop_visitor f) {
   f("p", v.p);
   f("n", v.n);
   f("on", v.on);
 }
 }  // namespace demo
 
-namespace indurop_generated_e6642aabac53b380 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_207b02532b7eca2c __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_demo_a{5};
 inline constexpr ::std::int8_t initial_demo_least8{-128};
 inline constexpr ::std::int64_t initial_demo_least64{INT64_MIN};
@@ -291,35 +291,35 @@ union ref_demo_nested_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_e6642aabac53b380::ref_demo_P<indurop_tag, indurop_offset + 0> p;
+  ::indurop_generated_207b02532b7eca2c::ref_demo_P<indurop_tag, indurop_offset + 0> p;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16>, 2> n;
   ::indurop::Leaf<indurop_tag, bool, indurop_offset + 24> on;
   INDUROP_UNION_SHAPE(ref_demo_nested_t)
 };
-}  // namespace indurop_generated_e6642aabac53b380
+}  // namespace indurop_generated_207b02532b7eca2c
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_e6642aabac53b380::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_e6642aabac53b380::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_e6642aabac53b380::ref_demo_P<::indurop_generated_e6642aabac53b380::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_e6642aabac53b380::ref_demo_P<::indurop_generated_e6642aabac53b380::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_e6642aabac53b380::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_e6642aabac53b380::ref_demo_nested_t<::indurop_generated_e6642aabac53b380::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_e6642aabac53b380::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_207b02532b7eca2c::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_207b02532b7eca2c::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_207b02532b7eca2c::ref_demo_P<::indurop_generated_207b02532b7eca2c::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_207b02532b7eca2c::ref_demo_P<::indurop_generated_207b02532b7eca2c::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_207b02532b7eca2c::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_207b02532b7eca2c::ref_demo_nested_t<::indurop_generated_207b02532b7eca2c::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_207b02532b7eca2c::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

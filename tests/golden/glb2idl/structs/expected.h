@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_52558c5083c98a57,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_f5d43ebbb08a195b,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"pair_of_points\",\"type\":{\"base\":\"struct\",\"name\":\"Pair\",\"siz"
 .ascii "e\":64,\"align\":8,\"fields\":[{\"name\":\"a\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields"
 .ascii "\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0,\"description\":\"Named, anonymous and nested structs.\"},{\"na"
@@ -51,8 +51,8 @@ struct P {  // a point
 static_assert(sizeof(P) == 16 && alignof(P) == 8);
 static_assert(offsetof(P, x) == 0);
 static_assert(offsetof(P, y) == 8);
-template <class F>
-constexpr void indurop_fields(const P& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const P& v, indurop_visitor f) {
   f("x", v.x);
   f("y", v.y);
 }
@@ -66,8 +66,8 @@ static_assert(sizeof(Pair) == 64 && alignof(Pair) == 8);
 static_assert(offsetof(Pair, a) == 0);
 static_assert(offsetof(Pair, b) == 16);
 static_assert(offsetof(Pair, both) == 32);
-template <class F>
-constexpr void indurop_fields(const Pair& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Pair& v, indurop_visitor f) {
   f("a", v.a);
   f("b", v.b);
   f("both", v.both);
@@ -80,8 +80,8 @@ struct box_inner_t {
 static_assert(sizeof(box_inner_t) == 8 && alignof(box_inner_t) == 4);
 static_assert(offsetof(box_inner_t, a) == 0);
 static_assert(offsetof(box_inner_t, on) == 4);
-template <class F>
-constexpr void indurop_fields(const box_inner_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const box_inner_t& v, indurop_visitor f) {
   f("a", v.a);
   f("on", v.on);
 }
@@ -91,8 +91,8 @@ struct box_tail_t {
 };
 static_assert(sizeof(box_tail_t) == 4 && alignof(box_tail_t) == 1);
 static_assert(offsetof(box_tail_t, unit) == 0);
-template <class F>
-constexpr void indurop_fields(const box_tail_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const box_tail_t& v, indurop_visitor f) {
   f("unit", v.unit);
 }
 struct box_t {
@@ -103,8 +103,8 @@ struct box_t {
 static_assert(sizeof(box_t) == 20 && alignof(box_t) == 4);
 static_assert(offsetof(box_t, inner) == 0);
 static_assert(offsetof(box_t, tail) == 16);
-template <class F>
-constexpr void indurop_fields(const box_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const box_t& v, indurop_visitor f) {
   f("inner", v.inner);
   f("tail", v.tail);
 }
@@ -116,8 +116,8 @@ struct Size {
 static_assert(sizeof(Size) == 8 && alignof(Size) == 4);
 static_assert(offsetof(Size, w) == 0);
 static_assert(offsetof(Size, h) == 4);
-template <class F>
-constexpr void indurop_fields(const Size& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Size& v, indurop_visitor f) {
   f("w", v.w);
   f("h", v.h);
 }
@@ -127,8 +127,8 @@ struct Frame {
 };
 static_assert(sizeof(Frame) == 8 && alignof(Frame) == 4);
 static_assert(offsetof(Frame, size) == 0);
-template <class F>
-constexpr void indurop_fields(const Frame& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Frame& v, indurop_visitor f) {
   f("size", v.size);
 }
 using Window = ::Frame;
@@ -145,8 +145,8 @@ static_assert(sizeof(Body) == 128 && alignof(Body) == 8);
 static_assert(offsetof(Body, at) == 0);
 static_assert(offsetof(Body, turn) == 24);
 static_assert(offsetof(Body, names) == 96);
-template <class F>
-constexpr void indurop_fields(const Body& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Body& v, indurop_visitor f) {
   f("at", v.at);
   f("turn", v.turn);
   f("names", v.names);
@@ -157,8 +157,8 @@ struct mode_type {
 };
 static_assert(sizeof(mode_type) == 4 && alignof(mode_type) == 4);
 static_assert(offsetof(mode_type, value) == 0);
-template <class F>
-constexpr void indurop_fields(const mode_type& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const mode_type& v, indurop_visitor f) {
   f("value", v.value);
 }
 struct states_t {
@@ -167,8 +167,8 @@ struct states_t {
 };
 static_assert(sizeof(states_t) == 4 && alignof(states_t) == 4);
 static_assert(offsetof(states_t, value) == 0);
-template <class F>
-constexpr void indurop_fields(const states_t& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const states_t& v, indurop_visitor f) {
   f("value", v.value);
 }
 struct Late {
@@ -177,12 +177,12 @@ struct Late {
 };
 static_assert(sizeof(Late) == 4 && alignof(Late) == 4);
 static_assert(offsetof(Late, a) == 0);
-template <class F>
-constexpr void indurop_fields(const Late& v, F f) {
+template <class indurop_visitor>
+constexpr void indurop_fields(const Late& v, indurop_visitor f) {
   f("a", v.a);
 }
 
-namespace indurop_generated_52558c5083c98a57 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_f5d43ebbb08a195b __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x7909104d230843e3, 0xcb8fd003c8f57539, nullptr, nullptr, 64, ::indurop::abi::Kind::Ring, "pair_of_points"},
     {0x004d2e191349e4f2, 0xfc489beff4b7e77f, nullptr, nullptr, 20, ::indurop::abi::Kind::Ring, "box"},
@@ -284,9 +284,9 @@ union ref_Pair {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_52558c5083c98a57::ref_P<indurop_tag, indurop_offset + 0> a;
-  ::indurop_generated_52558c5083c98a57::ref_P<indurop_tag, indurop_offset + 16> b;
-  ::indurop::ArrayRef<::indurop_generated_52558c5083c98a57::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
+  ::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 0> a;
+  ::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 16> b;
+  ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
   INDUROP_UNION_SHAPE(ref_Pair)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -317,8 +317,8 @@ union ref_box_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop::ArrayRef<::indurop_generated_52558c5083c98a57::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
-  ::indurop_generated_52558c5083c98a57::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
+  ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
+  ::indurop_generated_f5d43ebbb08a195b::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
   INDUROP_UNION_SHAPE(ref_box_t)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -339,7 +339,7 @@ union ref_Frame {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_52558c5083c98a57::ref_Size<indurop_tag, indurop_offset + 0> size;
+  ::indurop_generated_f5d43ebbb08a195b::ref_Size<indurop_tag, indurop_offset + 0> size;
   INDUROP_UNION_SHAPE(ref_Frame)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -384,14 +384,14 @@ union ref_Late {
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> a;
   INDUROP_UNION_SHAPE(ref_Late)
 };
-}  // namespace indurop_generated_52558c5083c98a57
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_Pair<::indurop_generated_52558c5083c98a57::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_box_t<::indurop_generated_52558c5083c98a57::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_52558c5083c98a57::ref_Body<::indurop_generated_52558c5083c98a57::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_P<::indurop_generated_52558c5083c98a57::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_Frame<::indurop_generated_52558c5083c98a57::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_52558c5083c98a57::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_mode_type<::indurop_generated_52558c5083c98a57::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_52558c5083c98a57::ref_states_t<::indurop_generated_52558c5083c98a57::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_52558c5083c98a57::ref_states_t<::indurop_generated_52558c5083c98a57::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_52558c5083c98a57::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_f5d43ebbb08a195b
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_Pair<::indurop_generated_f5d43ebbb08a195b::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_box_t<::indurop_generated_f5d43ebbb08a195b::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_Body<::indurop_generated_f5d43ebbb08a195b::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_P<::indurop_generated_f5d43ebbb08a195b::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_Frame<::indurop_generated_f5d43ebbb08a195b::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_f5d43ebbb08a195b::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_mode_type<::indurop_generated_f5d43ebbb08a195b::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_states_t<::indurop_generated_f5d43ebbb08a195b::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_states_t<::indurop_generated_f5d43ebbb08a195b::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_f5d43ebbb08a195b::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
