@@ -45,6 +45,7 @@ class AccessCheck {
   }
   [[nodiscard]] std::vector<std::string> names(const std::vector<std::size_t>& modules) const {
     std::vector<std::string> list;
+    list.reserve(modules.size());
     for (const std::size_t i : modules) {
       list.push_back(module(i).name);
     }

@@ -43,6 +43,7 @@ void check_core(CheckContext& context, const std::vector<int>& cores, int core, 
     return;
   }
   std::vector<std::string> names;
+  names.reserve(cores.size());
   for (const int usable : cores) {
     names.push_back(std::to_string(usable));
   }

@@ -56,6 +56,7 @@ Nanos common_divisor(const std::vector<PeriodicItem>& items, bool with_offsets) 
 std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, Nanos minimum) {
   if (common_divisor(items, false) < minimum) {
     std::vector<Nanos> periods;
+    periods.reserve(items.size());
     for (const PeriodicItem& item : items) {
       periods.push_back(item.period);
     }
@@ -75,10 +76,11 @@ std::vector<PeriodicItem> nearest_items(std::vector<PeriodicItem> items, Nanos m
   while (parts > 1 && basic % parts != 0) {
     --parts;
   }
-  const std::int64_t grid = basic / std::max<std::int64_t>(parts, 1);
+  const std::int64_t grid = std::max<std::int64_t>(basic / std::max<std::int64_t>(parts, 1), 1);
   for (PeriodicItem& item : items) {
+    item.offset = item.offset >= item.period ? Nanos::zero() : item.offset;
     const std::int64_t rest = item.offset.count() % grid;
-    item.offset += Nanos{rest * 2 < grid ? -rest : grid - rest};
+    item.offset += Nanos{rest < grid - rest ? -rest : grid - rest};
     item.offset = item.offset >= item.period ? Nanos::zero() : item.offset;
   }
   return items;
@@ -163,7 +165,8 @@ std::int64_t common_multiple(const std::vector<PeriodicItem>& items, std::int64_
     if (item.period.count() == left_out) {
       continue;
     }
-    const std::int64_t factor = item.period.count() / std::gcd(multiple, item.period.count());
+    const std::int64_t common = std::max<std::int64_t>(std::gcd(multiple, item.period.count()), 1);
+    const std::int64_t factor = std::max<std::int64_t>(item.period.count() / common, 1);
     if (multiple > limit / factor) {
       return 0;
     }
@@ -191,6 +194,7 @@ std::string long_macro_hint(const CheckContext& context, const std::vector<Perio
   const std::string harmonic = "; periods that divide one another (1 ms, 2 ms, 10 ms) keep it short";
   if (worst == 0 || periods.size() < 2) {
     std::vector<std::string> all;
+    all.reserve(periods.size());
     for (const std::int64_t period : periods) {
       all.push_back(format_duration(Nanos{period}));
     }

@@ -55,6 +55,15 @@ TEST(Schedule, Offset_that_makes_the_basic_period_too_short_is_moved) {
   EXPECT_EQ(check(xml, kAdjust).result.table.basic_period, Nanos(microseconds(50)));
 }
 
+TEST(Schedule, Adjusting_offsets_near_the_longest_period_does_not_overflow) {
+  const std::string longest = "9223372036854775807";
+  const std::string offset = "<offset>9223372036854775806</offset>";
+  const Checked sut =
+      check(root("<minimum_period>9000000000s</minimum_period>" + periodic("a.so", longest, 1, offset)), kAdjust);
+  EXPECT_TRUE(sut.result.ok());
+  EXPECT_EQ(sut.config.modules[0].offset, Nanos(0));
+}
+
 TEST(Schedule, Minimum_period_of_the_file_counts) {
   const std::string one = periodic("a.so", "20us", 1);
   EXPECT_FALSE(check(root(one), kScheduleOnly).result.ok());
