@@ -197,14 +197,14 @@ class Diagram {
     }
   }
 
-  void module_box(Svg& svg, int x, int y, int width, const char* with, ModuleType type) const {
+  static void module_box(Svg& svg, int x, int y, int width, const char* with, ModuleType type) {
     if (type == ModuleType::Thread) {
       svg.box(x, y, width, kBoxHeight, with, with);
     } else {
       svg.box(x, y, width, kBoxHeight, "#FFFFFF", with, "", 2);
     }
   }
-  void event_box(Svg& svg, int x, int y, int width) const {
+  static void event_box(Svg& svg, int x, int y, int width) {
     svg.box(x, y, width, kBoxHeight, kEventFill, kEvent, "4 3", 1.5);
   }
 

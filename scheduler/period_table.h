@@ -24,7 +24,7 @@ struct PeriodicItem {
 };
 
 struct Slot {
-  Nanos time;                      // since the start of the macro period
+  Nanos time{};                    // since the start of the macro period
   std::vector<std::uint32_t> items;  // indices into the input, in execution order
 };
 
