@@ -19,16 +19,12 @@
 namespace indurop::tools {
 
 // Exit codes of all InduRoP programs.
-enum ExitCode : int {
-  kOk = 0,
-  kFailed = 1,
-  kUsage = 2,
-  kTimingBroken = 3,
-  kCheckFailed = 4,
-  kUnreachable = 6,
-  kNoRealTime = 7,
-  kSchemaMismatch = 8,
-};
+inline constexpr int kOk = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+inline constexpr int kCheckFailed = 4;
+inline constexpr int kUnreachable = 6;
+inline constexpr int kSchemaMismatch = 8;
 
 enum class Format { Table, Json, Csv, Svg };
 
@@ -42,12 +38,12 @@ struct Context {
 using Action = std::function<int(Context&)>;
 
 struct Verb {
-  const char* name;
-  const char* group;    // heading in the list of verbs
-  const char* summary;  // one line
-  const char* details;  // below the options: what it prints, examples
+  const char* name = "";
+  const char* group = "";    // heading in the list of verbs
+  const char* summary = "";  // one line
+  const char* details = "";  // below the options: what it prints, examples
   // Adds the verb's options to `app` and returns what to do once they are parsed.
-  Action (*declare)(CLI::App& app, Context& context);
+  Action (*declare)(CLI::App& app, Context& context) = nullptr;
   // Set: gets all arguments as they are instead (a verb that hands them to another program).
   int (*pass_through)(Context& context, const std::vector<std::string>& arguments) = nullptr;
 };
