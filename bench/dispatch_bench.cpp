@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "scheduler/runner.h"
 #include "scheduler/run_block_setup.h"
+#include "scheduler/runner.h"
 
 namespace {
 

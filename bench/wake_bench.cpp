@@ -86,7 +86,9 @@ int main() {
     shared.word.wake();
   }
   ::waitpid(process, nullptr, 0);
-  std::printf("%lld %lld ", static_cast<long long>(at(shared.futex_ns, 0.5)), static_cast<long long>(at(shared.futex_ns, 0.99)));
-  std::printf("%lld %lld\n", static_cast<long long>(at(shared.module_ns, 0.5)), static_cast<long long>(at(shared.module_ns, 0.99)));
+  std::printf("%lld %lld ", static_cast<long long>(at(shared.futex_ns, 0.5)),
+              static_cast<long long>(at(shared.futex_ns, 0.99)));
+  std::printf("%lld %lld\n", static_cast<long long>(at(shared.module_ns, 0.5)),
+              static_cast<long long>(at(shared.module_ns, 0.99)));
   return 0;
 }

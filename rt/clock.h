@@ -17,7 +17,9 @@ inline std::int64_t now_ns() noexcept {
   return now.tv_sec * kNanosPerSecond + now.tv_nsec;
 }
 
-constexpr timespec to_timespec(std::int64_t ns) noexcept { return {ns / kNanosPerSecond, ns % kNanosPerSecond}; }
+constexpr timespec to_timespec(std::int64_t ns) noexcept {
+  return {ns / kNanosPerSecond, ns % kNanosPerSecond};
+}
 
 // Sleeps until the absolute time; signals do not shorten it. A time in the past returns at once.
 void sleep_until(std::int64_t deadline_ns) noexcept;

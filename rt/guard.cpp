@@ -9,7 +9,9 @@ namespace {
 thread_local Guard* t_guard = nullptr;
 
 constexpr int kFaultSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-int order_signal() noexcept { return SIGRTMIN + 1; }
+int order_signal() noexcept {
+  return SIGRTMIN + 1;
+}
 
 void on_fault(int number, siginfo_t* info, void* /*context*/) {
   if (t_guard != nullptr && t_guard->armed()) {
@@ -63,8 +65,12 @@ HandlerStack::~HandlerStack() {
   std::free(memory_);  // NOLINT
 }
 
-void Guard::enter() noexcept { t_guard = this; }
-void Guard::leave() noexcept { t_guard = nullptr; }
+void Guard::enter() noexcept {
+  t_guard = this;
+}
+void Guard::leave() noexcept {
+  t_guard = nullptr;
+}
 
 void Guard::recovered() noexcept {
   sigset_t set;

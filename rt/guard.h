@@ -5,8 +5,8 @@
 
 #pragma once
 
-#include <csetjmp>
 #include <pthread.h>
+#include <csetjmp>
 
 #include <atomic>
 #include <csignal>
@@ -30,7 +30,8 @@ class HandlerStack {
 };
 
 // State of one thread that runs guarded code. Used through this pattern, which keeps the jump inside one function:
-//   guard.enter();  if (sigsetjmp(guard.target(), 0) != 0) { ... guard.signal_number() ... }  guard.arm(); f(); guard.disarm();
+//   guard.enter();  if (sigsetjmp(guard.target(), 0) != 0) { ... guard.signal_number() ... }  guard.arm(); f();
+//   guard.disarm();
 class Guard {
  public:
   // Makes this the calling thread's guard.

@@ -7,9 +7,13 @@
 
 namespace indurop::rt {
 
-void SignalWord::init(bool process_shared) noexcept { ::sem_init(&semaphore_, process_shared ? 1 : 0, 0); }
+void SignalWord::init(bool process_shared) noexcept {
+  ::sem_init(&semaphore_, process_shared ? 1 : 0, 0);
+}
 
-void SignalWord::wake() noexcept { ::sem_post(&semaphore_); }
+void SignalWord::wake() noexcept {
+  ::sem_post(&semaphore_);
+}
 
 bool SignalWord::wait_until(std::int64_t deadline_ns) noexcept {
   const timespec deadline = to_timespec(deadline_ns);
@@ -26,6 +30,8 @@ void SignalWord::wait() noexcept {
   }
 }
 
-bool SignalWord::try_wait() noexcept { return ::sem_trywait(&semaphore_) == 0; }
+bool SignalWord::try_wait() noexcept {
+  return ::sem_trywait(&semaphore_) == 0;
+}
 
 }  // namespace indurop::rt

@@ -100,7 +100,9 @@ std::vector<int> allowed_cores() {
   return cores;
 }
 
-Status set_fifo(int priority) noexcept { return set_fifo_or_normal(0, priority, "set SCHED_FIFO priority"); }
+Status set_fifo(int priority) noexcept {
+  return set_fifo_or_normal(0, priority, "set SCHED_FIFO priority");
+}
 Status set_fifo_of(pid_t process, int priority) noexcept {
   return set_fifo_or_normal(process, priority, "set SCHED_FIFO priority of a process");
 }
@@ -113,8 +115,12 @@ int fifo_priority() noexcept {
   return ::sched_getparam(0, &parameter) == 0 ? parameter.sched_priority : 0;
 }
 
-Status pin_to_core(int core) noexcept { return pin(0, core, "pin a thread to a core"); }
-Status pin_process_to_core(pid_t process, int core) noexcept { return pin(process, core, "pin a process to a core"); }
+Status pin_to_core(int core) noexcept {
+  return pin(0, core, "pin a thread to a core");
+}
+Status pin_process_to_core(pid_t process, int core) noexcept {
+  return pin(process, core, "pin a process to a core");
+}
 
 bool StackBounds::overflowed_at(const void* address) const noexcept {
   constexpr std::size_t kAround = 64 * 1024;
@@ -135,7 +141,9 @@ StackBounds own_stack() noexcept {
   return bounds;
 }
 
-void request_exact_timers() noexcept { ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
+void request_exact_timers() noexcept {
+  ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+}
 
 Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void()> body) {
   pthread_attr_t attributes;
@@ -164,7 +172,9 @@ Thread& Thread::operator=(Thread&& other) noexcept {
   return *this;
 }
 
-Thread::~Thread() { join(); }
+Thread::~Thread() {
+  join();
+}
 
 void Thread::join() noexcept {
   if (std::exchange(running_, false)) {

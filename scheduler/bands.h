@@ -31,9 +31,9 @@ struct BandPlan {
 
 inline constexpr int kWatchdogPriority = 99;
 inline constexpr int kTickPriority = 90;
-inline constexpr int kServicePriority = 89;   // servers of shared functions
-inline constexpr int kTopBandPriority = 88;   // further bands count down from here
-inline constexpr int kLowestBandPriority = 4; // event handler and sporadic processes need the levels below
+inline constexpr int kServicePriority = 89;    // servers of shared functions
+inline constexpr int kTopBandPriority = 88;    // further bands count down from here
+inline constexpr int kLowestBandPriority = 4;  // event handler and sporadic processes need the levels below
 inline constexpr int kHandlerPriority = 3;
 inline constexpr int kSporadicProcessPriority = 2;
 

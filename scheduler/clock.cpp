@@ -5,7 +5,11 @@
 
 namespace indurop::scheduler {
 
-std::int64_t SystemClock::now() noexcept { return rt::now_ns(); }
-void SystemClock::sleep_until(std::int64_t deadline_ns) noexcept { rt::sleep_until(deadline_ns); }
+std::int64_t SystemClock::now() noexcept {
+  return rt::now_ns();
+}
+void SystemClock::sleep_until(std::int64_t deadline_ns) noexcept {
+  rt::sleep_until(deadline_ns);
+}
 
 }  // namespace indurop::scheduler

@@ -13,7 +13,7 @@ class Clock {
   virtual ~Clock() = default;
   Clock(const Clock&) = delete;
   Clock& operator=(const Clock&) = delete;
-  virtual std::int64_t now() noexcept = 0;                      // ns, never runs backwards
+  virtual std::int64_t now() noexcept = 0;                          // ns, never runs backwards
   virtual void sleep_until(std::int64_t deadline_ns) noexcept = 0;  // may return late, never early
 };
 

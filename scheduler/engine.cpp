@@ -12,7 +12,9 @@ constexpr std::int64_t kLeadNs = 2'000'000;  // between creating the threads and
 constexpr std::int64_t kWatchdogFastest = 1'000'000;
 constexpr std::int64_t kWatchdogSlowest = 10'000'000;
 
-bool by_priority(const TaskState* a, const TaskState* b) noexcept { return a->task.priority < b->task.priority; }
+bool by_priority(const TaskState* a, const TaskState* b) noexcept {
+  return a->task.priority < b->task.priority;
+}
 
 }  // namespace
 
@@ -94,9 +96,7 @@ void Engine::build_sporadic(const std::vector<TaskState*>& sporadic) {
   for (TaskState* state : sporadic) {
     const bool process = state->task.type == ModuleType::Process;
     (process ? processes : state->task.after_base ? early : threads).push_back(state);
-    const int level = process                  ? kSporadicProcessPriority
-                      : state->task.after_base ? kTickPriority
-                                               : kHandlerPriority;
+    const int level = process ? kSporadicProcessPriority : state->task.after_base ? kTickPriority : kHandlerPriority;
     state->record->fifo_priority = settings_.realtime ? level : 0;
   }
   Core& home = core(settings_.primary_core);

@@ -21,7 +21,7 @@ namespace indurop::scheduler {
 struct EngineSettings {
   std::int64_t basic_period_ns = 0;
   int primary_core = 0;
-  bool realtime = true;             // false: SCHED_FIFO is not to be had; order is then kept by waiting
+  bool realtime = true;  // false: SCHED_FIFO is not to be had; order is then kept by waiting
   SpinSettings spin;
   std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
 };
@@ -69,12 +69,12 @@ class Engine {
   Hooks hooks_;
   Clock& clock_;
   std::vector<std::unique_ptr<TaskState>> states_;
-  std::vector<std::unique_ptr<Core>> cores_;      // the primary one first
-  std::vector<std::unique_ptr<Band>> bands_;      // execution order, the event handler last
-  std::unique_ptr<Band> after_base_;              // sporadic modules evaluated in the primary tick thread
+  std::vector<std::unique_ptr<Core>> cores_;  // the primary one first
+  std::vector<std::unique_ptr<Band>> bands_;  // execution order, the event handler last
+  std::unique_ptr<Band> after_base_;          // sporadic modules evaluated in the primary tick thread
   std::vector<rt::Thread> threads_;
   rt::Thread watchdog_;
-  bool gated_ = false;                            // bands wait for their predecessors explicitly
+  bool gated_ = false;  // bands wait for their predecessors explicitly
   std::int64_t epoch_ns_ = 0;
   std::atomic<bool> stop_{false};
   std::atomic<bool> stop_watchdog_{false};

@@ -19,12 +19,12 @@ using Nanos = std::chrono::nanoseconds;
 // One periodic module as the table sees it. Lowest priority value runs first; equal priorities keep input order.
 struct PeriodicItem {
   Nanos period;
-  Nanos offset;      // first release after tick 0; 0 <= offset < period
+  Nanos offset;  // first release after tick 0; 0 <= offset < period
   int priority = 0;
 };
 
 struct Slot {
-  Nanos time{};                    // since the start of the macro period
+  Nanos time{};                      // since the start of the macro period
   std::vector<std::uint32_t> items;  // indices into the input, in execution order
 };
 

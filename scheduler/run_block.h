@@ -24,13 +24,13 @@ enum class ModuleType : std::uint32_t { Thread, Process };
 enum class Operation : std::uint32_t { Periodic, Sporadic, NonReal };
 enum class OverrunPolicy : std::uint32_t { Skip, CatchUp, StopModule, StopNode };
 enum class ModuleState : std::uint32_t {
-  Loaded,       // start() not called yet
-  Starting,     // process launched, not yet ready
+  Loaded,    // start() not called yet
+  Starting,  // process launched, not yet ready
   Running,
-  Stopped,      // by policy or at the end of the run
-  Faulted,      // quarantined after a fault, see last_fault
-  Restarting,   // process waiting for its restart delay
-  Exited,       // a non-real-time module that finished
+  Stopped,     // by policy or at the end of the run
+  Faulted,     // quarantined after a fault, see last_fault
+  Restarting,  // process waiting for its restart delay
+  Exited,      // a non-real-time module that finished
 };
 enum class FaultKind : std::uint32_t { None, Exception, Signal, Budget, Overrun, Exit, StartFailed, Deadline };
 
@@ -47,7 +47,7 @@ struct Distribution {
 // A module, as the node knows it and as it ran so far.
 struct ModuleRecord {
   // Written before the run, constant afterwards.
-  char name[kNameLength];      // unique; the file name without directory, "cntr1.so"
+  char name[kNameLength];  // unique; the file name without directory, "cntr1.so"
   char file[256];
   ModuleType type;
   Operation operation;
@@ -57,8 +57,8 @@ struct ModuleRecord {
   std::int32_t core;           // -1: not pinned
   std::int64_t period_ns;      // 0 if not periodic
   std::int64_t offset_ns;
-  std::int64_t deadline_ns;    // 0: none
-  std::int64_t budget_ns;      // 0: none
+  std::int64_t deadline_ns;       // 0: none
+  std::int64_t budget_ns;         // 0: none
   std::uint32_t property_offset;  // into the block: "name\0value\0name\0value\0"
   std::uint32_t property_size;
   // Counters.
@@ -73,8 +73,8 @@ struct ModuleRecord {
   std::atomic<std::uint64_t> lost_messages;  // irp::printf lines that found the ring full
   std::atomic<std::uint32_t> fault_kind;     // FaultKind of the last fault
   std::atomic<std::uint64_t> fault_tick;
-  char last_fault[kTextLength];              // "SIGSEGV at address 0x0"; valid once fault_kind is set
-  std::int64_t last_start_ns;                // CLOCK_MONOTONIC, of the run in progress or the last one
+  char last_fault[kTextLength];  // "SIGSEGV at address 0x0"; valid once fault_kind is set
+  std::int64_t last_start_ns;    // CLOCK_MONOTONIC, of the run in progress or the last one
   std::atomic<std::int64_t> last_exec_ns;
   // Distributions.
   Distribution jitter;    // |J_n|, Eq. (1), ns
@@ -85,17 +85,17 @@ struct ModuleRecord {
 
 // How a process module is driven. Written by node and module process. `released` and `done` count releases.
 struct ProcessSlot {
-  rt::SignalWord wake;                     // the node wakes the process
-  std::atomic<std::uint64_t> released;     // last release number, 0: none yet
-  std::atomic<std::uint64_t> done;         // release number of the last finished run
-  std::atomic<std::int64_t> release_ns;    // grid time of `released`
+  rt::SignalWord wake;                   // the node wakes the process
+  std::atomic<std::uint64_t> released;   // last release number, 0: none yet
+  std::atomic<std::uint64_t> done;       // release number of the last finished run
+  std::atomic<std::int64_t> release_ns;  // grid time of `released`
   std::atomic<std::uint64_t> release_tick;
-  std::atomic<std::int64_t> start_ns;      // first instruction of the current or last run
-  std::atomic<std::int64_t> end_ns;        // end of the last run
-  std::atomic<std::int32_t> pid;           // set by irp::initPeriodExe()
-  std::atomic<std::uint32_t> stop;         // 1: waitPeriod() must return false / the process should end
-  std::atomic<std::uint32_t> module;       // index
-  std::atomic<std::int32_t> obtained_fifo; // priority obtained, 0 none
+  std::atomic<std::int64_t> start_ns;       // first instruction of the current or last run
+  std::atomic<std::int64_t> end_ns;         // end of the last run
+  std::atomic<std::int32_t> pid;            // set by irp::initPeriodExe()
+  std::atomic<std::uint32_t> stop;          // 1: waitPeriod() must return false / the process should end
+  std::atomic<std::uint32_t> module;        // index
+  std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
 };
 
 // One entry of the slot log: who ran when. Ring, newest overwrites oldest.
@@ -115,11 +115,11 @@ struct OverrunEntry {
   std::uint64_t tick;
   std::uint32_t slot;
   std::uint32_t module;
-  std::int64_t own_ns;        // time since its start, or 0 if it had not started
-  std::int64_t latency_ns;    // its own release-to-run latency
-  std::int32_t previous;      // module that ran before it in the slot, -1 none
-  std::int64_t previous_ns;   // and how long that took
-  std::uint32_t started;      // 0: it was still waiting for its turn
+  std::int64_t own_ns;       // time since its start, or 0 if it had not started
+  std::int64_t latency_ns;   // its own release-to-run latency
+  std::int32_t previous;     // module that ran before it in the slot, -1 none
+  std::int64_t previous_ns;  // and how long that took
+  std::uint32_t started;     // 0: it was still waiting for its turn
   std::uint32_t reserved;
 };
 
@@ -133,20 +133,20 @@ struct MessageEntry {
   char text[kMessageText];
 };
 struct MessageRing {
-  std::atomic<std::uint64_t> head;      // next ticket for a producer
-  std::atomic<std::uint64_t> tail;      // next entry for the consumer
+  std::atomic<std::uint64_t> head;  // next ticket for a producer
+  std::atomic<std::uint64_t> tail;  // next entry for the consumer
   std::atomic<std::uint64_t> dropped;
-  std::uint32_t capacity;               // power of two
+  std::uint32_t capacity;  // power of two
   std::uint32_t reserved;
-  std::uint64_t entries_offset;         // of MessageEntry[capacity], from the block's start
+  std::uint64_t entries_offset;  // of MessageEntry[capacity], from the block's start
 };
 
 // What the operating system granted, not what was asked for.
 struct Obtained {
-  std::uint32_t fifo;               // 1: SCHED_FIFO
+  std::uint32_t fifo;  // 1: SCHED_FIFO
   std::int32_t tick_priority;
   std::uint32_t memory_locked;
-  std::uint32_t cpu_dma_latency;    // 1: held at 0
+  std::uint32_t cpu_dma_latency;  // 1: held at 0
   std::uint32_t pinned;
   std::int32_t tick_core;
   std::uint32_t preempt_rt;         // kernel is PREEMPT_RT
@@ -162,28 +162,28 @@ struct RunBlock {
   char node_name[48];
   char config_file[256];
   std::atomic<std::int32_t> node_pid;
-  std::uint64_t node_start_time;        // field 22 of /proc/PID/stat
-  std::int64_t started_wall_ns;         // CLOCK_REALTIME
+  std::uint64_t node_start_time;  // field 22 of /proc/PID/stat
+  std::int64_t started_wall_ns;   // CLOCK_REALTIME
   std::atomic<NodeState> state;
   std::int64_t basic_period_ns;
   std::int64_t macro_period_ns;
   std::uint32_t slot_count;
-  std::int64_t epoch_ns;                // CLOCK_MONOTONIC of tick 0
-  std::atomic<std::uint64_t> tick;      // number of the last tick begun + 1; 0: none
+  std::int64_t epoch_ns;            // CLOCK_MONOTONIC of tick 0
+  std::atomic<std::uint64_t> tick;  // number of the last tick begun + 1; 0: none
   std::atomic<std::uint64_t> lost_ticks;
   std::atomic<std::int64_t> spin_margin_ns;
   Obtained obtained;
   char stop_reason[kTextLength];
-  std::uint64_t modules_offset;         // ModuleRecord[module_count]
-  std::uint64_t slots_offset;           // ProcessSlot[module_count]
-  std::uint64_t rings_offset;           // MessageRing[module_count + 1], the last is the node's own
+  std::uint64_t modules_offset;  // ModuleRecord[module_count]
+  std::uint64_t slots_offset;    // ProcessSlot[module_count]
+  std::uint64_t rings_offset;    // MessageRing[module_count + 1], the last is the node's own
   std::uint64_t slot_log_offset;
-  std::uint32_t slot_log_capacity;      // power of two
+  std::uint32_t slot_log_capacity;  // power of two
   std::uint32_t overrun_log_capacity;
   std::uint64_t overrun_log_offset;
   std::atomic<std::uint64_t> slot_log_next;
   std::atomic<std::uint64_t> overrun_log_next;
-  Distribution tick_lateness;           // T_n - P_n of the tick thread itself, ns
+  Distribution tick_lateness;  // T_n - P_n of the tick thread itself, ns
 
   template <class T>
   T* at(std::uint64_t offset) noexcept {

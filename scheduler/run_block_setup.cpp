@@ -23,7 +23,9 @@ struct Offsets {
 };
 
 constexpr std::size_t kLine = 64;
-std::size_t round_up(std::size_t size) noexcept { return (size + kLine - 1) / kLine * kLine; }
+std::size_t round_up(std::size_t size) noexcept {
+  return (size + kLine - 1) / kLine * kLine;
+}
 
 std::size_t property_bytes(const ModuleSetup& module) noexcept {
   std::size_t bytes = 0;
@@ -88,7 +90,9 @@ void init_ring(MessageRing& ring, std::size_t offset, std::uint32_t capacity) no
 
 }  // namespace
 
-std::size_t run_block_size(const RunBlockSetup& setup) { return offsets_of(setup).total; }
+std::size_t run_block_size(const RunBlockSetup& setup) {
+  return offsets_of(setup).total;
+}
 
 void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   const Offsets at = offsets_of(setup);

@@ -6,7 +6,9 @@
 namespace indurop::scheduler {
 namespace {
 
-std::int64_t magnitude(std::int64_t value) noexcept { return value < 0 ? -value : value; }
+std::int64_t magnitude(std::int64_t value) noexcept {
+  return value < 0 ? -value : value;
+}
 
 std::uint32_t slot_of(const RunBlock& block, std::uint64_t tick) noexcept {
   return block.slot_count == 0 ? 0 : static_cast<std::uint32_t>(tick % block.slot_count);

@@ -12,19 +12,19 @@
 namespace indurop::scheduler {
 
 struct Task {
-  std::uint32_t index = 0;         // into RunBlock's modules
+  std::uint32_t index = 0;  // into RunBlock's modules
   ModuleType type = ModuleType::Thread;
   Operation operation = Operation::Periodic;
   OverrunPolicy overrun = OverrunPolicy::Skip;
-  int priority = 0;                // lowest value first
+  int priority = 0;  // lowest value first
   int core = 0;
-  std::int64_t period_ns = 0;      // periodic only
+  std::int64_t period_ns = 0;  // periodic only
   std::int64_t offset_ns = 0;
-  std::int64_t budget_ns = 0;      // longest allowed execution, 0: no limit
-  bool after_base = false;         // sporadic: evaluated right after the inline band
-  int legacy_signal = 0;           // process woken by this signal instead of its slot
-  void (*run)() = nullptr;         // thread modules
-  Condition condition;             // sporadic thread modules
+  std::int64_t budget_ns = 0;  // longest allowed execution, 0: no limit
+  bool after_base = false;     // sporadic: evaluated right after the inline band
+  int legacy_signal = 0;       // process woken by this signal instead of its slot
+  void (*run)() = nullptr;     // thread modules
+  Condition condition;         // sporadic thread modules
 };
 
 }  // namespace indurop::scheduler

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes a thousand variables every millisecond, for `indurop watch '*'` to look at.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The smallest thread module: what remains is the scheduler.
 #include <indurop/indurop.h>
 

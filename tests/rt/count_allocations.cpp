@@ -69,7 +69,7 @@ struct Report {
 }  // namespace
 
 extern "C" {
-void* __libc_malloc(std::size_t size);   // NOLINT: glibc's own allocator under the interposed names
+void* __libc_malloc(std::size_t size);                     // NOLINT: glibc's own allocator under the interposed names
 void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT
 void* __libc_realloc(void* old, std::size_t size);         // NOLINT
 void __libc_free(void* memory);                            // NOLINT
