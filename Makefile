@@ -5,22 +5,26 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS)
 
-.PHONY: all configure demo test check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
+.PHONY: all with-tests demo test check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
 
-all: check-deps configure ## build everything into build/, programs in build/bin/
+all: check-deps ## build into build/, programs in build/bin/
+	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-configure:
-	@cmake --preset release --log-level=WARNING >/dev/null
+# Tests, and the packages they need, come with the first `make test` and then stay.
+without_tests = $(if $(wildcard build/CMakeCache.txt),,-DINDUROP_BUILD_TESTS=OFF)
+
+with-tests:
+	@.ci/install-deps build test
+	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
+	@cmake --build --preset release -j $(JOBS)
 
 demo: ## install what is missing, build, run the chapter's example
 	@.ci/install-deps build
 	@$(MAKE) --no-print-directory all
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
 
-test: ## install what is missing, build, run all tests and lints
-	@.ci/install-deps build test
-	@$(MAKE) --no-print-directory all
+test: with-tests ## install what is missing, build, run all tests and lints
 	@$(CTEST)
 
 check-deps:
@@ -38,7 +42,7 @@ asan-ubsan tsan:
 	@cmake --build --preset $@ -j $(JOBS)
 	@ctest --preset $@ -j $(JOBS)
 
-tidy: all ## clang-tidy over all sources
+tidy: with-tests ## clang-tidy over all sources
 	@$(CTEST) -L tidy
 
 format: ## clang-format all C++ files in place
