@@ -55,8 +55,9 @@ std::string_view trimmed(std::string_view text) {
 
 bool complain(const char* name, std::string_view text, std::string_view expected) {
   const auto module = calling_module();
-  const std::string line = fmt::format("property '{}' is \"{}\", expected {}: using the default", name, text, expected);
-  if (runtime::Process::get().first_time(fmt::format("{}: {}", module ? module->name : "", line))) {
+  const std::string line = fmt::format("module {}: property '{}' is \"{}\", expected {}: using the default",
+                                       module ? module->name : "?", name, text, expected);
+  if (runtime::Process::get().first_time(line)) {
     irp::printf("%s\n", line);
   }
   return false;

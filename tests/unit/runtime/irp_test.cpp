@@ -78,9 +78,9 @@ TEST(Property, Of_wrong_form_gives_the_default_and_one_message) {
   const Hosted hosted(node);
   EXPECT_EQ(irp::property("counter", 3), 3);
   EXPECT_EQ(irp::property("counter", 3), 3);
-  EXPECT_EQ(
-      printed(node),
-      "property 'counter' is \"5x\", expected a whole number from -2147483648 to 2147483647: using the default\n");
+  EXPECT_EQ(printed(node),
+            "module m: property 'counter' is \"5x\", expected a whole number from -2147483648 to 2147483647: using the "
+            "default\n");
   EXPECT_EQ(irp::property<std::uint8_t>("big", 1), 1);
   EXPECT_EQ(irp::property<std::int8_t>("minus", 1), 1);
   EXPECT_EQ(irp::property("sign", 2U), 2U);
