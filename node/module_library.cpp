@@ -46,19 +46,15 @@ Function symbol(void* handle, const char* plain, const char* mangled) {
 
 bool ModuleLibrary::load(const std::filesystem::path& file, bool own_copy, std::string& problem) {
   std::string path = file.string();
-  int memory = -1;
   if (own_copy) {
-    memory = copy_to_memory(file);
-    if (memory < 0) {
+    copy_ = copy_to_memory(file);
+    if (copy_ < 0) {
       problem = fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno));
       return false;
     }
-    path = fmt::format("/proc/self/fd/{}", memory);
+    path = fmt::format("/proc/self/fd/{}", copy_);
   }
   handle_ = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (memory >= 0) {
-    ::close(memory);
-  }
   if (handle_ == nullptr) {
     const char* reason = ::dlerror();
     problem = fmt::format(
@@ -90,10 +86,13 @@ void ModuleLibrary::find_functions() {
 }
 
 ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)), functions_(other.functions_) {}
+    : handle_(std::exchange(other.handle_, nullptr)),
+      copy_(std::exchange(other.copy_, -1)),
+      functions_(other.functions_) {}
 
 ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(handle_, other.handle_);
+  std::swap(copy_, other.copy_);
   std::swap(functions_, other.functions_);
   return *this;
 }
@@ -101,6 +100,9 @@ ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
 ModuleLibrary::~ModuleLibrary() {
   if (handle_ != nullptr) {
     ::dlclose(handle_);
+  }
+  if (copy_ >= 0) {
+    ::close(copy_);
   }
 }
 

@@ -28,6 +28,7 @@ class ModuleLibrary {
  private:
   void find_functions();
   void* handle_ = nullptr;
+  int copy_ = -1;  // stays open: the dynamic linker would take a second file of the same number for this one
   ModuleDescriptor functions_;
 };
 

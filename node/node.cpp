@@ -63,6 +63,12 @@ Node::~Node() {
   engine_.reset();
   processes_.reset();
   runtime::detach_process();
+  if (leave_nothing_) {
+    store_.reset();
+    run_file_.reset();
+    lock_.reset();
+    (void)vars::remove_node(options_.node);  // busy: somebody has just taken the name over
+  }
 }
 
 int Node::run() {
@@ -124,6 +130,8 @@ bool Node::claim_name() {
     return fail(kFailed);
   }
   lock_ = std::move(lock).value();
+  const auto known = vars::list_nodes();
+  leave_nothing_ = std::find(known.begin(), known.end(), options_.node) == known.end();
   return !interrupted();
 }
 
@@ -258,6 +266,7 @@ bool Node::start_modules() {
       hooks(), clock_);
   phases_ = std::make_unique<Phases>(config_, *run_, libraries_, console_, signals_, hooks());
   normal_threads_ = std::make_unique<NormalThreads>(config_, *run_, libraries_, hooks());
+  leave_nothing_ = false;  // from here on there is something to look at
   const bool ok = phases_->call_all("start", &ModuleDescriptor::start);
   console_.report(rt::now_ns(), false);
   started_ = true;

@@ -88,6 +88,7 @@ class Node {
   std::unique_ptr<NormalThreads> normal_threads_;
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   bool started_ = false;
+  bool leave_nothing_ = false;  // nothing of this node was there before, and nothing of this run is worth keeping
 };
 
 }  // namespace indurop::node

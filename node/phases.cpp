@@ -45,6 +45,7 @@ bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
   state.task.index = index;
   state.task.run = function;
   state.record = &scratch;
+  state.logged = false;
   scheduler::Runner runner(run_, clock_, hooks_, trace, 1);
   std::atomic<bool> done{false};
   auto thread = rt::Thread::start({"irp-phase", 0, -1, kStackBytes}, [&] {

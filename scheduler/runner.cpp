@@ -152,7 +152,9 @@ void Runner::account() noexcept {
     const RunTimes& times = times_[i];
     if (times.end_ns != 0) {
       account_run(*tasks_[i]->record, tasks_[i]->jitter, times);
-      log_slot(block_, {tick_, tasks_[i]->task.index, times});
+      if (tasks_[i]->logged) {
+        log_slot(block_, {tick_, tasks_[i]->task.index, times});
+      }
     }
   }
 }

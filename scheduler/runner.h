@@ -21,10 +21,11 @@ namespace indurop::scheduler {
 struct TaskState {
   Task task;
   ModuleRecord* record = nullptr;
-  ProcessSlot* slot = nullptr;       // process modules
+  ProcessSlot* slot = nullptr;  // process modules
   JitterReference jitter;
-  std::atomic<bool> enabled{true};   // false: stopped or faulted, never entered again
-  std::uint64_t accounted = 0;       // process modules: last release whose run was counted
+  std::atomic<bool> enabled{true};  // false: stopped or faulted, never entered again
+  std::uint64_t accounted = 0;      // process modules: last release whose run was counted
+  bool logged = true;               // false: its runs are no part of the schedule and stay out of the slot log
 };
 
 // What the embedding program wants to know, called on real-time threads: no allocation, no lock, no system call.

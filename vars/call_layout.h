@@ -33,8 +33,8 @@ struct alignas(64) CallFunction {
   pthread_mutex_t serving;                // held by the server's thread for as long as it serves: free = no server
   std::atomic<std::int32_t> server_pid;   // for people; 0: none yet, or ended in order
   std::uint32_t reserved;
-  std::atomic<std::uint64_t> calls;       // answered
-  std::atomic<std::uint64_t> given_up;    // no answer in time
+  std::atomic<std::uint64_t> calls;     // answered
+  std::atomic<std::uint64_t> given_up;  // no answer in time
   rt::SignalWord wake;
 };
 static_assert(std::is_standard_layout_v<CallFunction>);

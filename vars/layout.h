@@ -25,22 +25,23 @@ struct BlockHeader {
   std::uint64_t layout_hash;  // over directory and schema text
   std::atomic<std::uint64_t> generation;
   std::atomic<BlockState> state;
-  std::atomic<std::int32_t> node_pid;         // 0: no node runs
-  std::atomic<std::uint64_t> node_start_time; // field 22 of /proc/PID/stat, tells a reused pid
-  std::atomic<std::int64_t> heartbeat_ns;     // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> node_pid;          // 0: no node runs
+  std::atomic<std::uint64_t> node_start_time;  // field 22 of /proc/PID/stat, tells a reused pid
+  std::atomic<std::int64_t> heartbeat_ns;      // CLOCK_MONOTONIC
   std::uint32_t variable_count;
   std::uint32_t function_count;
   std::uint64_t directory_offset;
   std::uint64_t schema_offset;
   std::uint64_t schema_size;
-  std::uint64_t functions_offset;  // area of vars/call_layout.h: call_area_size(schema) bytes, init_call_area() fills it
+  std::uint64_t
+      functions_offset;  // area of vars/call_layout.h: call_area_size(schema) bytes, init_call_area() fills it
   char node_name[kMaxNodeName];
 };
 
 struct DirectoryEntry {
   std::uint64_t name_hash;
   std::uint64_t type_hash;
-  std::uint64_t offset;        // of the entry from the block's start
+  std::uint64_t offset;  // of the entry from the block's start
   std::uint32_t value_size;
   abi::Kind kind;
   std::uint32_t schema_index;  // into Schema::variables

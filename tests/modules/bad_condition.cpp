@@ -4,7 +4,9 @@
 
 #include <stdexcept>
 
-bool has_occurred() { throw std::runtime_error("no idea"); }
+bool has_occurred() {
+  throw std::runtime_error("no idea");
+}
 void onRun() {}
 
 INDUROP_MODULE(run = &::onRun, condition = &::has_occurred)

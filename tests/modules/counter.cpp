@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A well-behaved module: counts its runs, says hello and goodbye, and has a global of its own.
-#include <indurop/indurop.h>
 #include <indurop/generated.h>
+#include <indurop/indurop.h>
 
 #include <string>
 
@@ -21,6 +21,8 @@ void onRun() {
   ++nt::kept;
 }
 
-void onStop() { irp::printf("%s stops after %d runs of its own\n", label, own); }
+void onStop() {
+  irp::printf("%s stops after %d runs of its own\n", label, own);
+}
 
 INDUROP_MODULE(run = &::onRun, start = &::onStart, stop = &::onStop)

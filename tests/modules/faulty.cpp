@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Misbehaves as its properties say: "fault" names how, "at" in which phase (start, run, stop), "after" how many good
 // runs come before. "busy_us" makes every run that long, "every" only every n-th.
-#include <indurop/indurop.h>
 #include <indurop/generated.h>
+#include <indurop/indurop.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -14,10 +14,16 @@ namespace {
 using Action = void (*)();
 
 void nothing() {}
-void throw_error() { throw std::runtime_error("out of ink"); }
-void throw_number() { throw 42; }
+void throw_error() {
+  throw std::runtime_error("out of ink");
+}
+void throw_number() {
+  throw 42;
+}
 volatile std::uintptr_t bad_address = 0x10;
-void segv() { *reinterpret_cast<volatile int*>(bad_address) = 1; }
+void segv() {
+  *reinterpret_cast<volatile int*>(bad_address) = 1;
+}
 volatile int number = 1000;
 volatile int zero = 0;
 [[gnu::no_sanitize("integer-divide-by-zero")]] void fpe() {
@@ -38,15 +44,19 @@ void loop() {
   return forever ? deeper(depth + 1) + room[0] : room[0];
 }
 volatile int sink = 0;
-void overflow() { sink = deeper(0); }
-void stop_program() { std::abort(); }
+void overflow() {
+  sink = deeper(0);
+}
+void stop_program() {
+  std::abort();
+}
 
 struct Named {
   const char* name;
   Action action;
 };
-constexpr Named kFaults[] = {{"none", nothing},   {"throw", throw_error},  {"throw-number", throw_number},
-                             {"segv", segv},      {"fpe", fpe},            {"loop", loop},
+constexpr Named kFaults[] = {{"none", nothing},   {"throw", throw_error}, {"throw-number", throw_number},
+                             {"segv", segv},      {"fpe", fpe},           {"loop", loop},
                              {"stack", overflow}, {"abort", stop_program}};
 
 Action fault = nothing;

@@ -24,6 +24,8 @@ void onRun() {
   }
 }
 
-void onStop() { irp::printf("%s ends with %d\n", label, own); }
+void onStop() {
+  irp::printf("%s ends with %d\n", label, own);
+}
 
 INDUROP_MODULE(run = &::onRun, start = &::onStart, stop = &::onStop)

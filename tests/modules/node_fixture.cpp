@@ -53,7 +53,8 @@ NodeTest::NodeTest() : name_("nt-" + std::to_string(::getpid()) + "-" + std::to_
 void NodeTest::TearDown() {
   if (HasFailure()) {
     for (const auto& program : programs_) {
-      ADD_FAILURE() << "--- program " << program->pid() << " printed:\n" << program->out() << "--- and said:\n"
+      ADD_FAILURE() << "--- program " << program->pid() << " printed:\n"
+                    << program->out() << "--- and said:\n"
                     << program->err();
     }
   }
@@ -203,9 +204,8 @@ std::vector<Started> slot_log(const scheduler::RunBlock& run) {
 
 int order_violations(const scheduler::RunBlock& run) {
   std::vector<Started> log = slot_log(run);
-  std::erase_if(log, [&](const Started& s) {
-    return run.modules()[s.module].operation != scheduler::Operation::Periodic;
-  });
+  std::erase_if(log,
+                [&](const Started& s) { return run.modules()[s.module].operation != scheduler::Operation::Periodic; });
   std::sort(log.begin(), log.end(), [](const Started& a, const Started& b) {
     return a.tick != b.tick ? a.tick < b.tick : a.start_ns < b.start_ns;
   });

@@ -2,4 +2,6 @@
 // Calls a function that no library it was linked with defines.
 extern "C" void function_nobody_wrote();
 
-extern "C" void run() { function_nobody_wrote(); }
+extern "C" void run() {
+  function_nobody_wrote();
+}

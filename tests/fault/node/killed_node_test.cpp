@@ -111,14 +111,12 @@ TEST_F(KilledNode, Has_saved_its_retained_values_by_then) {
 }
 
 TEST_F(KilledNode, Takes_its_process_modules_along) {
-  Program& victim = start_and_wait({{.file = "counter.so", .name = "counter"},
-                                    {.file = "process.exe", .name = "good", .type = "process", .priority = 2},
-                                    {.file = "process.exe", .name = "deaf", .type = "process", .priority = 3,
-                                     .more = "<argument>deaf</argument>"},
-                                    {.file = "process.exe", .name = "never", .type = "process", .priority = 4,
-                                     .more = "<argument>never</argument>"},
-                                    {.file = "legacy.exe", .name = "legacy", .type = "process", .priority = 5,
-                                     .more = "<signal>SIGUSR1</signal>"}});
+  Program& victim = start_and_wait(
+      {{.file = "counter.so", .name = "counter"},
+       {.file = "process.exe", .name = "good", .type = "process", .priority = 2},
+       {.file = "process.exe", .name = "deaf", .type = "process", .priority = 3, .more = "<argument>deaf</argument>"},
+       {.file = "process.exe", .name = "never", .type = "process", .priority = 4, .more = "<argument>never</argument>"},
+       {.file = "legacy.exe", .name = "legacy", .type = "process", .priority = 5, .more = "<signal>SIGUSR1</signal>"}});
   std::vector<pid_t> children;
   for (const char* name : {"good", "deaf", "never", "legacy"}) {
     children.push_back(module(name).pid.load());

@@ -18,13 +18,17 @@ struct Fault {
   const char* name;
   const char* text;  // what the node says about it
 };
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
 
 constexpr const char* kFailSafe = "<failsafe variable=\"nt::output\">-7</failsafe>";
 
 class ThreadFaults : public NodeTest, public ::testing::WithParamInterface<Fault> {};
 
-std::string short_budget(const std::string& fault) { return fault == "loop" ? "<budget>20ms</budget>" : ""; }
+std::string short_budget(const std::string& fault) {
+  return fault == "loop" ? "<budget>20ms</budget>" : "";
+}
 
 Module faulty(const std::string& fault, const std::string& at) {
   return {.file = "faulty.so",
@@ -36,7 +40,8 @@ Module faulty(const std::string& fault, const std::string& at) {
 
 TEST_P(ThreadFaults, In_run_stops_only_the_module_itself) {
   SKIP_CRASHES_UNDER_TSAN();
-  Program& sut = start_and_wait({faulty(GetParam().name, "run"), {.file = "counter.so", .name = "good", .priority = 2}});
+  Program& sut =
+      start_and_wait({faulty(GetParam().name, "run"), {.file = "counter.so", .name = "good", .priority = 2}});
   const auto& bad = module("bad");
   ASSERT_TRUE(wait_until([&] { return bad.faults.load() == 1; }));
   const auto before = module("good").runs.load();
@@ -77,7 +82,8 @@ TEST_P(ThreadFaults, In_start_end_the_node_before_anything_ran) {
   if (std::string(GetParam().name) == "loop") {
     GTEST_SKIP() << "start() may take its time; see the tests of signals";
   }
-  const auto sut = run_to_end({faulty(GetParam().name, "start"), {.file = "counter.so", .name = "good", .priority = 2}});
+  const auto sut =
+      run_to_end({faulty(GetParam().name, "start"), {.file = "counter.so", .name = "good", .priority = 2}});
   EXPECT_EQ(sut.code, 1);
   EXPECT_CONTAINS(sut.err, std::string("start() failed: ") + GetParam().text);
   EXPECT_CONTAINS(sut.err, "nothing was run");
@@ -151,8 +157,8 @@ TEST_F(ThreadFault, Ends_the_node_if_its_policy_says_so) {
 
 TEST_F(ThreadFault, In_condition_shuts_out_a_sporadic_module) {
   SKIP_CRASHES_UNDER_TSAN();
-  Program& sut = start_and_wait({{.file = "counter.so", .name = "good"},
-                                 {.file = "bad_condition.so", .name = "bad", .operation = "sporadic"}});
+  Program& sut = start_and_wait(
+      {{.file = "counter.so", .name = "good"}, {.file = "bad_condition.so", .name = "bad", .operation = "sporadic"}});
   ASSERT_TRUE(wait_until([&] { return module("bad").faults.load() == 1; }));
   EXPECT_TRUE(runs_reach("good", module("good").runs.load() + 50));
   EXPECT_TRUE(sut.says("exception: no idea"));

@@ -10,7 +10,8 @@
 namespace indurop::test {
 namespace {
 
-const Module kCaller = {.file = "caller.so", .name = "caller", .period = "5ms", .priority = 2, .more = "<budget>off</budget>"};
+const Module kCaller = {
+    .file = "caller.so", .name = "caller", .period = "5ms", .priority = 2, .more = "<budget>off</budget>"};
 
 class Functions : public NodeTest {
  protected:
@@ -47,8 +48,11 @@ TEST_F(Functions, Nobody_implements_fail_with_a_clear_error) {
 }
 
 TEST_F(Functions, Of_a_process_that_is_killed_fail_and_come_back_with_it) {
-  Program& sut = start_and_wait({{.file = "server_process.exe", .name = "server", .type = "process",
-                                  .more = "<restart delay=\"50ms\" max=\"1000\"/>"}, kCaller});
+  Program& sut = start_and_wait({{.file = "server_process.exe",
+                                  .name = "server",
+                                  .type = "process",
+                                  .more = "<restart delay=\"50ms\" max=\"1000\"/>"},
+                                 kCaller});
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(answers_reach(value<std::uint32_t>("nt::answers") + 5));
     const auto failures = value<std::uint32_t>("nt::failures");

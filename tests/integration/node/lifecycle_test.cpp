@@ -37,8 +37,9 @@ TEST_P(Signals, While_running) {
 
 TEST_P(Signals, While_start_hangs) {
   SKIP_CRASHES_UNDER_TSAN();
-  Program& sut = start({{.file = "counter.so", .name = "good", .priority = 1},
-                        {.file = "faulty.so", .name = "bad", .priority = 2, .properties = {{"fault", "loop"}, {"at", "start"}}}});
+  Program& sut =
+      start({{.file = "counter.so", .name = "good", .priority = 1},
+             {.file = "faulty.so", .name = "bad", .priority = 2, .properties = {{"fault", "loop"}, {"at", "start"}}}});
   ASSERT_TRUE(sut.prints("counter starts with"));
   sut.signal(number());
   EXPECT_EQ(sut.wait(), code() == 0 ? 1 : code()) << "a module faulted";
@@ -48,7 +49,11 @@ TEST_P(Signals, While_start_hangs) {
 
 TEST_P(Signals, While_a_process_is_awaited) {
   Program& sut = start({{.file = "counter.so", .name = "counter"},
-                        {.file = "process.exe", .name = "never", .type = "process", .priority = 2, .more = "<argument>never</argument>"}});
+                        {.file = "process.exe",
+                         .name = "never",
+                         .type = "process",
+                         .priority = 2,
+                         .more = "<argument>never</argument>"}});
   ASSERT_TRUE(wait_until([&] {
     const auto* block = run();
     return block != nullptr && block->module_count == 2 && block->modules()[1].pid.load() > 0;
@@ -148,8 +153,12 @@ TEST_F(Lifecycle, Orderly_stop_resets_values_and_keeps_the_retained) {
 
 TEST_F(Lifecycle, Usage_errors_exit_with_2) {
   const std::string file = write("module.xml", xml(kCounter));
-  for (const auto& arguments : std::vector<std::vector<std::string>>{
-           {"--frobnicate"}, {"--node", "a/b"}, {"--node", ""}, {"--duration", "soon"}, {"--spin", "fast"}, {"--core", "9999"}}) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{"--frobnicate"},
+                                                                     {"--node", "a/b"},
+                                                                     {"--node", ""},
+                                                                     {"--duration", "soon"},
+                                                                     {"--spin", "fast"},
+                                                                     {"--core", "9999"}}) {
     const auto sut = outcome_of(start_file(file, arguments));
     EXPECT_EQ(sut.code, 2) << arguments.front();
     EXPECT_THAT(sut.err + sut.out, ::testing::Not(::testing::IsEmpty()));
@@ -157,18 +166,19 @@ TEST_F(Lifecycle, Usage_errors_exit_with_2) {
 }
 
 TEST_F(Lifecycle, Closed_output_does_not_end_a_running_node) {
-  Program& sut = start_file(write("module.xml", xml({{.file = "flood.so", .name = "flood", .period = "10ms"}})), {}, [this] {
-    Environment environment = this->environment();
-    environment.prepare = [] {
-      int ends[2];
-      if (::pipe(ends) != 0) {
-        return false;
-      }
-      ::close(ends[0]);
-      return ::dup2(ends[1], STDOUT_FILENO) == STDOUT_FILENO;
-    };
-    return environment;
-  }());
+  Program& sut =
+      start_file(write("module.xml", xml({{.file = "flood.so", .name = "flood", .period = "10ms"}})), {}, [this] {
+        Environment environment = this->environment();
+        environment.prepare = [] {
+          int ends[2];
+          if (::pipe(ends) != 0) {
+            return false;
+          }
+          ::close(ends[0]);
+          return ::dup2(ends[1], STDOUT_FILENO) == STDOUT_FILENO;
+        };
+        return environment;
+      }());
   ASSERT_TRUE(wait_until_running(sut));
   EXPECT_TRUE(runs_reach("flood", 20));
   sut.signal(SIGTERM);

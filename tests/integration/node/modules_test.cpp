@@ -16,8 +16,8 @@ TEST_F(Modules, Of_one_file_have_their_own_properties_and_globals) {
   std::vector<Module> modules;
   for (int i = 1; i <= 5; ++i) {
     const std::string name = "m" + std::to_string(i);
-    modules.push_back({.file = "label.so", .name = name, .priority = i,
-                       .properties = {{"label", name}, {"add", std::to_string(i)}}});
+    modules.push_back(
+        {.file = "label.so", .name = name, .priority = i, .properties = {{"label", name}, {"add", std::to_string(i)}}});
   }
   Program& sut = start_and_wait(modules);
   for (int i = 1; i <= 5; ++i) {
@@ -59,7 +59,11 @@ TEST_F(Modules, Quiet_node_still_shows_what_modules_print) {
 TEST_F(Modules, Legacy_program_is_woken_by_its_signal) {
   const std::string file = folder() / "wakes";
   Program& sut = start_and_wait({{.file = "counter.so", .name = "counter"},
-                                 {.file = "legacy.exe", .name = "legacy", .type = "process", .period = "5ms", .priority = 2,
+                                 {.file = "legacy.exe",
+                                  .name = "legacy",
+                                  .type = "process",
+                                  .period = "5ms",
+                                  .priority = 2,
                                   .more = "<argument>" + file + "</argument><signal>SIGUSR1</signal>"}});
   const auto wakes = [&] {
     int number = 0;

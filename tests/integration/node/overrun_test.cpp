@@ -11,8 +11,13 @@ namespace {
 using scheduler::ModuleState;
 
 Module slow(const std::string& policy, const std::string& period = "1ms", const std::string& busy_us = "1500") {
-  return {.file = "faulty.so", .name = "slow", .period = period, .priority = 2, .properties = {{"busy_us", busy_us}, {"every", "4"}},
-          .more = "<overrun>" + policy + "</overrun><budget>off</budget><failsafe variable=\"nt::output\">-7</failsafe>"};
+  return {
+      .file = "faulty.so",
+      .name = "slow",
+      .period = period,
+      .priority = 2,
+      .properties = {{"busy_us", busy_us}, {"every", "4"}},
+      .more = "<overrun>" + policy + "</overrun><budget>off</budget><failsafe variable=\"nt::output\">-7</failsafe>"};
 }
 const Module kCounter = {.file = "counter.so", .name = "counter", .priority = 1};
 // Makes the basic period shorter, so that the slow module gets a band of its own.
@@ -99,10 +104,10 @@ TEST_F(Overrun, Budget_ends_a_module_that_takes_too_long) {
 }
 
 TEST_F(Overrun, Of_a_process_module_is_skipped_and_counted) {
-  Program& sut = start_and_wait({kCounter,
-                                 {.file = "writer.exe", .name = "process", .type = "process", .period = "1ms", .priority = 2},
-                                 {.file = "faulty.so", .name = "before", .period = "5ms", .priority = 1,
-                                  .properties = {{"busy_us", "2500"}}}});
+  Program& sut = start_and_wait(
+      {kCounter,
+       {.file = "writer.exe", .name = "process", .type = "process", .period = "1ms", .priority = 2},
+       {.file = "faulty.so", .name = "before", .period = "5ms", .priority = 1, .properties = {{"busy_us", "2500"}}}});
   EXPECT_TRUE(wait_until([&] { return module("process").overruns.load() > 3; }));
   EXPECT_GE(module("process").skipped.load() + 1, module("process").overruns.load());
   EXPECT_TRUE(runs_reach("process", module("process").runs.load() + 10));
