@@ -25,7 +25,7 @@ demo: ## install what is missing, build, run the chapter's example
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
-	@$(CTEST)
+	@$(CTEST) -LE tidy
 
 check-deps:
 	@missing=$$(.ci/install-deps --list build); if [ -n "$$missing" ]; then \

@@ -81,10 +81,11 @@ TEST(NodeLock, Two_removers_and_starters_never_hold_it_at_once) {
       if (holders->fetch_add(1) != 0) {
         return 1;
       }
+      holders->fetch_sub(1);
       if (i % 2 == 0) {
+        // From here on a newcomer makes a file of its own: removing is the last thing a holder may do.
         static_cast<void>(remove_shm_file(lock_file(node.name())));
       }
-      holders->fetch_sub(1);
     }
     return 0;
   };
