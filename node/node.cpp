@@ -422,6 +422,9 @@ int Node::finish() {
     return exit_;
   }
   console_.report(rt::now_ns(), true);
+  if (run_->tick.load() == 0 && !reason_.empty()) {
+    console_.error("stopped before the first tick: {}", reason_);
+  }
   if (reason_.empty()) {
     reason_ = exit_ == kOk ? "end of the duration" : "could not start";
   }
