@@ -26,8 +26,8 @@ STRESS = ["stress-ng", "--quiet", "--cpu", "2", "--io", "1", "--vm", "1", "--vm-
 
 class Bench:
     def __init__(self, arguments):
-        self.bin = arguments.bin
-        self.programs = arguments.programs
+        self.bin = os.path.abspath(arguments.bin)
+        self.programs = os.path.abspath(arguments.programs)
         self.rounds = arguments.rounds
         self.seconds = arguments.seconds
         self.rows = []
