@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/console.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace indurop::node {
 namespace {
 
 constexpr std::int64_t kSummaryNs = 1'000'000'000;
+constexpr std::size_t kMostLines = 4;
 
 double microseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns) / 1000;
@@ -88,31 +90,33 @@ void Console::report_faults() {
 
 void Console::report_overruns(std::int64_t now_ns, bool last) {
   next_summary_ns_ = now_ns + kSummaryNs;
+  std::vector<std::string> lines;
   for (std::uint32_t i = 0; i < run_->module_count; ++i) {
     const scheduler::ModuleRecord& module = run_->modules()[i];
     const std::uint64_t overruns = module.overruns.load(std::memory_order_relaxed);
-    if (overruns > seen_[i].overruns) {
-      const std::uint64_t fresh = overruns - seen_[i].overruns;
-      seen_[i].overruns = overruns;
+    if (const std::uint64_t fresh = overruns - seen_[i].overruns; fresh > 0) {
       const scheduler::OverrunEntry* entry = newest_overrun(*run_, i);
-      if (entry == nullptr) {
-        warning("module {}: {} overruns", module.name, fresh);
-        continue;
-      }
-      warning("module {}: {} overrun{}, {}", module.name, fresh, fresh == 1 ? "" : "s", describe(*run_, *entry));
+      lines.push_back(fmt::format("module {}: {} overrun{}{}", module.name, fresh, fresh == 1 ? "" : "s",
+                                  entry == nullptr ? "" : ", " + describe(*run_, *entry)));
+      seen_[i].overruns = overruns;
     }
     const std::uint64_t misses = module.deadline_misses.load(std::memory_order_relaxed);
-    if (misses > seen_[i].misses) {
-      warning("module {}: {} deadline{} of {:.1f} us missed", module.name, misses - seen_[i].misses,
-              misses - seen_[i].misses == 1 ? "" : "s", microseconds(module.deadline_ns));
+    if (const std::uint64_t fresh = misses - seen_[i].misses; fresh > 0) {
+      lines.push_back(fmt::format("module {}: {} deadline{} of {:.1f} us missed", module.name, fresh,
+                                  fresh == 1 ? "" : "s", microseconds(module.deadline_ns)));
       seen_[i].misses = misses;
     }
   }
-  const std::uint64_t lost = run_->lost_ticks.load(std::memory_order_relaxed);
-  if (lost > seen_lost_ticks_ && last) {
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) {
+    warning("{}", lines[i]);
+  }
+  if (lines.size() > kMostLines) {
+    warning("... and {} more of this kind in 1 s: `indurop overruns` and `indurop status` show all",
+            lines.size() - kMostLines);
+  }
+  if (const std::uint64_t lost = run_->lost_ticks.load(std::memory_order_relaxed); last && lost > 0) {
     warning("{} basic periods lost in all: nothing could be started in them", lost);
   }
-  seen_lost_ticks_ = lost;
 }
 
 void Console::report_losses() {

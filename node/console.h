@@ -59,7 +59,6 @@ class Console {
   scheduler::RunBlock* run_ = nullptr;
   std::optional<runtime::MessageReader> reader_;  // none before watch()
   std::vector<Seen> seen_;
-  std::uint64_t seen_lost_ticks_ = 0;
   std::int64_t next_summary_ns_ = 0;
 };
 
