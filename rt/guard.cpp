@@ -30,10 +30,10 @@ void on_order(int /*number*/, siginfo_t* /*info*/, void* /*context*/) {
   }
 }
 
-void install(int number, void (*handler)(int, siginfo_t*, void*)) noexcept {
+void install(int number, void (*handler)(int, siginfo_t*, void*), int more_flags) noexcept {
   struct sigaction action {};
   action.sa_sigaction = handler;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | more_flags;
   ::sigemptyset(&action.sa_mask);
   ::sigaction(number, &action, nullptr);
 }
@@ -44,9 +44,11 @@ constexpr std::size_t kHandlerStackBytes = 64 * 1024;
 
 void install_guard_handlers() noexcept {
   for (const int number : kFaultSignals) {
-    install(number, on_fault);
+    install(number, on_fault, SA_NODEFER);
   }
-  install(order_signal(), on_order);
+  // Orders queue up while their thread gets no processor. Without SA_NODEFER they are delivered one after the other;
+  // all at once their frames would overflow the handler's stack.
+  install(order_signal(), on_order, 0);
 }
 
 HandlerStack::HandlerStack() noexcept : memory_(std::malloc(kHandlerStackBytes)) {  // NOLINT: freed in the destructor
