@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "node_fixture.h"
@@ -44,8 +45,7 @@ TEST_F(KilledNode, At_any_instant_does_not_hinder_the_next_start) {
     victim.kill();
     EXPECT_THAT(victim.err(), ::testing::Not(::testing::HasSubstr("error"))) << "start " << i;
   }
-  Program& sut = start_and_wait(with_process(), {"--duration", "50ms"});
-  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_EQ(run_to_end(with_process(), {"--duration", "50ms"}).code, 0);
   EXPECT_EQ(module("counter").runs.load() + module("counter").skipped.load(), 50U);
 }
 
@@ -157,8 +157,7 @@ TEST_F(KilledNode, Garbage_in_its_files_does_not_hinder_the_next_one) {
     std::filesystem::remove("/dev/shm/" + file);
     std::ofstream("/dev/shm/" + file) << "this is not what it should be";
   }
-  Program& sut = start_and_wait(kCounter, {"--duration", "20ms"});
-  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_EQ(run_to_end(kCounter, {"--duration", "20ms"}).code, 0);
 }
 
 }  // namespace
