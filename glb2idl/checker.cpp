@@ -72,7 +72,7 @@ class Checker {
 
  private:
   [[nodiscard]] bool namespaces_known(const std::string& scope) const {
-    return context_.program_namespaces.count(scope) != 0;
+    return context_.program_namespaces.contains(scope);
   }
 
   // ---- constants
@@ -369,7 +369,7 @@ void choose_idl_constants(Context& context) {
       const bool is_integer = constant->value.kind == Value::Kind::Integer && constant->value.enum_type.empty() &&
                               constant->value.integer != INT64_MIN;
       constant->in_idl =
-          is_integer && !is_idl_keyword(name) && context.field_names.count(mangled(constant->name)) == 0 &&
+          is_integer && !is_idl_keyword(name) && !context.field_names.contains(mangled(constant->name)) &&
           context.scope.idl_is_free(constant->name) && context.scope.claim_idl(constant->name, Span{}, false);
     }
   }

@@ -34,12 +34,25 @@ class Compiler {
       load(input, std::nullopt);
     }
     choose_idl_constants(context_);
+    if (!diagnostics_.failed()) {
+      check_schemas();
+    }
     out_.ok = !diagnostics_.failed();
     out_.messages = diagnostics_.render();
     return std::move(out_);
   }
 
  private:
+  // The node reads a schema with limits of its own; a file beyond them must not get as far as the node.
+  void check_schemas() {
+    for (const Unit& unit : out_.program.units) {
+      if (!schema::from_json(schema::to_json(schema_of(unit))).ok()) {
+        diagnostics_.error(
+            fmt::format("'{}' declares more than one module can carry, use arrays or split it", unit.path));
+      }
+    }
+  }
+
   void report(std::optional<Span> from, std::string text) {
     if (from) {
       diagnostics_.error(*from, std::move(text));
@@ -52,7 +65,7 @@ class Compiler {
   std::optional<std::uint32_t> load(const std::string& path, std::optional<Span> from) {
     ReadResult got = read_(path);
     if (!got.text) {
-      report(from, fmt::format("cannot read '{}': {}, check the path", path, got.why));
+      report(from, fmt::format("cannot read '{}': {}", path, got.why));
       return std::nullopt;
     }
     if (const auto known = sources_.find(got.identity)) {

@@ -75,7 +75,7 @@ Number real_number(std::string_view text) {
 }
 
 Number duration_number(std::string_view text, double unit_ns) {
-  const Number number = text.find('.') == std::string_view::npos ? integer_number(text) : real_number(text);
+  Number number = text.find('.') == std::string_view::npos ? integer_number(text) : real_number(text);
   if (!number.value) {
     return number;
   }
@@ -135,7 +135,7 @@ class Evaluator {
         value.text = e.spelling;
         return value;
       case Kind::Character:
-        value.integer = static_cast<signed char>(e.spelling[0]);
+        value.integer = static_cast<unsigned char>(e.spelling[0]);
         return value;
       case Kind::Bool:
         value.kind = Value::Kind::Bool;
@@ -245,7 +245,7 @@ class Evaluator {
     if (op == "/") {
       return b == 0 ? fail(e.operands[1].at, "division by zero, correct the divisor") : real(e.at, a / b);
     }
-    if (const auto compared = compare(op, a, b)) {
+    if (auto compared = compare(op, a, b)) {
       return compared;
     }
     return fail(e.at, fmt::format("'{}' needs integers, remove the fractions", op));
@@ -259,7 +259,7 @@ class Evaluator {
     if ((op == "<<" || op == ">>") && (b < 0 || b > 63)) {
       return fail(e.operands[1].at, "a shift is by 0 to 63 bits, correct it");
     }
-    if (const auto compared = compare(op, a, b)) {
+    if (auto compared = compare(op, a, b)) {
       return compared;
     }
     switch (op[0]) {

@@ -51,7 +51,7 @@ struct Context {
   [[nodiscard]] std::optional<Value> constant(const ast::Path& path);
   [[nodiscard]] std::optional<Value> evaluate(const ast::Expression& expression);
   // An unknown name that may belong to a declaration which had an error needs no further message.
-  [[nodiscard]] bool is_broken(const ast::Path& path) const { return broken.count(path.parts.front()) != 0; }
+  [[nodiscard]] bool is_broken(const ast::Path& path) const { return broken.contains(path.parts.front()); }
 };
 
 }  // namespace indurop::glb2idl

@@ -21,7 +21,8 @@ std::string Descriptions::find(const TokenReader& in, std::size_t begin) const {
       behind->offset < in.peek().at.offset && !behind->text.empty()) {
     return behind->text;
   }
-  return above(in.at(begin).at);
+  // A comment stands above the first declaration of a line.
+  return in.at(begin).newline_before ? above(in.at(begin).at) : std::string();
 }
 
 std::string Descriptions::above(Span first) const {

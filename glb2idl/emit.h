@@ -31,9 +31,6 @@ struct Output {
 // All of these for all units, and indurop/generated.h last.
 [[nodiscard]] std::vector<Output> emit_all(const Program& program);
 
-// The part of the program's schema declared in one unit.
-[[nodiscard]] schema::Schema schema_of(const Unit& unit);
-
 // A value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
 [[nodiscard]] std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes);
 // The C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.

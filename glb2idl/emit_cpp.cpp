@@ -398,15 +398,4 @@ std::string emit_cpp(const Program& program, std::size_t unit, const std::vector
   return CppWriter(program, unit, hidden).run();
 }
 
-schema::Schema schema_of(const Unit& unit) {
-  schema::Schema out;
-  for (const schema::Variable* v : all_of<schema::Variable>(unit)) {
-    out.variables.push_back(*v);
-  }
-  for (const schema::Function* f : all_of<schema::Function>(unit)) {
-    out.functions.push_back(*f);
-  }
-  return out;
-}
-
 }  // namespace indurop::glb2idl

@@ -158,7 +158,7 @@ std::optional<ast::Expression> ExpressionParser::primary() {
   if (token.kind == TokenKind::Character) {
     in_.take();
     const auto decoded = decode_quoted(token.text);
-    if (!decoded || decoded->size() != 1) {
+    if (!decoded || decoded->size() != 1 || static_cast<unsigned char>(decoded->front()) >= 0x80) {
       in_.error(token.at, "not a single ASCII character, write 'a' or '\\n'");
       return std::nullopt;
     }

@@ -189,7 +189,7 @@ std::optional<std::string> form_objection(std::string_view name, NameRole role) 
 }  // namespace
 
 bool is_idl_keyword(std::string_view name) {
-  return idl_keywords().count(lower(name)) != 0;
+  return idl_keywords().contains(lower(name));
 }
 
 std::optional<std::string> objection(std::string_view name, NameRole role, bool global) {
@@ -198,10 +198,10 @@ std::optional<std::string> objection(std::string_view name, NameRole role, bool 
   }
   const std::string word(name);
   const bool inner = role == NameRole::Field || role == NameRole::Parameter;
-  if (keywords().count(word) != 0) {
+  if (keywords().contains(word)) {
     return "is a keyword";
   }
-  if (macros().count(word) != 0) {
+  if (macros().contains(word)) {
     return "is a macro of the system headers";
   }
   if ((role == NameRole::Type || role == NameRole::Namespace) && is_idl_keyword(name)) {
@@ -216,10 +216,10 @@ std::optional<std::string> objection(std::string_view name, NameRole role, bool 
   if (role != NameRole::Namespace && has(kPlatformFunctions, name)) {
     return "would hide the platform's function of this name";
   }
-  if (role == NameRole::Type && system_types().count(word) != 0) {
+  if (role == NameRole::Type && system_types().contains(word)) {
     return "is a type of the C library";
   }
-  if (global && (global_names().count(word) != 0 || system_types().count(word) != 0)) {
+  if (global && (global_names().contains(word) || system_types().contains(word))) {
     return "is taken outside of namespaces, by the C library or the platform";
   }
   return std::nullopt;

@@ -44,6 +44,18 @@ std::string_view scope_of(const Item& item) noexcept {
   return std::visit(Visitor{}, item);
 }
 
+schema::Schema schema_of(const Unit& unit) {
+  schema::Schema out;
+  for (const Item& item : unit.items) {
+    if (const auto* variable = std::get_if<schema::Variable>(&item)) {
+      out.variables.push_back(*variable);
+    } else if (const auto* function = std::get_if<schema::Function>(&item)) {
+      out.functions.push_back(*function);
+    }
+  }
+  return out;
+}
+
 bool is_wrapped(const schema::Type& type) noexcept {
   return type.base != schema::Base::Struct || !type.dims.empty();
 }

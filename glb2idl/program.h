@@ -64,6 +64,9 @@ struct Program {
 // Namespace of an item.
 [[nodiscard]] std::string_view scope_of(const Item& item) noexcept;
 
+// What the unit itself declares, for modules that include its header.
+[[nodiscard]] schema::Schema schema_of(const Unit& unit);
+
 // Whether the variable's DDS type is the struct <variable>_ with one member `value`: all but single structs.
 [[nodiscard]] bool is_wrapped(const schema::Type& type) noexcept;
 // No result, or no parameters.

@@ -77,7 +77,7 @@ bool Scope::claim_idl(const std::string& full_name, Span at, bool is_struct) {
 }
 
 bool Scope::idl_is_free(const std::string& full_name) const {
-  return idl_.count(lower(full_name)) == 0 && c_names_.count(mangled(full_name)) == 0;
+  return !idl_.contains(lower(full_name)) && !c_names_.contains(mangled(full_name));
 }
 
 bool Scope::claim_cpp(const std::string& prefix, const std::string& full_name, Span at) {
@@ -136,7 +136,7 @@ std::vector<std::string> Scope::names(Symbol::Kind kind, std::uint32_t file) con
 
 bool Scope::hides(const std::string& from, const std::string& top) const {
   for (std::string_view scope = from; !scope.empty(); scope = scope_of(scope)) {
-    if (idl_.count(lower(qualified(scope, top))) != 0) {
+    if (idl_.contains(lower(qualified(scope, top)))) {
       return true;
     }
   }

@@ -68,7 +68,7 @@ class Scope {
 
  private:
   [[nodiscard]] bool sees(std::uint32_t file, const Symbol& symbol) const {
-    return file == symbol.at.file || visible_.count({file, symbol.at.file}) != 0;
+    return file == symbol.at.file || visible_.contains({file, symbol.at.file});
   }
   struct Claim {
     std::string name;

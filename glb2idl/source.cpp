@@ -59,9 +59,9 @@ std::string reason(int number) {
   switch (number) {
     case ENOENT:
     case ENOTDIR:
-      return "there is no such file";
+      return "there is no such file, check the path";
     case EACCES:
-      return "no permission to read it";
+      return "no permission to read it, change its rights";
     default:
       return std::generic_category().message(number);
   }
@@ -136,10 +136,10 @@ ReadResult read_source_file(const std::string& path) {
     return {std::nullopt, "", reason(errno)};
   }
   if (S_ISDIR(status.st_mode)) {
-    return {std::nullopt, "", "it is a directory"};
+    return {std::nullopt, "", "it is a directory, name a .glb file"};
   }
   if (!S_ISREG(status.st_mode)) {
-    return {std::nullopt, "", "it is not a regular file"};
+    return {std::nullopt, "", "it is not a regular file, name a .glb file"};
   }
   std::string text;
   std::string chunk(std::size_t{1} << 16U, '\0');
@@ -156,7 +156,7 @@ ReadResult read_source_file(const std::string& path) {
     }
     text.append(chunk, 0, static_cast<std::size_t>(got));
     if (text.size() > kMaxFileBytes) {
-      return {std::nullopt, "", "it is larger than 4 MiB"};
+      return {std::nullopt, "", "it is larger than 4 MiB, split it"};
     }
   }
   std::error_code failed;

@@ -55,7 +55,7 @@ class Sources {
 struct ReadResult {
   std::optional<std::string> text;
   std::string identity;
-  std::string why;  // "there is no such file", ...
+  std::string why;  // "there is no such file, check the path", ...
 };
 using FileReader = std::function<ReadResult(const std::string& path)>;
 

@@ -26,13 +26,13 @@ TEST(Sources, Lines_and_columns_count_from_one) {
 TEST(Reading, Says_why_a_file_cannot_be_read) {
   const fs::path folder = fs::temp_directory_path() / ("glb2idl_source_" + std::to_string(::getpid()));
   fs::create_directories(folder);
-  EXPECT_EQ(read_source_file((folder / "none").string()).why, "there is no such file");
-  EXPECT_EQ(read_source_file(folder.string()).why, "it is a directory");
+  EXPECT_EQ(read_source_file((folder / "none").string()).why, "there is no such file, check the path");
+  EXPECT_EQ(read_source_file(folder.string()).why, "it is a directory, name a .glb file");
   ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
-  EXPECT_EQ(read_source_file((folder / "fifo").string()).why, "it is not a regular file");
-  EXPECT_EQ(read_source_file("/dev/zero").why, "it is not a regular file");
+  EXPECT_EQ(read_source_file((folder / "fifo").string()).why, "it is not a regular file, name a .glb file");
+  EXPECT_EQ(read_source_file("/dev/zero").why, "it is not a regular file, name a .glb file");
   std::ofstream(folder / "large") << std::string(kMaxFileBytes + 1, 'x');
-  EXPECT_EQ(read_source_file((folder / "large").string()).why, "it is larger than 4 MiB");
+  EXPECT_EQ(read_source_file((folder / "large").string()).why, "it is larger than 4 MiB, split it");
   std::ofstream(folder / "good") << "int a;";
   EXPECT_EQ(read_source_file((folder / "good").string()).text, "int a;");
   EXPECT_EQ(read_source_file((folder / "../" / folder.filename() / "good").string()).identity,
