@@ -422,7 +422,7 @@ int Node::finish() {
     return exit_;
   }
   console_.report(rt::now_ns(), true);
-  if (run_->tick.load() == 0 && !reason_.empty()) {
+  if (run_->tick.load() == 0 && !reason_.empty() && exit_ == kFailed) {
     console_.error("stopped before the first tick: {}", reason_);
   }
   if (reason_.empty()) {
