@@ -8,44 +8,40 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_f5d43ebbb08a195b,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_f7c321dbdbcc86f7,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"pair_of_points\",\"type\":{\"base\":\"struct\",\"name\":\"Pair\",\"siz"
 .ascii "e\":64,\"align\":8,\"fields\":[{\"name\":\"a\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields"
-.ascii "\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0,\"description\":\"Named, anonymous and nested structs.\"},{\"na"
-.ascii "me\":\"y\",\"type\":\"double\",\"offset\":8,\"description\":\"Named, anonymous and nested structs.\"}]},\"offset\":"
-.ascii "0},{\"name\":\"b\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\""
-.ascii "double\",\"offset\":0,\"description\":\"Named, anonymous and nested structs.\"},{\"name\":\"y\",\"type\":\"double\""
-.ascii ",\"offset\":8,\"description\":\"Named, anonymous and nested structs.\"}]},\"offset\":16},{\"name\":\"both\",\"typ"
-.ascii "e\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0,"
-.ascii "\"description\":\"Named, anonymous and nested structs.\"},{\"name\":\"y\",\"type\":\"double\",\"offset\":8,\"descri"
-.ascii "ption\":\"Named, anonymous and nested structs.\"}],\"dims\":[2]},\"offset\":32}]},\"kind\":\"ring\",\"source\":\"i"
-.ascii "n.glb:3\"},{\"name\":\"box\",\"type\":{\"base\":\"struct\",\"name\":\"box_t\",\"size\":20,\"align\":4,\"fields\":[{\"name\""
-.ascii ":\"inner\",\"type\":{\"base\":\"struct\",\"name\":\"box_inner_t\",\"size\":8,\"align\":4,\"fields\":[{\"name\":\"a\",\"type"
-.ascii "\":\"int32\",\"offset\":0},{\"name\":\"on\",\"type\":\"bool\",\"offset\":4}],\"dims\":[2]},\"offset\":0},{\"name\":\"tail\""
-.ascii ",\"type\":{\"base\":\"struct\",\"name\":\"box_tail_t\",\"size\":4,\"align\":1,\"fields\":[{\"name\":\"unit\",\"type\":{\"ba"
-.ascii "se\":\"text\",\"size\":4},\"offset\":0}]},\"offset\":16}]},\"kind\":\"ring\",\"source\":\"in.glb:4\"},{\"name\":\"bodies"
-.ascii "\",\"type\":{\"base\":\"struct\",\"name\":\"Body\",\"size\":128,\"align\":8,\"fields\":[{\"name\":\"at\",\"type\":{\"base\":\""
-.ascii "double\",\"dims\":[3]},\"offset\":0},{\"name\":\"turn\",\"type\":{\"base\":\"double\",\"dims\":[3,3]},\"offset\":24},{\""
-.ascii "name\":\"names\",\"type\":{\"base\":\"text\",\"size\":16,\"dims\":[2]},\"offset\":96}],\"dims\":[3]},\"kind\":\"ring\",\"s"
-.ascii "ource\":\"in.glb:11\"},{\"name\":\"origin\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\""
-.ascii ":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0,\"description\":\"Named, anonymous and nested structs.\"},{\"nam"
-.ascii "e\":\"y\",\"type\":\"double\",\"offset\":8,\"description\":\"Named, anonymous and nested structs.\"}]},\"kind\":\"ri"
-.ascii "ng\",\"source\":\"in.glb:12\"},{\"name\":\"window\",\"type\":{\"base\":\"struct\",\"name\":\"Frame\",\"size\":8,\"align\":4"
-.ascii ",\"fields\":[{\"name\":\"size\",\"type\":{\"base\":\"struct\",\"name\":\"Size\",\"size\":8,\"align\":4,\"fields\":[{\"name\""
-.ascii ":\"w\",\"type\":\"float\",\"offset\":0},{\"name\":\"h\",\"type\":\"float\",\"offset\":4}]},\"offset\":0}]},\"kind\":\"ring\""
-.ascii ",\"source\":\"in.glb:13\"},{\"name\":\"turn\",\"type\":{\"base\":\"double\",\"dims\":[3,3]},\"kind\":\"ring\",\"source\":\""
-.ascii "in.glb:14\"},{\"name\":\"mode\",\"type\":{\"base\":\"struct\",\"name\":\"mode_type\",\"size\":4,\"align\":4,\"fields\":[{"
-.ascii "\"name\":\"value\",\"type\":\"int32\",\"offset\":0}]},\"kind\":\"ring\",\"source\":\"in.glb:15\"},{\"name\":\"states\",\"ty"
-.ascii "pe\":{\"base\":\"struct\",\"name\":\"states_t\",\"size\":4,\"align\":4,\"fields\":[{\"name\":\"value\",\"type\":\"int32\",\""
-.ascii "offset\":0}],\"dims\":[2]},\"kind\":\"ring\",\"source\":\"in.glb:16\"},{\"name\":\"more_states\",\"type\":{\"base\":\"st"
-.ascii "ruct\",\"name\":\"states_t\",\"size\":4,\"align\":4,\"fields\":[{\"name\":\"value\",\"type\":\"int32\",\"offset\":0}]},\"k"
-.ascii "ind\":\"ring\",\"source\":\"in.glb:16\"},{\"name\":\"behind_a_struct_without_semicolon\",\"type\":\"int32\",\"kind\":"
-.ascii "\"scalar\",\"source\":\"in.glb:18\"}]}"
+.ascii "\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"offset\":0},{\"n"
+.ascii "ame\":\"b\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double"
+.ascii "\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"offset\":16},{\"name\":\"both\",\"type\":{\"base\":\""
+.ascii "struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\""
+.ascii ",\"type\":\"double\",\"offset\":8}],\"dims\":[2]},\"offset\":32}]},\"kind\":\"ring\",\"source\":\"in.glb:3\"},{\"name\":"
+.ascii "\"box\",\"type\":{\"base\":\"struct\",\"name\":\"box_t\",\"size\":20,\"align\":4,\"fields\":[{\"name\":\"inner\",\"type\":{\""
+.ascii "base\":\"struct\",\"name\":\"box_inner_t\",\"size\":8,\"align\":4,\"fields\":[{\"name\":\"a\",\"type\":\"int32\",\"offset\""
+.ascii ":0},{\"name\":\"on\",\"type\":\"bool\",\"offset\":4}],\"dims\":[2]},\"offset\":0},{\"name\":\"tail\",\"type\":{\"base\":\"s"
+.ascii "truct\",\"name\":\"box_tail_t\",\"size\":4,\"align\":1,\"fields\":[{\"name\":\"unit\",\"type\":{\"base\":\"text\",\"size\":"
+.ascii "4},\"offset\":0}]},\"offset\":16}]},\"kind\":\"ring\",\"source\":\"in.glb:4\"},{\"name\":\"bodies\",\"type\":{\"base\":\""
+.ascii "struct\",\"name\":\"Body\",\"size\":128,\"align\":8,\"fields\":[{\"name\":\"at\",\"type\":{\"base\":\"double\",\"dims\":[3]"
+.ascii "},\"offset\":0},{\"name\":\"turn\",\"type\":{\"base\":\"double\",\"dims\":[3,3]},\"offset\":24},{\"name\":\"names\",\"typ"
+.ascii "e\":{\"base\":\"text\",\"size\":16,\"dims\":[2]},\"offset\":96}],\"dims\":[3]},\"kind\":\"ring\",\"source\":\"in.glb:11\""
+.ascii "},{\"name\":\"origin\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"typ"
+.ascii "e\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"kind\":\"ring\",\"source\":\"in.glb:12\""
+.ascii "},{\"name\":\"window\",\"type\":{\"base\":\"struct\",\"name\":\"Frame\",\"size\":8,\"align\":4,\"fields\":[{\"name\":\"size"
+.ascii "\",\"type\":{\"base\":\"struct\",\"name\":\"Size\",\"size\":8,\"align\":4,\"fields\":[{\"name\":\"w\",\"type\":\"float\",\"off"
+.ascii "set\":0},{\"name\":\"h\",\"type\":\"float\",\"offset\":4}]},\"offset\":0}]},\"kind\":\"ring\",\"source\":\"in.glb:13\"},{"
+.ascii "\"name\":\"turn\",\"type\":{\"base\":\"double\",\"dims\":[3,3]},\"kind\":\"ring\",\"source\":\"in.glb:14\"},{\"name\":\"mod"
+.ascii "e\",\"type\":{\"base\":\"struct\",\"name\":\"mode_type\",\"size\":4,\"align\":4,\"fields\":[{\"name\":\"value\",\"type\":\"i"
+.ascii "nt32\",\"offset\":0}]},\"kind\":\"ring\",\"source\":\"in.glb:15\"},{\"name\":\"states\",\"type\":{\"base\":\"struct\",\"na"
+.ascii "me\":\"states_t\",\"size\":4,\"align\":4,\"fields\":[{\"name\":\"value\",\"type\":\"int32\",\"offset\":0}],\"dims\":[2]},"
+.ascii "\"kind\":\"ring\",\"source\":\"in.glb:16\"},{\"name\":\"more_states\",\"type\":{\"base\":\"struct\",\"name\":\"states_t\","
+.ascii "\"size\":4,\"align\":4,\"fields\":[{\"name\":\"value\",\"type\":\"int32\",\"offset\":0}]},\"kind\":\"ring\",\"source\":\"in"
+.ascii ".glb:16\"},{\"name\":\"behind_a_struct_without_semicolon\",\"type\":\"int32\",\"kind\":\"scalar\",\"source\":\"in.gl"
+.ascii "b:18\"}]}"
 .ascii "\n"
 .popsection)indurop");
 struct P {  // a point
-  double x{};  // Named, anonymous and nested structs.
-  double y{};  // Named, anonymous and nested structs.
+  double x{};
+  double y{};
   friend bool operator==(const P&, const P&) = default;
 };
 static_assert(sizeof(P) == 16 && alignof(P) == 8);
@@ -182,7 +178,7 @@ constexpr void indurop_fields(const Late& v, indurop_visitor f) {
   f("a", v.a);
 }
 
-namespace indurop_generated_f5d43ebbb08a195b __attribute__((visibility("hidden"))) {
+namespace indurop_generated_f7c321dbdbcc86f7 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x7909104d230843e3, 0xcb8fd003c8f57539, nullptr, nullptr, 64, ::indurop::abi::Kind::Ring, "pair_of_points"},
     {0x004d2e191349e4f2, 0xfc489beff4b7e77f, nullptr, nullptr, 20, ::indurop::abi::Kind::Ring, "box"},
@@ -284,9 +280,9 @@ union ref_Pair {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 0> a;
-  ::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 16> b;
-  ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
+  ::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 0> a;
+  ::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 16> b;
+  ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
   INDUROP_UNION_SHAPE(ref_Pair)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -317,8 +313,8 @@ union ref_box_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
-  ::indurop_generated_f5d43ebbb08a195b::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
+  ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
+  ::indurop_generated_f7c321dbdbcc86f7::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
   INDUROP_UNION_SHAPE(ref_box_t)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -339,7 +335,7 @@ union ref_Frame {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_f5d43ebbb08a195b::ref_Size<indurop_tag, indurop_offset + 0> size;
+  ::indurop_generated_f7c321dbdbcc86f7::ref_Size<indurop_tag, indurop_offset + 0> size;
   INDUROP_UNION_SHAPE(ref_Frame)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
@@ -384,14 +380,14 @@ union ref_Late {
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> a;
   INDUROP_UNION_SHAPE(ref_Late)
 };
-}  // namespace indurop_generated_f5d43ebbb08a195b
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_Pair<::indurop_generated_f5d43ebbb08a195b::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_box_t<::indurop_generated_f5d43ebbb08a195b::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_Body<::indurop_generated_f5d43ebbb08a195b::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_P<::indurop_generated_f5d43ebbb08a195b::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_Frame<::indurop_generated_f5d43ebbb08a195b::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_f5d43ebbb08a195b::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_mode_type<::indurop_generated_f5d43ebbb08a195b::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_f5d43ebbb08a195b::ref_states_t<::indurop_generated_f5d43ebbb08a195b::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f5d43ebbb08a195b::ref_states_t<::indurop_generated_f5d43ebbb08a195b::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_f5d43ebbb08a195b::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_f7c321dbdbcc86f7
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_Pair<::indurop_generated_f7c321dbdbcc86f7::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_box_t<::indurop_generated_f7c321dbdbcc86f7::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_Body<::indurop_generated_f7c321dbdbcc86f7::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_P<::indurop_generated_f7c321dbdbcc86f7::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_Frame<::indurop_generated_f7c321dbdbcc86f7::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_f7c321dbdbcc86f7::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_mode_type<::indurop_generated_f7c321dbdbcc86f7::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_states_t<::indurop_generated_f7c321dbdbcc86f7::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_states_t<::indurop_generated_f7c321dbdbcc86f7::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_f7c321dbdbcc86f7::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
