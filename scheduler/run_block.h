@@ -47,7 +47,7 @@ struct Distribution {
 // A module, as the node knows it and as it ran so far.
 struct ModuleRecord {
   // Written before the run, constant afterwards.
-  char name[kNameLength];  // unique; the file name without directory, "cntr1.so"
+  char name[kNameLength];  // unique; <name>, or the file name without directory and ending: "cntr1"
   char file[256];
   ModuleType type;
   Operation operation;
