@@ -8,8 +8,7 @@
 namespace indurop::deploy {
 
 bool CheckResult::ok() const noexcept {
-  return std::none_of(diagnostics.begin(), diagnostics.end(),
-                      [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::Error; });
+  return !has_error(diagnostics);
 }
 
 CheckResult check_config(Config& config, const CheckOptions& options) {

@@ -105,5 +105,6 @@ struct Diagnostic {
 };
 // "module.xml:12:5: error: ..." ; line and column left out when 0.
 std::string to_string(const Diagnostic& diagnostic);
+bool has_error(const std::vector<Diagnostic>& diagnostics) noexcept;
 
 }  // namespace indurop::deploy

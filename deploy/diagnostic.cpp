@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a diagnostic is printed: the form compilers use, which editors can jump to.
+#include <algorithm>
+
 #include "deploy/config.h"
 
 namespace indurop::deploy {
@@ -28,6 +30,11 @@ std::string to_string(const Diagnostic& diagnostic) {
     }
   }
   return text + (text.empty() ? "" : ": ") + word(diagnostic.severity) + ": " + diagnostic.text;
+}
+
+bool has_error(const std::vector<Diagnostic>& diagnostics) noexcept {
+  return std::any_of(diagnostics.begin(), diagnostics.end(),
+                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::Error; });
 }
 
 }  // namespace indurop::deploy

@@ -28,5 +28,7 @@ struct Element {
 
 // Reads what the elements below `root` mean into `config` (whose `file` is set) and appends what is wrong.
 void interpret(const Element& root, Config& config, std::vector<Diagnostic>& diagnostics);
+struct Plant;
+void interpret_plant(const Element& root, Plant& plant, std::vector<Diagnostic>& diagnostics);
 
 }  // namespace indurop::deploy

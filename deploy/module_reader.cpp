@@ -18,12 +18,6 @@ using scheduler::ModuleType;
 using scheduler::Operation;
 using scheduler::OverrunPolicy;
 
-template <class T>
-struct Choice {
-  std::string_view word;
-  T value;
-};
-
 class ModuleReader {
  public:
   ModuleReader(const Element& element, const std::filesystem::path& folder, Report& report)
@@ -79,93 +73,44 @@ class ModuleReader {
         names.emplace_back(k.name);
       }
       given_.misspelt.insert(meant(child.name, names));
-      report_.error(child.place, "unknown element " + in_quotes("<" + child.name + ">") + " in <module>" +
-                                     suggestion(child.name, names));
+      is_known(child, element_, names, report_);
       return;
     }
-    const auto [first, is_first] = given_.elements.try_emplace(child.name, child.place);
-    if (!is_first && !found->repeatable) {
-      report_.error(child.place, "a second <" + child.name + "> in this <module>; the first is in line " +
-                                     std::to_string(first->second.line) + ", remove one");
+    if (found->repeatable) {
+      given_.elements.try_emplace(child.name, child.place);
+    } else if (!is_first(child, "this <module>", given_.elements, report_)) {
       return;
     }
     (this->*found->read)(child);
   }
 
-  // The text of an element that must have some.
-  std::optional<std::string> text_of(const Element& element, std::string_view example) {
-    check_attributes(element, {}, report_);
-    if (!is_leaf(element, report_)) {
-      return std::nullopt;
-    }
-    if (element.text.empty()) {
-      report_.error(element.place, "<" + element.name + "> is empty; write, for example, <" + element.name + ">" +
-                                       std::string(example) + "</" + element.name + ">");
-      return std::nullopt;
-    }
-    return element.text;
-  }
-
   // False: not one of the words, which is reported.
-  template <class T, std::size_t N>
-  bool choose(const Element& element, const std::array<Choice<T>, N>& choices, T& into) {
-    const auto text = text_of(element, choices[0].word);
-    if (!text) {
-      return false;
-    }
-    std::vector<std::string> words;
-    for (const Choice<T>& choice : choices) {
-      if (choice.word == *text) {
-        into = choice.value;
-        return true;
-      }
-      words.emplace_back(choice.word);
-    }
-    report_.error(element.text_place,
-                  in_quotes(*text) + " is not a value of <" + element.name + ">; write " + enumerate_or(words));
-    return false;
-  }
-  static std::string enumerate_or(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    }
-    return text;
+  template <class T>
+  bool choose(const Element& element, const std::vector<std::string>& words, std::initializer_list<T> values, T& into) {
+    const auto index = deploy::choose(element, words, report_);
+    into = index ? *(values.begin() + *index) : into;
+    return index.has_value();
   }
 
   void duration(const Element& element, bool zero_allowed, Nanos& into, Place& place) {
-    const auto text = text_of(element, "1ms");
-    if (!text) {
-      return;
-    }
-    place = element.text_place;
-    DurationText read = read_duration(*text, zero_allowed);
-    if (read.value) {
-      into = *read.value;
-    } else {
-      report_.error(element.text_place, "<" + element.name + ">: " + read.problem);
-    }
+    place = element.text.empty() ? place : element.text_place;
+    into = duration_of(element, zero_allowed, report_).value_or(into);
   }
 
   void read_file(const Element& e) {
-    const auto text = text_of(e, "./control.so");
+    const auto text = text_of(e, "./control.so", report_);
     if (!text) {
       return;
     }
     module_.places.file = e.text_place;
-    const std::filesystem::path written(*text);
-    if (written.filename().empty() || written.filename() == "." || written.filename() == "..") {
-      report_.error(e.text_place, in_quotes(*text) + " is a directory; give the module's file in it");
-    } else if (text->find_first_of("\r\n\t") != std::string::npos) {
-      report_.error(e.text_place, "the file name contains a tab or line break; write it in one line");
-    } else {
+    if (is_file_name(e, *text, report_)) {
       module_.file_as_written = *text;
-      module_.file = (folder_ / written).lexically_normal();
+      module_.file = (folder_ / *text).lexically_normal();
     }
   }
 
   void read_name(const Element& e) {
-    const auto text = text_of(e, "control");
+    const auto text = text_of(e, "control", report_);
     if (!text) {
       return;
     }
@@ -186,15 +131,12 @@ class ModuleReader {
   }
 
   void read_type(const Element& e) {
-    static constexpr std::array<Choice<ModuleType>, 2> kTypes{
-        {{"thread", ModuleType::Thread}, {"process", ModuleType::Process}}};
-    given_.type = choose(e, kTypes, module_.type);
+    given_.type = choose(e, {"thread", "process"}, {ModuleType::Thread, ModuleType::Process}, module_.type);
   }
 
   void read_operation(const Element& e) {
-    static constexpr std::array<Choice<Operation>, 3> kOperations{
-        {{"periodic", Operation::Periodic}, {"sporadic", Operation::Sporadic}, {"non-real", Operation::NonReal}}};
-    given_.operation = choose(e, kOperations, module_.operation);
+    given_.operation = choose(e, {"periodic", "sporadic", "non-real"},
+                              {Operation::Periodic, Operation::Sporadic, Operation::NonReal}, module_.operation);
   }
 
   void read_period(const Element& e) { duration(e, false, module_.period, module_.places.period); }
@@ -211,7 +153,7 @@ class ModuleReader {
   }
 
   void read_priority(const Element& e) {
-    const auto text = text_of(e, "1");
+    const auto text = text_of(e, "1", report_);
     if (!text) {
       return;
     }
@@ -233,20 +175,15 @@ class ModuleReader {
   }
 
   void read_overrun(const Element& e) {
-    static constexpr std::array<Choice<OverrunPolicy>, 4> kPolicies{{{"skip", OverrunPolicy::Skip},
-                                                                     {"catch-up", OverrunPolicy::CatchUp},
-                                                                     {"stop-module", OverrunPolicy::StopModule},
-                                                                     {"stop-node", OverrunPolicy::StopNode}}};
-    choose(e, kPolicies, module_.overrun);
+    choose(e, {"skip", "catch-up", "stop-module", "stop-node"},
+           {OverrunPolicy::Skip, OverrunPolicy::CatchUp, OverrunPolicy::StopModule, OverrunPolicy::StopNode},
+           module_.overrun);
   }
 
-  void read_position(const Element& e) {
-    static constexpr std::array<Choice<bool>, 2> kPositions{{{"after-base", true}, {"after-all", false}}};
-    choose(e, kPositions, module_.after_base);
-  }
+  void read_position(const Element& e) { choose(e, {"after-base", "after-all"}, {true, false}, module_.after_base); }
 
   void read_signal_element(const Element& e) {
-    const auto text = text_of(e, "SIGUSR1");
+    const auto text = text_of(e, "SIGUSR1", report_);
     if (!text) {
       return;
     }
@@ -275,7 +212,7 @@ class ModuleReader {
                                        suggestion(child.name, {"read", "write"}));
         continue;
       }
-      if (const auto text = text_of(child, "knu::Robot::tick")) {
+      if (const auto text = text_of(child, "knu::Robot::tick", report_)) {
         const bool reads = child.name == "read";
         (reads ? module_.reads : module_.writes).push_back(*text);
         (reads ? module_.places.reads : module_.places.writes).push_back(child.text_place);
@@ -312,30 +249,20 @@ class ModuleReader {
     }
   }
 
-  // The value of an attribute that must be there and not empty.
-  const std::string* attribute(const Element& e, const char* name, std::string_view example) {
-    for (const Attribute& a : e.attributes) {
-      if (a.name == name && !a.value.empty()) {
-        return &a.value;
-      }
-    }
-    report_.error(e.place, "<" + e.name + "> needs a " + name + "; write " + std::string(example));
-    return nullptr;
-  }
-
   void read_failsafe(const Element& e) {
     check_attributes(e, {"variable"}, report_);
     const bool leaf = is_leaf(e, report_);
-    const std::string* variable = attribute(e, "variable", "<failsafe variable=\"knu::Robot::tick\">0</failsafe>");
+    const Attribute* variable =
+        need_attribute(e, "variable", "<failsafe variable=\"knu::Robot::tick\">0</failsafe>", report_);
     if (!leaf || variable == nullptr) {
       return;
     }
     if (e.text.empty()) {
-      report_.error(e.place,
-                    "<failsafe> has no value; write the value " + in_quotes(*variable) + " gets when the module fails");
+      report_.error(e.place, "<failsafe> has no value; write the value " + in_quotes(variable->value) +
+                                 " gets when the module fails");
       return;
     }
-    module_.failsafe.push_back({*variable, e.text, e.place});
+    module_.failsafe.push_back({variable->value, e.text, e.place});
   }
 
   void read_property(const Element& e) {
@@ -349,15 +276,15 @@ class ModuleReader {
       }
       check_attributes(child, {"name"}, report_);
       const bool leaf = is_leaf(child, report_);
-      const std::string* name = attribute(child, "name", "<value name=\"counter\">5</value>");
+      const Attribute* name = need_attribute(child, "name", "<value name=\"counter\">5</value>", report_);
       if (!leaf || name == nullptr) {
         continue;
       }
-      const bool twice = !property_names_.insert(*name).second;
+      const bool twice = !property_names_.insert(name->value).second;
       if (twice) {
-        report_.error(child.place, "a second property " + in_quotes(*name) + " in this module; remove one");
+        report_.error(child.place, "a second property " + in_quotes(name->value) + " in this module; remove one");
       } else {
-        module_.properties.push_back({*name, child.text});
+        module_.properties.push_back({name->value, child.text});
       }
     }
   }

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The deployment manifest as data: which boards a plant has, which modules run on which, how variables travel between
+// them. Each board's modules are a Config like that of a module.xml.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/check.h"
+#include "deploy/config.h"
+#include "deploy/reader.h"
+
+namespace indurop::deploy {
+
+struct Board {
+  std::string name;            // [A-Za-z0-9_-]{1,40}; the node of the board has the same name
+  std::string address;         // IP address or host name for <multicast>off</multicast>; empty: found by multicast
+  std::string interface_name;  // network interface the plant is reached through; empty: DDS chooses
+  Config config;
+  Place place;
+};
+
+// What the manifest says about one variable beyond its .glb declaration.
+struct VariableRule {
+  std::string name;          // full name
+  std::string owner;         // board whose value counts; empty: inferred from the access map
+  Nanos every{};             // sent at most this often; 0: with every change
+  bool best_effort = false;  // a lost value is not repeated, the next one comes soon
+  Place place;
+  Place owner_place;
+};
+
+struct Plant {
+  std::filesystem::path file;
+  std::string name;
+  int domain = kDefaultDomain;                  // DDS domain between the boards, 0..230
+  std::optional<int> external_domain = 0;       // typed topics for other tools; empty: none
+  bool multicast = true;                        // false: boards find each other by <board address="">
+  Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
+  std::vector<std::filesystem::path> types;     // type libraries of indurop_add_glb(... TYPES), absolute
+  std::vector<Place> type_places;               // parallel to types
+  std::vector<Board> boards;                    // in file order
+  std::vector<VariableRule> variables;
+  static constexpr int kDefaultDomain = 77;
+};
+
+struct ReadPlant {
+  Plant plant;                          // meaningful only if ok
+  std::vector<Diagnostic> diagnostics;  // of the file, in order of place
+  [[nodiscard]] bool ok() const noexcept;
+};
+
+// True if the root element of the file is <plant>; false for everything else, unreadable files included.
+bool is_plant_file(const std::filesystem::path& file);
+// Limits and errors as read_config(). Not real-time safe.
+ReadPlant read_plant(const std::filesystem::path& file);
+ReadPlant read_plant_text(std::string_view xml, const std::filesystem::path& pretend_file);
+
+// One variable that leaves its board.
+struct Route {
+  std::string variable;              // full name
+  std::size_t owner = 0;             // into Plant::boards
+  std::vector<std::size_t> readers;  // boards that need it, the owner not among them
+  Nanos every{};
+  bool best_effort = false;
+};
+
+struct PlantCheck {
+  std::vector<Diagnostic> diagnostics;  // of all boards and of the plant
+  std::vector<CheckResult> boards;      // one per Plant::boards
+  std::vector<Route> routes;            // by variable name
+  [[nodiscard]] bool ok() const noexcept;
+};
+
+// Checks every board, then what holds between them: one owner per variable, a writer for every reader, equal types,
+// data age across boards. A board's schema gains the variables its modules read from others.
+PlantCheck check_plant(Plant& plant, const CheckOptions& options);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manifest of a plant from its elements.
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+
+#include "deploy/config_reader.h"
+#include "deploy/document.h"
+#include "deploy/element_rules.h"
+#include "deploy/plant.h"
+#include "deploy/plant_rules.h"
+#include "deploy/text.h"
+#include "deploy/values.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr Nanos kShortestLease{std::chrono::milliseconds(20)};
+constexpr Nanos kLongestLease{std::chrono::seconds(60)};
+constexpr const char* kNameRule = "use up to 40 letters, digits, '_' and '-'";
+
+class PlantReader {
+ public:
+  PlantReader(const Element& root, Plant& plant, Report& report)
+      : root_(root), plant_(plant), report_(report), folder_(folder_of(plant.file)) {}
+
+  void read() {
+    if (root_.name != "plant") {
+      report_.error(root_.place, "the root element is <" + root_.name + ">; a " + kPlantXml.name + " is " +
+                                     kPlantXml.form +
+                                     (root_.name == "root" ? "; this one is a module.xml, which needs no plant" : ""));
+      return;
+    }
+    check_root_attributes(root_, {"name"}, report_);
+    check_no_text(root_, report_);
+    if (const Attribute* name = need_attribute(root_, "name", "<plant name=\"cell\">", report_)) {
+      plant_.name = checked_name(*name, "plant");
+    }
+    for (const Element& child : root_.children) {
+      read_child(child);
+    }
+    if (!boards_given_) {
+      report_.error(root_.place, "<plant> has no <board>; add one per board, with its modules in it");
+    }
+    check_plant_rules(plant_, places_, report_);
+  }
+
+ private:
+  struct Known {
+    const char* name;
+    bool repeatable;
+    void (PlantReader::*read)(const Element&);
+  };
+  static std::span<const Known> known_elements() {
+    static constexpr std::array<Known, 7> kKnown{{
+        {"board", true, &PlantReader::read_board},
+        {"variable", true, &PlantReader::read_variable},
+        {"domain", false, &PlantReader::read_domain},
+        {"external", false, &PlantReader::read_external},
+        {"multicast", false, &PlantReader::read_multicast},
+        {"lease", false, &PlantReader::read_lease},
+        {"types", true, &PlantReader::read_types},
+    }};
+    return kKnown;
+  }
+
+  void read_child(const Element& child) {
+    const auto known = known_elements();
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) { return child.name == k.name; });
+    if (found == known.end()) {
+      std::vector<std::string> names;
+      for (const Known& k : known) {
+        names.emplace_back(k.name);
+      }
+      boards_given_ = boards_given_ || meant(child.name, names) == "board";
+      is_known(child, root_, names, report_);
+    } else if (found->repeatable || is_first(child, "this <plant>", given_, report_)) {
+      (this->*found->read)(child);
+    }
+  }
+
+  // Empty after an error.
+  std::string checked_name(const Attribute& name, const char* whose) {
+    if (is_node_name(name.value)) {
+      return name.value;
+    }
+    report_.error(name.value_place, in_quotes(name.value) + " is not a name of a " + whose + "; " + kNameRule);
+    return {};
+  }
+
+  std::optional<int> domain_of(const Element& e, const std::string& text, const char* more) {
+    const auto value = read_integer(text, 0, kHighestDomain);
+    if (!value) {
+      report_.error(e.text_place, "<" + e.name + ">: " + in_quotes(text) +
+                                      " is not a DDS domain; write a number from 0 to " +
+                                      std::to_string(kHighestDomain) + more);
+      return std::nullopt;
+    }
+    return static_cast<int>(*value);
+  }
+
+  void read_domain(const Element& e) {
+    if (const auto text = text_of(e, "77", report_)) {
+      places_.domain = e.text_place;
+      plant_.domain = domain_of(e, *text, "").value_or(plant_.domain);
+    }
+  }
+
+  void read_external(const Element& e) {
+    const auto text = text_of(e, "0", report_);
+    if (!text) {
+      return;
+    }
+    places_.external = e.text_place;
+    plant_.external_domain = *text == "off" ? std::nullopt : domain_of(e, *text, ", or off");
+  }
+
+  void read_multicast(const Element& e) { plant_.multicast = choose(e, {"on", "off"}, report_).value_or(0) == 0; }
+
+  void read_lease(const Element& e) {
+    const auto value = duration_of(e, false, report_);
+    if (value && (*value < kShortestLease || *value > kLongestLease)) {
+      report_.error(e.text_place, "<lease>: " + format_duration(*value) + " is not possible; write a time from " +
+                                      format_duration(kShortestLease) + " to " + format_duration(kLongestLease));
+      return;
+    }
+    plant_.lease = value.value_or(plant_.lease);
+  }
+
+  void read_types(const Element& e) {
+    const auto text = text_of(e, "./libcell_types.so", report_);
+    if (!text || !is_file_name(e, *text, report_)) {
+      return;
+    }
+    const std::filesystem::path file = (folder_ / *text).lexically_normal();
+    if (std::find(plant_.types.begin(), plant_.types.end(), file) != plant_.types.end()) {
+      report_.warning(e.text_place, in_quotes(*text) + " is named twice; remove one");
+      return;
+    }
+    plant_.types.push_back(file);
+    plant_.type_places.push_back(e.text_place);
+  }
+
+  // The attribute's value; empty if it is not there, or after an error if it has a problem.
+  template <class Problem>
+  std::string optional_attribute(const Element& e, const char* name, Problem problem) {
+    const Attribute* found = find_attribute(e, name);
+    if (found == nullptr) {
+      return {};
+    }
+    const std::string wrong =
+        found->value.empty() ? "no value given; remove the attribute or write one" : problem(found->value);
+    if (!wrong.empty()) {
+      report_.error(found->value_place, std::string(name) + ": " + wrong);
+      return {};
+    }
+    return found->value;
+  }
+
+  void read_board(const Element& e) {
+    boards_given_ = true;
+    check_attributes(e, {"name", "address", "interface"}, report_);
+    Board board;
+    board.place = e.place;
+    if (const Attribute* name = need_attribute(e, "name", "<board name=\"sensor\">", report_)) {
+      board.name = checked_name(*name, "board");
+    }
+    board.address = optional_attribute(e, "address", address_problem);
+    board.interface_name = optional_attribute(e, "interface", interface_problem);
+    board.config.file = plant_.file;
+    read_configuration(e, board.config, report_);
+    if (board.config.modules.empty()) {
+      report_.note(e.place,
+                   "the board " + in_quotes(board.name) + " has no <module>; it runs nothing and owns no variable");
+    }
+    plant_.boards.push_back(std::move(board));
+  }
+
+  void read_variable(const Element& e) {
+    check_attributes(e, {"name", "owner", "every", "reliability"}, report_);
+    if (is_leaf(e, report_)) {
+      check_no_text(e, report_);
+    }
+    VariableRule rule;
+    rule.place = e.place;
+    const Attribute* name = need_attribute(e, "name", "<variable name=\"cell::speed\" owner=\"control\"/>", report_);
+    if (const Attribute* owner = find_attribute(e, "owner")) {
+      rule.owner = optional_attribute(e, "owner", [](const std::string&) { return std::string{}; });
+      rule.owner_place = owner->value_place;
+    }
+    optional_attribute(e, "every", [&rule](const std::string& text) {
+      const DurationText read = read_duration(text, false);
+      rule.every = read.value.value_or(Nanos::zero());
+      return read.problem;
+    });
+    const std::string reliability = optional_attribute(e, "reliability", [](const std::string& text) {
+      return text == "reliable" || text == "best-effort"
+                 ? std::string{}
+                 : in_quotes(text) + " is not a value of reliability; write reliable or best-effort";
+    });
+    rule.best_effort = reliability == "best-effort";
+    if (name == nullptr) {
+      return;
+    }
+    rule.name = name->value;
+    rule.place = name->value_place;
+    if (e.attributes.size() == 1) {
+      report_.warning(e.place, "<variable> says nothing about " + in_quotes(rule.name) +
+                                   "; give it an owner, every or reliability, or remove it");
+    }
+    const auto [first, is_first] = variables_.try_emplace(rule.name, e.place);
+    if (!is_first) {
+      report_.error(e.place, "a second <variable> " + in_quotes(rule.name) + ", the first is in line " +
+                                 std::to_string(first->second.line) + "; write both in one");
+      return;
+    }
+    plant_.variables.push_back(std::move(rule));
+  }
+
+  const Element& root_;
+  Plant& plant_;
+  Report& report_;
+  std::filesystem::path folder_;
+  FirstPlaces given_;
+  FirstPlaces variables_;
+  PlantPlaces places_;
+  bool boards_given_ = false;
+};
+
+}  // namespace
+
+void interpret_plant(const Element& root, Plant& plant, std::vector<Diagnostic>& diagnostics) {
+  Report report(plant.file.string(), diagnostics);
+  PlantReader(root, plant, report).read();
+  sort_by_place(diagnostics);
+}
+
+bool ReadPlant::ok() const noexcept {
+  return !has_error(diagnostics);
+}
+
+bool is_plant_file(const std::filesystem::path& file) {
+  std::string problem;
+  return root_name(read_bytes(file, kPlantXml, problem)) == "plant";
+}
+
+ReadPlant read_plant(const std::filesystem::path& file) {
+  std::string problem;
+  const std::string bytes = read_bytes(file, kPlantXml, problem);
+  if (problem.empty()) {
+    return read_plant_text(bytes, file);
+  }
+  ReadPlant result;
+  result.plant.file = file;
+  result.diagnostics.push_back({Diagnostic::Severity::Error, file.string(), {}, std::move(problem)});
+  return result;
+}
+
+ReadPlant read_plant_text(std::string_view xml, const std::filesystem::path& pretend_file) {
+  ReadPlant result;
+  result.plant.file = pretend_file;
+  if (const auto root = read_document(xml, pretend_file, kPlantXml, result.diagnostics)) {
+    interpret_plant(*root, result.plant, result.diagnostics);
+  }
+  return result;
+}
+
+}  // namespace indurop::deploy
