@@ -29,20 +29,4 @@ std::string milliseconds(Nanos value) {
   return decimals.empty() ? text : text + "." + decimals;
 }
 
-const char* type_word(scheduler::ModuleType type) noexcept {
-  return type == scheduler::ModuleType::Thread ? "thread" : "process";
-}
-
-const char* operation_word(scheduler::Operation operation) noexcept {
-  switch (operation) {
-    case scheduler::Operation::Periodic:
-      return "periodic";
-    case scheduler::Operation::Sporadic:
-      return "sporadic";
-    case scheduler::Operation::NonReal:
-      return "non-real";
-  }
-  return "";
-}
-
 }  // namespace indurop::deploy

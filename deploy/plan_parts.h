@@ -16,7 +16,5 @@ std::vector<std::string> names_of(const Config& config, const CheckResult& check
 std::string in_order(const std::vector<std::string>& names);
 // Nanoseconds as milliseconds, every digit: "0.1".
 std::string milliseconds(Nanos value);
-const char* type_word(scheduler::ModuleType type) noexcept;
-const char* operation_word(scheduler::Operation operation) noexcept;
 
 }  // namespace indurop::deploy

@@ -9,6 +9,7 @@
 #include "deploy/reader.h"
 #include "deploy/svg.h"
 #include "deploy/text.h"
+#include "scheduler/words.h"
 
 namespace indurop::deploy {
 namespace {
@@ -129,7 +130,7 @@ class Diagram {
       case scheduler::Operation::Sporadic:
         return "within " + format_duration(m.deadline) + ", priority " + std::to_string(m.priority);
       case scheduler::Operation::NonReal:
-        return "non-real-time " + std::string(type_word(m.type));
+        return "non-real-time " + std::string(to_text(m.type));
     }
     return {};
   }

@@ -6,6 +6,7 @@
 #include "deploy/plan_parts.h"
 #include "deploy/reader.h"
 #include "deploy/text.h"
+#include "scheduler/words.h"
 
 namespace indurop::deploy {
 namespace {
@@ -110,8 +111,8 @@ std::string modules_table(const Config& config, const CheckResult& check) {
   const auto add = [&](std::size_t index) {
     const Module& m = config.modules[index];
     const auto shown = [](Nanos value) { return value > Nanos::zero() ? format_duration(value) : std::string{}; };
-    text.add({m.name, type_word(m.type), operation_word(m.operation), shown(m.period), shown(m.offset),
-              shown(m.deadline), m.operation == scheduler::Operation::NonReal ? "" : std::to_string(m.priority),
+    text.add({m.name, to_text(m.type), to_text(m.operation), shown(m.period), shown(m.offset), shown(m.deadline),
+              m.operation == scheduler::Operation::NonReal ? "" : std::to_string(m.priority),
               m.core >= 0 ? std::to_string(m.core) : "", m.file_as_written});
   };
   for (const std::uint32_t item : check.table.order) {

@@ -18,6 +18,7 @@ using scheduler::ModuleState;
 using scheduler::Operation;
 
 constexpr std::int64_t kEndGraceNs = 2'000'000'000;
+constexpr std::int64_t kAskedNs = 500'000'000;  // then SIGTERM
 constexpr std::int64_t kPollNs = 5'000'000;
 constexpr std::size_t kRestartsKept = 1000;
 
@@ -193,11 +194,10 @@ void Processes::end_all() {
     if (child.pid <= 0) {
       continue;
     }
-    if (managed(child)) {
-      slot(child).stop.store(1, std::memory_order_release);
-      slot(child).wake.wake();
-    } else {
-      ::kill(child.pid, SIGTERM);
+    slot(child).stop.store(1, std::memory_order_release);  // waitPeriod() or irp::stop_requested() tells it
+    slot(child).wake.wake();
+    if (child.module->signal != 0) {
+      ::kill(child.pid, SIGTERM);  // it knows nothing of us
     }
   }
   const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
@@ -212,8 +212,8 @@ void Processes::end_all() {
         ::waitpid(child.pid, &status, 0);
         break;
       }
-      if (!told && now > deadline - kEndGraceNs / 2) {
-        ::kill(child.pid, SIGTERM);  // it does not call waitPeriod()
+      if (!told && now > deadline - kEndGraceNs + kAskedNs) {
+        ::kill(child.pid, SIGTERM);  // it asks neither
         told = true;
       }
       rt::sleep_until(now + kPollNs);

@@ -9,50 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "scheduler/quantile.h"
+#include "scheduler/words.h"
 
 namespace indurop::node {
 namespace {
 
 using nlohmann::ordered_json;
-using scheduler::ModuleState;
-using scheduler::ModuleType;
-using scheduler::Operation;
-
-const char* text_of(ModuleType type) noexcept {
-  return type == ModuleType::Thread ? "thread" : "process";
-}
-
-const char* text_of(Operation operation) noexcept {
-  switch (operation) {
-    case Operation::Periodic:
-      return "periodic";
-    case Operation::Sporadic:
-      return "sporadic";
-    case Operation::NonReal:
-      return "non-real";
-  }
-  return "";
-}
-
-const char* text_of(ModuleState state) noexcept {
-  switch (state) {
-    case ModuleState::Loaded:
-      return "loaded";
-    case ModuleState::Starting:
-      return "starting";
-    case ModuleState::Running:
-      return "running";
-    case ModuleState::Stopped:
-      return "stopped";
-    case ModuleState::Faulted:
-      return "faulted";
-    case ModuleState::Restarting:
-      return "restarting";
-    case ModuleState::Exited:
-      return "exited";
-  }
-  return "";
-}
 
 ordered_json to_json(const scheduler::Distribution& distribution) {
   const scheduler::Summary s = scheduler::summarize(distribution);
@@ -61,8 +23,8 @@ ordered_json to_json(const scheduler::Distribution& distribution) {
 
 ordered_json module_json(const scheduler::ModuleRecord& module) {
   ordered_json json = {{"name", module.name},
-                       {"type", text_of(module.type)},
-                       {"operation", text_of(module.operation)},
+                       {"type", to_text(module.type)},
+                       {"operation", to_text(module.operation)},
                        {"period_ns", module.period_ns},
                        {"priority", module.priority},
                        {"runs", module.runs.load()},
@@ -73,7 +35,7 @@ ordered_json module_json(const scheduler::ModuleRecord& module) {
                        {"exec_ns", to_json(module.exec)},
                        {"response_ns", to_json(module.response)},
                        {"latency_ns", to_json(module.latency)},
-                       {"state", text_of(module.state.load())},
+                       {"state", to_text(module.state.load())},
                        {"faults", module.faults.load()},
                        {"restarts", module.restarts.load()},
                        {"lost_messages", module.lost_messages.load()}};
@@ -151,7 +113,7 @@ std::string summary_table(const scheduler::RunBlock& run) {
                          microseconds(jitter.p99), microseconds(jitter.max), microseconds(exec.p50),
                          microseconds(exec.p99), microseconds(exec.max));
     } else {
-      out += fmt::format("  {}", text_of(module.state.load()));
+      out += fmt::format("  {}", to_text(module.state.load()));
     }
     out += '\n';
   }

@@ -61,7 +61,7 @@ scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const depl
   const bool empty = check.periodic.empty();
   setup.basic_period_ns = (empty ? kIdlePeriod : check.table.basic_period).count();
   setup.macro_period_ns = (empty ? kIdlePeriod : check.table.macro_period).count();
-  setup.slot_count = static_cast<std::uint32_t>(setup.macro_period_ns / setup.basic_period_ns);
+  setup.slot_count = static_cast<std::uint64_t>(setup.macro_period_ns / setup.basic_period_ns);
   for (const deploy::Module& module : config.modules) {
     setup.modules.push_back(module_setup(module, placement));
   }

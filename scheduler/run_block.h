@@ -15,7 +15,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 1;
+inline constexpr std::uint32_t kRunAbi = 2;
 inline constexpr std::size_t kNameLength = 96;
 inline constexpr std::size_t kTextLength = 160;
 
@@ -32,7 +32,7 @@ enum class ModuleState : std::uint32_t {
   Restarting,  // process waiting for its restart delay
   Exited,      // a non-real-time module that finished
 };
-enum class FaultKind : std::uint32_t { None, Exception, Signal, Budget, Overrun, Exit, StartFailed, Deadline };
+enum class FaultKind : std::uint32_t { None, Exception, Signal, Budget, Overrun, Exit, StartFailed };
 
 // One Distribution = one quantity in ns. Single writer (the thread that runs the module); readers may see a sample
 // counted in one field and not yet in the next.
@@ -102,25 +102,25 @@ struct ProcessSlot {
 struct SlotEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last; 0 while being written
   std::uint64_t tick;
-  std::uint32_t slot;
-  std::uint32_t module;
+  std::uint64_t slot;
   std::int64_t release_ns;
   std::int64_t start_ns;
   std::int64_t end_ns;
+  std::uint32_t module;
+  std::uint32_t reserved;
 };
 
 // One overrun: who, when, what it used itself, who ran before it in that basic period.
 struct OverrunEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last
   std::uint64_t tick;
-  std::uint32_t slot;
-  std::uint32_t module;
+  std::uint64_t slot;
   std::int64_t own_ns;       // time since its start, or 0 if it had not started
   std::int64_t latency_ns;   // its own release-to-run latency
   std::int32_t previous;     // module that ran before it in the slot, -1 none
   std::int64_t previous_ns;  // and how long that took
   std::uint32_t started;     // 0: it was still waiting for its turn
-  std::uint32_t reserved;
+  std::uint32_t module;
 };
 
 // Text from irp::printf and from the node's real-time threads, for a normal thread to print.
@@ -167,7 +167,7 @@ struct RunBlock {
   std::atomic<NodeState> state;
   std::int64_t basic_period_ns;
   std::int64_t macro_period_ns;
-  std::uint32_t slot_count;
+  std::uint64_t slot_count;
   std::int64_t epoch_ns;            // CLOCK_MONOTONIC of tick 0
   std::atomic<std::uint64_t> tick;  // number of the last tick begun + 1; 0: none
   std::atomic<std::uint64_t> lost_ticks;

@@ -32,7 +32,7 @@ struct RunBlockSetup {
   std::string config_file;
   std::int64_t basic_period_ns = 0;
   std::int64_t macro_period_ns = 0;
-  std::uint32_t slot_count = 0;
+  std::uint64_t slot_count = 0;
   std::vector<ModuleSetup> modules;
 };
 

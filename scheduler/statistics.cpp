@@ -10,8 +10,8 @@ std::int64_t magnitude(std::int64_t value) noexcept {
   return value < 0 ? -value : value;
 }
 
-std::uint32_t slot_of(const RunBlock& block, std::uint64_t tick) noexcept {
-  return block.slot_count == 0 ? 0 : static_cast<std::uint32_t>(tick % block.slot_count);
+std::uint64_t slot_of(const RunBlock& block, std::uint64_t tick) noexcept {
+  return block.slot_count == 0 ? 0 : tick % block.slot_count;
 }
 
 }  // namespace

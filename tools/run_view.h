@@ -14,6 +14,7 @@
 
 #include "scheduler/quantile.h"
 #include "scheduler/run_block.h"
+#include "scheduler/words.h"
 #include "vars/run_file.h"
 
 namespace indurop::tools {
@@ -22,7 +23,7 @@ namespace indurop::tools {
 struct SlotSample {
   std::uint64_t number = 0;
   std::uint64_t tick = 0;
-  std::uint32_t slot = 0;
+  std::uint64_t slot = 0;
   std::uint32_t module = 0;
   std::int64_t release_ns = 0;
   std::int64_t start_ns = 0;
@@ -31,7 +32,7 @@ struct SlotSample {
 struct OverrunSample {
   std::uint64_t number = 0;
   std::uint64_t tick = 0;
-  std::uint32_t slot = 0;
+  std::uint64_t slot = 0;
   std::uint32_t module = 0;
   std::int64_t own_ns = 0;
   std::int64_t latency_ns = 0;
@@ -83,11 +84,5 @@ std::string fixed_text(const char (&text)[N]) {
   const std::string_view whole(text, N);
   return std::string(whole.substr(0, whole.find('\0')));
 }
-
-const char* to_text(scheduler::NodeState state) noexcept;
-const char* to_text(scheduler::ModuleState state) noexcept;
-const char* to_text(scheduler::ModuleType type) noexcept;
-const char* to_text(scheduler::Operation operation) noexcept;
-const char* to_text(scheduler::FaultKind kind) noexcept;
 
 }  // namespace indurop::tools

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts about iceoryx 2.0.3 that shape this file: its shared-memory object maps more than the file has without an
-// error, reports failures only by printing them, opens by name, and sets the umask of the whole process to 0 for the
-// moment of opening. So everything that can fail is tried before it is asked, what it mapped is compared with what
-// was checked, and files get their mode by fchmod.
+// iceoryx 2.0.3 reports why a mapping failed only by printing it, so each is tried before it is asked. Its object that
+// opens by name is not used: it sets the umask of the whole process to 0 for a moment and maps more than the file has.
 
 #include "vars/shm_file.h"
 
@@ -11,11 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object.hpp>
+#include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object/memory_map.hpp>
 
 #include <algorithm>
-#include <mutex>
-#include <optional>
 #include <utility>
 
 #include "vars/os_error.h"
@@ -24,9 +20,7 @@ namespace indurop::vars {
 
 namespace {
 
-using iox::posix::SharedMemoryObject;
-
-constexpr int kSwapTries = 8;
+using iox::posix::MemoryMap;
 
 std::string path_of(const std::string& name) {
   return std::string(kShmDirectory) + "/" + name;
@@ -52,32 +46,22 @@ class Descriptor {
   int number_;
 };
 
-// The mapping that follows will succeed if this one does.
-int try_map(int file, std::size_t size, Mode mode) noexcept {
-  const int protection = mode == Mode::ReadWrite ? PROT_READ | PROT_WRITE : PROT_READ;
-  void* const memory = ::mmap(nullptr, size, protection, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) {
-    return errno;
+Result<MemoryMap> map(int file, std::size_t size, Mode mode) {
+  const bool writable = mode == Mode::ReadWrite;
+  void* const tried = ::mmap(nullptr, size, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, file, 0);
+  if (tried == MAP_FAILED) {
+    return os_error(errno, "map shared memory");
   }
-  ::munmap(memory, size);
-  return 0;
-}
-
-std::optional<SharedMemoryObject> map_by_name(const std::string& name, std::size_t size, Mode mode) {
-  static std::mutex one_at_a_time;  // two at once could leave the process with umask 0 for ever
-  const std::lock_guard<std::mutex> guard(one_at_a_time);
-  const iox::posix::SharedMemory::Name_t iox_name(iox::cxx::TruncateToCapacity, name);
-  auto object = SharedMemoryObject::create(
-      iox_name, size, mode == Mode::ReadWrite ? iox::posix::AccessMode::READ_WRITE : iox::posix::AccessMode::READ_ONLY,
-      iox::posix::OpenMode::OPEN_EXISTING);
-  if (object.has_error()) {
-    return std::nullopt;
+  ::munmap(tried, size);
+  auto mapped = iox::posix::MemoryMapBuilder()
+                    .length(size)
+                    .fileDescriptor(file)
+                    .accessMode(writable ? iox::posix::AccessMode::READ_WRITE : iox::posix::AccessMode::READ_ONLY)
+                    .create();
+  if (mapped.has_error()) {
+    return os_error(ENOMEM, "map shared memory");
   }
-  return std::optional<SharedMemoryObject>(std::move(object.value()));
-}
-
-bool same_file(const struct stat& a, const struct stat& b) noexcept {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size;
+  return std::move(mapped.value());
 }
 
 int allocate(int file, std::size_t size) noexcept {
@@ -91,9 +75,9 @@ int allocate(int file, std::size_t size) noexcept {
 }  // namespace
 
 struct ShmFile::Impl {
-  Impl(SharedMemoryObject&& mapped, const struct stat& status, Mode access)
-      : object(std::move(mapped)), info(status), mode(access) {}
-  SharedMemoryObject object;
+  Impl(MemoryMap&& mapped, const struct stat& status, Mode access)
+      : memory(std::move(mapped)), info(status), mode(access) {}
+  MemoryMap memory;
   struct stat info;
   Mode mode;
   std::string unpublished;  // temporary path, empty if the file has its name
@@ -113,45 +97,38 @@ std::string block_file(const std::string& node) {
 std::string run_file(const std::string& node) {
   return "indurop." + node + ".run";
 }
+std::string mirror_file(const std::string& node) {
+  return "indurop." + node + ".mirror";
+}
 std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
 }
 
 Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
-  const std::string path = path_of(name);
   const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
-  for (int i = 0; i < kSwapTries; ++i) {
-    const Descriptor file(::open(path.c_str(), flags));
-    if (file.get() < 0) {
-      return os_error(errno, "open shared memory");
-    }
-    struct stat before {};
-    if (::fstat(file.get(), &before) != 0) {
-      return os_error(errno, "inspect shared memory");
-    }
-    if (!S_ISREG(before.st_mode) || before.st_size <= 0) {
-      return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
-    }
-    const auto size = static_cast<std::size_t>(before.st_size);
-    if (const int error = try_map(file.get(), size, mode); error != 0) {
-      return os_error(error, "map shared memory");
-    }
-    auto object = map_by_name(name, size, mode);
-    struct stat after {};
-    // Another file may have taken the name meanwhile: then that one has to be checked.
-    if (object && ::fstat(object->getFileHandle(), &after) == 0 && same_file(before, after)) {
-      return ShmFile(std::make_unique<Impl>(std::move(*object), after, mode));
-    }
+  const Descriptor file(::open(path_of(name).c_str(), flags));
+  if (file.get() < 0) {
+    return os_error(errno, "open shared memory");
   }
-  return Error{Errc::Busy, 0, "shared memory file is being replaced again and again"};
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) {
+    return os_error(errno, "inspect shared memory");
+  }
+  if (!S_ISREG(info.st_mode) || info.st_size <= 0) {
+    return Error{Errc::Corrupt, 0, "shared memory file is empty or not a regular file"};
+  }
+  auto mapped = map(file.get(), static_cast<std::size_t>(info.st_size), mode);
+  if (!mapped) {
+    return mapped.error();
+  }
+  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, mode));
 }
 
 Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
   if (Status status = remove_unfinished(name); !status) {
     return status.error();
   }
-  const std::string temporary_name = unfinished(name);
-  const std::string temporary = path_of(temporary_name);
+  const std::string temporary = path_of(unfinished(name));
   const Descriptor file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kShmMode));
   if (file.get() < 0) {
     return os_error(errno, "create shared memory");
@@ -166,17 +143,16 @@ Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
   if (const int error = allocate(file.get(), size); error != 0) {
     return give_up(error, "reserve shared memory");
   }
-  if (const int error = try_map(file.get(), size, Mode::ReadWrite); error != 0) {
-    return give_up(error, "map shared memory");
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) {
+    return give_up(errno, "inspect new shared memory");
   }
-  struct stat made {};
-  struct stat mapped {};
-  auto object = map_by_name(temporary_name, size, Mode::ReadWrite);
-  if (!object || ::fstat(file.get(), &made) != 0 || ::fstat(object->getFileHandle(), &mapped) != 0 ||
-      !same_file(made, mapped)) {
-    return give_up(EBUSY, "map new shared memory");
+  auto mapped = map(file.get(), size, Mode::ReadWrite);
+  if (!mapped) {
+    ::unlink(temporary.c_str());
+    return mapped.error();
   }
-  auto impl = std::make_unique<Impl>(std::move(*object), made, Mode::ReadWrite);
+  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, Mode::ReadWrite);
   impl->unpublished = temporary;
   impl->final_path = path_of(name);
   return ShmFile(std::move(impl));
@@ -203,7 +179,7 @@ ShmFile::~ShmFile() {
 }
 
 std::byte* ShmFile::data() const noexcept {
-  return static_cast<std::byte*>(impl_->object.getBaseAddress());
+  return static_cast<std::byte*>(impl_->memory.getBaseAddress());
 }
 std::size_t ShmFile::size() const noexcept {
   return static_cast<std::size_t>(impl_->info.st_size);

@@ -38,7 +38,7 @@ inline BlockPointer make_block(const std::vector<Task>& tasks, std::int64_t basi
   setup.node_name = "test";
   setup.basic_period_ns = basic_ns;
   setup.macro_period_ns = macro_ns;
-  setup.slot_count = static_cast<std::uint32_t>(macro_ns / basic_ns);
+  setup.slot_count = static_cast<std::uint64_t>(macro_ns / basic_ns);
   for (const Task& task : tasks) {
     ModuleSetup module;
     module.name = "m" + std::to_string(task.index);

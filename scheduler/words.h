@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words users read and write for the states and kinds of a run: one table for every program.
+
+#pragma once
+
+#include "scheduler/run_block.h"
+
+namespace indurop::scheduler {
+
+// "unknown" for a value that is none of them: it may come from a damaged file. Thread and real-time safe.
+const char* to_text(NodeState state) noexcept;
+const char* to_text(ModuleType type) noexcept;
+const char* to_text(Operation operation) noexcept;
+const char* to_text(ModuleState state) noexcept;
+const char* to_text(FaultKind kind) noexcept;
+
+}  // namespace indurop::scheduler
