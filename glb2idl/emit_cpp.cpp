@@ -282,6 +282,9 @@ class CppWriter {
     line("  static constexpr ::std::uint64_t kNameHash = {};", hex(v.name_hash()));
     line("  static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::{};", kind(v));
     line("  static constexpr ::std::size_t kSize = {};", v.type.size());
+    if (v.maxage_ns > 0) {
+      line("  static constexpr ::std::int64_t kMaxAgeNs = {};", v.maxage_ns);
+    }
     line("  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept {{ return refs[{}]; }}", index);
     line("}};");
   }
@@ -299,6 +302,12 @@ class CppWriter {
       line("  {} {};", shape(field.type, "indurop_tag", fmt::format("indurop_offset + {}", field.offset)), field.name);
     }
     line("  INDUROP_UNION_SHAPE({})", name);
+    const bool hidden = std::any_of(type.fields.begin(), type.fields.end(), [](const schema::Field& field) {
+      return field.name == "age" || field.name == "valid";
+    });
+    if (!hidden) {
+      line("  INDUROP_FRESHNESS(indurop_tag)");
+    }
     line("}};");
   }
 

@@ -1,13 +1,13 @@
 # Rules that turn OMG IDL into a library of DDS types. Part of the installed package.
 include_guard(GLOBAL)
 
-# indurop_idlc(<target> FILES a.idl ... [INCLUDES folder ...])
-# Runs Cyclone DDS's idlc on each file and builds the shared library <target> of the C types and topic descriptors;
+# indurop_idlc(<target> [STATIC] FILES a.idl ... [INCLUDES folder ...])
+# Runs Cyclone DDS's idlc on each file and builds the library <target> (shared, unless STATIC) of the C types and topic descriptors;
 # its include directory holds <stem>.h for each <stem>.idl. The files may be generated in the same directory.
 function(indurop_idlc target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FILES;INCLUDES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STATIC" "" "FILES;INCLUDES")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_FILES)
-    message(FATAL_ERROR "usage: indurop_idlc(<target> FILES a.idl ... [INCLUDES folder ...])")
+    message(FATAL_ERROR "usage: indurop_idlc(<target> [STATIC] FILES a.idl ... [INCLUDES folder ...])")
   endif()
   if(NOT CMAKE_C_COMPILER)
     message(FATAL_ERROR "indurop_idlc(${target}): idlc writes C, so enable it: project(... LANGUAGES C CXX)")
@@ -30,7 +30,11 @@ function(indurop_idlc target)
       COMMENT "idlc ${stem}.idl" VERBATIM)
     list(APPEND sources ${folder}/${stem}.c)
   endforeach()
-  add_library(${target} SHARED ${sources})
+  set(kind SHARED)
+  if(arg_STATIC)
+    set(kind STATIC)
+  endif()
+  add_library(${target} ${kind} ${sources})
   set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
   target_include_directories(${target} PUBLIC ${folder})
   target_link_libraries(${target} PUBLIC CycloneDDS::ddsc)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one time base: CLOCK_MONOTONIC in nanoseconds. Real-time safe.
+// The one time base of everything: CLOCK_MONOTONIC in nanoseconds. Real-time safe.
 
 #pragma once
 
@@ -14,6 +14,13 @@ inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 inline std::int64_t now_ns() noexcept {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kNanosPerSecond + now.tv_nsec;
+}
+
+// CLOCK_REALTIME: for stamps that another machine compares with its own; may jump.
+inline std::int64_t wall_ns() noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
   return now.tv_sec * kNanosPerSecond + now.tv_nsec;
 }
 

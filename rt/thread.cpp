@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace indurop::rt {
@@ -40,13 +41,15 @@ Status set_fifo_or_normal(pid_t id, int priority, const char* where) noexcept {
   return {};
 }
 
-Status pin(pid_t id, int core, const char* where) noexcept {
-  if (core < 0 || core >= CPU_SETSIZE) {
-    return Error{Errc::InvalidArgument, 0, where};
-  }
+Status pin(pid_t id, std::span<const int> cores, const char* where) noexcept {
   cpu_set_t set;
   CPU_ZERO(&set);
-  CPU_SET(static_cast<std::size_t>(core), &set);
+  for (const int core : cores) {
+    if (core < 0 || core >= CPU_SETSIZE) {
+      return Error{Errc::InvalidArgument, 0, where};
+    }
+    CPU_SET(static_cast<std::size_t>(core), &set);
+  }
   if (::sched_setaffinity(id, sizeof set, &set) != 0) {
     return from_errno(errno, where);
   }
@@ -116,10 +119,13 @@ int fifo_priority() noexcept {
 }
 
 Status pin_to_core(int core) noexcept {
-  return pin(0, core, "pin a thread to a core");
+  return pin(0, {&core, 1}, "pin a thread to a core");
+}
+Status pin_to_cores(const std::vector<int>& cores) noexcept {
+  return pin(0, cores, "pin a thread to cores");
 }
 Status pin_process_to_core(pid_t process, int core) noexcept {
-  return pin(process, core, "pin a process to a core");
+  return pin(process, {&core, 1}, "pin a process to a core");
 }
 
 bool StackBounds::overflowed_at(const void* address) const noexcept {

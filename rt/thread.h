@@ -23,8 +23,10 @@ Status set_fifo_of(pid_t process, int priority) noexcept;
 // FIFO priority the calling thread has now, 0 if it has none.
 int fifo_priority() noexcept;
 
-// Binds the calling thread to one core. Errors: InvalidArgument (no such core).
+// Binds the calling thread, and those it will start, to one core or to a set of them. Errors: InvalidArgument (no such
+// core, none at all).
 Status pin_to_core(int core) noexcept;
+Status pin_to_cores(const std::vector<int>& cores) noexcept;
 Status pin_process_to_core(pid_t process, int core) noexcept;
 
 // The calling thread's stack. Not real-time safe to ask for.

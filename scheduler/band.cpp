@@ -282,6 +282,9 @@ void Band::drain() noexcept {
     if (on_done_ != nullptr) {
       on_done_(on_done_context_);
     }
+    if (hooks_.worked != nullptr) {
+      hooks_.worked(hooks_.context);
+    }
   }
 }
 

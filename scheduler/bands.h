@@ -36,6 +36,7 @@ inline constexpr int kTopBandPriority = 88;    // further bands count down from 
 inline constexpr int kLowestBandPriority = 4;  // event handler and sporadic processes need the levels below
 inline constexpr int kHandlerPriority = 3;
 inline constexpr int kSporadicProcessPriority = 2;
+inline constexpr int kMirrorPriority = 1;
 
 // Bands of the periodic tasks in execution order. Uses all of one FIFO level per band and core.
 // A band runs inline if it is the first on its core, has the basic period and no offset, consists of thread modules,

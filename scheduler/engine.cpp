@@ -280,6 +280,9 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
   if (gated_) {
     wake_waiting();
   }
+  if (core.primary && hooks_.worked != nullptr) {
+    hooks_.worked(hooks_.context);
+  }
 }
 
 void Engine::step(std::uint64_t tick, std::int64_t epoch_ns) noexcept {

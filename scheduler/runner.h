@@ -34,6 +34,8 @@ struct Hooks {
   void (*entering)(void* context, std::uint32_t module) noexcept = nullptr;
   void (*faulted)(void* context, std::uint32_t module) noexcept = nullptr;  // after the record was filled in
   void (*stop_node)(void* context, std::uint32_t module, const char* reason) noexcept = nullptr;
+  // Modules have run and may have written something; may wake a thread, nothing more.
+  void (*worked)(void* context) noexcept = nullptr;
 };
 
 // Who ran last on a core: names the predecessor in overrun records.

@@ -132,6 +132,13 @@ void carry_over(const Previous& previous, const BlockPlan& plan, std::byte* memo
   }
 }
 
+// What an earlier run mirrored from another board is this one's own until a mirror says otherwise.
+void own_everything(const Previous& previous) noexcept {
+  for (const DirectoryEntry& entry : previous.index->directory) {
+    abi::confirmed_of(previous.file->data() + entry.offset, entry.kind).store(0, std::memory_order_release);
+  }
+}
+
 }  // namespace
 
 Result<Store> Store::create(const std::string& node, const schema::Schema& schema) {
@@ -152,6 +159,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     generation = old.generation.load(std::memory_order_acquire) + 1;
     if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
+      own_everything(*previous);
       sign_in(old, generation);
       old.state.store(BlockState::Ready, std::memory_order_release);
       return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <indurop/detail/access.h>
+#include <indurop/detail/freshness.h>
 #include <indurop/string.h>
 
 #include <array>
@@ -98,6 +99,18 @@ INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
 
 }  // namespace detail
 
+// How fresh the variable's value is, the whole variable's even if the shape is a part of it. Real-time safe.
+//   age():   time since the board that owns it last confirmed it, whether or not it changed; zero on that board, and
+//            nanoseconds::max() before it was heard. The way through the network is not counted.
+//   valid(): the owner lives, and age() is at most the @maxage of the declaration. True on the owner's board.
+#define INDUROP_FRESHNESS(Tag)                                   \
+  [[nodiscard]] static std::chrono::nanoseconds age() noexcept { \
+    return ::indurop::detail::age<Tag>();                        \
+  }                                                              \
+  [[nodiscard]] static bool valid() noexcept {                   \
+    return ::indurop::detail::valid<Tag>();                      \
+  }
+
 // A number, bool or enum. Reading and assigning are one atomic access; +=, ++ and their kin are one atomic
 // read-modify-write, `x = x + 1` is two accesses as in C. Real-time safe, any thread, any process.
 template <class Tag, class T, std::uint32_t Offset>
@@ -114,6 +127,8 @@ struct Leaf {
 
   INDUROP_ALWAYS_INLINE T get() const noexcept { return detail::load<Tag, T>(Offset + place.bytes); }
   INDUROP_ALWAYS_INLINE operator T() const noexcept { return get(); }  // NOLINT(google-explicit-constructor)
+
+  INDUROP_FRESHNESS(Tag)
 
   INDUROP_ALWAYS_INLINE T operator=(T value) const noexcept {
     detail::store<Tag, T>(Offset + place.bytes, value);
@@ -183,6 +198,7 @@ struct Text {
   const Text& operator=(const string<N>& text) const noexcept { return *this = text.view(); }
   const Text& operator=(const Text& other) const noexcept { return *this = other.get(); }
 
+  INDUROP_FRESHNESS(Tag)
   [[nodiscard]] static constexpr std::size_t size() noexcept { return N; }
   INDUROP_ALWAYS_INLINE Leaf<Tag, char, Offset> operator[](std::size_t index) const {
     if (index >= N) [[unlikely]] {
@@ -226,6 +242,7 @@ struct ArrayRef {
     }
     return {Place{place.bytes + static_cast<std::uint32_t>(index * sizeof(value_type))}, detail::Make{}};
   }
+  INDUROP_FRESHNESS(Tag)
   [[nodiscard]] static constexpr std::size_t size() noexcept { return N; }
 
   INDUROP_ALWAYS_INLINE whole_type get() const noexcept { return detail::load<Tag, whole_type>(kOffset + place.bytes); }
@@ -305,30 +322,14 @@ struct ArrayRef {
     return get() == indurop_other.get();                                                          \
   }
 
-// The members every generated struct shape has besides its fields. A whole struct is read, assigned and compared
-// in one access.
-#define INDUROP_STRUCT_SHAPE(Self)                                                                \
-  constexpr Self(::indurop::Place at, ::indurop::detail::Make /*unused*/) noexcept : place(at) {} \
-  Self(const Self&) = default;                                                                    \
-  ~Self() = default;                                                                              \
-  INDUROP_ALWAYS_INLINE whole_type get() const noexcept {                                         \
-    return ::indurop::detail::load<Tag, whole_type>(Offset + place.bytes);                        \
-  }                                                                                               \
-  INDUROP_ALWAYS_INLINE operator whole_type() const noexcept {                                    \
-    return get();                                                                                 \
-  }                                                                                               \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const whole_type& value) const noexcept {           \
-    ::indurop::detail::store<Tag, whole_type>(Offset + place.bytes, value);                       \
-    return *this;                                                                                 \
-  }                                                                                               \
-  INDUROP_ALWAYS_INLINE const Self& operator=(const Self& other) const noexcept {                 \
-    return *this = other.get();                                                                   \
-  }                                                                                               \
-  friend bool operator==(const Self& a, const whole_type& b) noexcept {                           \
-    return a.get() == b;                                                                          \
-  }                                                                                               \
-  friend bool operator==(const Self& a, const Self& b) noexcept {                                 \
-    return a.get() == b.get();                                                                    \
-  }
+// age() and valid() of a whole variable, wherever its shape comes from: also for structs with fields of these names.
+template <detail::Shape T>
+[[nodiscard]] std::chrono::nanoseconds age(const T& /*shape*/) noexcept {
+  return detail::age<typename T::tag_type>();
+}
+template <detail::Shape T>
+[[nodiscard]] bool valid(const T& /*shape*/) noexcept {
+  return detail::valid<typename T::tag_type>();
+}
 
 }  // namespace indurop

@@ -39,7 +39,8 @@ struct RingHeader {
   DirtyRange dirty[kSlots];                // what the commit that made this slot's version changed
   std::uint32_t value_size;
   std::uint32_t slot_stride;
-  std::uint64_t reserved1[3];
+  std::atomic<std::int64_t> confirmed_ns;  // see confirmed_of()
+  std::uint64_t reserved1[2];
 };
 static_assert(sizeof(pthread_mutex_t) <= 40, "store layout assumes glibc's 64-bit mutex or smaller");
 static_assert(sizeof(RingHeader) == 128 && std::is_standard_layout_v<RingHeader>);
@@ -49,6 +50,16 @@ constexpr std::size_t slot_stride(std::size_t value_size) noexcept {
 }
 constexpr std::size_t entry_size(Kind kind, std::size_t value_size) noexcept {
   return kind == Kind::Scalar ? kAlign : sizeof(RingHeader) + kSlots * slot_stride(value_size);
+}
+
+// When the board that owns a mirrored variable last confirmed its value, CLOCK_MONOTONIC. 0: this board owns it.
+// Negative: the owner is silent since then, kNeverConfirmed: it was not heard yet. Written by the mirror only.
+inline constexpr std::int64_t kNeverConfirmed = INT64_MIN;
+inline std::atomic<std::int64_t>& confirmed_of(void* entry, Kind kind) noexcept {
+  if (kind == Kind::Ring) {
+    return static_cast<RingHeader*>(entry)->confirmed_ns;
+  }
+  return static_cast<std::atomic<std::int64_t>*>(entry)[1];  // behind the value, on its cache line
 }
 
 // One row per declared variable in every .so or executable that includes a generated header. `entry` is

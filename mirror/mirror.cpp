@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/mirror.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <vector>
+
+#include "mirror/dds_log.h"
+#include "mirror/dds_setup.h"
+#include "mirror/mirror_block.h"
+#include "mirror/receiver.h"
+#include "mirror/sender.h"
+#include "rt/clock.h"
+#include "rt/signal_word.h"
+#include "rt/thread.h"
+#include "vars/shm_file.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr std::int64_t kRetryNs = 500'000'000;  // joining a network that is not there
+constexpr std::int64_t kLookNs = 10'000'000;    // without a notification: somebody else may have written
+constexpr std::int64_t kBulkLookNs = 20'000'000;
+
+void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
+  const std::size_t length = std::min(from.size(), sizeof to - 1);
+  std::memcpy(to, from.data(), length);
+  to[length] = '\0';
+}
+
+}  // namespace
+
+struct Mirror::Impl {
+  Impl(Settings wanted, vars::Store& values, const std::atomic<std::uint64_t>& ticks, vars::ShmFile&& memory)
+      : settings(std::move(wanted)),
+        store(values),
+        tick(ticks),
+        file(std::move(memory)),
+        block(*reinterpret_cast<MirrorBlock*>(file.data())),
+        session(static_cast<std::uint64_t>(rt::wall_ns())) {}
+
+  Status run();
+  void end() noexcept;
+  void manage();
+  bool join(std::string& problem);
+  void take_catalogues() noexcept;
+  void send_loop(bool bulk) noexcept;
+  [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
+
+  Settings settings;
+  vars::Store& store;
+  const std::atomic<std::uint64_t>& tick;
+  vars::ShmFile file;
+  MirrorBlock& block;
+  std::uint64_t session;
+
+  std::unique_ptr<Sender> sender;
+  std::vector<std::unique_ptr<Receiver>> receivers;
+  Participant joined;
+  Entity catalogues;
+  std::atomic<bool> up{false};
+  std::atomic<bool> stop{false};
+  rt::SignalWord wake_manager;
+  rt::SignalWord wake_sender;
+  rt::SignalWord wake_bulk;
+  rt::Thread manager;
+  rt::Thread prompt;
+  rt::Thread bulk;
+};
+
+Status Mirror::Impl::run() {
+  wake_manager.init(false);
+  wake_sender.init(false);
+  wake_bulk.init(false);
+  block.abi = kMirrorAbi;
+  block.peer_count = static_cast<std::uint32_t>(settings.boards.size());
+  copy_name(block.plant, settings.plant);
+  copy_name(block.board, settings.board);
+  block.domain = settings.domain;
+  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
+    copy_name(block.peers()[i].name, settings.boards[i]);
+  }
+  sender = std::make_unique<Sender>(store, settings, session, block);
+  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
+    std::vector<std::string> variables;
+    for (const Incoming& in : settings.incoming) {
+      if (in.owner == settings.boards[i]) {
+        variables.push_back(in.variable);
+      }
+    }
+    receivers.push_back(
+        std::make_unique<Receiver>(store, settings.boards[i], variables, settings.lease_ns, block.peers()[i]));
+  }
+  block.magic.store(kMirrorMagic, std::memory_order_release);
+  if (Status published = file.publish(); !published) {
+    return published;
+  }
+  rt::ThreadSettings thread;
+  thread.fifo_priority = settings.fifo_priority;
+  thread.core = settings.cores.size() == 1 ? settings.cores.front() : -1;
+  const auto launch = [&](const char* name, rt::Thread& into, auto body) -> Status {
+    thread.name = name;
+    auto started = rt::Thread::start(thread, body);
+    if (!started) {
+      return started.error();
+    }
+    into = std::move(started).value();
+    return {};
+  };
+  if (Status started = launch("irp-mirror-mgr", manager, [this] { manage(); }); !started) {
+    return started;
+  }
+  if (!sender->empty()) {
+    if (Status started = launch("irp-mirror", prompt, [this] { send_loop(false); }); !started) {
+      return started;
+    }
+  }
+  if (sender->has_bulk()) {
+    thread.fifo_priority = 0;
+    return launch("irp-mirror-bulk", bulk, [this] { send_loop(true); });
+  }
+  return {};
+}
+
+bool Mirror::Impl::join(std::string& problem) {
+  joined = join_plant(settings, problem);
+  if (!joined.participant.ok()) {
+    return false;
+  }
+  const dds_entity_t participant = joined.participant.get();
+  if (!sender->open(participant, settings, problem)) {
+    return false;
+  }
+  dds_listener_t* listener = dds_create_listener(this);
+  const auto wake = [](dds_entity_t /*reader*/, void* self) { static_cast<Impl*>(self)->wake_manager.wake(); };
+  dds_lset_data_available(listener, wake);
+  catalogues = make_reader(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant), settings,
+                           Stream::Prompt, listener);
+  dds_delete_listener(listener);
+  if (!catalogues.ok()) {
+    problem = "cannot receive catalogues: " + catalogues.why();
+    return false;
+  }
+  return true;
+}
+
+void Mirror::Impl::manage() {
+  // DDS's own threads inherit where they may run from the one that creates the participant.
+  if (!settings.cores.empty()) {
+    (void)rt::pin_to_cores(settings.cores);
+  }
+  while (!stopping()) {
+    std::string problem;
+    const bool done = join(problem);
+    block.problem.set(problem);
+    if (done) {
+      break;
+    }
+    wake_manager.wait_until(rt::now_ns() + kRetryNs);
+  }
+  if (stopping()) {
+    return;
+  }
+  block.network.store(Network::Up, std::memory_order_release);
+  up.store(true, std::memory_order_release);
+  wake_sender.wake();
+  wake_bulk.wake();
+  while (!stopping()) {
+    take_catalogues();
+    const std::int64_t now = rt::now_ns();
+    std::int64_t next = now + kRetryNs;
+    for (const auto& receiver : receivers) {
+      next = std::min(next, receiver->expire(now));
+    }
+    block.dds_messages.store(dds_message_count(), std::memory_order_relaxed);
+    wake_manager.wait_until(next);
+  }
+}
+
+void Mirror::Impl::take_catalogues() noexcept {
+  constexpr std::uint32_t kAtOnce = 8;
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  for (;;) {
+    samples[0] = nullptr;
+    const int count = dds_take(catalogues.get(), samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) {
+      return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const auto& catalogue = *static_cast<const indurop_wire_Catalogue*>(samples[i]);
+      const auto found = std::find_if(receivers.begin(), receivers.end(),
+                                      [&](const auto& receiver) { return receiver->board() == catalogue.board; });
+      if (found == receivers.end()) {
+        if (settings.board == catalogue.board && infos[i].valid_data) {
+          block.problem.set(fmt::format("another node in the network calls itself board {} of plant {}", settings.board,
+                                        settings.plant));
+        }
+        continue;
+      }
+      // Without a writer only the key is there.
+      if (infos[i].instance_state != DDS_IST_ALIVE) {
+        (*found)->silent();
+      } else if (infos[i].valid_data) {
+        (*found)->announced(catalogue, joined.participant.get(), settings);
+      }
+    }
+    (void)dds_return_loan(catalogues.get(), samples.data(), count);
+  }
+}
+
+void Mirror::Impl::send_loop(bool of_bulk) noexcept {
+  rt::SignalWord& wake = of_bulk ? wake_bulk : wake_sender;
+  while (!stopping()) {
+    const std::int64_t now = rt::now_ns();
+    if (up.load(std::memory_order_acquire)) {
+      const std::uint64_t begun = tick.load(std::memory_order_acquire);
+      sender->cycle(now, begun > 0 ? begun - 1 : 0, of_bulk);
+      if (!of_bulk) {
+        const std::int64_t took = rt::now_ns() - now;
+        block.cycle_ns.store(took, std::memory_order_relaxed);
+        if (took > block.cycle_max_ns.load(std::memory_order_relaxed)) {
+          block.cycle_max_ns.store(took, std::memory_order_relaxed);
+        }
+      }
+    }
+    wake.wait_until(now + (of_bulk ? kBulkLookNs : kLookNs));
+    while (wake.try_wait()) {
+    }
+  }
+  if (up.load(std::memory_order_acquire)) {
+    sender->cycle(rt::now_ns(), tick.load(std::memory_order_acquire), of_bulk);  // what was written last
+  }
+}
+
+void Mirror::Impl::end() noexcept {
+  stop.store(true, std::memory_order_release);
+  wake_manager.wake();
+  wake_sender.wake();
+  wake_bulk.wake();
+  prompt.join();
+  bulk.join();
+  manager.join();
+  for (const auto& receiver : receivers) {
+    receiver->close();
+  }
+  sender.reset();
+  catalogues.reset();
+  joined.participant.reset();
+  joined.domain.reset();
+}
+
+Result<Mirror> Mirror::start(const Settings& settings, const std::string& node, vars::Store& store,
+                             const std::atomic<std::uint64_t>& tick) {
+  auto file = vars::ShmFile::create(vars::mirror_file(node), mirror_block_size(settings.boards.size()));
+  if (!file) {
+    return file.error();
+  }
+  auto impl = std::make_unique<Impl>(settings, store, tick, std::move(file).value());
+  if (Status running = impl->run(); !running) {
+    impl->end();
+    return running.error();
+  }
+  return Mirror(std::move(impl));
+}
+
+Mirror::Mirror(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Mirror::Mirror(Mirror&&) noexcept = default;
+Mirror& Mirror::operator=(Mirror&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+Mirror::~Mirror() {
+  stop();
+}
+
+void Mirror::notify() noexcept {
+  impl_->wake_sender.wake();
+}
+
+void Mirror::stop() noexcept {
+  if (impl_ != nullptr) {
+    impl_->end();
+    impl_.reset();
+  }
+}
+
+}  // namespace indurop::mirror

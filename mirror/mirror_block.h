@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a board's mirror shows to tools: a shared-memory file like the run block. Written by the mirror's threads
+// without waiting, read by everybody. No DDS here.
+
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+namespace indurop::mirror {
+
+inline constexpr std::uint64_t kMirrorMagic = 0x314d5255444e4931ULL;  // "1INDURM1"
+inline constexpr std::uint32_t kMirrorAbi = 1;
+inline constexpr std::size_t kBoardName = 48;
+inline constexpr std::size_t kProblemText = 240;
+
+enum class Network : std::uint32_t { Connecting, Up };
+
+enum class PeerState : std::uint32_t {
+  Absent,      // never heard
+  Alive,       // its values arrive
+  Mismatched,  // it is there, but its variables are not what this board's modules were built for; see problem
+  Silent,      // was there, not heard for a lease
+};
+const char* to_text(PeerState state) noexcept;
+
+// A line of text that its one writer may change while others read it.
+class SharedText {
+ public:
+  void set(const std::string& text) noexcept {
+    const std::uint32_t now = version_.load(std::memory_order_relaxed);
+    version_.store(now + 1, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release);
+    const std::size_t length = text.size() < kProblemText ? text.size() : kProblemText - 1;
+    for (std::size_t i = 0; i <= length; ++i) {
+      text_[i].store(i < length ? text[i] : '\0', std::memory_order_relaxed);
+    }
+    version_.store(now + 2, std::memory_order_release);
+  }
+  // Empty while it is being changed again and again.
+  [[nodiscard]] std::string get() const {
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries; ++i) {
+      const std::uint32_t before = version_.load(std::memory_order_acquire);
+      std::string copy;
+      for (std::size_t k = 0; k < kProblemText; ++k) {
+        const char c = text_[k].load(std::memory_order_relaxed);
+        if (c == '\0') {
+          break;
+        }
+        copy += c;
+      }
+      std::atomic_thread_fence(std::memory_order_acquire);
+      if (before % 2 == 0 && version_.load(std::memory_order_relaxed) == before) {
+        return copy;
+      }
+    }
+    return {};
+  }
+
+ private:
+  std::atomic<std::uint32_t> version_;
+  std::atomic<char> text_[kProblemText];
+};
+
+// Another board of the plant.
+struct PeerRecord {
+  char name[kBoardName];
+  std::uint32_t wanted;  // variables this board reads from it
+  std::atomic<PeerState> state;
+  std::atomic<std::int64_t> heard_ns;       // CLOCK_MONOTONIC of its last frame, 0: none
+  std::atomic<std::uint64_t> frames;        // taken over
+  std::atomic<std::uint64_t> values;        // written to the store because they differed
+  std::atomic<std::uint64_t> lost_updates;  // superseded or lost before they came
+  std::atomic<std::uint64_t> refused;       // frames of another layout, or cut off
+  std::atomic<std::uint64_t> busy;  // values not written because a local lock was not free; the next frame repeats them
+  std::atomic<std::uint64_t> losses;   // how often it fell silent
+  std::atomic<std::int64_t> delay_ns;  // CLOCK_REALTIME here minus sender's stamp, of the last frame
+  std::atomic<std::uint64_t> tick;     // of the sender
+  SharedText problem;
+};
+
+struct MirrorBlock {
+  std::atomic<std::uint64_t> magic;  // stored last
+  std::uint32_t abi;
+  std::uint32_t peer_count;
+  char plant[kBoardName];
+  char board[kBoardName];
+  std::int32_t domain;
+  std::uint32_t outgoing;  // variables sent
+  std::uint32_t parts;     // frames they need
+  std::atomic<Network> network;
+  std::atomic<std::uint64_t> updates;  // times something was sent
+  std::atomic<std::uint64_t> frames;
+  std::atomic<std::uint64_t> bytes;
+  std::atomic<std::uint64_t> send_errors;
+  std::atomic<std::uint64_t> dds_messages;  // complaints of DDS
+  std::atomic<std::int64_t> cycle_ns;       // last time it took to look and send
+  std::atomic<std::int64_t> cycle_max_ns;
+  SharedText problem;
+
+  PeerRecord* peers() noexcept { return reinterpret_cast<PeerRecord*>(this + 1); }
+  const PeerRecord* peers() const noexcept { return reinterpret_cast<const PeerRecord*>(this + 1); }
+};
+static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0);
+
+inline constexpr std::size_t mirror_block_size(std::size_t peers) noexcept {
+  return sizeof(MirrorBlock) + peers * sizeof(PeerRecord);
+}
+
+}  // namespace indurop::mirror

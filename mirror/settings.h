@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mirror of one board has to do, told by the node. No DDS here.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace indurop::mirror {
+
+// A variable of this board that other boards read.
+struct Outgoing {
+  std::string variable;       // full name
+  std::int64_t every_ns = 0;  // sent at most this often, 0: with every change
+  bool best_effort = false;   // what the network loses is not repeated
+};
+
+// A variable of another board that modules of this one read.
+struct Incoming {
+  std::string variable;
+  std::string owner;  // board
+};
+
+struct Settings {
+  std::string plant;
+  std::string board;
+  int domain = 0;              // DDS domain, 0..230
+  std::string interface_name;  // empty: the one that has `address`, else the only one
+  std::string address;         // own IP address or host name, may be empty
+  bool multicast = true;       // false: boards are found at `peers`
+  std::vector<std::string> peers;
+  bool one_host = false;  // all boards run here: loopback only
+  std::int64_t lease_ns = 500'000'000;
+  int fifo_priority = 0;            // of the mirror's threads, 0: normal scheduling
+  std::vector<int> cores;           // they may run on; empty: all
+  std::vector<std::string> boards;  // all others of the plant, for the report
+  std::vector<Outgoing> outgoing;
+  std::vector<Incoming> incoming;
+};
+
+}  // namespace indurop::mirror

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Starts and ends test boards, on this host or as network namespaces, and looks into their stores.
+
+#pragma once
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mirror/mirror_block.h"
+#include "vars/shm_file.h"
+#include "vars/store.h"
+
+namespace indurop::test {
+
+using namespace std::chrono_literals;
+
+inline bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = 20s) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+    std::this_thread::sleep_for(1ms);
+  }
+  return true;
+}
+
+struct BoardPlan {
+  std::string name;
+  std::string out = "-";
+  std::string in = "-";
+  std::string variant = "plain";
+};
+
+class Boards : public ::testing::Test {
+ protected:
+  ~Boards() override {
+    for (auto& [name, pid] : running_) {
+      end(pid, SIGKILL);
+    }
+    for (const std::string& node : nodes_) {
+      (void)vars::remove_node(node);
+    }
+  }
+
+  std::string node(const std::string& board) const { return "mt" + std::to_string(::getpid()) + "-" + board; }
+
+  void start(const BoardPlan& plan, const std::vector<std::string>& others, const std::string& lab = "",
+             int lease_ms = 200) {
+    std::string list;
+    for (const std::string& other : others) {
+      list += (list.empty() ? "" : ",") + other;
+    }
+    std::vector<std::string> words;
+    if (!lab.empty()) {
+      words = {LAB_PROGRAM, "-l", lab, "exec", plan.name};
+    }
+    for (const std::string& word : {std::string(BOARD_PROGRAM), node(plan.name), plan.name, std::to_string(domain()),
+                                    std::string(lab.empty() ? "one-host" : "network"), std::to_string(lease_ms),
+                                    plan.variant, list.empty() ? std::string("-") : list, plan.out, plan.in}) {
+      words.push_back(word);
+    }
+    nodes_.push_back(node(plan.name));
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      std::vector<char*> arguments;
+      for (std::string& word : words) {
+        arguments.push_back(word.data());
+      }
+      arguments.push_back(nullptr);
+      ::execv(arguments[0], arguments.data());
+      ::_exit(127);
+    }
+    running_[plan.name] = pid;
+    ASSERT_TRUE(wait_until([&] { return attach(plan.name); })) << "board " << plan.name << " did not start";
+  }
+
+  void stop(const std::string& board, int signal = SIGTERM) {
+    end(running_.at(board), signal);
+    running_.erase(board);
+  }
+
+  bool attach(const std::string& board) {
+    auto store = vars::Store::attach(node(board), vars::Mode::ReadWrite);
+    auto file = vars::ShmFile::open(vars::mirror_file(node(board)), vars::Mode::ReadOnly);
+    if (!store || !file || file.value().size() < sizeof(mirror::MirrorBlock)) {
+      return false;
+    }
+    stores_[board] = std::make_unique<vars::Store>(std::move(store).value());
+    files_[board] = std::make_unique<vars::ShmFile>(std::move(file).value());
+    return block(board).magic.load() == mirror::kMirrorMagic;
+  }
+
+  const mirror::MirrorBlock& block(const std::string& board) {
+    return *reinterpret_cast<const mirror::MirrorBlock*>(files_.at(board)->data());
+  }
+  const mirror::PeerRecord& peer(const std::string& board, const std::string& other) {
+    const auto& all = block(board);
+    for (std::uint32_t i = 0; i < all.peer_count; ++i) {
+      if (other == all.peers()[i].name) {
+        return all.peers()[i];
+      }
+    }
+    throw std::runtime_error("no such peer");
+  }
+  bool sees(const std::string& board, const std::string& other, mirror::PeerState state) {
+    return peer(board, other).state.load() == state;
+  }
+
+  template <class T>
+  void put(const std::string& board, const std::string& variable, const T& value) {
+    const auto* entry = stores_.at(board)->find(abi::fnv1a64(variable.data(), variable.size()));
+    ASSERT_NE(entry, nullptr);
+    std::vector<std::uint8_t> bytes(sizeof value);
+    std::memcpy(bytes.data(), &value, sizeof value);
+    ASSERT_TRUE(stores_.at(board)->write(*entry, 0, bytes).ok());
+  }
+  template <class T>
+  T get(const std::string& board, const std::string& variable) {
+    const auto* entry = stores_.at(board)->find(abi::fnv1a64(variable.data(), variable.size()));
+    std::vector<std::uint8_t> bytes(sizeof(T));
+    EXPECT_TRUE(stores_.at(board)->read(*entry, 0, bytes).ok());
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  std::int64_t confirmed(const std::string& board, const std::string& variable) {
+    const auto* entry = stores_.at(board)->find(abi::fnv1a64(variable.data(), variable.size()));
+    return abi::confirmed_of(stores_.at(board)->entry(entry->name_hash, 0), entry->kind).load();
+  }
+
+ private:
+  // Tests that run at the same time do not hear each other.
+  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+
+  static void end(pid_t pid, int signal) {
+    ::kill(pid, signal);
+    int status = 0;
+    if (!wait_until([&] { return ::waitpid(pid, &status, WNOHANG) == pid; })) {
+      ::kill(pid, SIGKILL);
+      ::waitpid(pid, &status, 0);
+      ADD_FAILURE() << "a board did not end";
+    }
+  }
+
+  std::map<std::string, pid_t> running_;
+  std::vector<std::string> nodes_;
+  std::map<std::string, std::unique_ptr<vars::Store>> stores_;
+  std::map<std::string, std::unique_ptr<vars::ShmFile>> files_;
+};
+
+}  // namespace indurop::test

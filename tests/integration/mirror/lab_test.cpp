@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boards as network namespaces: the cable, loss, and three boards at once. Needs root and the ip command.
+
+#include <cstdlib>
+
+#include "boards.h"
+
+namespace indurop::test {
+namespace {
+
+using mirror::PeerState;
+
+class Lab : public Boards {
+ protected:
+  Lab() : lab_("mt" + std::to_string(::getpid() % 100'000)) {}
+  ~Lab() override {
+    if (up_) {
+      run("down");
+    }
+  }
+  // False: the test cannot run here.
+  bool up(const std::string& boards) {
+    up_ = ::geteuid() == 0 && run("up " + boards + " 2>/dev/null") == 0;
+    return up_;
+  }
+  int run(const std::string& words) const {
+    return std::system((std::string(LAB_PROGRAM) + " -l " + lab_ + " " + words).c_str());
+  }
+  const std::string& lab() const { return lab_; }
+
+ private:
+  std::string lab_;
+  bool up_ = false;
+};
+
+#define NEEDS_LAB(boards)                                                                    \
+  if (!up(boards)) {                                                                         \
+    GTEST_SKIP() << "network namespaces cannot be made here (root and iproute2 are needed)"; \
+  }
+
+TEST_F(Lab, Three_boards_pass_a_value_on) {
+  NEEDS_LAB("a b c");
+  start({"a", "t::count", "-", "plain"}, {"b", "c"}, lab());
+  start({"b", "t::reply", "t::count@a", "plain"}, {"a", "c"}, lab());
+  start({"c", "-", "t::count@a,t::reply@b", "plain"}, {"a", "b"}, lab());
+  for (std::int64_t i = 1; i <= 20; ++i) {
+    put("a", "t::count", i);
+    ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == i; }));
+    put("b", "t::reply", i * 2);
+    ASSERT_TRUE(wait_until(
+        [&] { return get<std::int64_t>("c", "t::count") == i && get<std::int64_t>("c", "t::reply") == i * 2; }));
+  }
+}
+
+TEST_F(Lab, A_cable_pulled_and_put_back) {
+  NEEDS_LAB("a b");
+  start({"a", "t::count,t::guarded", "-", "plain"}, {"b"}, lab());
+  start({"b", "-", "t::count@a,t::guarded@a", "plain"}, {"a"}, lab());
+  put("a", "t::count", std::int64_t{1});
+  put("a", "t::guarded", std::int32_t{3});
+  ASSERT_TRUE(
+      wait_until([&] { return get<std::int64_t>("b", "t::count") == 1 && get<std::int32_t>("b", "t::guarded") == 3; }));
+  ASSERT_EQ(run("unplug a"), 0);
+  ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Silent); }));
+  EXPECT_TRUE(wait_until([&] { return get<std::int32_t>("b", "t::guarded") == -1; }));
+  put("a", "t::count", std::int64_t{2});
+  ASSERT_EQ(run("plug a"), 0);
+  EXPECT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == 2; }));
+  EXPECT_TRUE(
+      wait_until([&] { return sees("b", "a", PeerState::Alive) && get<std::int32_t>("b", "t::guarded") == 3; }));
+}
+
+TEST_F(Lab, The_last_value_arrives_whatever_is_lost) {
+  NEEDS_LAB("a b");
+  start({"a", "t::count,t::pair", "-", "plain"}, {"b"}, lab());
+  start({"b", "-", "t::count@a,t::pair@a", "plain"}, {"a"}, lab());
+  ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Alive); }));
+  if (run("loss b 30 2>/dev/null") != 0) {
+    GTEST_SKIP() << "iptables cannot lose packets here";
+  }
+  for (std::int64_t i = 1; i <= 30; ++i) {
+    put("a", "t::count", i);
+    ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == i; })) << i;
+  }
+}
+
+TEST_F(Lab, A_board_whose_interface_is_missing_joins_when_it_comes) {
+  NEEDS_LAB("a b");
+  ASSERT_EQ(run("exec a ip link set eth0 down"), 0);
+  start({"a", "t::count", "-", "plain"}, {"b"}, lab());
+  start({"b", "-", "t::count@a", "plain"}, {"a"}, lab());
+  put("a", "t::count", std::int64_t{4});
+  EXPECT_TRUE(wait_until([&] { return !block("a").problem.get().empty(); }));
+  EXPECT_EQ(block("a").network.load(), mirror::Network::Connecting);
+  ASSERT_EQ(run("exec a ip link set eth0 up"), 0);
+  EXPECT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == 4; }));
+  EXPECT_EQ(block("a").problem.get(), "");
+}
+
+}  // namespace
+}  // namespace indurop::test

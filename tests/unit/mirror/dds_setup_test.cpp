@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/dds_setup.h"
+
+#include <gmock/gmock.h>
+
+namespace indurop::mirror {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Settings plain() {
+  Settings settings;
+  settings.plant = "cell";
+  settings.board = "a";
+  settings.domain = 3;
+  return settings;
+}
+
+TEST(Domain_configuration, Multicast_is_for_finding_only) {
+  EXPECT_THAT(domain_configuration(plain(), "eth7"), HasSubstr("<AllowMulticast>spdp</AllowMulticast>"));
+}
+
+TEST(Domain_configuration, Without_multicast_boards_are_found_at_their_addresses) {
+  Settings settings = plain();
+  settings.multicast = false;
+  settings.peers = {"10.0.0.1", "board-b.local"};
+  const std::string sut = domain_configuration(settings, "eth7");
+  EXPECT_THAT(sut, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
+  EXPECT_THAT(sut, HasSubstr("<Peer address=\"10.0.0.1\"/><Peer address=\"board-b.local\"/>"));
+}
+
+TEST(Domain_configuration, One_host_is_found_without_multicast) {
+  Settings settings = plain();
+  settings.one_host = true;
+  const std::string sut = domain_configuration(settings, "lo");
+  EXPECT_THAT(sut, HasSubstr("<NetworkInterface name=\"lo\"/>"));
+  EXPECT_THAT(sut, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
+  EXPECT_THAT(sut, HasSubstr("<Peer address=\"127.0.0.1\"/>"));
+}
+
+TEST(Domain_configuration, No_priority_is_asked_for_without_the_right_to_it) {
+  Settings settings = plain();
+  EXPECT_THAT(domain_configuration(settings, "eth7"), Not(HasSubstr("realtime")));
+  settings.fifo_priority = 1;
+  EXPECT_THAT(domain_configuration(settings, "eth7"), HasSubstr("<Priority>1</Priority>"));
+}
+
+TEST(Domain_configuration, A_name_cannot_break_out_of_its_place) {
+  EXPECT_THAT(domain_configuration(plain(), "e\"/><Evil x='&"), Not(HasSubstr("<Evil")));
+}
+
+TEST(Topics, Boards_and_streams_have_their_own) {
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/1/cell/a/prompt");
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/1/cell/a/bulk");
+  EXPECT_EQ(catalogue_topic("cell"), "indurop/1/cell/catalogue");
+}
+
+TEST(Joining, A_network_interface_that_is_not_there_is_named) {
+  Settings settings = plain();
+  settings.interface_name = "nosuch0";
+  std::string problem;
+  const Participant sut = join_plant(settings, problem);
+  EXPECT_FALSE(sut.participant.ok());
+  EXPECT_THAT(problem, HasSubstr("nosuch0"));
+}
+
+}  // namespace
+}  // namespace indurop::mirror
