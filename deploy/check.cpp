@@ -2,6 +2,7 @@
 #include "deploy/check.h"
 
 #include <algorithm>
+#include <array>
 
 #include "deploy/check_parts.h"
 
@@ -19,11 +20,18 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     check_machine(context);
     check_files(context);
     check_access(context);
+    const std::array<BoardView, 1> alone{BoardView{"", config, result}};
+    check_agreement(alone, context.report);
+    check_use(Uses(alone), {}, context.report);
   }
-  const auto rank = [](const Diagnostic& d) { return static_cast<int>(d.severity); };
-  std::stable_sort(result.diagnostics.begin(), result.diagnostics.end(),
-                   [rank](const Diagnostic& a, const Diagnostic& b) { return rank(a) < rank(b); });
+  sort_by_severity(result.diagnostics);
   return result;
+}
+
+void sort_by_severity(std::vector<Diagnostic>& diagnostics) {
+  const auto rank = [](const Diagnostic& d) { return static_cast<int>(d.severity); };
+  std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                   [rank](const Diagnostic& a, const Diagnostic& b) { return rank(a) < rank(b); });
 }
 
 }  // namespace indurop::deploy

@@ -32,15 +32,21 @@ struct CheckResult {
   std::vector<std::size_t> periodic;  // indices into Config::modules
   std::vector<std::size_t> sporadic;  // by priority
   std::vector<std::size_t> non_real;
-  std::vector<ModuleFacts> facts;          // one per Config::modules
-  schema::Schema schema;                   // of all modules together
-  std::vector<VariableUse> uses;           // by variable name
+  std::vector<ModuleFacts> facts;  // one per Config::modules
+  schema::Schema schema;           // of all modules together
+  std::vector<VariableUse> uses;   // by variable name
+  // Modules that read or write by names known only at run time, indices into Config::modules.
+  std::vector<std::size_t> unknown_readers;
+  std::vector<std::size_t> unknown_writers;
   [[nodiscard]] bool ok() const noexcept;  // no errors; warnings allowed
 };
 
 struct CheckOptions {
   bool files = true;    // look at the module files; false: schedule only (plan works without built modules)
   bool adjust = false;  // --adjust: apply the proposed periods to the configuration instead of an error
+  // Compare with this machine: its cores, its kind of processor. false: the modules are to run elsewhere.
+  bool machine = true;
+  std::string board{};  // of a plant: the only one of its boards that is to run on this machine; empty: all are
 };
 
 CheckResult check_config(Config& config, const CheckOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the access map says about the data: lost writers, missing writers, readers that run too early, age.
+// What the access map of one board says about the data: readers that run too early, age.
 
 #include <algorithm>
 #include <set>
@@ -19,9 +19,9 @@ class AccessCheck {
   void run() {
     for (const auto& [name, access] : map_.variables) {
       context_.result.uses.push_back({name, names(access.readers), names(access.writers)});
-      check_writers(name, access);
-      check_readers(name, access);
     }
+    context_.result.unknown_readers = map_.unknown_readers;
+    context_.result.unknown_writers = map_.unknown_writers;
     if (!context_.result.table.order.empty()) {
       find_flows();
       check_order();
@@ -58,35 +58,6 @@ class AccessCheck {
       list.push_back(variable->name);
     }
     return enumerate(list, kMost);
-  }
-
-  void check_writers(const std::string& name, const VariableAccess& access) {
-    if (access.writers.size() > 1) {
-      context_.report.warning(
-          module(access.writers[1]).places.file,
-          in_quotes(name) + " is written by " + enumerate(names(access.writers)) +
-              "; where both write the same part, the one that runs later wins: let one module own it");
-    }
-    if (!access.writers.empty() || access.readers.empty()) {
-      return;
-    }
-    std::vector<std::size_t> others = map_.unknown_writers;
-    const std::string text = in_quotes(name) + " is read by " + enumerate(names(access.readers)) + " but ";
-    const Place place = module(access.readers.front()).places.file;
-    if (others.empty()) {
-      context_.report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
-    } else {
-      context_.report.note(place,
-                           text + "no module is known to write it; perhaps " + enumerate(names(others)) + " does");
-    }
-  }
-
-  void check_readers(const std::string& name, const VariableAccess& access) {
-    if (access.readers.empty() && map_.unknown_readers.empty()) {
-      context_.report.note(
-          module(access.writers.front()).places.file,
-          in_quotes(name) + " is written by " + enumerate(names(access.writers)) + " but no module reads it");
-    }
   }
 
   [[nodiscard]] Release release(std::size_t position) const {

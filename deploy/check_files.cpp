@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Module files: there, readable, for this machine and ABI, with the functions their kind of module needs, and of one
-// opinion about the layout of the variables they share.
+// Module files: there, readable, for this machine and ABI, with the functions their kind of module needs.
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 
 #include "deploy/check_parts.h"
 #include "deploy/text.h"
@@ -51,7 +49,7 @@ bool imports_of(const schema::ModuleFile& file, const std::string& prefix) {
 }
 
 // Text behind "no such file": the folder that is missing, or the name in the folder that is nearest.
-std::string missing_hint(const std::filesystem::path& file) {
+std::string missing_hint(const std::filesystem::path& file, const std::string& element) {
   std::error_code ignored;
   const std::filesystem::path folder = file.parent_path();
   if (!std::filesystem::is_directory(folder, ignored)) {
@@ -67,7 +65,7 @@ std::string missing_hint(const std::filesystem::path& file) {
   }
   std::sort(names.begin(), names.end());
   const std::string near = schema::nearest(file.filename().string(), names);
-  return near.empty() ? "; build it, or correct <filename>" : "; did you mean " + in_quotes(near) + "?";
+  return near.empty() ? "; build it, or correct " + element : "; did you mean " + in_quotes(near) + "?";
 }
 
 bool is_script(const std::filesystem::path& file) {
@@ -79,7 +77,11 @@ bool is_script(const std::filesystem::path& file) {
 class FileCheck {
  public:
   FileCheck(CheckContext& context, const Module& module, ModuleFacts& facts)
-      : report_(context.report), module_(module), facts_(facts), place_(module.places.file) {}
+      : report_(context.report),
+        this_machine_(context.options.machine),
+        module_(module),
+        facts_(facts),
+        place_(module.places.file) {}
 
   void run() {
     std::error_code ignored;
@@ -94,11 +96,12 @@ class FileCheck {
     }
     auto read = schema::read_module_file(module_.file);
     if (!read) {
-      report_unreadable(read.error());
+      report_.error(place_, unreadable_file(read.error(), {module_.file, module_.file_as_written, "<filename>"},
+                                            !report_.full()));
       return;
     }
     facts_.file = std::move(read.value());
-    if (facts_.file.machine != kThisMachine) {
+    if (this_machine_ && facts_.file.machine != kThisMachine) {
       error("is built for " + machine_name(facts_.file.machine) + ", this machine is " + machine_name(kThisMachine) +
             "; build it for this one");
       return;
@@ -115,18 +118,6 @@ class FileCheck {
  private:
   void error(const std::string& text) { report_.error(place_, in_quotes(module_.file_as_written) + " " + text); }
   void warning(const std::string& text) { report_.warning(place_, in_quotes(module_.file_as_written) + " " + text); }
-
-  void report_unreadable(const Error& failure) {
-    if (failure.code == Errc::NotFound) {
-      report_.error(place_, "no such file: " + in_quotes(module_.file_as_written) +
-                                (report_.full() ? "" : missing_hint(module_.file)));
-    } else if (failure.code == Errc::PermissionDenied) {
-      error("must not be read by this user; check the permissions of the file and its folders (ls -l)");
-    } else {
-      error("cannot be used: " + std::string(failure.where) +
-            (failure.code == Errc::Corrupt ? "; is it a module, and completely built?" : ""));
-    }
-  }
 
   void check_abi() {
     if (facts_.file.abi == schema::kMixedAbi) {
@@ -194,60 +185,25 @@ class FileCheck {
   }
 
   Report& report_;
+  bool this_machine_;
   const Module& module_;
   ModuleFacts& facts_;
   Place place_;
 };
 
-// Two modules that share a name must share its bytes: compares each with the first module that has it.
-template <class T>
-class Agreement {
- public:
-  Agreement(CheckContext& context, const char* what) : context_(context), what_(what) {}
-
-  template <class Difference>
-  void add(std::size_t module, const std::vector<T>& items, Difference difference) {
-    for (const T& item : items) {
-      const auto [first, is_first] = first_.try_emplace(item.name, Entry{module, &item});
-      if (is_first || first->second.item->type_hash == item.type_hash) {
-        continue;
-      }
-      const auto& modules = context_.config.modules;
-      std::string text = difference(*first->second.item, item);
-      text = text.empty() ? "other layout" : text;
-      const auto source = [](const T& of) { return of.source.empty() ? std::string() : " (" + of.source + ")"; };
-      context_.report.error(modules[module].places.file, std::string(what_) + " " + in_quotes(item.name) +
-                                                             " differs between " + modules[first->second.module].name +
-                                                             source(*first->second.item) + " and " +
-                                                             modules[module].name + source(item) + ": " + text +
-                                                             "; build both with the same .glb file");
+// Modules of one board run on one kind of processor.
+void check_same_machine(CheckContext& context) {
+  const auto& modules = context.config.modules;
+  const auto& facts = context.result.facts;
+  const auto first = std::find_if(facts.begin(), facts.end(), [](const ModuleFacts& f) { return f.file.machine != 0; });
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    if (facts[i].file.machine != 0 && facts[i].file.machine != first->file.machine) {
+      const Module& other = modules[static_cast<std::size_t>(first - facts.begin())];
+      context.report.error(modules[i].places.file, in_quotes(modules[i].file_as_written) + " is built for " +
+                                                       machine_name(facts[i].file.machine) + ", " + other.name +
+                                                       " of the same board for " + machine_name(first->file.machine) +
+                                                       "; build both for the board");
     }
-  }
-
- private:
-  struct Entry {
-    std::size_t module;
-    const T* item;
-  };
-  CheckContext& context_;
-  const char* what_;
-  std::map<std::string, Entry> first_;
-};
-
-void check_agreement(CheckContext& context) {
-  Agreement<schema::Variable> variables(context, "variable");
-  Agreement<schema::Function> functions(context, "shared function");
-  CheckResult& result = context.result;
-  std::vector<std::string> reported_above;
-  for (std::size_t i = 0; i < result.facts.size(); ++i) {
-    const schema::Schema& schema = result.facts[i].schema;
-    variables.add(i, schema.variables,
-                  [](const auto& a, const auto& b) { return schema::first_difference(a.type, b.type); });
-    functions.add(i, schema.functions, [](const auto& a, const auto& b) {
-      const std::string arguments = schema::first_difference(a.arguments, b.arguments);
-      return !arguments.empty() ? "arguments: " + arguments : "result: " + schema::first_difference(a.result, b.result);
-    });
-    schema::merge(result.schema, schema, reported_above);
   }
 }
 
@@ -268,13 +224,31 @@ void check_functions(CheckContext& context) {
 
 }  // namespace
 
+std::string unreadable_file(const Error& failure, const NamedFile& file, bool search) {
+  const std::string name = in_quotes(file.as_written);
+  if (failure.code == Errc::NotFound) {
+    return "no such file: " + name + (search ? missing_hint(file.path, file.element) : "");
+  }
+  if (failure.code == Errc::PermissionDenied) {
+    return name + " must not be read by this user; check the permissions of the file and its folders (ls -l)";
+  }
+  return name + " cannot be used: " + failure.where +
+         (failure.code == Errc::Corrupt ? "; is it a module, and completely built?" : "");
+}
+
 void check_files(CheckContext& context) {
   const auto& modules = context.config.modules;
   context.result.facts.resize(modules.size());
   for (std::size_t i = 0; i < modules.size(); ++i) {
     FileCheck(context, modules[i], context.result.facts[i]).run();
   }
-  check_agreement(context);
+  if (!context.options.machine) {
+    check_same_machine(context);
+  }
+  std::vector<std::string> differences;  // check_agreement() tells them
+  for (const ModuleFacts& facts : context.result.facts) {
+    schema::merge(context.result.schema, facts.schema, differences);
+  }
   check_functions(context);
 }
 

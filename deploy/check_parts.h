@@ -1,30 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts check_config() is made of. Each looks at one side of the configuration and reports into the same list.
+// The parts check_config() and check_plant() are made of. Each looks at one side of the configuration and reports into
+// the same list.
 
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "deploy/check.h"
 #include "deploy/report.h"
+#include "deploy/uses.h"
 
 namespace indurop::deploy {
 
 struct CheckContext {
   Config& config;
-  const CheckOptions& options;
+  CheckOptions options;
   CheckResult& result;
   Report report;
 };
 
 // Basic and macro period, --adjust, number of bands. Fills table, periodic, sporadic, non_real.
 void check_schedule(CheckContext& context);
-// Cores of this machine. Only where the configuration is to run.
+// Cores, time that spinning leaves.
 void check_machine(CheckContext& context);
-// Files, ABI, symbols, agreement of variable layouts. Fills facts and schema.
+// Files, ABI, symbols. Fills facts and schema.
 void check_files(CheckContext& context);
-// Who reads and writes which variable, order and age of data, fail-safe values. Fills uses. After the two above.
+// Who reads and writes which variable, order and age of data, fail-safe values. Fills uses and unknown_*. After the
+// three above.
 void check_access(CheckContext& context);
+
+// Do all modules that have a variable mean the same bytes, on whatever board they run.
+void check_agreement(std::span<const BoardView> boards, Report& report);
+// Variables that several modules write, none writes, or none reads. Nothing is missed of those `set_by_hand`.
+void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, Report& report);
+
+struct NamedFile {
+  std::filesystem::path path;
+  std::string as_written;
+  const char* element;  // "<filename>"
+};
+// Why schema::read_module_file() failed and what to do; with `search` names that are near in the folder are proposed.
+std::string unreadable_file(const Error& failure, const NamedFile& file, bool search);
+void sort_by_severity(std::vector<Diagnostic>& diagnostics);
 
 }  // namespace indurop::deploy

@@ -42,7 +42,8 @@ struct Plant {
   bool multicast = true;                        // false: boards find each other by <board address="">
   Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
   std::vector<std::filesystem::path> types;     // type libraries of indurop_add_glb(... TYPES), absolute
-  std::vector<Place> type_places;               // parallel to types
+  std::vector<std::string> types_as_written;    // parallel to types
+  std::vector<Place> type_places;               // likewise
   std::vector<Board> boards;                    // in file order
   std::vector<VariableRule> variables;
   static constexpr int kDefaultDomain = 77;
@@ -67,7 +68,10 @@ struct Route {
   std::vector<std::size_t> readers;  // boards that need it, the owner not among them
   Nanos every{};
   bool best_effort = false;
+  Nanos oldest{};  // age of the value at most when a periodic module reads it, kNetworkHop included; 0: not known
 };
+// What the check counts for one way from a board's store to another's. Lost packets make it longer.
+inline constexpr Nanos kNetworkHop{std::chrono::milliseconds(1)};
 
 struct PlantCheck {
   std::vector<Diagnostic> diagnostics;  // of all boards and of the plant
@@ -77,7 +81,8 @@ struct PlantCheck {
 };
 
 // Checks every board, then what holds between them: one owner per variable, a writer for every reader, equal types,
-// data age across boards. A board's schema gains the variables its modules read from others.
+// data age across boards. Names in Plant::variables become full names. A board's schema gains the variables its modules
+// name in <access> that only modules of other boards declare.
 PlantCheck check_plant(Plant& plant, const CheckOptions& options);
 
 }  // namespace indurop::deploy

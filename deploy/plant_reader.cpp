@@ -19,6 +19,7 @@ namespace {
 
 constexpr Nanos kShortestLease{std::chrono::milliseconds(20)};
 constexpr Nanos kLongestLease{std::chrono::seconds(60)};
+constexpr Nanos kLongestEvery{std::chrono::hours(1)};
 constexpr const char* kNameRule = "use up to 40 letters, digits, '_' and '-'";
 
 class PlantReader {
@@ -140,6 +141,7 @@ class PlantReader {
       return;
     }
     plant_.types.push_back(file);
+    plant_.types_as_written.push_back(*text);
     plant_.type_places.push_back(e.text_place);
   }
 
@@ -193,7 +195,9 @@ class PlantReader {
     optional_attribute(e, "every", [&rule](const std::string& text) {
       const DurationText read = read_duration(text, false);
       rule.every = read.value.value_or(Nanos::zero());
-      return read.problem;
+      return rule.every > kLongestEvery
+                 ? in_quotes(text) + " is too long; write at most " + format_duration(kLongestEvery)
+                 : read.problem;
     });
     const std::string reliability = optional_attribute(e, "reliability", [](const std::string& text) {
       return text == "reliable" || text == "best-effort"

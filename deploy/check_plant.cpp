@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every board of a plant, then what holds between them.
+
+#include <algorithm>
+
+#include "deploy/check_parts.h"
+#include "deploy/plant.h"
+#include "deploy/plant_parts.h"
+#include "deploy/text.h"
+#include "schema/elf.h"
+
+namespace indurop::deploy {
+namespace {
+
+void check_type_libraries(const Plant& plant, Report& report) {
+  for (std::size_t i = 0; i < plant.types.size(); ++i) {
+    const std::string& written = plant.types_as_written[i];
+    const auto read = schema::read_module_file(plant.types[i]);
+    if (!read) {
+      report.error(plant.type_places[i], unreadable_file(read.error(), {plant.types[i], written, "<types>"}, true));
+    } else if (!read.value().shared_object) {
+      report.error(plant.type_places[i], in_quotes(written) +
+                                             " is a program, not a library of types; name the lib..._types.so that "
+                                             "indurop_add_glb(... TYPES) builds");
+    }
+  }
+}
+
+// A module that knows variables by name only can use those that other boards' modules declare.
+void add_named_variables(const Module& module, const schema::Schema& plant, schema::Schema& board) {
+  for (const auto* names : {&module.reads, &module.writes}) {
+    for (const std::string& name : *names) {
+      std::string ignored;
+      if (schema::find_place(board, name, ignored)) {
+        continue;
+      }
+      if (const auto found = schema::find_place(plant, name, ignored)) {
+        board.variables.push_back(*found.value().variable);
+      }
+    }
+  }
+}
+
+class PlantCheckRun {
+ public:
+  PlantCheckRun(Plant& plant, const CheckOptions& options) : plant_(plant), options_(options) {
+    result_.boards.resize(plant.boards.size());
+    for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+      Board& board = plant.boards[i];
+      CheckOptions own = options;
+      own.machine = options.machine && (options.board.empty() || options.board == board.name);
+      CheckResult& result = result_.boards[i];
+      contexts_.push_back({board.config, own, result, Report(plant.file.string(), result.diagnostics)});
+    }
+  }
+
+  PlantCheck run() {
+    for (CheckContext& context : contexts_) {
+      check_schedule(context);
+    }
+    if (options_.files) {
+      check_boards();
+      check_between();
+    }
+    for (CheckResult& board : result_.boards) {
+      sort_by_severity(board.diagnostics);
+      result_.diagnostics.insert(result_.diagnostics.end(), board.diagnostics.begin(), board.diagnostics.end());
+    }
+    result_.diagnostics.insert(result_.diagnostics.end(), between_.begin(), between_.end());
+    sort_by_severity(result_.diagnostics);
+    return std::move(result_);
+  }
+
+ private:
+  void check_boards() {
+    std::vector<std::string> differences;  // check_agreement() tells them
+    for (CheckContext& context : contexts_) {
+      check_machine(context);
+      check_files(context);
+      schema::merge(schema_, context.result.schema, differences);
+    }
+    for (CheckContext& context : contexts_) {
+      for (const Module& module : context.config.modules) {
+        add_named_variables(module, schema_, context.result.schema);
+      }
+      check_access(context);
+    }
+  }
+
+  void check_between() {
+    Report report(plant_.file.string(), between_);
+    std::vector<BoardView> views;
+    for (std::size_t i = 0; i < plant_.boards.size(); ++i) {
+      views.push_back({plant_.boards[i].name, plant_.boards[i].config, result_.boards[i]});
+    }
+    const Uses uses(views);
+    PlantContext context{plant_, views, uses, schema_, report};
+    check_type_libraries(plant_, report);
+    check_agreement(views, report);
+    resolve_rules(context);
+    result_.routes = find_routes(context);
+    std::set<std::string> set_by_hand;
+    for (const VariableRule& rule : plant_.variables) {
+      if (!rule.owner.empty()) {
+        set_by_hand.insert(rule.name);
+      }
+    }
+    check_use(uses, set_by_hand, report);
+    check_ages(context, result_.routes);
+  }
+
+  Plant& plant_;
+  const CheckOptions& options_;
+  PlantCheck result_;
+  std::vector<CheckContext> contexts_;  // of the boards, in their order
+  std::vector<Diagnostic> between_;
+  schema::Schema schema_;  // of all boards
+};
+
+}  // namespace
+
+bool PlantCheck::ok() const noexcept {
+  return !has_error(diagnostics);
+}
+
+PlantCheck check_plant(Plant& plant, const CheckOptions& options) {
+  return PlantCheckRun(plant, options).run();
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Variables with too many users or too few.
+
+#include "deploy/check_parts.h"
+#include "deploy/text.h"
+
+namespace indurop::deploy {
+namespace {
+
+void check_writers_of_one_board(const std::string& name, const Users& users, const Uses& uses, Report& report) {
+  std::map<std::size_t, std::vector<User>> by_board;
+  for (const User& writer : users.writers) {
+    by_board[writer.board].push_back(writer);
+  }
+  for (const auto& [board, writers] : by_board) {
+    if (writers.size() > 1) {
+      report.warning(uses.module(writers[1]).places.file,
+                     in_quotes(name) + " is written by " + enumerate(uses.names(writers)) +
+                         "; where both write the same part, the one that runs later wins: let one module own it");
+    }
+  }
+}
+
+void check_never_written(const std::string& name, const Users& users, const Uses& uses, Report& report) {
+  const Place place = uses.module(users.readers.front()).places.file;
+  const std::string text = in_quotes(name) + " is read by " + enumerate(uses.names(users.readers)) + " but ";
+  if (uses.unknown_writers().empty()) {
+    report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
+    return;
+  }
+  const std::string perhaps =
+      text + "no module is known to write it; perhaps " + enumerate(uses.names(uses.unknown_writers())) + " does";
+  for (const User& reader : users.readers) {
+    for (const User& writer : uses.unknown_writers()) {
+      if (reader.board != writer.board) {
+        report.warning(place, perhaps + ": name it there in <access><write>, else the value stays on its board");
+        return;
+      }
+    }
+  }
+  report.note(place, perhaps);
+}
+
+}  // namespace
+
+void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, Report& report) {
+  for (const auto& [name, users] : uses.variables()) {
+    check_writers_of_one_board(name, users, uses, report);
+    if (users.writers.empty() && !users.readers.empty() && !set_by_hand.contains(name)) {
+      check_never_written(name, users, uses, report);
+    }
+    if (users.readers.empty() && uses.unknown_readers().empty()) {
+      report.note(
+          uses.module(users.writers.front()).places.file,
+          in_quotes(name) + " is written by " + enumerate(uses.names(users.writers)) + " but no module reads it");
+    }
+  }
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of check_plant() that look at all boards together.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "deploy/plant.h"
+#include "deploy/report.h"
+#include "deploy/uses.h"
+
+namespace indurop::deploy {
+
+struct PlantContext {
+  Plant& plant;
+  std::span<const BoardView> boards;
+  const Uses& uses;
+  const schema::Schema& schema;  // of all boards
+  Report& report;
+};
+
+// The rule for a variable of this full name; nullptr: none.
+const VariableRule* rule_for(const Plant& plant, const std::string& variable);
+
+// Brings the names in the rules to full names; removes rules for variables that do not exist.
+void resolve_rules(PlantContext& context);
+// Which board owns each variable and which boards need it.
+std::vector<Route> find_routes(PlantContext& context);
+// How old values are that come from other boards. Fills Route::oldest.
+void check_ages(PlantContext& context, std::vector<Route>& routes);
+
+}  // namespace indurop::deploy
