@@ -8,6 +8,7 @@
 #include <set>
 
 #include "deploy/reader.h"
+#include "node/plant_part.h"
 #include "node/report.h"
 #include "node/setup.h"
 #include "rt/clock.h"
@@ -98,20 +99,61 @@ bool Node::interrupted() {
 }
 
 bool Node::check() {
-  deploy::ReadResult read = deploy::read_config(options_.config);
-  const bool readable = read.ok();
-  std::vector<deploy::Diagnostic> diagnostics = std::move(read.diagnostics);
-  config_ = std::move(read.config);
-  if (readable) {
-    check_ = deploy::check_config(config_, {true, options_.adjust});
-    diagnostics.insert(diagnostics.end(), check_.diagnostics.begin(), check_.diagnostics.end());
+  const bool plant = deploy::is_plant_file(options_.config);
+  if (plant == options_.board.empty()) {
+    console_.error("{} {}", options_.config.string(),
+                   plant ? "is the manifest of a plant: say with --board NAME which of its boards this is"
+                         : "is not the manifest of a plant, so there is no --board");
+    return fail(kUsage);
   }
+  std::vector<deploy::Diagnostic> diagnostics;
+  const bool ok = plant ? read_plant(diagnostics) : read_modules(diagnostics);
   for (const deploy::Diagnostic& diagnostic : diagnostics) {
-    if (diagnostic.severity != deploy::Diagnostic::Severity::Note) {
+    // Where all boards are on one host, whoever starts them says warnings once.
+    const bool said = diagnostic.severity == deploy::Diagnostic::Severity::Note ||
+                      (options_.one_host && diagnostic.severity == deploy::Diagnostic::Severity::Warning);
+    if (!said) {
       fmt::print(stderr, "{}\n", deploy::to_string(diagnostic));
     }
   }
-  return (readable && check_.ok()) || fail(kCheckFailed);
+  if (ok && plant && !mirror_settings_) {
+    console_.error("the plant has no board {}; it has {}", options_.board, fmt::join(board_names_, ", "));
+    return fail(kUsage);
+  }
+  return ok || fail(kCheckFailed);
+}
+
+bool Node::read_modules(std::vector<deploy::Diagnostic>& diagnostics) {
+  deploy::ReadResult read = deploy::read_config(options_.config);
+  diagnostics = std::move(read.diagnostics);
+  config_ = std::move(read.config);
+  if (!read.ok()) {
+    return false;
+  }
+  check_ = deploy::check_config(config_, {true, options_.adjust});
+  diagnostics.insert(diagnostics.end(), check_.diagnostics.begin(), check_.diagnostics.end());
+  return check_.ok();
+}
+
+bool Node::read_plant(std::vector<deploy::Diagnostic>& diagnostics) {
+  deploy::ReadPlant read = deploy::read_plant(options_.config);
+  diagnostics = std::move(read.diagnostics);
+  if (!read.ok()) {
+    return false;
+  }
+  deploy::Plant& plant = read.plant;
+  deploy::PlantCheck checked = deploy::check_plant(plant, {true, options_.adjust});
+  diagnostics.insert(diagnostics.end(), checked.diagnostics.begin(), checked.diagnostics.end());
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    board_names_.push_back(plant.boards[i].name);
+    if (plant.boards[i].name == options_.board) {
+      mirror_settings_ = mirror_settings(plant, checked, i);
+      mirror_settings_->one_host = options_.one_host;
+      config_ = std::move(plant.boards[i].config);
+      check_ = std::move(checked.boards[i]);
+    }
+  }
+  return checked.ok();
 }
 
 bool Node::claim_name() {
@@ -197,6 +239,9 @@ bool Node::make_memory() {
   run_->started_wall_ns = wall.tv_sec * rt::kNanosPerSecond + wall.tv_nsec;
   run_->obtained = obtained_;
   scheduler::init_run_block(*run_, setup_);
+  if (!mirror_settings_) {
+    (void)vars::remove_shm_file(vars::mirror_file(options_.node));  // of an earlier run as a board
+  }
   failsafe_ = std::make_unique<FailSafe>(*store_, config_);
   retainer_ = std::make_unique<Retainer>(*store_, options_.node);
   if (store_->origin() == vars::Origin::Fresh) {
@@ -322,6 +367,9 @@ bool Node::start_schedule() {
         std::max<std::int64_t>(1, (options_.duration->count() + setup_.basic_period_ns - 1) / setup_.basic_period_ns));
   }
   retainer_->start();
+  if (!start_mirror()) {
+    return false;
+  }
   if (const Status started = engine_->start(ticks); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return fail(kFailed);
@@ -332,6 +380,27 @@ bool Node::start_schedule() {
                 config_.file.filename().string(), deploy::format_duration(deploy::Nanos(setup_.basic_period_ns)),
                 deploy::format_duration(deploy::Nanos(setup_.macro_period_ns)),
                 obtained_.fifo != 0 ? fmt::format(", FIFO {} on core {}", scheduler::kTickPriority, core_) : "");
+  return true;
+}
+
+bool Node::start_mirror() {
+  if (!mirror_settings_) {
+    return true;
+  }
+  mirror_settings_->fifo_priority = obtained_.fifo != 0 ? scheduler::kMirrorPriority : 0;
+  // Not where the modules are, if there is another core.
+  std::vector<int> cores = rt::allowed_cores();
+  std::erase_if(cores, [this](int core) {
+    return core == core_ || std::any_of(config_.modules.begin(), config_.modules.end(),
+                                        [core](const deploy::Module& module) { return module.core == core; });
+  });
+  mirror_settings_->cores = cores.empty() ? rt::allowed_cores() : cores;
+  auto started = mirror::Mirror::start(*mirror_settings_, options_.node, *store_, run_->tick);
+  if (!started) {
+    console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
+    return fail(kFailed);
+  }
+  mirror_ = std::move(started).value();
   return true;
 }
 
@@ -350,6 +419,14 @@ scheduler::Hooks Node::hooks() {
     self.stop_order_.store(module + 1, std::memory_order_release);
     self.engine_->request_stop();
   };
+  if (mirror_settings_) {
+    hooks.worked = [](void* context) noexcept {
+      auto& self = *static_cast<Node*>(context);
+      if (self.mirror_) {
+        self.mirror_->notify();
+      }
+    };
+  }
   return hooks;
 }
 
@@ -406,6 +483,7 @@ void Node::shut_down() {
   if (started_) {
     (void)phases_->call_all("stop", &ModuleDescriptor::stop);
   }
+  mirror_.reset();  // what stop() wrote still travels; then the other boards see at once that this one is gone
   if (retainer_ != nullptr) {
     retainer_->stop(console_);
   }

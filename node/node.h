@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "deploy/check.h"
+#include "mirror/mirror.h"
 #include "node/console.h"
 #include "node/failsafe.h"
 #include "node/module_library.h"
@@ -45,12 +46,15 @@ class Node {
  private:
   // Phases. Each says its errors itself and returns false if the run ends here, with exit_ set.
   bool check();
+  bool read_plant(std::vector<deploy::Diagnostic>& diagnostics);
+  bool read_modules(std::vector<deploy::Diagnostic>& diagnostics);
   bool claim_name();
   bool obtain_rights();
   bool make_memory();
   bool load_modules();
   bool start_modules();
   bool start_schedule();
+  bool start_mirror();
   void supervise();
   void shut_down();
   int finish();
@@ -68,6 +72,7 @@ class Node {
 
   deploy::Config config_;
   deploy::CheckResult check_;
+  std::vector<std::string> board_names_;  // of the plant
   std::optional<vars::NodeLock> lock_;
   rt::ShortIdle idle_;
   scheduler::Obtained obtained_{};
@@ -79,6 +84,8 @@ class Node {
   bool previous_run_ended_well_ = false;
   std::unique_ptr<FailSafe> failsafe_;
   std::unique_ptr<Retainer> retainer_;
+  std::optional<mirror::Settings> mirror_settings_;  // of a board of a plant
+  std::optional<mirror::Mirror> mirror_;
   std::vector<ModuleLibrary> libraries_;  // one per module, empty for processes
   std::vector<scheduler::Task> tasks_;
   scheduler::SystemClock clock_;

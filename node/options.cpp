@@ -43,13 +43,19 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
   std::string duration;
   std::string spin;
-  if (const char* named = std::getenv("INDUROP_NODE"); named != nullptr && *named != '\0') {
-    options.node = named;
+  std::string node;
+  if (const char* named = std::getenv("INDUROP_NODE"); named != nullptr) {
+    node = named;
   }
-  CLI::App app{"Runs the modules of a module.xml on this board, each on its own schedule.", "indurop-node"};
+  CLI::App app{"Runs the modules of a module.xml, or of one board of a plant, on this host, each on its own schedule.",
+               "indurop-node"};
   app.set_version_flag("--version", INDUROP_VERSION);
-  app.add_option("config", options.config, "module.xml")->required();
-  app.add_option("--node", options.node, "name of the node on this host")->check(check_node)->capture_default_str();
+  app.add_option("config", options.config, "module.xml, or a plant's manifest with --board")->required();
+  auto* board = app.add_option("--board", options.board, "board of the plant to be")->check(check_node);
+  app.add_flag("--one-host", options.one_host, "all boards of the plant run on this host: stay on loopback")
+      ->needs(board);
+  app.add_option("--node", node, "name of the node on this host (default: that of the board, else local)")
+      ->check(check_node);
   app.add_option("--duration", duration, "end after this time (5s, 500ms)")->check(check_duration);
   app.add_option("--report", options.report, "write statistics to this JSON file at the end");
   app.add_flag("--require-rt", options.require_rt, "exit with code 7 unless real-time rights were obtained");
@@ -58,6 +64,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--spin", spin, "auto, off or a time to spin before each tick")->check(check_spin);
   app.add_flag("-q,--quiet", options.quiet, "only warnings and errors");
   app.footer(
+      "indurop run PLANT --local runs all boards of a plant on this host.\n\n"
       "Exit codes: 0 ok, 1 failed, 2 usage, 4 configuration has errors, 7 real-time rights not obtained\n"
       "(--require-rt), 8 variables of modules disagree, 130 interrupted.");
   try {
@@ -66,6 +73,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = app.exit(error) == 0 ? kOk : kUsage;
     return std::nullopt;
   }
+  if (node.empty()) {
+    node = options.board.empty() ? options.node : options.board;
+  }
+  options.node = node;
   if (!vars::valid_node_name(options.node)) {
     fmt::print(stderr, "indurop-node: error: INDUROP_NODE: {}\n", check_node(options.node));
     exit_code = kUsage;

@@ -26,6 +26,8 @@ enum ExitCode : int {
 struct Options {
   std::filesystem::path config;
   std::string node = "local";
+  std::string board;                      // of the plant that `config` is; empty: a module.xml
+  bool one_host = false;                  // all boards of the plant run on this host
   std::optional<deploy::Nanos> duration;  // empty: until stopped
   std::filesystem::path report;           // empty: none
   bool require_rt = false;

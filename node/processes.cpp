@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 
 #include "node/trampoline.h"
 #include "rt/clock.h"
@@ -20,7 +22,20 @@ using scheduler::Operation;
 constexpr std::int64_t kEndGraceNs = 2'000'000'000;
 constexpr std::int64_t kAskedNs = 500'000'000;  // then SIGTERM
 constexpr std::int64_t kPollNs = 5'000'000;
+constexpr std::int64_t kPatienceNs = 2'000'000'000;
 constexpr std::size_t kRestartsKept = 1000;
+
+// A program that neither catches nor blocks the signal that is to wake it would be killed by it.
+bool expects_signal(pid_t pid, int signal) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
+  std::uint64_t expected = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("SigCgt:") || line.starts_with("SigBlk:") || line.starts_with("SigIgn:")) {
+      expected |= std::strtoull(line.c_str() + std::strlen("SigCgt:"), nullptr, 16);
+    }
+  }
+  return (expected >> static_cast<unsigned>(signal - 1) & 1U) != 0;
+}
 
 std::string describe(int status) {
   if (WIFSIGNALED(status)) {
@@ -49,6 +64,21 @@ bool Processes::managed(const Child& child) const noexcept {
   return child.module->operation != Operation::NonReal && child.module->signal == 0;
 }
 
+bool Processes::enrolled(Child& child) {
+  if (child.module->signal == 0) {
+    return slot(child).pid.load(std::memory_order_acquire) == child.pid;
+  }
+  if (expects_signal(child.pid, child.module->signal)) {
+    return true;
+  }
+  if (!child.warned && rt::now_ns() - child.launched_ns > kPatienceNs) {
+    child.warned = true;
+    console_.warning("module {} neither catches nor blocks {} ({}): it is not woken until it does", record(child).name,
+                     child.module->signal, ::strsignal(child.module->signal));
+  }
+  return false;
+}
+
 bool Processes::launch_all() {
   for (Child& child : children_) {
     if (!launch(child)) {
@@ -75,11 +105,13 @@ bool Processes::launch(Child& child) {
   }
   child.pid = started.value();
   child.killed_for_budget = false;
+  child.warned = false;
+  child.launched_ns = rt::now_ns();
   module.pid.store(child.pid, std::memory_order_release);
   if (child.module->signal != 0 && realtime_) {
     (void)rt::set_fifo_of(child.pid, module.fifo_priority);
   }
-  if (!managed(child)) {
+  if (child.module->operation == Operation::NonReal) {
     module.state.store(ModuleState::Running, std::memory_order_release);
   }
   return true;
@@ -101,8 +133,7 @@ bool Processes::supervise(std::int64_t now_ns) {
       int status = 0;
       if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
         died(child, status, now_ns);
-      } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting &&
-                 slot(child).pid.load(std::memory_order_acquire) == child.pid) {
+      } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         module.state.store(ModuleState::Running, std::memory_order_release);
       } else {
         enforce_budget(child, now_ns);
@@ -141,7 +172,9 @@ void Processes::died(Child& child, int status, std::int64_t now_ns) {
     fault(child, FaultKind::Budget,
           fmt::format("killed: one run took longer than its budget of {} us", module.budget_ns / 1000));
   } else if (was_starting && WIFEXITED(status)) {
-    fault(child, FaultKind::StartFailed, describe(status) + " before it called irp::waitPeriod()");
+    fault(child, FaultKind::StartFailed,
+          describe(status) +
+              (child.module->signal != 0 ? " before it expected its signal" : " before it called irp::waitPeriod()"));
   } else {
     fault(child, FaultKind::Exit, describe(status));
   }

@@ -44,8 +44,12 @@ class Processes {
     std::int64_t restart_at_ns = 0;
     std::deque<std::int64_t> restarts;  // times of those within the window
     bool killed_for_budget = false;
+    bool warned = false;  // that it does not expect its signal
+    std::int64_t launched_ns = 0;
   };
   [[nodiscard]] bool managed(const Child& child) const noexcept;
+  // A process that was launched is ready to be released.
+  bool enrolled(Child& child);
   bool launch(Child& child);
   void died(Child& child, int status, std::int64_t now_ns);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);

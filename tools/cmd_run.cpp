@@ -11,6 +11,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "deploy/plant.h"
+#include "tools/run_local.h"
 #include "tools/self.h"
 #include "tools/verbs.h"
 
@@ -48,31 +50,43 @@ std::filesystem::path find_node_program() {
   return {};
 }
 
-// Does `arguments` name a configuration, or ask for something that needs none?
-bool complete(const std::vector<std::string>& arguments) {
-  constexpr std::array kWithValue{"--node", "--duration", "--report", "--core", "--spin"};
+struct Request {
+  std::string file;  // empty: none named
+  bool local = false;
+  bool board = false;
+  bool about = false;                // --help, --version
+  std::vector<std::string> options;  // all but the file and --local
+};
+
+Request parse(const std::vector<std::string>& arguments) {
+  constexpr std::array kWithValue{"--node", "--board", "--duration", "--report", "--core", "--spin"};
+  Request request;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& word = arguments[i];
-    if (std::find(kWithValue.begin(), kWithValue.end(), word) != kWithValue.end()) {
-      ++i;
-    } else if (word.empty() || word[0] != '-' || word == "-h" || word == "--help" || word == "--version") {
-      return true;
+    if (word == "--local") {
+      request.local = true;
+      continue;
+    }
+    const bool option = word.size() > 1 && word[0] == '-';
+    if (!option && request.file.empty()) {
+      request.file = word;
+      continue;
+    }
+    request.about = request.about || word == "-h" || word == "--help" || word == "--version";
+    request.board = request.board || word == "--board" || word.starts_with("--board=");
+    request.options.push_back(word);
+    if (i + 1 < arguments.size() && std::find(kWithValue.begin(), kWithValue.end(), word) != kWithValue.end()) {
+      request.options.push_back(arguments[++i]);
     }
   }
-  return false;
+  return request;
 }
 
-int run(Context& context, const std::vector<std::string>& arguments) {
-  const auto program = find_node_program();
-  if (program.empty()) {
-    context.out.error(fmt::format("{} was found neither beside this program nor in PATH", kProgram));
-    return kFailed;
-  }
+int become_node(Context& context, const std::filesystem::path& program, const Request& request) {
   std::vector<std::string> words{program.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::error_code ignored;
-  if (!complete(arguments) && std::filesystem::exists("module.xml", ignored)) {
-    words.emplace_back("module.xml");
+  words.insert(words.end(), request.options.begin(), request.options.end());
+  if (!request.file.empty()) {
+    words.push_back(request.file);
   }
   std::vector<char*> raw;
   for (std::string& word : words) {
@@ -86,11 +100,44 @@ int run(Context& context, const std::vector<std::string>& arguments) {
   return kFailed;
 }
 
+int run(Context& context, const std::vector<std::string>& arguments) {
+  const auto program = find_node_program();
+  if (program.empty()) {
+    context.out.error(fmt::format("{} was found neither beside this program nor in PATH", kProgram));
+    return kFailed;
+  }
+  Request request = parse(arguments);
+  std::error_code ignored;
+  if (request.file.empty() && !request.about && std::filesystem::exists("module.xml", ignored)) {
+    request.file = "module.xml";
+  }
+  const bool plant = !request.file.empty() && deploy::is_plant_file(request.file);
+  if (request.local && !request.about) {
+    if (!plant) {
+      context.out.error("--local is for the manifest of a plant: indurop run plant.xml --local");
+      return kUsage;
+    }
+    if (request.board) {
+      context.out.error("--local runs all boards and --board one of them: choose");
+      return kUsage;
+    }
+    return run_local(context, program, request.file, request.options);
+  }
+  if (plant && !request.board && !request.about) {
+    context.out.error(
+        fmt::format("{} is the manifest of a plant; run all its boards on this host with --local, or be "
+                    "one of them with --board NAME",
+                    request.file));
+    return kUsage;
+  }
+  return become_node(context, program, request);
+}
+
 }  // namespace
 
 const Verb kRunVerb{.name = "run",
                     .group = "Start and stop",
-                    .summary = "Run a configuration (becomes indurop-node; see indurop run --help)",
+                    .summary = "Run a configuration, or with --local all boards of a plant (see indurop run --help)",
                     .details = "",
                     .declare = nullptr,
                     .pass_through = &run};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program that knows nothing of InduRoP: SIGUSR1 wakes it, it writes how often into the file of its first argument.
+// A second argument is how many milliseconds it takes until it is ready for that.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -7,6 +8,9 @@
 #include <string>
 
 int main(int argc, char** argv) {
+  if (argc > 2) {
+    ::usleep(static_cast<useconds_t>(std::stoi(argv[2])) * 1000);
+  }
   sigset_t set;
   ::sigemptyset(&set);
   ::sigaddset(&set, SIGUSR1);

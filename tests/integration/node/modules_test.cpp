@@ -79,6 +79,19 @@ TEST_F(Modules, Legacy_program_is_woken_by_its_signal) {
   EXPECT_FALSE(alive(pid));
 }
 
+TEST_F(Modules, Legacy_program_that_starts_slowly_is_not_killed_by_the_signal_that_is_to_wake_it) {
+  const std::string file = folder() / "wakes";
+  start_and_wait({{.file = "counter.so", .name = "counter"},
+                  {.file = "legacy.exe",
+                   .name = "legacy",
+                   .type = "process",
+                   .period = "5ms",
+                   .priority = 2,
+                   .more = "<argument>" + file + "</argument><argument>800</argument><signal>SIGUSR1</signal>"}});
+  EXPECT_TRUE(wait_until([&] { return module("legacy").runs.load() >= 20; }));
+  EXPECT_EQ(module("legacy").faults.load(), 0U);
+}
+
 TEST_F(Modules, Of_a_process_share_variables_with_those_of_threads) {
   Program& sut = start_and_wait({{.file = "writer.exe", .name = "writer", .type = "process", .priority = 1},
                                  {.file = "verify.so", .name = "verify", .priority = 2}});

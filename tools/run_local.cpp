@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/run_local.h"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "deploy/plant.h"
+#include "rt/clock.h"
+#include "rt/thread.h"
+#include "tools/config_file.h"
+#include "tools/interrupt.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kEndGraceNs = 10'000'000'000;  // a node gives its own modules and processes a few seconds
+
+struct Child {
+  std::string board;
+  pid_t pid = -1;
+};
+
+// "r.json" of board "left" is "r.left.json".
+std::string report_of(const std::filesystem::path& file, const std::string& board) {
+  auto named = file;
+  named.replace_extension("." + board + file.extension().string());
+  return named.string();
+}
+
+std::vector<std::string> command(const std::filesystem::path& program, const std::filesystem::path& plant,
+                                 const deploy::Board& board, int core, const std::vector<std::string>& options) {
+  std::vector<std::string> words{program.string(), plant.string(), "--board", board.name, "--one-host"};
+  bool core_given = board.config.core >= 0;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    words.push_back(options[i]);
+    core_given = core_given || options[i] == "--core" || options[i].starts_with("--core=");
+    if (options[i] == "--report" && i + 1 < options.size()) {
+      words.push_back(report_of(options[++i], board.name));
+    } else if (options[i].starts_with("--report=")) {
+      words.back() = "--report=" + report_of(options[i].substr(std::strlen("--report=")), board.name);
+    }
+  }
+  if (!core_given) {
+    words.insert(words.end(), {"--core", std::to_string(core)});
+  }
+  return words;
+}
+
+pid_t launch(std::vector<std::string> words) {
+  std::vector<char*> raw;
+  for (std::string& word : words) {
+    raw.push_back(word.data());
+  }
+  raw.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    ::setpgid(0, 0);  // Ctrl-C reaches us alone; we end the boards
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (::getppid() != parent) {
+      ::_exit(kFailed);
+    }
+    ::signal(SIGPIPE, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    ::execv(raw[0], raw.data());
+    ::_exit(127);
+  }
+  return pid;
+}
+
+class Plant {
+ public:
+  Plant(Context& context, std::string file, std::vector<Child> children)
+      : context_(context), plant_(std::move(file)), children_(std::move(children)) {}
+
+  int run() {
+    while (running() > 0) {
+      wait_until(rt::now_ns() + kLookNs);
+      if (interrupted()) {
+        end_all(SIGINT);
+        return interrupt_code();
+      }
+      if (const int code = collect(true); code != kOk) {
+        end_all(SIGTERM);
+        return code;
+      }
+    }
+    return killed_ ? kFailed : kOk;
+  }
+
+  void end_all(int signal) {
+    for (const Child& child : children_) {
+      if (child.pid > 0) {
+        ::kill(child.pid, signal);
+      }
+    }
+    const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
+    while (running() > 0 && rt::now_ns() < deadline) {
+      rt::sleep_until(rt::now_ns() + kLookNs);
+      (void)collect(false);
+    }
+    for (const Child& child : children_) {
+      if (child.pid > 0) {
+        context_.out.error(fmt::format("board {} did not end within {} s and was killed", child.board,
+                                       kEndGraceNs / rt::kNanosPerSecond));
+        ::kill(child.pid, SIGKILL);
+        ::waitpid(child.pid, nullptr, 0);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::ptrdiff_t running() const {
+    return std::count_if(children_.begin(), children_.end(), [](const Child& child) { return child.pid > 0; });
+  }
+
+  // Boards that ended since: the first exit code that is not 0. One that was killed is like a board without power, the
+  // others go on.
+  int collect(bool tell) {
+    int code = kOk;
+    for (Child& child : children_) {
+      int status = 0;
+      if (child.pid <= 0 || ::waitpid(child.pid, &status, WNOHANG) != child.pid) {
+        continue;
+      }
+      child.pid = -1;
+      if (WIFSIGNALED(status)) {
+        killed_ = true;
+        if (tell) {
+          context_.out.error(fmt::format(
+              "board {} was ended by signal {} ({}), the others go on; bring it back with indurop run {} --board {} "
+              "--one-host",
+              child.board, WTERMSIG(status), ::strsignal(WTERMSIG(status)), plant_, child.board));
+        }
+        continue;
+      }
+      const int its = WEXITSTATUS(status);
+      if (its != kOk && tell) {
+        context_.out.error(fmt::format("board {} ended with exit code {}; ending the others", child.board, its));
+      }
+      code = code == kOk ? its : code;
+    }
+    return code;
+  }
+
+  Context& context_;
+  std::string plant_;
+  std::vector<Child> children_;
+  bool killed_ = false;
+};
+
+}  // namespace
+
+int run_local(Context& context, const std::filesystem::path& program, const std::filesystem::path& plant,
+              const std::vector<std::string>& options) {
+  deploy::ReadPlant read = deploy::read_plant(plant);
+  std::vector<deploy::Diagnostic> diagnostics = read.diagnostics;
+  bool ok = read.ok();
+  if (ok) {
+    const bool adjust = std::find(options.begin(), options.end(), "--adjust") != options.end();
+    const deploy::PlantCheck check = deploy::check_plant(read.plant, {true, adjust});
+    diagnostics.insert(diagnostics.end(), check.diagnostics.begin(), check.diagnostics.end());
+    ok = check.ok();
+  }
+  std::erase_if(diagnostics, [](const auto& d) { return d.severity == deploy::Diagnostic::Severity::Note; });
+  print_diagnostics(context, diagnostics, false);
+  if (!ok) {
+    return kCheckFailed;
+  }
+  const std::vector<int> cores = rt::allowed_cores();
+  std::vector<Child> children;
+  for (std::size_t i = 0; i < read.plant.boards.size(); ++i) {
+    const deploy::Board& board = read.plant.boards[i];
+    const int core = cores.empty() ? 0 : cores[cores.size() - 1 - i % cores.size()];
+    context.out.flush();
+    children.push_back({board.name, launch(command(program, plant, board, core, options))});
+    if (children.back().pid < 0) {
+      context.out.error(fmt::format("board {} cannot be started: {}", board.name, std::strerror(errno)));
+      Plant(context, plant.string(), std::move(children)).end_all(SIGTERM);
+      return kFailed;
+    }
+  }
+  return Plant(context, plant.string(), std::move(children)).run();
+}
+
+}  // namespace indurop::tools
