@@ -8,6 +8,7 @@
 
 #include "deploy/check.h"
 #include "deploy/config.h"
+#include "deploy/plant.h"
 
 namespace indurop::deploy {
 
@@ -17,5 +18,12 @@ std::string plan_csv(const Config& config, const CheckResult& check);
 //  "non_real":[...]}
 std::string plan_json(const Config& config, const CheckResult& check);
 std::string plan_svg(const Config& config, const CheckResult& check);
+
+// The same of all boards in the order of the manifest: tables under headings; {"plant","boards":[{"name", then as
+// above}]}; the board's name in the first column; diagrams one below the other.
+std::string plan_table(const Plant& plant, const PlantCheck& check);
+std::string plan_csv(const Plant& plant, const PlantCheck& check);
+std::string plan_json(const Plant& plant, const PlantCheck& check);
+std::string plan_svg(const Plant& plant, const PlantCheck& check);
 
 }  // namespace indurop::deploy

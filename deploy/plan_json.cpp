@@ -30,12 +30,14 @@ std::string csv_field(const std::string& text) {
   return field + "\"";
 }
 
-}  // namespace
+std::string text(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
-std::string plan_json(const Config& config, const CheckResult& check) {
-  const auto text = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
+// Everything between the braces.
+std::string plan_fields(const Config& config, const CheckResult& check) {
   const scheduler::PeriodTable& table = check.table;
-  std::string plan = "{\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
+  std::string plan = "\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
                      ",\n  \"macro_period_ns\": " + std::to_string(table.macro_period.count()) + ",\n  \"slots\": [";
   for (std::size_t i = 0; i < table.slots.size(); ++i) {  // one line each
     Json row;
@@ -50,17 +52,46 @@ std::string plan_json(const Config& config, const CheckResult& check) {
   if (table.slot_count > table.slots.size()) {
     plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
   }
-  return plan + "\n}\n";
+  return plan;
 }
 
-std::string plan_csv(const Config& config, const CheckResult& check) {
-  std::string text = "slot,time_ns,modules\n";
+// `first`: what every line begins with.
+std::string csv_lines(const Config& config, const CheckResult& check, const std::string& first) {
+  std::string text;
   for (std::size_t i = 0; i < check.table.slots.size(); ++i) {
     const scheduler::Slot& slot = check.table.slots[i];
-    text += std::to_string(i) + "," + std::to_string(slot.time.count()) + "," +
+    text += first + std::to_string(i) + "," + std::to_string(slot.time.count()) + "," +
             csv_field(in_order(names_of(config, check, slot))) + "\n";
   }
   return text;
+}
+
+}  // namespace
+
+std::string plan_json(const Config& config, const CheckResult& check) {
+  return "{" + plan_fields(config, check) + "\n}\n";
+}
+
+std::string plan_json(const Plant& plant, const PlantCheck& check) {
+  std::string plan = "{\n\"plant\": " + text(plant.name) + ",\n\"boards\": [";
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    const Board& board = plant.boards[i];
+    plan += (i == 0 ? "{\n  \"name\": " : ", {\n  \"name\": ") + text(board.name) + "," +
+            plan_fields(board.config, check.boards[i]) + "\n}";
+  }
+  return plan + "]\n}\n";
+}
+
+std::string plan_csv(const Config& config, const CheckResult& check) {
+  return "slot,time_ns,modules\n" + csv_lines(config, check, "");
+}
+
+std::string plan_csv(const Plant& plant, const PlantCheck& check) {
+  std::string plan = "board,slot,time_ns,modules\n";
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    plan += csv_lines(plant.boards[i].config, check.boards[i], plant.boards[i].name + ",");
+  }
+  return plan;
 }
 
 }  // namespace indurop::deploy

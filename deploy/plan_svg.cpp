@@ -39,7 +39,8 @@ struct Lane {
 
 class Diagram {
  public:
-  Diagram(const Config& config, const CheckResult& check) : config_(config), check_(check) {
+  Diagram(const Config& config, const CheckResult& check, std::string title)
+      : config_(config), check_(check), title_(std::move(title)) {
     for (const std::uint32_t item : check_.table.order) {
       const Nanos period = config_.modules[check_.periodic[item]].period;
       if (std::find(periods_.begin(), periods_.end(), period) == periods_.end()) {
@@ -50,12 +51,10 @@ class Diagram {
     measure();
   }
 
-  std::string draw() {
-    Svg svg(width_, height_);
-    svg.raw(
-        "<defs><pattern id=\"rest\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
-        "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#F2F4F6\"/>"
-        "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"7\" stroke=\"#C3CCD5\" stroke-width=\"3\"/></pattern></defs>\n");
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  void draw(Svg& svg) const {
     draw_title(svg);
     draw_grid(svg);
     draw_labels(svg);
@@ -63,7 +62,6 @@ class Diagram {
       draw_slot(svg, slot);
     }
     draw_legend(svg);
-    return svg.finish();
   }
 
  private:
@@ -136,8 +134,7 @@ class Diagram {
   }
 
   void draw_title(Svg& svg) const {
-    const std::string file = config_.file.filename().string();
-    svg.text(kMargin, kMargin + 14, "Schedule" + (file.empty() ? "" : " of " + file), 18, kInk, "start", true);
+    svg.text(kMargin, kMargin + 14, title_, 18, kInk, "start", true);
     if (check_.periodic.empty()) {
       svg.text(kMargin, kMargin + 38, "no periodic modules", 13, kFaint);
       return;
@@ -325,6 +322,7 @@ class Diagram {
 
   const Config& config_;
   const CheckResult& check_;
+  std::string title_;
   std::vector<Nanos> periods_;  // distinct, ascending
   std::vector<Lane> lanes_;     // by module
   int handler_y_ = 0;
@@ -340,10 +338,43 @@ class Diagram {
   bool complete_ = false;
 };
 
+void define_patterns(Svg& svg) {
+  svg.raw(
+      "<defs><pattern id=\"rest\" width=\"7\" height=\"7\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><rect width=\"7\" height=\"7\" fill=\"#F2F4F6\"/>"
+      "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"7\" stroke=\"#C3CCD5\" stroke-width=\"3\"/></pattern></defs>\n");
+}
+
 }  // namespace
 
 std::string plan_svg(const Config& config, const CheckResult& check) {
-  return Diagram(config, check).draw();
+  const std::string file = config.file.filename().string();
+  const Diagram diagram(config, check, "Schedule" + (file.empty() ? "" : " of " + file));
+  Svg svg(diagram.width(), diagram.height());
+  define_patterns(svg);
+  diagram.draw(svg);
+  return svg.finish();
+}
+
+std::string plan_svg(const Plant& plant, const PlantCheck& check) {
+  std::vector<Diagram> diagrams;
+  int width = 0;
+  int height = 0;
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    diagrams.emplace_back(plant.boards[i].config, check.boards[i], "Schedule of board " + plant.boards[i].name);
+    width = std::max(width, diagrams.back().width());
+    height += diagrams.back().height();
+  }
+  Svg svg(width, height);
+  define_patterns(svg);
+  int y = 0;
+  for (const Diagram& diagram : diagrams) {
+    svg.raw("<g transform=\"translate(0 " + std::to_string(y) + ")\">\n");
+    diagram.draw(svg);
+    svg.raw("</g>\n");
+    y += diagram.height();
+  }
+  return svg.finish();
 }
 
 }  // namespace indurop::deploy

@@ -163,4 +163,14 @@ std::string plan_table(const Config& config, const CheckResult& check) {
   return config.modules.empty() ? text : text + "\n" + modules_table(config, check);
 }
 
+std::string plan_table(const Plant& plant, const PlantCheck& check) {
+  std::string text;
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    const std::string heading = "Board " + plant.boards[i].name;
+    text += (i == 0 ? "" : "\n\n") + heading + "\n" + std::string(heading.size(), '=') + "\n" +
+            plan_table(plant.boards[i].config, check.boards[i]);
+  }
+  return text;
+}
+
 }  // namespace indurop::deploy

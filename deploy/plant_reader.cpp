@@ -173,7 +173,9 @@ class PlantReader {
     board.interface_name = optional_attribute(e, "interface", interface_problem);
     board.config.file = plant_.file;
     read_configuration(e, board.config, report_);
-    if (board.config.modules.empty()) {
+    const bool misspelt = std::any_of(e.children.begin(), e.children.end(),
+                                      [](const Element& child) { return !meant(child.name, {"module"}).empty(); });
+    if (board.config.modules.empty() && !misspelt && !board.name.empty()) {
       report_.note(e.place,
                    "the board " + in_quotes(board.name) + " has no <module>; it runs nothing and owns no variable");
     }

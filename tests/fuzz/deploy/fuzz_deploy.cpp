@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as module.xml: read, checked, adjusted, planned in every form. Besides not crashing: what is wrong has a
-// place inside the text, a diagnostic is one line, and an adjusted schedule keeps the minimum period.
+// Any bytes as module.xml and as manifest of a plant: read, checked, adjusted, planned in every form. Besides not
+// crashing: what is wrong has a place inside the text, a diagnostic is one line, and an adjusted schedule keeps the
+// minimum period.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <string_view>
 
 #include "deploy/plan.h"
+#include "deploy/plant.h"
 #include "deploy/reader.h"
 
 namespace {
@@ -44,14 +46,11 @@ void plan(const Config& config, const CheckResult& check) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+void fuzz_config(std::string_view text) {
   ReadResult read = read_config_text(text, "in.xml");
   check_diagnostics(read.diagnostics, text);
   if (!read.ok()) {
-    return 0;
+    return;
   }
   const CheckResult check = check_config(read.config, {.files = false, .adjust = false});
   check_diagnostics(check.diagnostics, text);
@@ -60,5 +59,35 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(adjusted.periodic.empty() || adjusted.table.slots.empty() ||
           adjusted.table.basic_period >= read.config.minimum_period.value_or(kDefaultMinimumPeriod));
   plan(read.config, adjusted);
+}
+
+// Module files are looked for too: there are none of these names.
+void fuzz_plant(std::string_view text) {
+  ReadPlant read = read_plant_text(text, "/nowhere/in.xml");
+  check_diagnostics(read.diagnostics, text);
+  if (!read.ok()) {
+    return;
+  }
+  require(!read.plant.name.empty() && !read.plant.boards.empty());
+  require(read.plant.types.size() == read.plant.type_places.size());
+  const PlantCheck schedules = check_plant(read.plant, {.files = false, .adjust = true});
+  check_diagnostics(schedules.diagnostics, text);
+  const PlantCheck check = check_plant(read.plant, {});
+  check_diagnostics(check.diagnostics, text);
+  require(check.boards.size() == read.plant.boards.size() && check.routes.empty());
+  if (std::all_of(schedules.boards.begin(), schedules.boards.end(), is_small)) {
+    require(!plan_table(read.plant, schedules).empty());
+    require(!plan_csv(read.plant, schedules).empty());
+    require(!plan_json(read.plant, schedules).empty());
+    require(!plan_svg(read.plant, schedules).empty());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  fuzz_config(text);
+  fuzz_plant(text);
   return 0;
 }

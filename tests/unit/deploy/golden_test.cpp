@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "deploy/plan.h"
+#include "deploy/plant.h"
 #include "deploy/reader.h"
 
 namespace indurop::deploy {
@@ -47,33 +48,66 @@ class Golden : public testing::TestWithParam<std::string> {
       EXPECT_TRUE(name == "svg" || name == "csv") << file << " is missing";
     }
   }
+  template <class Kind>
+  void run();
   [[nodiscard]] static std::filesystem::path folder() { return std::filesystem::path(GOLDEN_DEPLOY) / GetParam(); }
 };
 
+ReadResult read(const std::string& xml, const Config& /*kind*/) {
+  return read_config_text(xml, "in.xml");
+}
+ReadPlant read(const std::string& xml, const Plant& /*kind*/) {
+  return read_plant_text(xml, "in.xml");
+}
+Config& content(ReadResult& read) {
+  return read.config;
+}
+Plant& content(ReadPlant& read) {
+  return read.plant;
+}
+CheckResult check(Config& config, const CheckOptions& options) {
+  return check_config(config, options);
+}
+PlantCheck check(Plant& plant, const CheckOptions& options) {
+  return check_plant(plant, options);
+}
+
+std::string text(const std::vector<Diagnostic>& diagnostics) {
+  std::string text;
+  for (const Diagnostic& d : diagnostics) {
+    text += to_string(d) + "\n";
+  }
+  return text;
+}
+
+// `Kind`: Config or Plant.
+template <class Kind>
+void Golden::run() {
+  auto read_file = read(contents(folder() / "in.xml"), Kind{});
+  if (!read_file.ok()) {
+    compare("err", text(read_file.diagnostics));
+    return;
+  }
+  Kind& kind = content(read_file);
+  const auto checked = check(kind, {.files = false, .adjust = false});
+  compare("err", text(read_file.diagnostics) + text(checked.diagnostics));
+  if (!checked.ok()) {
+    const auto adjusted = check(kind, {.files = false, .adjust = true});
+    compare("adjusted", plan_table(kind, adjusted));
+    return;
+  }
+  compare("table", plan_table(kind, checked));
+  compare("json", plan_json(kind, checked));
+  compare("csv", plan_csv(kind, checked));
+  compare("svg", plan_svg(kind, checked));
+}
+
 TEST_P(Golden, Is_as_expected) {
-  ReadResult read = read_config_text(contents(folder() / "in.xml"), "in.xml");
-  std::string diagnostics;
-  for (const Diagnostic& d : read.diagnostics) {
-    diagnostics += to_string(d) + "\n";
+  if (is_plant_file(folder() / "in.xml")) {
+    run<Plant>();
+  } else {
+    run<Config>();
   }
-  if (!read.ok()) {
-    compare("err", diagnostics);
-    return;
-  }
-  const CheckResult check = check_config(read.config, {.files = false, .adjust = false});
-  for (const Diagnostic& d : check.diagnostics) {
-    diagnostics += to_string(d) + "\n";
-  }
-  compare("err", diagnostics);
-  if (!check.ok()) {
-    const CheckResult adjusted = check_config(read.config, {.files = false, .adjust = true});
-    compare("adjusted", plan_table(read.config, adjusted));
-    return;
-  }
-  compare("table", plan_table(read.config, check));
-  compare("json", plan_json(read.config, check));
-  compare("csv", plan_csv(read.config, check));
-  compare("svg", plan_svg(read.config, check));
 }
 
 INSTANTIATE_TEST_SUITE_P(Deploy, Golden, testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
