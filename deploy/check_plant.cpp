@@ -89,10 +89,7 @@ class PlantCheckRun {
 
   void check_between() {
     Report report(plant_.file.string(), between_);
-    std::vector<BoardView> views;
-    for (std::size_t i = 0; i < plant_.boards.size(); ++i) {
-      views.push_back({plant_.boards[i].name, plant_.boards[i].config, result_.boards[i]});
-    }
+    const std::vector<BoardView> views = views_of(plant_, result_);
     const Uses uses(views);
     PlantContext context{plant_, views, uses, schema_, report};
     check_type_libraries(plant_, report);

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/uses.h"
 
+#include "deploy/plant.h"
+
 namespace indurop::deploy {
+
+std::vector<BoardView> views_of(const Plant& plant, const PlantCheck& check) {
+  std::vector<BoardView> views;
+  for (std::size_t i = 0; i < check.boards.size(); ++i) {
+    views.push_back({plant.boards[i].name, plant.boards[i].config, check.boards[i]});
+  }
+  return views;
+}
 
 Uses::Uses(std::span<const BoardView> boards) : boards_(boards) {
   for (std::size_t b = 0; b < boards.size(); ++b) {

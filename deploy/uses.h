@@ -20,6 +20,11 @@ struct BoardView {
   const CheckResult& result;  // after check_access
 };
 
+struct Plant;
+struct PlantCheck;
+// Of all boards of a plant, in the order of the manifest; what is given is borrowed.
+std::vector<BoardView> views_of(const Plant& plant, const PlantCheck& check);
+
 struct User {
   std::size_t board = 0;   // into the views
   std::size_t module = 0;  // into its Config::modules

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "deploy/reader.h"
+#include "deploy/uses.h"
 #include "tools/config_file.h"
 #include "tools/node_choice.h"
 #include "tools/units.h"
@@ -27,6 +27,17 @@ struct Options {
 
 using Uses = std::map<std::string, deploy::VariableUse>;
 
+// Modules of all boards, "control@sensor".
+std::vector<deploy::VariableUse> uses_in(const CheckedPlant& checked) {
+  const auto boards = deploy::views_of(checked.plant, checked.check);
+  const deploy::Uses uses(boards);
+  std::vector<deploy::VariableUse> all;
+  for (const auto& [name, users] : uses.variables()) {
+    all.push_back({name, uses.names(users.readers), uses.names(users.writers)});
+  }
+  return all;
+}
+
 // From the module files of the configuration the node runs: no question is put to the node. Empty if it cannot be had.
 Uses known_uses(const std::string& node) {
   Uses uses;
@@ -34,11 +45,11 @@ Uses known_uses(const std::string& node) {
   if (!run.ok()) {
     return uses;
   }
-  auto read = deploy::read_config(fixed_text(run.value().block().config_file));
-  if (read.ok()) {
-    for (auto& use : deploy::check_config(read.config, {.files = true, .adjust = true}).uses) {
-      uses.emplace(use.name, use);
-    }
+  const std::string file = fixed_text(run.value().block().config_file);
+  const deploy::CheckOptions options{.files = true, .adjust = true};
+  for (const deploy::VariableUse& use :
+       deploy::is_plant_file(file) ? uses_in(load_plant(file, options)) : load_config(file, options).check.uses) {
+    uses.emplace(use.name, use);
   }
   return uses;
 }

@@ -28,26 +28,50 @@ const char* to_text(Severity severity) {
 }  // namespace
 
 bool CheckedConfig::ok() const {
-  return std::none_of(diagnostics.begin(), diagnostics.end(),
-                      [](const auto& d) { return d.severity == Severity::Error; });
+  return !deploy::has_error(diagnostics);
 }
 
-std::optional<CheckedConfig> load_config(Context& context, const std::string& file, const deploy::CheckOptions& options,
-                                         int& code) {
-  const std::string name = file.empty() ? "module.xml" : file;
+bool CheckedPlant::ok() const {
+  return !deploy::has_error(diagnostics);
+}
+
+std::optional<std::string> find_config(Context& context, const std::string& file, int& code) {
   std::error_code ignored;
-  if (!std::filesystem::exists(name, ignored)) {
-    context.out.error(file.empty() ? std::string("there is no module.xml here; say which file to read")
-                                   : fmt::format("there is no file '{}'", name));
-    code = file.empty() ? kUsage : kFailed;
+  const auto exists = [&ignored](const std::string& name) { return std::filesystem::exists(name, ignored); };
+  if (!file.empty() && !exists(file)) {
+    context.out.error(fmt::format("there is no file '{}'", file));
+    code = kFailed;
     return {};
   }
-  auto read = deploy::read_config(name);
-  CheckedConfig out;
-  out.config = std::move(read.config);
-  out.diagnostics = std::move(read.diagnostics);
+  if (!file.empty()) {
+    return file;
+  }
+  for (const char* name : {"module.xml", "plant.xml"}) {
+    if (exists(name)) {
+      return name;
+    }
+  }
+  context.out.error("there is no module.xml or plant.xml here; say which file to read");
+  code = kUsage;
+  return {};
+}
+
+CheckedConfig load_config(const std::string& file, const deploy::CheckOptions& options) {
+  auto read = deploy::read_config(file);
+  CheckedConfig out{std::move(read.config), {}, std::move(read.diagnostics)};
   if (out.ok()) {
     out.check = deploy::check_config(out.config, options);
+    out.diagnostics.insert(out.diagnostics.end(), out.check.diagnostics.begin(), out.check.diagnostics.end());
+  }
+  return out;
+}
+
+CheckedPlant load_plant(const std::string& file, deploy::CheckOptions options) {
+  options.machine = false;
+  auto read = deploy::read_plant(file);
+  CheckedPlant out{std::move(read.plant), {}, std::move(read.diagnostics)};
+  if (out.ok()) {
+    out.check = deploy::check_plant(out.plant, options);
     out.diagnostics.insert(out.diagnostics.end(), out.check.diagnostics.begin(), out.check.diagnostics.end());
   }
   return out;
@@ -70,6 +94,22 @@ void print_diagnostics(Context& context, const std::vector<deploy::Diagnostic>& 
     }
     context.out.line(line);
   }
+}
+
+std::string counted(std::size_t n, const char* noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
+void print_verdict(Context& context, const std::vector<deploy::Diagnostic>& diagnostics, const std::string& content) {
+  const auto count = [&diagnostics](Severity severity) {
+    return static_cast<std::size_t>(std::count_if(diagnostics.begin(), diagnostics.end(),
+                                                  [severity](const auto& d) { return d.severity == severity; }));
+  };
+  const std::size_t errors = count(Severity::Error);
+  const std::size_t warnings = count(Severity::Warning);
+  const std::string warned = warnings > 0 ? ", " + counted(warnings, "warning") : "";
+  context.out.line(errors == 0 ? context.out.paint(Style::Good, "OK") + "  " + content + warned
+                               : context.out.paint(Style::Bad, "FAILED") + "  " + counted(errors, "error") + warned);
 }
 
 JsonValue diagnostics_json(const std::vector<deploy::Diagnostic>& diagnostics) {
