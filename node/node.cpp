@@ -125,11 +125,11 @@ bool Node::check() {
 
 bool Node::read_modules(std::vector<deploy::Diagnostic>& diagnostics) {
   deploy::ReadResult read = deploy::read_config(options_.config);
-  diagnostics = std::move(read.diagnostics);
-  config_ = std::move(read.config);
+  diagnostics = read.diagnostics;
   if (!read.ok()) {
     return false;
   }
+  config_ = std::move(read.config);
   check_ = deploy::check_config(config_, {true, options_.adjust});
   diagnostics.insert(diagnostics.end(), check_.diagnostics.begin(), check_.diagnostics.end());
   return check_.ok();
@@ -137,7 +137,7 @@ bool Node::read_modules(std::vector<deploy::Diagnostic>& diagnostics) {
 
 bool Node::read_plant(std::vector<deploy::Diagnostic>& diagnostics) {
   deploy::ReadPlant read = deploy::read_plant(options_.config);
-  diagnostics = std::move(read.diagnostics);
+  diagnostics = read.diagnostics;
   if (!read.ok()) {
     return false;
   }

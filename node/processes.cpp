@@ -4,10 +4,9 @@
 #include <sys/wait.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 
+#include "node/expected_signal.h"
 #include "node/trampoline.h"
 #include "rt/clock.h"
 #include "rt/thread.h"
@@ -24,18 +23,6 @@ constexpr std::int64_t kAskedNs = 500'000'000;  // then SIGTERM
 constexpr std::int64_t kPollNs = 5'000'000;
 constexpr std::int64_t kPatienceNs = 2'000'000'000;
 constexpr std::size_t kRestartsKept = 1000;
-
-// A program that neither catches nor blocks the signal that is to wake it would be killed by it.
-bool expects_signal(pid_t pid, int signal) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/status");
-  std::uint64_t expected = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("SigCgt:") || line.starts_with("SigBlk:") || line.starts_with("SigIgn:")) {
-      expected |= std::strtoull(line.c_str() + std::strlen("SigCgt:"), nullptr, 16);
-    }
-  }
-  return (expected >> static_cast<unsigned>(signal - 1) & 1U) != 0;
-}
 
 std::string describe(int status) {
   if (WIFSIGNALED(status)) {

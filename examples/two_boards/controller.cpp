@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The control board's module: keeps the table at its target speed, as long as it knows how fast the table is.
 #include <indurop/indurop.h>
 

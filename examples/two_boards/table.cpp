@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sensor board's module: the table itself (simulated), its encoder and its motor.
 #include <indurop/indurop.h>
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_7d7553fbd1bccaed,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_2c925f07ce50ed37,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
 .ascii "\"description\":\"angle of the arm\",\"range\":[0.0,180.0],\"retain\":true,\"maxage_ns\":10000000,\"initial\":\"0"
 .ascii "000000000804640\",\"fallback\":\"0000000000a05640\",\"source\":\"in.glb:2\"},{\"name\":\"demo::pos\",\"type\":\"doub"
@@ -48,7 +48,7 @@ constexpr void indurop_fields(const Axis& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_7d7553fbd1bccaed __attribute__((visibility("hidden"))) {
+namespace indurop_generated_2c925f07ce50ed37 __attribute__((visibility("hidden"))) {
 inline constexpr double initial_demo_angle{45.0};
 inline constexpr ::indurop::string<32> initial_demo_note{"fine"};
 inline constinit ::indurop::abi::Ref refs[] = {
@@ -76,6 +76,7 @@ struct var_demo_angle {
   static constexpr ::std::uint64_t kNameHash = 0x0aa3fbb76ecba879;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
+  static constexpr ::std::int64_t kMaxAgeNs = 10000000;
   INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_pos {
@@ -94,12 +95,14 @@ struct var_demo_count {
   static constexpr ::std::uint64_t kNameHash = 0x4658fbb3129c7031;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
+  static constexpr ::std::int64_t kMaxAgeNs = 1500000000;
   INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_axis {
   static constexpr ::std::uint64_t kNameHash = 0x8c9a1a9c912d633f;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 16;
+  static constexpr ::std::int64_t kMaxAgeNs = 100000;
   INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_demo_emergency {
@@ -131,16 +134,17 @@ union ref_demo_Axis {
   ::indurop::Leaf<indurop_tag, ::std::uint16_t, indurop_offset + 4> status;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, float, indurop_offset + 8>, 2> speed;
   INDUROP_UNION_SHAPE(ref_demo_Axis)
+  INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_7d7553fbd1bccaed
+}  // namespace indurop_generated_2c925f07ce50ed37
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_7d7553fbd1bccaed::ref_demo_Axis<::indurop_generated_7d7553fbd1bccaed::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
-inline constexpr ::indurop::Text<::indurop_generated_7d7553fbd1bccaed::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_7d7553fbd1bccaed::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_2c925f07ce50ed37::ref_demo_Axis<::indurop_generated_2c925f07ce50ed37::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
+inline constexpr ::indurop::Text<::indurop_generated_2c925f07ce50ed37::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_2c925f07ce50ed37::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
 }  // namespace demo

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_d5d8752cdfe389a6,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_9bad6d8d18372d52,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"PLC_ROBOT::I0\",\"type\":\"int16\",\"kind\":\"scalar\",\"description"
 .ascii "\":\"PLC input point 0\",\"source\":\"in.glb:2\"},{\"name\":\"PLC_ROBOT::I1\",\"type\":\"int16\",\"kind\":\"scalar\",\"d"
 .ascii "escription\":\"PLC input point 1\",\"source\":\"in.glb:3\"},{\"name\":\"PLC_ROBOT::O0\",\"type\":\"int16\",\"kind\":\""
@@ -136,7 +136,7 @@ constexpr void indurop_fields(const AXIS1_IN_t& v, indurop_visitor f) {
 }
 }  // namespace PLC_ROBOT
 
-namespace indurop_generated_d5d8752cdfe389a6 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_9bad6d8d18372d52 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xa2e56741e5d74570, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I0"},
     {0xa2e56841e5d74723, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I1"},
@@ -215,6 +215,7 @@ union ref_PLC_ROBOT_ROBOT_MODULE_STATE_t {
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::uint64_t, indurop_offset + 352>, 6> dWorldSpeed;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::uint8_t, indurop_offset + 400>, 6> nposeINFO;
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_ROBOT_MODULE_STATE_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t {
@@ -229,6 +230,7 @@ union ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t {
   ::indurop::Leaf<indurop_tag, ::std::uint16_t, indurop_offset + 16> p_Target;
   ::indurop::Leaf<indurop_tag, ::std::uint16_t, indurop_offset + 18> p_Mid;
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_PLC_ROBOT_AXIS1_IN_t {
@@ -242,14 +244,15 @@ union ref_PLC_ROBOT_AXIS1_IN_t {
   ::indurop::Leaf<indurop_tag, ::std::int8_t, indurop_offset + 4> mode;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 8> position;
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_AXIS1_IN_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_d5d8752cdfe389a6
+}  // namespace indurop_generated_9bad6d8d18372d52
 
 namespace PLC_ROBOT {
-inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
-inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
-inline constexpr ::indurop::Leaf<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
-inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
-inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
-inline constexpr ::indurop_generated_d5d8752cdfe389a6::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_d5d8752cdfe389a6::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
+inline constexpr ::indurop::Leaf<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
+inline constexpr ::indurop::Leaf<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
+inline constexpr ::indurop_generated_9bad6d8d18372d52::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
+inline constexpr ::indurop_generated_9bad6d8d18372d52::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
+inline constexpr ::indurop_generated_9bad6d8d18372d52::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_9bad6d8d18372d52::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace PLC_ROBOT

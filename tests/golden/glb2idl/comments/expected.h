@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_f5931df30a43f57b,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_a3d230623d22d4fd,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
 .ascii "cription needs no marks: stars and blanks are cut.\",\"source\":\"in.glb:2\"},{\"name\":\"behind\",\"type\":\"in"
 .ascii "t32\",\"kind\":\"scalar\",\"description\":\"behind wins over above\",\"source\":\"in.glb:3\"},{\"name\":\"none\",\"typ"
@@ -38,7 +38,7 @@ constexpr void indurop_fields(const S& v, indurop_visitor f) {
   f("y", v.y);
 }
 
-namespace indurop_generated_f5931df30a43f57b __attribute__((visibility("hidden"))) {
+namespace indurop_generated_a3d230623d22d4fd __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_in{4};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x3f71052d617f9b2a, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "above"},
@@ -140,16 +140,17 @@ union ref_S {
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> x;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 4> y;
   INDUROP_UNION_SHAPE(ref_S)
+  INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_f5931df30a43f57b
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
-inline constexpr ::indurop_generated_f5931df30a43f57b::ref_S<::indurop_generated_f5931df30a43f57b::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_f5931df30a43f57b::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_a3d230623d22d4fd
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
+inline constexpr ::indurop_generated_a3d230623d22d4fd::ref_S<::indurop_generated_a3d230623d22d4fd::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_a3d230623d22d4fd::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};

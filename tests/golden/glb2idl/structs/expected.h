@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_f7c321dbdbcc86f7,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_ba63576238a33727,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"pair_of_points\",\"type\":{\"base\":\"struct\",\"name\":\"Pair\",\"siz"
 .ascii "e\":64,\"align\":8,\"fields\":[{\"name\":\"a\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields"
 .ascii "\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"offset\":0},{\"n"
@@ -178,7 +178,7 @@ constexpr void indurop_fields(const Late& v, indurop_visitor f) {
   f("a", v.a);
 }
 
-namespace indurop_generated_f7c321dbdbcc86f7 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_ba63576238a33727 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x7909104d230843e3, 0xcb8fd003c8f57539, nullptr, nullptr, 64, ::indurop::abi::Kind::Ring, "pair_of_points"},
     {0x004d2e191349e4f2, 0xfc489beff4b7e77f, nullptr, nullptr, 20, ::indurop::abi::Kind::Ring, "box"},
@@ -272,6 +272,7 @@ union ref_P {
   ::indurop::Leaf<indurop_tag, double, indurop_offset + 0> x;
   ::indurop::Leaf<indurop_tag, double, indurop_offset + 8> y;
   INDUROP_UNION_SHAPE(ref_P)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_Pair {
@@ -280,10 +281,11 @@ union ref_Pair {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 0> a;
-  ::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 16> b;
-  ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
+  ::indurop_generated_ba63576238a33727::ref_P<indurop_tag, indurop_offset + 0> a;
+  ::indurop_generated_ba63576238a33727::ref_P<indurop_tag, indurop_offset + 16> b;
+  ::indurop::ArrayRef<::indurop_generated_ba63576238a33727::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
   INDUROP_UNION_SHAPE(ref_Pair)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_box_inner_t {
@@ -295,6 +297,7 @@ union ref_box_inner_t {
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> a;
   ::indurop::Leaf<indurop_tag, bool, indurop_offset + 4> on;
   INDUROP_UNION_SHAPE(ref_box_inner_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_box_tail_t {
@@ -305,6 +308,7 @@ union ref_box_tail_t {
   ::indurop::Place indurop_place;
   ::indurop::Text<indurop_tag, 4, indurop_offset + 0> unit;
   INDUROP_UNION_SHAPE(ref_box_tail_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_box_t {
@@ -313,9 +317,10 @@ union ref_box_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
-  ::indurop_generated_f7c321dbdbcc86f7::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
+  ::indurop::ArrayRef<::indurop_generated_ba63576238a33727::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
+  ::indurop_generated_ba63576238a33727::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
   INDUROP_UNION_SHAPE(ref_box_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_Size {
@@ -327,6 +332,7 @@ union ref_Size {
   ::indurop::Leaf<indurop_tag, float, indurop_offset + 0> w;
   ::indurop::Leaf<indurop_tag, float, indurop_offset + 4> h;
   INDUROP_UNION_SHAPE(ref_Size)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_Frame {
@@ -335,8 +341,9 @@ union ref_Frame {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_f7c321dbdbcc86f7::ref_Size<indurop_tag, indurop_offset + 0> size;
+  ::indurop_generated_ba63576238a33727::ref_Size<indurop_tag, indurop_offset + 0> size;
   INDUROP_UNION_SHAPE(ref_Frame)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_Body {
@@ -349,6 +356,7 @@ union ref_Body {
   ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<indurop_tag, double, indurop_offset + 24>, 3>, 3> turn;
   ::indurop::ArrayRef<::indurop::Text<indurop_tag, 16, indurop_offset + 96>, 2> names;
   INDUROP_UNION_SHAPE(ref_Body)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_mode_type {
@@ -359,6 +367,7 @@ union ref_mode_type {
   ::indurop::Place indurop_place;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> value;
   INDUROP_UNION_SHAPE(ref_mode_type)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_states_t {
@@ -369,6 +378,7 @@ union ref_states_t {
   ::indurop::Place indurop_place;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> value;
   INDUROP_UNION_SHAPE(ref_states_t)
+  INDUROP_FRESHNESS(indurop_tag)
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_Late {
@@ -379,15 +389,16 @@ union ref_Late {
   ::indurop::Place indurop_place;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 0> a;
   INDUROP_UNION_SHAPE(ref_Late)
+  INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_f7c321dbdbcc86f7
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_Pair<::indurop_generated_f7c321dbdbcc86f7::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_box_t<::indurop_generated_f7c321dbdbcc86f7::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_Body<::indurop_generated_f7c321dbdbcc86f7::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_P<::indurop_generated_f7c321dbdbcc86f7::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_Frame<::indurop_generated_f7c321dbdbcc86f7::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_f7c321dbdbcc86f7::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_mode_type<::indurop_generated_f7c321dbdbcc86f7::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_f7c321dbdbcc86f7::ref_states_t<::indurop_generated_f7c321dbdbcc86f7::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_f7c321dbdbcc86f7::ref_states_t<::indurop_generated_f7c321dbdbcc86f7::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_f7c321dbdbcc86f7::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_ba63576238a33727
+inline constexpr ::indurop_generated_ba63576238a33727::ref_Pair<::indurop_generated_ba63576238a33727::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_ba63576238a33727::ref_box_t<::indurop_generated_ba63576238a33727::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_ba63576238a33727::ref_Body<::indurop_generated_ba63576238a33727::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_ba63576238a33727::ref_P<::indurop_generated_ba63576238a33727::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_ba63576238a33727::ref_Frame<::indurop_generated_ba63576238a33727::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_ba63576238a33727::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_ba63576238a33727::ref_mode_type<::indurop_generated_ba63576238a33727::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_ba63576238a33727::ref_states_t<::indurop_generated_ba63576238a33727::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_ba63576238a33727::ref_states_t<::indurop_generated_ba63576238a33727::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_ba63576238a33727::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
