@@ -91,6 +91,8 @@ Status Mirror::Impl::run() {
     for (const Incoming& in : settings.incoming) {
       if (in.owner == settings.boards[i]) {
         variables.push_back(in.variable);
+        block.variables()[block.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
+                                               static_cast<std::uint32_t>(i), 0};
       }
     }
     receivers.push_back(
@@ -257,7 +259,8 @@ void Mirror::Impl::end() noexcept {
 
 Result<Mirror> Mirror::start(const Settings& settings, const std::string& node, vars::Store& store,
                              const std::atomic<std::uint64_t>& tick) {
-  auto file = vars::ShmFile::create(vars::mirror_file(node), mirror_block_size(settings.boards.size()));
+  auto file = vars::ShmFile::create(vars::mirror_file(node),
+                                    mirror_block_size(settings.boards.size(), settings.incoming.size()));
   if (!file) {
     return file.error();
   }

@@ -84,6 +84,13 @@ struct PeerRecord {
   SharedText problem;
 };
 
+// A variable this board reads from another one. Its age is in the store: abi::confirmed_of().
+struct IncomingRecord {
+  std::uint64_t name_hash;
+  std::uint32_t peer;  // index of its owner
+  std::uint32_t reserved;
+};
+
 struct MirrorBlock {
   std::atomic<std::uint64_t> magic;  // stored last
   std::uint32_t abi;
@@ -93,6 +100,7 @@ struct MirrorBlock {
   std::int32_t domain;
   std::uint32_t outgoing;  // variables sent
   std::uint32_t parts;     // frames they need
+  std::uint32_t incoming;  // variables received
   std::atomic<Network> network;
   std::atomic<std::uint64_t> updates;  // times something was sent
   std::atomic<std::uint64_t> frames;
@@ -105,11 +113,15 @@ struct MirrorBlock {
 
   PeerRecord* peers() noexcept { return reinterpret_cast<PeerRecord*>(this + 1); }
   const PeerRecord* peers() const noexcept { return reinterpret_cast<const PeerRecord*>(this + 1); }
+  IncomingRecord* variables() noexcept { return reinterpret_cast<IncomingRecord*>(peers() + peer_count); }
+  const IncomingRecord* variables() const noexcept {
+    return reinterpret_cast<const IncomingRecord*>(peers() + peer_count);
+  }
 };
-static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0);
+static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0 && sizeof(PeerRecord) % alignof(IncomingRecord) == 0);
 
-inline constexpr std::size_t mirror_block_size(std::size_t peers) noexcept {
-  return sizeof(MirrorBlock) + peers * sizeof(PeerRecord);
+inline constexpr std::size_t mirror_block_size(std::size_t peers, std::size_t incoming) noexcept {
+  return sizeof(MirrorBlock) + peers * sizeof(PeerRecord) + incoming * sizeof(IncomingRecord);
 }
 
 }  // namespace indurop::mirror

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace indurop::mirror {
 namespace {
@@ -26,23 +26,24 @@ Stream stream_of(const Parcel& parcel) noexcept {
 }  // namespace
 
 std::vector<Part> pack(std::span<const Parcel> parcels) {
-  using Class = std::tuple<Stream, std::int64_t, std::int64_t>;
+  using Class = std::pair<Stream, std::int64_t>;
   std::vector<Part> parts;
   std::map<Class, std::vector<std::size_t>> open;  // parts of each class that may still have room
   for (std::uint32_t i = 0; i < parcels.size(); ++i) {
     const Parcel& parcel = parcels[i];
-    const Class kind{stream_of(parcel), parcel.every_ns, keepalive_of(parcel)};
+    const Class kind{stream_of(parcel), parcel.every_ns};
     auto& candidates = open[kind];
     const auto fits = [&](std::size_t part) { return parts[part].size + parcel.size <= kPartBytes; };
     auto found = std::find_if(candidates.begin(), candidates.end(), fits);
     if (found == candidates.end()) {
-      parts.push_back({std::get<0>(kind), 0, std::get<1>(kind), std::get<2>(kind), {}});
+      parts.push_back({kind.first, 0, kind.second, keepalive_of(parcel), {}});
       candidates.push_back(parts.size() - 1);
       found = candidates.end() - 1;
     }
     Part& part = parts[*found];
     part.content.push_back({i, part.size});
     part.size += parcel.size;
+    part.keepalive_ns = std::min(part.keepalive_ns, keepalive_of(parcel));
   }
   return parts;
 }

@@ -5,6 +5,7 @@
 #include "deploy/reader.h"
 #include "rt/clock.h"
 #include "tools/interrupt.h"
+#include "tools/mirror_view.h"
 #include "tools/node_choice.h"
 #include "tools/repeat.h"
 #include "tools/run_report.h"
@@ -108,13 +109,21 @@ Table module_table(const RunView& run, bool alive) {
 
 int show_once(Context& context, const std::string& node, const RunView& run) {
   const NodeReport report = report_of(node, run);
+  const auto mirror = view_mirror(node);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
     }
+    if (mirror) {
+      for (const std::string& line : mirror_lines(*mirror, context.out)) {
+        context.out.line(line);
+      }
+    }
     context.out.line();
   }
-  print_table(context, module_table(run, report.alive), json_of(report), "modules");
+  JsonValue head = json_of(report);
+  head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
+  print_table(context, module_table(run, report.alive), std::move(head), "modules");
   return report.alive ? kOk : kUnreachable;
 }
 

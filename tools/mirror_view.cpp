@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/mirror_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mirror/mirror_block.h"
+#include "rt/clock.h"
+#include "tools/run_view.h"
+#include "tools/units.h"
+#include "vars/shm_file.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+
+// The block if the file is as long as its counts say.
+const mirror::MirrorBlock* checked(const vars::ShmFile& file) {
+  if (file.size() < sizeof(mirror::MirrorBlock)) {
+    return nullptr;
+  }
+  const auto* block = reinterpret_cast<const mirror::MirrorBlock*>(file.data());
+  if (block->magic.load(std::memory_order_acquire) != mirror::kMirrorMagic || block->abi != mirror::kMirrorAbi ||
+      file.size() < mirror::mirror_block_size(block->peer_count, block->incoming)) {
+    return nullptr;
+  }
+  return block;
+}
+
+PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
+  const std::int64_t heard = record.heard_ns.load(kRelaxed);
+  return {.name = fixed_text(record.name),
+          .state = mirror::to_text(record.state.load(kRelaxed)),
+          .problem = record.problem.get(),
+          .wanted = record.wanted,
+          .heard_ns = heard == 0 ? -1 : std::max<std::int64_t>(0, now - heard),
+          .frames = record.frames.load(kRelaxed),
+          .lost_updates = record.lost_updates.load(kRelaxed),
+          .refused = record.refused.load(kRelaxed),
+          .losses = record.losses.load(kRelaxed),
+          .delay_ns = record.delay_ns.load(kRelaxed),
+          .tick = record.tick.load(kRelaxed)};
+}
+
+std::vector<MirroredVariable> view_variables(const std::string& node, const mirror::MirrorBlock& block,
+                                             std::uint32_t peers, std::uint32_t incoming, std::int64_t now) {
+  std::vector<MirroredVariable> variables;
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  for (std::uint32_t i = 0; store && i < incoming; ++i) {
+    const mirror::IncomingRecord& record = block.variables()[i];
+    const auto* entry = store.value().find(record.name_hash);
+    if (entry == nullptr || record.peer >= peers) {
+      continue;
+    }
+    const schema::Variable& variable = store.value().schema().variables[entry->schema_index];
+    const std::int64_t confirmed =
+        abi::confirmed_of(store.value().entry(entry->name_hash, 0), entry->kind).load(std::memory_order_acquire);
+    const bool never = confirmed == abi::kNeverConfirmed;
+    const std::int64_t age = never ? -1 : std::max<std::int64_t>(0, now - (confirmed < 0 ? -confirmed : confirmed));
+    variables.push_back({variable.name, fixed_text(block.peers()[record.peer].name), age,
+                         confirmed > 0 && (variable.maxage_ns == 0 || age <= variable.maxage_ns)});
+  }
+  return variables;
+}
+
+Style style_of(const std::string& state) {
+  return state == "alive" ? Style::Good : state == "absent" ? Style::Warn : Style::Bad;
+}
+
+}  // namespace
+
+std::optional<MirrorView> view_mirror(const std::string& node) {
+  const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
+  const mirror::MirrorBlock* block = file ? checked(file.value()) : nullptr;
+  if (block == nullptr) {
+    return std::nullopt;
+  }
+  const std::int64_t now = rt::now_ns();
+  const std::uint32_t peers = block->peer_count;
+  MirrorView view{.plant = fixed_text(block->plant),
+                  .board = fixed_text(block->board),
+                  .domain = block->domain,
+                  .up = block->network.load(kRelaxed) == mirror::Network::Up,
+                  .problem = block->problem.get(),
+                  .outgoing = block->outgoing,
+                  .parts = block->parts,
+                  .frames = block->frames.load(kRelaxed),
+                  .bytes = block->bytes.load(kRelaxed),
+                  .send_errors = block->send_errors.load(kRelaxed),
+                  .cycle_ns = block->cycle_ns.load(kRelaxed),
+                  .cycle_max_ns = block->cycle_max_ns.load(kRelaxed),
+                  .peers = {},
+                  .variables = view_variables(node, *block, peers, block->incoming, now)};
+  for (std::uint32_t i = 0; i < peers; ++i) {
+    view.peers.push_back(view_peer(block->peers()[i], now));
+  }
+  return view;
+}
+
+std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "  plant     {}, board {}, DDS domain {}, {}; sends {} variables in {} frames of up to "
+      "1300 bytes, {} frames so far",
+      printable(view.plant), printable(view.board), view.domain,
+      view.up ? output.paint(Style::Good, "in the network") : output.paint(Style::Bad, "not in the network yet"),
+      view.outgoing, view.parts, view.frames));
+  if (!view.problem.empty()) {
+    lines.push_back("            " + output.paint(Style::Warn, printable(view.problem)));
+  }
+  for (const PeerView& peer : view.peers) {
+    std::string line =
+        fmt::format("  board     {}  {}", printable(peer.name), output.paint(style_of(peer.state), peer.state));
+    if (peer.wanted > 0) {
+      line += fmt::format("  {} variables from it, {}, {} frames, {} updates lost", peer.wanted,
+                          peer.heard_ns < 0 ? std::string("never heard") : "heard " + human_ns(peer.heard_ns) + " ago",
+                          peer.frames, peer.lost_updates);
+    }
+    lines.push_back(line);
+    if (!peer.problem.empty()) {
+      lines.push_back("            " + output.paint(Style::Bad, printable(peer.problem)));
+    }
+  }
+  return lines;
+}
+
+JsonValue json_of(const MirrorView& view) {
+  JsonValue peers = JsonValue::array();
+  for (const PeerView& peer : view.peers) {
+    peers.push_back({{"board", peer.name},
+                     {"state", peer.state},
+                     {"problem", peer.problem},
+                     {"variables", peer.wanted},
+                     {"heard_ns", peer.heard_ns < 0 ? JsonValue() : JsonValue(peer.heard_ns)},
+                     {"tick", peer.tick},
+                     {"delay_ns", peer.delay_ns},
+                     {"frames", peer.frames},
+                     {"lost_updates", peer.lost_updates},
+                     {"refused", peer.refused},
+                     {"losses", peer.losses}});
+  }
+  JsonValue variables = JsonValue::array();
+  for (const MirroredVariable& variable : view.variables) {
+    variables.push_back({{"name", variable.name},
+                         {"owner", variable.owner},
+                         {"age_ns", variable.age_ns < 0 ? JsonValue() : JsonValue(variable.age_ns)},
+                         {"valid", variable.valid}});
+  }
+  return {{"plant", view.plant},
+          {"board", view.board},
+          {"domain", view.domain},
+          {"in_network", view.up},
+          {"problem", view.problem},
+          {"outgoing", view.outgoing},
+          {"frames", view.frames},
+          {"bytes", view.bytes},
+          {"send_errors", view.send_errors},
+          {"cycle_ns", view.cycle_ns},
+          {"cycle_max_ns", view.cycle_max_ns},
+          {"boards", peers},
+          {"variables", variables}};
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board's mirror as its node shows it in shared memory: the other boards, what comes from them and how old it is.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/verb.h"
+
+namespace indurop::tools {
+
+struct PeerView {
+  std::string name;
+  std::string state;
+  std::string problem;
+  std::uint32_t wanted = 0;
+  std::int64_t heard_ns = 0;  // ago; negative: never
+  std::uint64_t frames = 0;
+  std::uint64_t lost_updates = 0;
+  std::uint64_t refused = 0;
+  std::uint64_t losses = 0;
+  std::int64_t delay_ns = 0;
+  std::uint64_t tick = 0;
+};
+
+struct MirroredVariable {
+  std::string name;
+  std::string owner;
+  std::int64_t age_ns = 0;  // negative: never heard
+  bool valid = false;
+};
+
+struct MirrorView {
+  std::string plant;
+  std::string board;
+  int domain = 0;
+  bool up = false;
+  std::string problem;
+  std::uint32_t outgoing = 0;
+  std::uint32_t parts = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t send_errors = 0;
+  std::int64_t cycle_ns = 0;
+  std::int64_t cycle_max_ns = 0;
+  std::vector<PeerView> peers;
+  std::vector<MirroredVariable> variables;
+};
+
+// Empty if the node is no board of a plant, or its file makes no sense.
+std::optional<MirrorView> view_mirror(const std::string& node);
+std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
+JsonValue json_of(const MirrorView& view);
+
+}  // namespace indurop::tools
