@@ -23,12 +23,12 @@ class Agreement {
       if (is_first || first->second.item->type_hash == item.type_hash) {
         continue;
       }
-      std::string text = difference(*first->second.item, item);
-      text = text.empty() ? "other layout" : text;
+      const std::string what = difference(*first->second.item, item);
       const auto source = [](const T& of) { return of.source.empty() ? std::string() : " (" + of.source + ")"; };
-      report_.error(place, std::string(what_) + " " + in_quotes(item.name) + " differs between " +
-                               first->second.module + source(*first->second.item) + " and " + module + source(item) +
-                               ": " + text + "; build both with the same .glb file");
+      std::string text = std::string(what_) + " " + in_quotes(item.name) + " differs between ";
+      text += first->second.module + source(*first->second.item) + " and " + module + source(item) + ": ";
+      text += (what.empty() ? "other layout" : what) + "; build both with the same .glb file";
+      report_.error(place, std::move(text));
     }
   }
 

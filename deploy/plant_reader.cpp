@@ -189,7 +189,7 @@ class PlantReader {
     }
     VariableRule rule;
     rule.place = e.place;
-    const Attribute* name = need_attribute(e, "name", "<variable name=\"cell::speed\" owner=\"control\"/>", report_);
+    const Attribute* name = need_attribute(e, "name", R"(<variable name="cell::speed" owner="control"/>)", report_);
     if (const Attribute* owner = find_attribute(e, "owner")) {
       rule.owner = optional_attribute(e, "owner", [](const std::string&) { return std::string{}; });
       rule.owner_place = owner->value_place;

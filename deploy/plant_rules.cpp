@@ -71,9 +71,8 @@ void check_addresses(const Plant& plant, Report& report) {
     if (board.address.empty()) {
       if (!plant.multicast) {
         report.error(board.place, "the board " + in_quotes(board.name) +
-                                      " has no address, so with <multicast>off</multicast> nobody finds it; write "
-                                      "<board name=\"" +
-                                      board.name + "\" address=\"10.0.0.1\">");
+                                      " has no address, so with <multicast>off</multicast> nobody finds it; write " +
+                                      R"(<board name=")" + board.name + R"(" address="10.0.0.1">)");
       }
       continue;
     }
