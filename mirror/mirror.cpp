@@ -10,6 +10,7 @@
 #include <mutex>
 #include <vector>
 
+#include "mirror/anticipation.h"
 #include "mirror/dds_log.h"
 #include "mirror/dds_setup.h"
 #include "mirror/mirror_block.h"
@@ -26,6 +27,21 @@ namespace {
 constexpr std::int64_t kRetryNs = 500'000'000;  // joining a network that is not there
 constexpr std::int64_t kLookNs = 10'000'000;    // without a notification: somebody else may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
+
+// Until `wake`, awake in the window. False if the time passed without.
+bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
+  if (!window.empty()) {
+    if (wake.wait_until(window.begin)) {
+      return true;
+    }
+    while (rt::now_ns() < window.end) {
+      if (wake.try_wait()) {
+        return true;
+      }
+    }
+  }
+  return wake.wait_until(deadline_ns);
+}
 
 void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
   const std::size_t length = std::min(from.size(), sizeof to - 1);
@@ -218,6 +234,7 @@ void Mirror::Impl::take_catalogues() noexcept {
 
 void Mirror::Impl::send_loop(bool of_bulk) noexcept {
   rt::SignalWord& wake = of_bulk ? wake_bulk : wake_sender;
+  Anticipation anticipation;
   while (!stopping()) {
     const std::int64_t now = rt::now_ns();
     if (up.load(std::memory_order_acquire)) {
@@ -231,7 +248,10 @@ void Mirror::Impl::send_loop(bool of_bulk) noexcept {
         }
       }
     }
-    wake.wait_until(now + (of_bulk ? kBulkLookNs : kLookNs));
+    const Anticipation::Window window = settings.spin && !of_bulk ? anticipation.next(now) : Anticipation::Window{};
+    if (wait(wake, now + (of_bulk ? kBulkLookNs : kLookNs), window)) {
+      anticipation.reported(tick.load(std::memory_order_acquire), rt::now_ns());
+    }
     while (wake.try_wait()) {
     }
   }

@@ -33,6 +33,7 @@ struct Settings {
   bool one_host = false;  // all boards run here: loopback only
   std::int64_t lease_ns = 500'000'000;
   int fifo_priority = 0;            // of the mirror's threads, 0: normal scheduling
+  bool spin = false;                // the sender may be awake early, on a core that no module uses
   std::vector<int> cores;           // they may run on; empty: all
   std::vector<std::string> boards;  // all others of the plant, for the report
   std::vector<Outgoing> outgoing;

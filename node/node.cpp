@@ -394,6 +394,8 @@ bool Node::start_mirror() {
     return core == core_ || std::any_of(config_.modules.begin(), config_.modules.end(),
                                         [core](const deploy::Module& module) { return module.core == core; });
   });
+  const auto spin = options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}));
+  mirror_settings_->spin = !cores.empty() && spin.mode != deploy::SpinSetting::Mode::Off && obtained_.fifo != 0;
   mirror_settings_->cores = cores.empty() ? rt::allowed_cores() : cores;
   auto started = mirror::Mirror::start(*mirror_settings_, options_.node, *store_, run_->tick);
   if (!started) {
