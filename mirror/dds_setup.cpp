@@ -41,16 +41,18 @@ std::string discovery(const Settings& settings) {
   std::string peers;
   if (settings.one_host) {
     peers = "<Peer address=\"127.0.0.1\"/>";
-  } else if (!settings.multicast) {
+  } else if (!settings.multicast || settings.known_ports) {
     for (const std::string& peer : settings.peers) {
       peers += fmt::format("<Peer address=\"{}\"/>", xml_text(peer));
     }
   }
-  if (!peers.empty()) {
+  if (!peers.empty() || settings.known_ports) {
     text += fmt::format(
-        "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
-        "<Peers>{}</Peers>",
-        kParticipantsPerHost, peers);
+        "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
+        kParticipantsPerHost);
+  }
+  if (!peers.empty()) {
+    text += fmt::format("<Peers>{}</Peers>", peers);
   }
   return "<Discovery>" + text + "</Discovery>";
 }
@@ -126,6 +128,10 @@ std::string frames_topic(const std::string& plant, const std::string& board, Str
 
 std::string catalogue_topic(const std::string& plant) {
   return fmt::format("indurop/{}/{}/catalogue", kProtocol, plant);
+}
+
+std::string beacon_topic(const std::string& plant) {
+  return fmt::format("indurop/{}/{}/beacon", kProtocol, plant);
 }
 
 Entity make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,

@@ -25,6 +25,7 @@ Participant join_plant(const Settings& settings, std::string& problem);
 // Topic names are the protocol: boards of another protocol do not see each other at all.
 std::string frames_topic(const std::string& plant, const std::string& board, Stream stream);
 std::string catalogue_topic(const std::string& plant);
+std::string beacon_topic(const std::string& plant);
 
 // Reliable or not, last value kept for late joiners, liveliness with the plant's lease.
 Entity make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mirror/anticipation.h"
+#include "mirror/beacons.h"
 #include "mirror/dds_log.h"
 #include "mirror/dds_setup.h"
 #include "mirror/mirror_block.h"
@@ -76,6 +77,9 @@ struct Mirror::Impl {
   std::uint64_t session;
 
   std::unique_ptr<Sender> sender;
+  std::unique_ptr<Beacons> beacons;
+  std::mutex schedule_mutex;
+  Schedule schedule;
   std::vector<std::unique_ptr<Receiver>> receivers;
   Participant joined;
   Entity catalogues;
@@ -102,6 +106,7 @@ Status Mirror::Impl::run() {
     copy_name(block.peers()[i].name, settings.boards[i]);
   }
   sender = std::make_unique<Sender>(store, settings, session, block);
+  beacons = std::make_unique<Beacons>(settings, session, block);
   for (std::size_t i = 0; i < settings.boards.size(); ++i) {
     std::vector<std::string> variables;
     for (const Incoming& in : settings.incoming) {
@@ -151,7 +156,7 @@ bool Mirror::Impl::join(std::string& problem) {
     return false;
   }
   const dds_entity_t participant = joined.participant.get();
-  if (!sender->open(participant, settings, problem)) {
+  if (!sender->open(participant, settings, problem) || !beacons->open(participant, settings, problem)) {
     return false;
   }
   dds_listener_t* listener = dds_create_listener(this);
@@ -191,7 +196,12 @@ void Mirror::Impl::manage() {
   while (!stopping()) {
     take_catalogues();
     const std::int64_t now = rt::now_ns();
-    std::int64_t next = now + kRetryNs;
+    Schedule current;
+    {
+      const std::lock_guard<std::mutex> guard(schedule_mutex);
+      current = schedule;
+    }
+    std::int64_t next = beacons->cycle(now, current);
     for (const auto& receiver : receivers) {
       next = std::min(next, receiver->expire(now));
     }
@@ -271,6 +281,7 @@ void Mirror::Impl::end() noexcept {
   for (const auto& receiver : receivers) {
     receiver->close();
   }
+  beacons.reset();
   sender.reset();
   catalogues.reset();
   joined.participant.reset();
@@ -304,6 +315,11 @@ Mirror::~Mirror() {
 
 void Mirror::notify() noexcept {
   impl_->wake_sender.wake();
+}
+
+void Mirror::announce(const Schedule& schedule) noexcept {
+  const std::lock_guard<std::mutex> guard(impl_->schedule_mutex);
+  impl_->schedule = schedule;
 }
 
 void Mirror::stop() noexcept {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "mirror/schedule.h"
 #include "mirror/settings.h"
 #include "vars/store.h"
 
@@ -29,6 +30,9 @@ class Mirror {
 
   // Something may have changed in the store: looks and sends soon. Real-time safe, any thread.
   void notify() noexcept;
+
+  // The schedule has begun: for comparison with other boards'.
+  void announce(const Schedule& schedule) noexcept;
 
   // Leaves the plant: other boards see this one as silent at once. Not real-time safe.
   void stop() noexcept;

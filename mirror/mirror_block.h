@@ -14,7 +14,7 @@
 namespace indurop::mirror {
 
 inline constexpr std::uint64_t kMirrorMagic = 0x314d5255444e4931ULL;  // "1INDURM1"
-inline constexpr std::uint32_t kMirrorAbi = 1;
+inline constexpr std::uint32_t kMirrorAbi = 2;
 inline constexpr std::size_t kBoardName = 48;
 inline constexpr std::size_t kProblemText = 240;
 
@@ -78,9 +78,14 @@ struct PeerRecord {
   std::atomic<std::uint64_t> lost_updates;  // superseded or lost before they came
   std::atomic<std::uint64_t> refused;       // frames of another layout, or cut off
   std::atomic<std::uint64_t> busy;  // values not written because a local lock was not free; the next frame repeats them
-  std::atomic<std::uint64_t> losses;   // how often it fell silent
-  std::atomic<std::int64_t> delay_ns;  // CLOCK_REALTIME here minus sender's stamp, of the last frame
-  std::atomic<std::uint64_t> tick;     // of the sender
+  std::atomic<std::uint64_t> losses;          // how often it fell silent
+  std::atomic<std::int64_t> delay_ns;         // CLOCK_REALTIME here minus sender's stamp, of the last frame
+  std::atomic<std::uint64_t> tick;            // of the sender
+  std::atomic<std::int64_t> epoch_wall_ns;    // CLOCK_REALTIME there of its tick 0, 0: no schedule
+  std::atomic<std::int64_t> clock_offset_ns;  // own clock minus its, plus or minus the bound
+  std::atomic<std::int64_t> clock_bound_ns;
+  std::atomic<std::uint32_t> clock_known;         // 1: offset and bound are measured
+  std::atomic<std::uint32_t> clock_synchronised;  // 1: it says its clock is kept by others
   SharedText problem;
 };
 
@@ -109,6 +114,9 @@ struct MirrorBlock {
   std::atomic<std::uint64_t> dds_messages;  // complaints of DDS
   std::atomic<std::int64_t> cycle_ns;       // last time it took to look and send
   std::atomic<std::int64_t> cycle_max_ns;
+  std::atomic<std::int64_t> epoch_wall_ns;        // CLOCK_REALTIME of tick 0, 0: no schedule
+  std::atomic<std::int64_t> clock_error_ns;       // as the kernel knows it
+  std::atomic<std::uint32_t> clock_synchronised;  // 1: kept by PTP, NTP or the like
   SharedText problem;
 
   PeerRecord* peers() noexcept { return reinterpret_cast<PeerRecord*>(this + 1); }

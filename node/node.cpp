@@ -142,7 +142,7 @@ bool Node::read_plant(std::vector<deploy::Diagnostic>& diagnostics) {
     return false;
   }
   deploy::Plant& plant = read.plant;
-  deploy::PlantCheck checked = deploy::check_plant(plant, {true, options_.adjust});
+  deploy::PlantCheck checked = deploy::check_plant(plant, {true, options_.adjust, true, options_.board});
   diagnostics.insert(diagnostics.end(), checked.diagnostics.begin(), checked.diagnostics.end());
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {
     board_names_.push_back(plant.boards[i].name);
@@ -303,12 +303,17 @@ bool Node::load_modules() {
 }
 
 bool Node::start_modules() {
-  engine_ = std::make_unique<scheduler::Engine>(
-      *run_, tasks_,
-      scheduler::EngineSettings{setup_.basic_period_ns, core_, obtained_.fifo != 0,
-                                to_spin(options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}))),
-                                rt::kNanosPerSecond},
-      hooks(), clock_);
+  scheduler::EngineSettings settings;
+  settings.basic_period_ns = setup_.basic_period_ns;
+  settings.primary_core = core_;
+  settings.realtime = obtained_.fifo != 0;
+  settings.spin = to_spin(options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{})));
+  if (mirror_settings_) {
+    // Boards with the same macro period begin it together, as far as their clocks agree. A long one is not waited for.
+    settings.grid_ns = setup_.macro_period_ns <= rt::kNanosPerSecond ? setup_.macro_period_ns : setup_.basic_period_ns;
+    settings.phase_ns = (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
+  }
+  engine_ = std::make_unique<scheduler::Engine>(*run_, tasks_, settings, hooks(), clock_);
   phases_ = std::make_unique<Phases>(config_, *run_, libraries_, console_, signals_, hooks());
   normal_threads_ = std::make_unique<NormalThreads>(config_, *run_, libraries_, hooks());
   leave_nothing_ = false;  // from here on there is something to look at
@@ -373,6 +378,9 @@ bool Node::start_schedule() {
   if (const Status started = engine_->start(ticks); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return fail(kFailed);
+  }
+  if (mirror_) {
+    mirror_->announce({run_->epoch_ns + rt::wall_ns() - rt::now_ns(), setup_.basic_period_ns, setup_.macro_period_ns});
   }
   normal_threads_->start();
   run_->state.store(scheduler::NodeState::Running);

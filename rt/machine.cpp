@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/timex.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -64,6 +65,13 @@ ShortIdle::~ShortIdle() {
   if (file_ >= 0) {
     ::close(file_);
   }
+}
+
+ClockSync clock_sync() noexcept {
+  timex state{};
+  const int result = ::adjtimex(&state);
+  return {result >= 0 && result != TIME_ERROR && (state.status & STA_UNSYNC) == 0,
+          static_cast<std::int64_t>(state.maxerror) * 1000};
 }
 
 bool kernel_is_preempt_rt() noexcept {

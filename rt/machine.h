@@ -5,6 +5,8 @@
 
 #include <indurop/result.h>
 
+#include <cstdint>
+
 namespace indurop::rt {
 
 // Locks present and future memory of this process. Errors: PermissionDenied, NoSpace (the limit is too small).
@@ -28,6 +30,13 @@ class ShortIdle {
 };
 
 bool kernel_is_preempt_rt() noexcept;
+
+// Is CLOCK_REALTIME kept in step with others (PTP, NTP, chrony), and how wrong may it be at most.
+struct ClockSync {
+  bool synchronised = false;
+  std::int64_t max_error_ns = 0;
+};
+ClockSync clock_sync() noexcept;
 // Share of a core the kernel leaves to real-time threads, in 1/1000; 1000 if unlimited or unknown.
 int throttle_permille() noexcept;
 

@@ -189,6 +189,10 @@ Status Engine::start(std::uint64_t ticks) {
   const std::int64_t basic = settings_.basic_period_ns;
   const std::int64_t warm_up = std::max<std::int64_t>(kWarmUpNs / basic, 3) * basic;
   epoch_ns_ = clock_.now() + kLeadNs + warm_up;
+  if (settings_.grid_ns > 0) {
+    const std::int64_t past = (epoch_ns_ - settings_.phase_ns) % settings_.grid_ns;
+    epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
+  }
   block_.epoch_ns = epoch_ns_;
   ticking_.store(static_cast<int>(cores_.size()), std::memory_order_release);
   for (const auto& core : cores_) {

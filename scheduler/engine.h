@@ -23,6 +23,9 @@ struct EngineSettings {
   int primary_core = 0;
   bool realtime = true;  // false: SCHED_FIFO is not to be had; order is then kept by waiting
   SpinSettings spin;
+  // Tick 0 falls on a time that leaves the remainder `phase_ns` when divided by `grid_ns`; 0: as soon as possible.
+  std::int64_t grid_ns = 0;
+  std::int64_t phase_ns = 0;
   std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "mirror/mirror_block.h"
 #include "rt/clock.h"
@@ -42,7 +43,12 @@ PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
           .refused = record.refused.load(kRelaxed),
           .losses = record.losses.load(kRelaxed),
           .delay_ns = record.delay_ns.load(kRelaxed),
-          .tick = record.tick.load(kRelaxed)};
+          .tick = record.tick.load(kRelaxed),
+          .clock_known = record.clock_known.load(std::memory_order_acquire) != 0,
+          .clock_offset_ns = record.clock_offset_ns.load(kRelaxed),
+          .clock_bound_ns = record.clock_bound_ns.load(kRelaxed),
+          .clock_synchronised = record.clock_synchronised.load(kRelaxed) != 0,
+          .epoch_wall_ns = record.epoch_wall_ns.load(kRelaxed)};
 }
 
 std::vector<MirroredVariable> view_variables(const std::string& node, const mirror::MirrorBlock& block,
@@ -92,6 +98,9 @@ std::optional<MirrorView> view_mirror(const std::string& node) {
                   .send_errors = block->send_errors.load(kRelaxed),
                   .cycle_ns = block->cycle_ns.load(kRelaxed),
                   .cycle_max_ns = block->cycle_max_ns.load(kRelaxed),
+                  .clock_synchronised = block->clock_synchronised.load(kRelaxed) != 0,
+                  .clock_error_ns = block->clock_error_ns.load(kRelaxed),
+                  .epoch_wall_ns = block->epoch_wall_ns.load(kRelaxed),
                   .peers = {},
                   .variables = view_variables(node, *block, peers, block->incoming, now)};
   for (std::uint32_t i = 0; i < peers; ++i) {
@@ -119,6 +128,11 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
                           peer.heard_ns < 0 ? std::string("never heard") : "heard " + human_ns(peer.heard_ns) + " ago",
                           peer.frames, peer.lost_updates);
     }
+    if (peer.clock_known) {
+      line += fmt::format("  clocks {} apart (+-{}){}", human_ns(std::abs(peer.clock_offset_ns)),
+                          human_ns(peer.clock_bound_ns),
+                          view.clock_synchronised && peer.clock_synchronised ? "" : ", not synchronised");
+    }
     lines.push_back(line);
     if (!peer.problem.empty()) {
       lines.push_back("            " + output.paint(Style::Bad, printable(peer.problem)));
@@ -140,7 +154,11 @@ JsonValue json_of(const MirrorView& view) {
                      {"frames", peer.frames},
                      {"lost_updates", peer.lost_updates},
                      {"refused", peer.refused},
-                     {"losses", peer.losses}});
+                     {"losses", peer.losses},
+                     {"clock_offset_ns", peer.clock_known ? JsonValue(peer.clock_offset_ns) : JsonValue()},
+                     {"clock_bound_ns", peer.clock_known ? JsonValue(peer.clock_bound_ns) : JsonValue()},
+                     {"clock_synchronised", peer.clock_synchronised},
+                     {"epoch_wall_ns", peer.epoch_wall_ns}});
   }
   JsonValue variables = JsonValue::array();
   for (const MirroredVariable& variable : view.variables) {
@@ -160,6 +178,9 @@ JsonValue json_of(const MirrorView& view) {
           {"send_errors", view.send_errors},
           {"cycle_ns", view.cycle_ns},
           {"cycle_max_ns", view.cycle_max_ns},
+          {"clock_synchronised", view.clock_synchronised},
+          {"clock_error_ns", view.clock_error_ns},
+          {"epoch_wall_ns", view.epoch_wall_ns},
           {"boards", peers},
           {"variables", variables}};
 }

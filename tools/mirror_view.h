@@ -23,6 +23,11 @@ struct PeerView {
   std::uint64_t losses = 0;
   std::int64_t delay_ns = 0;
   std::uint64_t tick = 0;
+  bool clock_known = false;
+  std::int64_t clock_offset_ns = 0;  // own clock minus its
+  std::int64_t clock_bound_ns = 0;
+  bool clock_synchronised = false;
+  std::int64_t epoch_wall_ns = 0;  // of its tick 0
 };
 
 struct MirroredVariable {
@@ -45,6 +50,9 @@ struct MirrorView {
   std::uint64_t send_errors = 0;
   std::int64_t cycle_ns = 0;
   std::int64_t cycle_max_ns = 0;
+  bool clock_synchronised = false;
+  std::int64_t clock_error_ns = 0;
+  std::int64_t epoch_wall_ns = 0;
   std::vector<PeerView> peers;
   std::vector<MirroredVariable> variables;
 };

@@ -168,7 +168,7 @@ int run_local(Context& context, const std::filesystem::path& program, const std:
   bool ok = read.ok();
   if (ok) {
     const bool adjust = std::find(options.begin(), options.end(), "--adjust") != options.end();
-    const deploy::PlantCheck check = deploy::check_plant(read.plant, {true, adjust});
+    const deploy::PlantCheck check = deploy::check_plant(read.plant, {true, adjust, true, {}});
     diagnostics.insert(diagnostics.end(), check.diagnostics.begin(), check.diagnostics.end());
     ok = check.ok();
   }

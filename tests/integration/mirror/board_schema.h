@@ -34,7 +34,7 @@ inline schema::Schema make_schema(const std::string& variant) {
   schema.variables.push_back(scalar("t::loose", schema::Base::Int32));
   schema.variables.push_back(scalar("t::reply", schema::Base::Int64));
   schema::Variable guarded = scalar("t::guarded", schema::Base::Int32);
-  guarded.maxage_ns = 60'000'000;
+  guarded.maxage_ns = 1'000'000'000;
   guarded.fallback = {0xff, 0xff, 0xff, 0xff};
   schema.variables.push_back(guarded);
   for (schema::Variable& v : schema.variables) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/beacons.h"
+
+#include <algorithm>
+
+#include "mirror/dds_setup.h"
+#include "rt/clock.h"
+#include "rt/machine.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr std::int64_t kEveryNs = 500'000'000;
+
+}  // namespace
+
+Beacons::Beacons(const Settings& settings, std::uint64_t session, MirrorBlock& block)
+    : board_(settings.board), session_(session), block_(block) {
+  for (const std::string& name : settings.boards) {
+    peers_.push_back({name, 0, {}});
+  }
+}
+
+bool Beacons::open(dds_entity_t participant, const Settings& settings, std::string& problem) {
+  // A beacon that is repeated late would only tell a wrong time.
+  writer_ =
+      make_writer(participant, indurop_wire_Beacon_desc, beacon_topic(settings.plant), settings, Stream::BestEffort);
+  dds_listener_t* listener = dds_create_listener(this);
+  dds_lset_data_available(listener, &Beacons::on_data);
+  reader_ = make_reader(participant, indurop_wire_Beacon_desc, beacon_topic(settings.plant), settings,
+                        Stream::BestEffort, listener);
+  dds_delete_listener(listener);
+  if (!writer_.ok() || !reader_.ok()) {
+    problem = "cannot exchange beacons: " + (writer_.ok() ? reader_.why() : writer_.why());
+  }
+  return writer_.ok() && reader_.ok();
+}
+
+void Beacons::close() noexcept {
+  reader_.reset();
+  writer_.reset();
+}
+
+std::int64_t Beacons::cycle(std::int64_t now_ns, const Schedule& schedule) noexcept {
+  if (now_ns < due_ns_) {
+    return due_ns_;
+  }
+  due_ns_ = now_ns + kEveryNs;
+  const rt::ClockSync sync = rt::clock_sync();
+  block_.epoch_wall_ns.store(schedule.epoch_wall_ns, std::memory_order_relaxed);
+  block_.clock_synchronised.store(sync.synchronised ? 1 : 0, std::memory_order_relaxed);
+  block_.clock_error_ns.store(sync.max_error_ns, std::memory_order_relaxed);
+  std::vector<indurop_wire_Heard> heard;
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    for (Peer& peer : peers_) {
+      if (peer.clock.heard()) {
+        heard.push_back({peer.name.data(), peer.clock.least_delay()});
+      }
+    }
+  }
+  indurop_wire_Beacon beacon{};
+  beacon.board = board_.data();
+  beacon.session = session_;
+  beacon.epoch_ns = schedule.epoch_wall_ns;
+  beacon.basic_period_ns = schedule.basic_ns;
+  beacon.macro_period_ns = schedule.macro_ns;
+  beacon.synchronised = sync.synchronised;
+  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(heard.size());
+  beacon.heard._buffer = heard.data();
+  beacon.source_time_ns = rt::wall_ns();
+  if (dds_write(writer_.get(), &beacon) < 0) {
+    block_.send_errors.fetch_add(1, std::memory_order_relaxed);
+  }
+  return due_ns_;
+}
+
+void Beacons::on_data(dds_entity_t reader, void* self) {
+  static_cast<Beacons*>(self)->take(reader);
+}
+
+void Beacons::take(dds_entity_t reader) noexcept {
+  const std::int64_t arrival = rt::wall_ns();
+  void* samples[1] = {nullptr};
+  dds_sample_info_t infos[1];
+  while (dds_take(reader, samples, infos, 1, 1) > 0) {
+    if (infos[0].valid_data) {
+      heard(*static_cast<const indurop_wire_Beacon*>(samples[0]), arrival);
+    }
+    (void)dds_return_loan(reader, samples, 1);
+    samples[0] = nullptr;
+  }
+}
+
+void Beacons::heard(const indurop_wire_Beacon& beacon, std::int64_t arrival_ns) noexcept {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto found =
+      std::find_if(peers_.begin(), peers_.end(), [&](const Peer& peer) { return peer.name == beacon.board; });
+  if (found == peers_.end()) {
+    return;
+  }
+  PeerRecord& record = block_.peers()[found - peers_.begin()];
+  if (found->session != beacon.session) {
+    found->session = beacon.session;
+    found->clock.reset();
+    record.clock_known.store(0, std::memory_order_relaxed);
+  }
+  found->clock.arrived(arrival_ns - beacon.source_time_ns);
+  record.epoch_wall_ns.store(beacon.epoch_ns, std::memory_order_relaxed);
+  record.clock_synchronised.store(beacon.synchronised ? 1 : 0, std::memory_order_relaxed);
+  for (std::uint32_t i = 0; i < beacon.heard._length; ++i) {
+    if (board_ == beacon.heard._buffer[i].board) {
+      const ClockCompare::Offset offset = found->clock.offset(beacon.heard._buffer[i].delay_ns);
+      record.clock_offset_ns.store(offset.ns, std::memory_order_relaxed);
+      record.clock_bound_ns.store(offset.bound, std::memory_order_relaxed);
+      record.clock_known.store(1, std::memory_order_release);
+    }
+  }
+}
+
+}  // namespace indurop::mirror
