@@ -100,6 +100,9 @@ std::string run_file(const std::string& node) {
 std::string mirror_file(const std::string& node) {
   return "indurop." + node + ".mirror";
 }
+std::string external_file(const std::string& node) {
+  return "indurop." + node + ".external";
+}
 std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
 }

@@ -22,10 +22,11 @@ inline constexpr const char* kShmDirectory = "/dev/shm";
 // [A-Za-z0-9_-]{1,40}
 bool valid_node_name(std::string_view node) noexcept;
 // File names of a node in kShmDirectory.
-std::string block_file(const std::string& node);   // indurop.<node>
-std::string run_file(const std::string& node);     // indurop.<node>.run
-std::string mirror_file(const std::string& node);  // indurop.<node>.mirror
-std::string lock_file(const std::string& node);    // indurop.<node>.lock
+std::string block_file(const std::string& node);     // indurop.<node>
+std::string run_file(const std::string& node);       // indurop.<node>.run
+std::string mirror_file(const std::string& node);    // indurop.<node>.mirror
+std::string external_file(const std::string& node);  // indurop.<node>.external
+std::string lock_file(const std::string& node);      // indurop.<node>.lock
 
 // Who may do what: the owner and its group write, everybody reads. Set explicitly, the umask plays no part.
 inline constexpr mode_t kShmMode = 0664;

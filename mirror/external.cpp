@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/external.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "mirror/dds_setup.h"
+#include "mirror/external_block.h"
+#include "mirror/external_topic.h"
+#include "mirror/external_type.h"
+#include "rt/clock.h"
+#include "rt/signal_word.h"
+#include "rt/thread.h"
+#include "vars/shm_file.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr std::int64_t kRetryNs = 500'000'000;  // joining a network that is not there
+constexpr std::int64_t kLookNs = 10'000'000;    // for new readers
+constexpr std::int64_t kLeaseNs = 2'000'000'000;
+constexpr std::size_t kEagerTopics = 500;  // more are announced when somebody asks: discovery has its price
+
+Settings network_of(const ExternalSettings& external) {
+  Settings settings;
+  settings.domain = external.domain;
+  settings.interface_name = external.interface_name;
+  settings.address = external.address;
+  settings.multicast = external.multicast;
+  settings.peers = external.peers;
+  settings.peers.emplace_back("127.0.0.1");  // tools on this board
+  settings.one_host = external.one_host || external.interface_name == "lo";
+  settings.lease_ns = kLeaseNs;
+  return settings;
+}
+
+}  // namespace
+
+struct External::Impl {
+  Impl(const ExternalSettings& wanted, vars::Store& store, vars::ShmFile&& memory);
+  Status run();
+  void end() noexcept;
+  void work();
+  bool join(std::string& problem);
+  bool open_topics(std::string& problem);
+  void look_for_readers() noexcept;
+  std::int64_t serve(std::int64_t now_ns);
+  [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
+
+  ExternalSettings settings;
+  vars::ShmFile file;
+  ExternalBlock& block;
+  std::vector<std::unique_ptr<ExternalTopic>> topics;
+  std::map<std::string, ExternalTopic*, std::less<>> unopened;  // by topic name
+  Participant joined;
+  Entity subscriptions;  // readers in the network; only if there are unopened topics
+  std::atomic<bool> stop{false};
+  rt::SignalWord wake;
+  rt::Thread thread;
+};
+
+External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, vars::ShmFile&& memory)
+    : settings(wanted), file(std::move(memory)), block(*reinterpret_cast<ExternalBlock*>(file.data())) {
+  wake.init(false);
+  for (const Exported& exported : settings.variables) {
+    const auto* entry = store.find(abi::fnv1a64(exported.variable.data(), exported.variable.size()));
+    if (entry == nullptr || exported.type == nullptr ||
+        !descriptor_problem(exported.type, store.schema().variables[entry->schema_index]).empty()) {
+      continue;
+    }
+    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, block, wake));
+    block.writable += exported.writable ? 1U : 0U;
+  }
+  block.abi = kExternalAbi;
+  block.domain = settings.domain;
+  block.topics = static_cast<std::uint32_t>(topics.size());
+  block.magic.store(kExternalMagic, std::memory_order_release);
+}
+
+Status External::Impl::run() {
+  if (Status published = file.publish(); !published) {
+    return published;
+  }
+  rt::ThreadSettings how;
+  how.name = "irp-external";
+  auto started = rt::Thread::start(how, [this] { work(); });
+  if (!started) {
+    return started.error();
+  }
+  thread = std::move(started).value();
+  return {};
+}
+
+bool External::Impl::join(std::string& problem) {
+  joined = join_plant(network_of(settings), problem);
+  if (!joined.participant.ok()) {
+    return false;
+  }
+  if (!open_topics(problem)) {
+    for (const auto& topic : topics) {
+      topic->close();
+    }
+    subscriptions.reset();
+    joined.participant.reset();
+    joined.domain.reset();
+    return false;
+  }
+  return true;
+}
+
+bool External::Impl::open_topics(std::string& problem) {
+  const dds_entity_t participant = joined.participant.get();
+  const bool eager = topics.size() <= kEagerTopics;
+  for (const auto& topic : topics) {
+    if (!(eager ? topic->open(participant, problem) : topic->open_reader(participant, problem))) {
+      return false;
+    }
+    if (!eager) {
+      unopened.emplace(topic->topic_name(), topic.get());
+    }
+  }
+  if (!eager) {
+    subscriptions = Entity(dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr));
+    if (!subscriptions.ok()) {
+      problem = "cannot look for readers: " + subscriptions.why();
+      return false;
+    }
+  }
+  return true;
+}
+
+// Opens the topics that somebody in the network wants to read.
+void External::Impl::look_for_readers() noexcept {
+  if (unopened.empty()) {
+    return;
+  }
+  constexpr std::uint32_t kAtOnce = 32;
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  for (;;) {
+    samples[0] = nullptr;
+    const int count = dds_take(subscriptions.get(), samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) {
+      return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const auto& reader = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+      const auto found = infos[i].valid_data && reader.topic_name != nullptr
+                             ? unopened.find(std::string_view(reader.topic_name))
+                             : unopened.end();
+      std::string problem;
+      if (found != unopened.end() && found->second->open(joined.participant.get(), problem)) {
+        unopened.erase(found);
+      } else if (!problem.empty()) {
+        block.problem.set(problem);
+      }
+    }
+    (void)dds_return_loan(subscriptions.get(), samples.data(), count);
+  }
+}
+
+// One look at everything; when the next one is due.
+std::int64_t External::Impl::serve(std::int64_t now_ns) {
+  look_for_readers();
+  std::int64_t next = now_ns + kLookNs;
+  std::uint32_t read = 0;
+  for (const auto& topic : topics) {
+    topic->receive();
+    if (topic->is_open()) {
+      next = std::min(next, topic->publish(now_ns));
+      read += topic->is_read() ? 1U : 0U;
+    }
+    if (const std::string complaint = topic->complaint(); !complaint.empty()) {
+      block.problem.set(complaint);
+    }
+  }
+  block.read.store(read, std::memory_order_relaxed);
+  const std::int64_t took = rt::now_ns() - now_ns;
+  if (took > block.cycle_max_ns.load(std::memory_order_relaxed)) {
+    block.cycle_max_ns.store(took, std::memory_order_relaxed);
+  }
+  return next;
+}
+
+void External::Impl::work() {
+  // DDS's own threads inherit where they may run from the one that creates the participant.
+  if (!settings.cores.empty()) {
+    (void)rt::pin_to_cores(settings.cores);
+  }
+  while (!stopping()) {
+    std::string problem;
+    const bool done = join(problem);
+    block.problem.set(problem);
+    if (done) {
+      break;
+    }
+    wake.wait_until(rt::now_ns() + kRetryNs);
+  }
+  if (stopping()) {
+    return;
+  }
+  block.network.store(Network::Up, std::memory_order_release);
+  while (!stopping()) {
+    const std::int64_t next = serve(rt::now_ns());
+    wake.wait_until(std::max(next, rt::now_ns() + kExternalFastestNs / 2));
+    while (wake.try_wait()) {
+    }
+  }
+  (void)serve(rt::now_ns() + kRetryNs);  // what was written last, whenever it were due
+}
+
+void External::Impl::end() noexcept {
+  stop.store(true, std::memory_order_release);
+  wake.wake();
+  thread.join();
+  for (const auto& topic : topics) {
+    topic->close();
+  }
+  subscriptions.reset();
+  joined.participant.reset();
+  joined.domain.reset();
+}
+
+Result<External> External::start(const ExternalSettings& settings, const std::string& node, vars::Store& store) {
+  auto file = vars::ShmFile::create(vars::external_file(node), sizeof(ExternalBlock));
+  if (!file) {
+    return file.error();
+  }
+  auto impl = std::make_unique<Impl>(settings, store, std::move(file).value());
+  if (Status running = impl->run(); !running) {
+    impl->end();
+    return running.error();
+  }
+  return External(std::move(impl));
+}
+
+External::External(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+External::External(External&&) noexcept = default;
+External& External::operator=(External&& other) noexcept {
+  std::swap(impl_, other.impl_);
+  return *this;
+}
+External::~External() {
+  stop();
+}
+
+void External::stop() noexcept {
+  if (impl_ != nullptr) {
+    impl_->end();
+    impl_.reset();
+  }
+}
+
+}  // namespace indurop::mirror

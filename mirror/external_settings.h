@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a board shows to tools of others and takes from them, told by the node. No DDS here.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace indurop::mirror {
+
+// A variable of this board as a topic of its own.
+struct Exported {
+  std::string variable;        // full name
+  const void* type = nullptr;  // dds_topic_descriptor_t of its IDL type, valid until the end
+  bool writable = false;       // whoever writes the topic sets the variable
+  std::int64_t every_ns = 0;   // published at most this often, 0: kExternalEveryNs
+};
+inline constexpr std::int64_t kExternalEveryNs = 10'000'000;
+inline constexpr std::int64_t kExternalFastestNs = 1'000'000;
+
+struct ExternalSettings {
+  int domain = 0;                  // DDS domain, 0..230
+  std::string interface_name;      // as of Settings
+  std::string address;             // likewise
+  bool multicast = true;           // false: `peers` and this board are looked for
+  std::vector<std::string> peers;  // addresses
+  bool one_host = false;           // loopback only
+  std::vector<int> cores;          // the threads may run on; empty: all
+  std::vector<Exported> variables;
+};
+
+}  // namespace indurop::mirror

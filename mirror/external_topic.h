@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// One variable as a topic: publishes what changed while somebody reads it, takes over what is written from outside.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mirror/entity.h"
+#include "mirror/external_block.h"
+#include "mirror/external_settings.h"
+#include "rt/signal_word.h"
+#include "schema/schema.h"
+#include "vars/store.h"
+
+namespace indurop::mirror {
+
+// All but the listeners runs in one thread.
+class ExternalTopic {
+ public:
+  // `variable` is known to the store. `wake` is for what came from outside.
+  ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, ExternalBlock& block,
+                rt::SignalWord& wake);
+  ExternalTopic(const ExternalTopic&) = delete;
+  ExternalTopic& operator=(const ExternalTopic&) = delete;
+
+  // Makes what is missing of topic, writer and, for a writable variable, reader. False: `problem` says why.
+  bool open(dds_entity_t participant, std::string& problem);
+  // Topic and reader only: the writer is made when somebody wants to read.
+  bool open_reader(dds_entity_t participant, std::string& problem);
+  [[nodiscard]] bool is_open() const noexcept { return writer_.ok(); }
+  void close() noexcept;
+
+  // Publishes if it is time and there is a reason to. When to come back at the latest.
+  std::int64_t publish(std::int64_t now_ns) noexcept;
+  // Takes over the newest value from outside.
+  void receive() noexcept;
+  // What the listeners noticed since the last call; empty: nothing.
+  std::string complaint();
+
+  [[nodiscard]] const std::string& topic_name() const noexcept { return topic_name_; }
+  [[nodiscard]] bool is_read() const noexcept { return readers_.load(std::memory_order_acquire) > 0; }
+  [[nodiscard]] std::int64_t every_ns() const noexcept { return every_ns_; }
+
+ private:
+  bool make_topic(dds_entity_t participant, std::string& problem);
+  [[nodiscard]] dds_listener_t* listener();
+  bool refresh() noexcept;
+  bool write(std::int64_t now_ns) noexcept;
+  void take_over(const std::uint8_t* sample) noexcept;
+  [[nodiscard]] const schema::Variable& variable() const;
+
+  vars::Store& store_;
+  const vars::DirectoryEntry& entry_;
+  const abi::RingHeader* ring_ = nullptr;  // null: scalar
+  const dds_topic_descriptor_t& type_;
+  ExternalBlock& block_;
+  rt::SignalWord& wake_;
+  std::string topic_name_;
+  bool writable_;
+  bool texts_;
+  std::int64_t every_ns_;
+
+  Entity topic_;
+  Entity writer_;
+  Entity reader_;
+  std::vector<std::uint8_t> sent_;     // the value published last
+  std::vector<std::uint8_t> scratch_;  // of the same size
+  std::uint64_t seen_ = ~std::uint64_t{0};
+  int known_readers_ = 0;
+  std::int64_t due_ns_ = 0;
+  std::int64_t repeat_ns_ = 0;  // 0: not
+  bool again_ = true;           // publish although nothing changed
+  std::string refusal_;
+
+  std::atomic<int> readers_{0};
+  std::atomic<bool> arrived_{false};
+  std::atomic<std::uint32_t> disagreements_{0};
+  std::uint32_t told_ = 0;
+};
+
+}  // namespace indurop::mirror

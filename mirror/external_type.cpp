@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/external_type.h"
+
+#include <dds/dds.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace indurop::mirror {
+namespace {
+
+std::string replace_scopes(const std::string& name, const char* by) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (name.compare(i, 2, "::") == 0) {
+      out += by;
+      ++i;
+    } else {
+      out += name[i];
+    }
+  }
+  return out;
+}
+
+void tidy(const schema::Type& type, std::uint8_t* at, std::uint64_t size) noexcept {
+  const std::uint64_t step = type.element_size;
+  if (!holds_text(type) || step == 0) {
+    return;
+  }
+  for (std::uint64_t offset = 0; offset + step <= size; offset += step) {
+    if (type.base == schema::Base::Text) {
+      std::uint8_t* const end = at + offset + step;
+      std::fill(std::find(at + offset, end - 1, std::uint8_t{0}), end, std::uint8_t{0});
+      continue;
+    }
+    for (const schema::Field& field : type.fields) {
+      tidy(field.type, at + offset + field.offset, field.type.size());
+    }
+  }
+}
+
+}  // namespace
+
+std::string idl_type_name(const schema::Variable& variable) {
+  const bool plain = variable.type.base == schema::Base::Struct && variable.type.dims.empty();
+  return plain ? variable.type.name : variable.name + "_";
+}
+
+std::string descriptor_symbol(const schema::Variable& variable) {
+  return replace_scopes(idl_type_name(variable), "_") + "_desc";
+}
+
+std::string descriptor_problem(const void* descriptor, const schema::Variable& variable) {
+  const auto& type = *static_cast<const dds_topic_descriptor_t*>(descriptor);
+  const std::string name = idl_type_name(variable);
+  if (type.m_typename == nullptr || name != type.m_typename) {
+    return fmt::format("its type is {} where {} is expected", type.m_typename == nullptr ? "?" : type.m_typename, name);
+  }
+  if (type.m_size != variable.type.size()) {
+    return fmt::format("{} has {} bytes there and {} here", name, type.m_size, variable.type.size());
+  }
+  return type.m_nkeys == 0 ? std::string{} : name + " has a key there";
+}
+
+std::string external_topic(const std::string& variable) {
+  return replace_scopes(variable, "/");
+}
+
+bool holds_text(const schema::Type& type) noexcept {
+  return type.base == schema::Base::Text ||
+         std::any_of(type.fields.begin(), type.fields.end(), [](const auto& field) { return holds_text(field.type); });
+}
+
+void tidy_texts(const schema::Type& type, std::span<std::uint8_t> value) noexcept {
+  tidy(type, value.data(), value.size());
+}
+
+}  // namespace indurop::mirror

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Variables and their IDL types as glb2idl and idlc name them. No DDS here; descriptors are opaque.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "schema/schema.h"
+
+namespace indurop::mirror {
+
+// "cell::Encoder" of a variable that is one struct, "cell::torque_" of every other variable cell::torque.
+std::string idl_type_name(const schema::Variable& variable);
+// The symbol of the type's descriptor in a types library: "cell_Encoder_desc".
+std::string descriptor_symbol(const schema::Variable& variable);
+// Empty if a dds_topic_descriptor_t describes the variable as this node knows it; else what differs.
+std::string descriptor_problem(const void* descriptor, const schema::Variable& variable);
+
+// "cell::encoder" has the topic "cell/encoder".
+std::string external_topic(const std::string& variable);
+
+bool holds_text(const schema::Type& type) noexcept;
+// Ends every text inside a value at the latest in its last byte and clears what is behind the end.
+void tidy_texts(const schema::Type& type, std::span<std::uint8_t> value) noexcept;
+
+}  // namespace indurop::mirror
