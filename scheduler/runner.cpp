@@ -34,7 +34,7 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
   std::strncpy(record.last_fault, text, sizeof record.last_fault - 1);
   record.fault_tick.store(tick, std::memory_order_relaxed);
   record.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
-  record.faults.fetch_add(1, std::memory_order_relaxed);
+  record.faults.fetch_add(1, std::memory_order_release);  // whoever sees it sees the text
   record.state.store(ModuleState::Faulted, std::memory_order_release);
   if (hooks.faulted != nullptr) {
     hooks.faulted(hooks.context, state.task.index);
