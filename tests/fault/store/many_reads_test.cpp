@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inlined read of the generated headers, as often as INDUROP_READS says (default 5 million), against writers that
+// preempt it and writers that are killed in the middle of a write.
+
+#include <gtest/gtest.h>
+
+#include <indurop/detail/access.h>
+
+#include <array>
+
+#include "fault.h"
+#include "rt/thread.h"
+#include "vars/ring.h"
+#include "vars/store.h"
+
+// What libindurop provides to modules.
+extern "C" void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
+                                  std::uint32_t length) noexcept {
+  indurop::vars::read_slow(*const_cast<indurop::abi::RingHeader*>(ring), to, offset, length);
+}
+
+namespace indurop::vars {
+namespace {
+
+using test::array_type;
+using test::Child;
+using test::hash;
+using test::TestNode;
+using test::variable;
+
+template <std::size_t Words>
+using Value = std::array<std::uint64_t, Words>;
+constexpr std::size_t kSmall = 3;   // 24 bytes
+constexpr std::size_t kLarge = 32;  // 256 bytes
+
+struct Score {
+  std::atomic<bool> stop;
+  std::atomic<std::uint64_t> reads;
+  std::atomic<std::uint64_t> torn;
+  std::atomic<std::uint64_t> backwards;
+  std::atomic<std::uint64_t> changes;  // times a read saw another value than the one before
+  std::atomic<std::uint64_t> commits;
+};
+
+schema::Schema both() {
+  schema::Schema schema;
+  schema.variables.push_back(variable("small", array_type(schema::Base::UInt64, kSmall)));
+  schema.variables.push_back(variable("large", array_type(schema::Base::UInt64, kLarge)));
+  return schema;
+}
+
+abi::RingHeader& ring_of(Store& store, const char* name) {
+  return *static_cast<abi::RingHeader*>(store.entry(hash(name), 0));
+}
+
+template <std::size_t Words>
+void bump(abi::RingHeader& ring) {
+  auto* const to = static_cast<std::uint64_t*>(begin_write(ring, 0, Words * 8));
+  if (to == nullptr) {
+    return;
+  }
+  const auto* const now = reinterpret_cast<const std::uint64_t*>(
+      detail::slot(&ring, ring.seq.load(std::memory_order_relaxed), ring.slot_stride));
+  const std::uint64_t next = __atomic_load_n(now, __ATOMIC_RELAXED) + 1;
+  for (std::size_t i = 0; i < Words; ++i) {
+    __atomic_store_n(to + i, next, __ATOMIC_RELAXED);
+  }
+  commit(ring);
+}
+
+int run_writer(const TestNode& node, Score& score, int fifo_priority) {
+  auto store = Store::attach(node.name(), Mode::ReadWrite);
+  if (!store.ok()) {
+    return 1;
+  }
+  (void)rt::set_fifo(fifo_priority);  // refused for an ordinary user: then the writers preempt less
+  while (!score.stop) {
+    for (int i = 0; i < 50; ++i) {
+      bump<kSmall>(ring_of(*store, "small"));
+      bump<kLarge>(ring_of(*store, "large"));
+    }
+    score.commits.fetch_add(100, std::memory_order_relaxed);
+    std::this_thread::sleep_for(std::chrono::microseconds(20));  // a real-time thread must let others run
+  }
+  return 0;
+}
+
+template <std::size_t Words>
+void read_many(abi::RingHeader& ring, Score& score, std::uint64_t& last) {
+  constexpr std::uint64_t kAtOnce = 10'000;
+  std::uint64_t torn = 0;
+  std::uint64_t backwards = 0;
+  std::uint64_t changes = 0;
+  for (std::uint64_t n = 0; n < kAtOnce; ++n) {
+    const auto value = detail::ring_read<Value<Words>, Words * 8>(&ring, 0);
+    std::uint64_t different = 0;
+    for (std::size_t i = 1; i < Words; ++i) {
+      different |= value[i] ^ value[0];
+    }
+    torn += different != 0 ? 1U : 0U;
+    backwards += value[0] < last ? 1U : 0U;
+    changes += value[0] != last ? 1U : 0U;
+    last = value[0];
+  }
+  score.reads.fetch_add(kAtOnce, std::memory_order_relaxed);
+  score.torn.fetch_add(torn, std::memory_order_relaxed);
+  score.backwards.fetch_add(backwards, std::memory_order_relaxed);
+  score.changes.fetch_add(changes, std::memory_order_relaxed);
+}
+
+int run_reader(const TestNode& node, Score& score, std::uint64_t wanted) {
+  auto store = Store::attach(node.name(), Mode::ReadWrite);
+  if (!store.ok()) {
+    return 1;
+  }
+  std::uint64_t small = 0;
+  std::uint64_t large = 0;
+  while (score.reads.load(std::memory_order_relaxed) < wanted) {
+    read_many<kSmall>(ring_of(*store, "small"), score, small);
+    read_many<kLarge>(ring_of(*store, "large"), score, large);
+  }
+  score.stop = true;
+  return 0;
+}
+
+TEST(ManyReads, Never_see_a_torn_or_older_value) {
+  const char* const text = std::getenv("INDUROP_READS");
+  const std::uint64_t wanted = text == nullptr ? 5'000'000 : std::strtoull(text, nullptr, 10);
+  const TestNode node("many-reads");
+  const test::Shared<Score> score;
+  auto store = Store::create(node.name(), both());
+  ASSERT_TRUE(store.ok());
+  Child steady([&] { return run_writer(node, *score, 10); });
+  Child reader([&] { return run_reader(node, *score, wanted); });
+  std::mt19937 random(11);
+  int kills = 0;
+  for (; !score->stop; ++kills) {
+    Child writer([&] { return run_writer(node, *score, 11); });
+    test::wait_a_random_moment(random, 4000);
+    writer.kill_and_wait();
+  }
+  EXPECT_EQ(reader.wait(), 0);
+  EXPECT_EQ(steady.wait(), 0);
+  EXPECT_GE(score->reads, wanted);
+  EXPECT_EQ(score->torn, 0U);
+  EXPECT_EQ(score->backwards, 0U);
+  EXPECT_GT(score->changes, 0U);
+  std::printf("%llu reads, %llu saw a new value, %llu commits, %d writers killed\n",
+              static_cast<unsigned long long>(score->reads), static_cast<unsigned long long>(score->changes),
+              static_cast<unsigned long long>(score->commits), kills);
+}
+
+}  // namespace
+}  // namespace indurop::vars
