@@ -22,7 +22,8 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     check_access(context);
     const std::array<BoardView, 1> alone{BoardView{"", config, result}};
     check_agreement(alone, context.report);
-    check_use(Uses(alone), {}, context.report);
+    const Uses uses(alone);
+    check_use(uses, check_external(context, uses), context.report);
   }
   sort_by_severity(result.diagnostics);
   return result;

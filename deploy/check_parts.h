@@ -36,6 +36,16 @@ void check_agreement(std::span<const BoardView> boards, Report& report);
 // Variables that several modules write, none writes, or none reads. Nothing is missed of those `set_by_hand`.
 void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, Report& report);
 
+// Are the files there, and libraries.
+void check_type_libraries(const TypeFiles& types, Report& report);
+// Brings the names in the rules to full names; removes rules for variables that do not exist.
+void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, Report& report);
+// What rules say about tools of others. `shown`: there is an external plane. After resolve_rules().
+void check_external_rules(const std::vector<VariableRule>& rules, bool shown, const Uses& uses, Report& report);
+
+// All three of a module.xml. Returns the variables that tools may set.
+std::set<std::string> check_external(CheckContext& context, const Uses& uses);
+
 struct NamedFile {
   std::filesystem::path path;
   std::string as_written;

@@ -7,24 +7,9 @@
 #include "deploy/plant.h"
 #include "deploy/plant_parts.h"
 #include "deploy/text.h"
-#include "schema/elf.h"
 
 namespace indurop::deploy {
 namespace {
-
-void check_type_libraries(const Plant& plant, Report& report) {
-  for (std::size_t i = 0; i < plant.types.size(); ++i) {
-    const std::string& written = plant.types_as_written[i];
-    const auto read = schema::read_module_file(plant.types[i]);
-    if (!read) {
-      report.error(plant.type_places[i], unreadable_file(read.error(), {plant.types[i], written, "<types>"}, true));
-    } else if (!read.value().shared_object) {
-      report.error(plant.type_places[i], in_quotes(written) +
-                                             " is a program, not a library of types; name the lib..._types.so that "
-                                             "indurop_add_glb(... TYPES) builds");
-    }
-  }
-}
 
 // A module that knows variables by name only can use those that other boards' modules declare.
 void add_named_variables(const Module& module, const schema::Schema& plant, schema::Schema& board) {
@@ -94,16 +79,26 @@ class PlantCheckRun {
     PlantContext context{plant_, views, uses, schema_, report};
     check_type_libraries(plant_, report);
     check_agreement(views, report);
-    resolve_rules(context);
-    result_.routes = find_routes(context);
+    resolve_rules(plant_.variables, schema_, report);
+    check_external_rules(plant_.variables, plant_.external_domain && !plant_.types.empty(), uses, report);
+    result_.routes = find_routes(context, result_.owners);
+    add_owners_of_the_rest();
     std::set<std::string> set_by_hand;
     for (const VariableRule& rule : plant_.variables) {
-      if (!rule.owner.empty()) {
+      if (!rule.owner.empty() || rule.external == VariableRule::External::Write) {
         set_by_hand.insert(rule.name);
       }
     }
     check_use(uses, set_by_hand, report);
     check_ages(context, result_.routes);
+  }
+
+  void add_owners_of_the_rest() {
+    for (std::size_t board = 0; board < result_.boards.size(); ++board) {
+      for (const schema::Variable& variable : result_.boards[board].schema.variables) {
+        result_.owners.try_emplace(variable.name, board);
+      }
+    }
   }
 
   Plant& plant_;

@@ -86,6 +86,33 @@ struct SpinSetting {
   Nanos fixed{};
 };
 
+// What <variable> says about one variable beyond its .glb declaration.
+struct VariableRule {
+  // What tools of others may do with it: read its topic, also write it, or not even see it.
+  enum class External { Read, Write, Off };
+  std::string name;          // full name
+  std::string owner;         // of a plant: board whose value counts; empty: inferred from the access map
+  Nanos every{};             // sent at most this often; 0: with every change
+  bool best_effort = false;  // a lost value is not repeated, the next one comes soon
+  External external = External::Read;
+  Place place;
+  Place owner_place;
+};
+
+// Libraries of indurop_add_glb(... TYPES), absolute; the other two are parallel.
+struct TypeFiles {
+  std::vector<std::filesystem::path> types;
+  std::vector<std::string> types_as_written;
+  std::vector<Place> type_places;
+};
+
+// What <root> of a module.xml says about tools of others; the manifest of a plant says it for all boards.
+struct ExternalPlane : TypeFiles {
+  std::optional<int> domain;   // DDS domain of typed topics; empty: none
+  std::string interface_name;  // network interface; empty: the only one
+  std::vector<VariableRule> variables;
+};
+
 struct Config {
   std::filesystem::path file;
   std::vector<Module> modules;          // in file order
@@ -94,6 +121,7 @@ struct Config {
   int core = -1;  // -1: the last one this process may use
   Place core_place;
   Place spin_place;
+  ExternalPlane external;  // of a module.xml
 };
 inline constexpr Nanos kDefaultMinimumPeriod{std::chrono::microseconds(50)};
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "deploy/element_rules.h"
+#include "deploy/external_reader.h"
 #include "deploy/module_reader.h"
 #include "deploy/text.h"
 #include "deploy/values.h"
@@ -15,24 +16,32 @@ namespace {
 class ConfigReader {
  public:
   ConfigReader(const Element& container, Config& config, Report& report)
-      : container_(container), config_(config), report_(report), folder_(folder_of(config.file)) {}
+      : container_(container),
+        config_(config),
+        report_(report),
+        folder_(folder_of(config.file)),
+        external_(config.external, folder_, report) {}
 
   void read() {
     check_no_text(container_, report_);
     for (const Element& child : container_.children) {
       read_child(child);
     }
+    external_.end();
     name_modules();
   }
 
  private:
   void read_child(const Element& child) {
-    static const std::vector<std::string> kNames{"module", "minimum_period", "spin", "core"};
+    static const std::vector<std::string> kBoardNames{"module", "minimum_period", "spin", "core"};
+    static const std::vector<std::string> kRootNames{"module",   "minimum_period", "spin",    "core",
+                                                     "external", "types",          "variable"};
+    const std::vector<std::string>& names = container_.name == "root" ? kRootNames : kBoardNames;
     if (child.name == "module") {
       config_.modules.push_back(read_module(child, folder_, report_));
       return;
     }
-    if (!is_known(child, container_, kNames, report_) ||
+    if (!is_known(child, container_, names, report_) || external_.read(child) ||
         !is_first(child, "this <" + container_.name + ">", given_, report_)) {
       return;
     }
@@ -114,6 +123,7 @@ class ConfigReader {
   Config& config_;
   Report& report_;
   std::filesystem::path folder_;
+  ExternalReader external_;
   FirstPlaces given_;
 };
 

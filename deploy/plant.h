@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,27 +25,14 @@ struct Board {
   Place place;
 };
 
-// What the manifest says about one variable beyond its .glb declaration.
-struct VariableRule {
-  std::string name;          // full name
-  std::string owner;         // board whose value counts; empty: inferred from the access map
-  Nanos every{};             // sent at most this often; 0: with every change
-  bool best_effort = false;  // a lost value is not repeated, the next one comes soon
-  Place place;
-  Place owner_place;
-};
-
-struct Plant {
+struct Plant : TypeFiles {
   std::filesystem::path file;
   std::string name;
   int domain = kDefaultDomain;                  // DDS domain between the boards, 0..230
   std::optional<int> external_domain = 0;       // typed topics for other tools; empty: none
   bool multicast = true;                        // false: boards find each other by <board address="">
   Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
-  std::vector<std::filesystem::path> types;     // type libraries of indurop_add_glb(... TYPES), absolute
-  std::vector<std::string> types_as_written;    // parallel to types
-  std::vector<Place> type_places;               // likewise
-  std::vector<Board> boards;                    // in file order
+  std::vector<Board> boards;  // in file order
   std::vector<VariableRule> variables;
   static constexpr int kDefaultDomain = 77;
 };
@@ -77,6 +65,9 @@ struct PlantCheck {
   std::vector<Diagnostic> diagnostics;  // of all boards and of the plant
   std::vector<CheckResult> boards;      // one per Plant::boards
   std::vector<Route> routes;            // by variable name
+  // Board, into Plant::boards, whose value counts: of every variable of the plant; of those nobody writes the first
+  // board that has it.
+  std::map<std::string, std::size_t> owners;
   [[nodiscard]] bool ok() const noexcept;
 };
 

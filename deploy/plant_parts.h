@@ -23,10 +23,8 @@ struct PlantContext {
 // The rule for a variable of this full name; nullptr: none.
 const VariableRule* rule_for(const Plant& plant, const std::string& variable);
 
-// Brings the names in the rules to full names; removes rules for variables that do not exist.
-void resolve_rules(PlantContext& context);
-// Which board owns each variable and which boards need it.
-std::vector<Route> find_routes(PlantContext& context);
+// Which board owns each variable that has a writer, and which boards need it.
+std::vector<Route> find_routes(PlantContext& context, std::map<std::string, std::size_t>& owners);
 // How old values are that come from other boards. Fills Route::oldest.
 void check_ages(PlantContext& context, std::vector<Route>& routes);
 

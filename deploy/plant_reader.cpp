@@ -9,6 +9,7 @@
 #include "deploy/config_reader.h"
 #include "deploy/document.h"
 #include "deploy/element_rules.h"
+#include "deploy/external_reader.h"
 #include "deploy/plant.h"
 #include "deploy/plant_rules.h"
 #include "deploy/text.h"
@@ -19,7 +20,6 @@ namespace {
 
 constexpr Nanos kShortestLease{std::chrono::milliseconds(20)};
 constexpr Nanos kLongestLease{std::chrono::seconds(60)};
-constexpr Nanos kLongestEvery{std::chrono::hours(1)};
 constexpr const char* kNameRule = "use up to 40 letters, digits, '_' and '-'";
 
 class PlantReader {
@@ -91,21 +91,10 @@ class PlantReader {
     return {};
   }
 
-  std::optional<int> domain_of(const Element& e, const std::string& text, const char* more) {
-    const auto value = read_integer(text, 0, kHighestDomain);
-    if (!value) {
-      report_.error(e.text_place, "<" + e.name + ">: " + in_quotes(text) +
-                                      " is not a DDS domain; write a number from 0 to " +
-                                      std::to_string(kHighestDomain) + more);
-      return std::nullopt;
-    }
-    return static_cast<int>(*value);
-  }
-
   void read_domain(const Element& e) {
     if (const auto text = text_of(e, "77", report_)) {
       places_.domain = e.text_place;
-      plant_.domain = domain_of(e, *text, "").value_or(plant_.domain);
+      plant_.domain = domain_of(e, *text, "", report_).value_or(plant_.domain);
     }
   }
 
@@ -115,7 +104,7 @@ class PlantReader {
       return;
     }
     places_.external = e.text_place;
-    plant_.external_domain = *text == "off" ? std::nullopt : domain_of(e, *text, ", or off");
+    plant_.external_domain = *text == "off" ? std::nullopt : domain_of(e, *text, ", or off", report_);
   }
 
   void read_multicast(const Element& e) { plant_.multicast = choose(e, {"on", "off"}, report_).value_or(0) == 0; }
@@ -130,36 +119,7 @@ class PlantReader {
     plant_.lease = value.value_or(plant_.lease);
   }
 
-  void read_types(const Element& e) {
-    const auto text = text_of(e, "./libcell_types.so", report_);
-    if (!text || !is_file_name(e, *text, report_)) {
-      return;
-    }
-    const std::filesystem::path file = (folder_ / *text).lexically_normal();
-    if (std::find(plant_.types.begin(), plant_.types.end(), file) != plant_.types.end()) {
-      report_.warning(e.text_place, in_quotes(*text) + " is named twice; remove one");
-      return;
-    }
-    plant_.types.push_back(file);
-    plant_.types_as_written.push_back(*text);
-    plant_.type_places.push_back(e.text_place);
-  }
-
-  // The attribute's value; empty if it is not there, or after an error if it has a problem.
-  template <class Problem>
-  std::string optional_attribute(const Element& e, const char* name, Problem problem) {
-    const Attribute* found = find_attribute(e, name);
-    if (found == nullptr) {
-      return {};
-    }
-    const std::string wrong =
-        found->value.empty() ? "no value given; remove the attribute or write one" : problem(found->value);
-    if (!wrong.empty()) {
-      report_.error(found->value_place, std::string(name) + ": " + wrong);
-      return {};
-    }
-    return found->value;
-  }
+  void read_types(const Element& e) { read_type_file(e, folder_, plant_, report_); }
 
   void read_board(const Element& e) {
     boards_given_ = true;
@@ -169,8 +129,8 @@ class PlantReader {
     if (const Attribute* name = need_attribute(e, "name", "<board name=\"sensor\">", report_)) {
       board.name = checked_name(*name, "board");
     }
-    board.address = optional_attribute(e, "address", address_problem);
-    board.interface_name = optional_attribute(e, "interface", interface_problem);
+    board.address = optional_attribute(e, "address", address_problem, report_);
+    board.interface_name = optional_attribute(e, "interface", interface_problem, report_);
     board.config.file = plant_.file;
     read_configuration(e, board.config, report_);
     const bool misspelt = std::any_of(e.children.begin(), e.children.end(),
@@ -183,46 +143,9 @@ class PlantReader {
   }
 
   void read_variable(const Element& e) {
-    check_attributes(e, {"name", "owner", "every", "reliability"}, report_);
-    if (is_leaf(e, report_)) {
-      check_no_text(e, report_);
+    if (auto rule = read_rule(e, {"name", "owner", "every", "reliability", "external"}, variables_, report_)) {
+      plant_.variables.push_back(std::move(*rule));
     }
-    VariableRule rule;
-    rule.place = e.place;
-    const Attribute* name = need_attribute(e, "name", R"(<variable name="cell::speed" owner="control"/>)", report_);
-    if (const Attribute* owner = find_attribute(e, "owner")) {
-      rule.owner = optional_attribute(e, "owner", [](const std::string&) { return std::string{}; });
-      rule.owner_place = owner->value_place;
-    }
-    optional_attribute(e, "every", [&rule](const std::string& text) {
-      const DurationText read = read_duration(text, false);
-      rule.every = read.value.value_or(Nanos::zero());
-      return rule.every > kLongestEvery
-                 ? in_quotes(text) + " is too long; write at most " + format_duration(kLongestEvery)
-                 : read.problem;
-    });
-    const std::string reliability = optional_attribute(e, "reliability", [](const std::string& text) {
-      return text == "reliable" || text == "best-effort"
-                 ? std::string{}
-                 : in_quotes(text) + " is not a value of reliability; write reliable or best-effort";
-    });
-    rule.best_effort = reliability == "best-effort";
-    if (name == nullptr) {
-      return;
-    }
-    rule.name = name->value;
-    rule.place = name->value_place;
-    if (e.attributes.size() == 1) {
-      report_.warning(e.place, "<variable> says nothing about " + in_quotes(rule.name) +
-                                   "; give it an owner, every or reliability, or remove it");
-    }
-    const auto [first, is_first] = variables_.try_emplace(rule.name, e.place);
-    if (!is_first) {
-      report_.error(e.place, "a second <variable> " + in_quotes(rule.name) + ", the first is in line " +
-                                 std::to_string(first->second.line) + "; write both in one");
-      return;
-    }
-    plant_.variables.push_back(std::move(rule));
   }
 
   const Element& root_;

@@ -32,7 +32,8 @@ bool declares(const CheckResult& board, const std::string& variable) {
 
 class RouteFinder {
  public:
-  explicit RouteFinder(PlantContext& context) : context_(context), uses_(context.uses), report_(context.report) {}
+  RouteFinder(PlantContext& context, std::map<std::string, std::size_t>& owners)
+      : context_(context), uses_(context.uses), report_(context.report), owners_(owners) {}
 
   std::vector<Route> find() {
     for (const auto& [name, users] : uses_.variables()) {
@@ -63,6 +64,10 @@ class RouteFinder {
                         ", but one board must own it; say whose value counts with <variable name=\"" + name +
                         "\" owner=\"" + uses_.board(first).name +
                         "\"/>, or let the others use a variable of their own");
+    }
+    if (writing.empty() && !users.readers.empty() && rule != nullptr &&
+        rule->external == VariableRule::External::Write) {
+      return users.readers.front().board;  // where tools set it
     }
     return writing.size() == 1 ? std::optional<std::size_t>(*writing.begin()) : std::nullopt;
   }
@@ -136,6 +141,9 @@ class RouteFinder {
   // Rules that change nothing were meant for another variable.
   void check_rules_used() {
     for (const VariableRule& rule : context_.plant.variables) {
+      if (rule.external != VariableRule::External::Read) {
+        continue;  // it is for others
+      }
       const auto found = uses_.variables().find(rule.name);
       if (found == uses_.variables().end()) {
         report_.warning(rule.place, "no module uses " + in_quotes(rule.name) + "; remove this <variable>");
@@ -171,7 +179,7 @@ class RouteFinder {
   const Uses& uses_;
   Report& report_;
   std::vector<Route> routes_;
-  std::map<std::string, std::size_t> owners_;
+  std::map<std::string, std::size_t>& owners_;
   std::set<std::string> travelling_;
   std::set<std::pair<std::string, std::size_t>> arriving_;  // on which boards
 };
@@ -184,36 +192,8 @@ const VariableRule* rule_for(const Plant& plant, const std::string& variable) {
   return found == plant.variables.end() ? nullptr : &*found;
 }
 
-void resolve_rules(PlantContext& context) {
-  std::map<std::string, int> lines;
-  std::erase_if(context.plant.variables, [&](VariableRule& rule) {
-    std::string message;
-    const auto place = schema::find_place(context.schema, rule.name, message);
-    if (!place) {
-      context.report.error(rule.place, "<variable>: " + message);
-      return true;
-    }
-    const schema::Variable& variable = *place.value().variable;
-    if (schema::canonical(place.value().type) != schema::canonical(variable.type)) {
-      context.report.error(rule.place, in_quotes(rule.name) +
-                                           " is a part of a variable, which travels as a whole; write name=\"" +
-                                           variable.name + "\"");
-      return true;
-    }
-    const auto [first, is_first] = lines.try_emplace(variable.name, rule.place.line);
-    if (!is_first) {
-      context.report.error(rule.place, "a second <variable> for " + in_quotes(variable.name) +
-                                           ", the first is in line " + std::to_string(first->second) +
-                                           "; write both in one");
-      return true;
-    }
-    rule.name = variable.name;
-    return false;
-  });
-}
-
-std::vector<Route> find_routes(PlantContext& context) {
-  return RouteFinder(context).find();
+std::vector<Route> find_routes(PlantContext& context, std::map<std::string, std::size_t>& owners) {
+  return RouteFinder(context, owners).find();
 }
 
 }  // namespace indurop::deploy
