@@ -225,9 +225,11 @@ void Mirror::Impl::take_catalogues() noexcept {
       const auto found = std::find_if(receivers.begin(), receivers.end(),
                                       [&](const auto& receiver) { return receiver->board() == catalogue.board; });
       if (found == receivers.end()) {
-        if (settings.board == catalogue.board && infos[i].valid_data) {
-          block.problem.set(fmt::format("another node in the network calls itself board {} of plant {}", settings.board,
-                                        settings.plant));
+        if (settings.board == catalogue.board) {  // and not from here: own samples are left out
+          const bool alive = infos[i].instance_state == DDS_IST_ALIVE;
+          block.problem.set(!alive ? ""
+                                   : fmt::format("another node in the network calls itself board {} of plant {}",
+                                                 settings.board, settings.plant));
         }
         continue;
       }

@@ -57,22 +57,26 @@ class Boards : public ::testing::Test {
 
   std::string node(const std::string& board) const { return "mt" + std::to_string(::getpid()) + "-" + board; }
 
-  void start(const BoardPlan& plan, const std::vector<std::string>& others, const std::string& lab = "",
-             int lease_ms = 200) {
+  void start(const BoardPlan& plan, const std::vector<std::string>& others, const std::string& lab = "") {
+    start_as(plan.name, plan, others, lab);
+  }
+  // At a place (namespace, and name for the other functions) that need not be called like the board.
+  void start_as(const std::string& place, const BoardPlan& plan, const std::vector<std::string>& others,
+                const std::string& lab) {
     std::string list;
     for (const std::string& other : others) {
       list += (list.empty() ? "" : ",") + other;
     }
     std::vector<std::string> words;
     if (!lab.empty()) {
-      words = {LAB_PROGRAM, "-l", lab, "exec", plan.name};
+      words = {LAB_PROGRAM, "-l", lab, "exec", place};
     }
-    for (const std::string& word : {std::string(BOARD_PROGRAM), node(plan.name), plan.name, std::to_string(domain()),
-                                    std::string(lab.empty() ? "one-host" : "network"), std::to_string(lease_ms),
+    for (const std::string& word : {std::string(BOARD_PROGRAM), node(place), plan.name, std::to_string(domain()),
+                                    std::string(lab.empty() ? "one-host" : "network"), std::to_string(kLeaseMs),
                                     plan.variant, list.empty() ? std::string("-") : list, plan.out, plan.in}) {
       words.push_back(word);
     }
-    nodes_.push_back(node(plan.name));
+    nodes_.push_back(node(place));
     const pid_t pid = ::fork();
     if (pid == 0) {
       std::vector<char*> arguments;
@@ -83,8 +87,8 @@ class Boards : public ::testing::Test {
       ::execv(arguments[0], arguments.data());
       ::_exit(127);
     }
-    running_[plan.name] = pid;
-    ASSERT_TRUE(wait_until([&] { return attach(plan.name); })) << "board " << plan.name << " did not start";
+    running_[place] = pid;
+    ASSERT_TRUE(wait_until([&] { return attach(place); })) << "board " << place << " did not start";
   }
 
   void stop(const std::string& board, int signal = SIGTERM) {
@@ -141,9 +145,11 @@ class Boards : public ::testing::Test {
     return abi::confirmed_of(stores_.at(board)->entry(entry->name_hash, 0), entry->kind).load();
   }
 
- private:
   // Tests that run at the same time do not hear each other.
   static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+
+ private:
+  static constexpr int kLeaseMs = 200;
 
   static void end(pid_t pid, int signal) {
     ::kill(pid, signal);
