@@ -14,6 +14,7 @@
 #include "mirror/beacons.h"
 #include "mirror/dds_log.h"
 #include "mirror/dds_setup.h"
+#include "mirror/landing.h"
 #include "mirror/mirror_block.h"
 #include "mirror/receiver.h"
 #include "mirror/sender.h"
@@ -76,10 +77,14 @@ struct Mirror::Impl {
   MirrorBlock& block;
   std::uint64_t session;
 
+  Landing* landing_of(const std::string& variable);
+
   std::unique_ptr<Sender> sender;
   std::unique_ptr<Beacons> beacons;
   std::mutex schedule_mutex;
   Schedule schedule;
+  std::mutex landings_mutex;
+  std::vector<std::unique_ptr<Landing>> landings;
   std::vector<std::unique_ptr<Receiver>> receivers;
   Participant joined;
   Entity catalogues;
@@ -92,6 +97,21 @@ struct Mirror::Impl {
   rt::Thread prompt;
   rt::Thread bulk;
 };
+
+// Null if the store does not hold it.
+Landing* Mirror::Impl::landing_of(const std::string& variable) {
+  const auto* entry = store.find(abi::fnv1a64(variable.data(), variable.size()));
+  if (entry == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::find_if(landings.begin(), landings.end(),
+                                  [entry](const auto& landing) { return &landing->entry() == entry; });
+  if (found != landings.end()) {
+    return found->get();
+  }
+  landings.push_back(std::make_unique<Landing>(store, *entry, rt::now_ns() + settings.lease_ns));
+  return landings.back().get();
+}
 
 Status Mirror::Impl::run() {
   wake_manager.init(false);
@@ -108,16 +128,18 @@ Status Mirror::Impl::run() {
   sender = std::make_unique<Sender>(store, settings, session, block);
   beacons = std::make_unique<Beacons>(settings, session, block);
   for (std::size_t i = 0; i < settings.boards.size(); ++i) {
-    std::vector<std::string> variables;
+    std::vector<Landing*> from_it;
     for (const Incoming& in : settings.incoming) {
-      if (in.owner == settings.boards[i]) {
-        variables.push_back(in.variable);
+      if (in.owner != settings.boards[i]) {
+        continue;
+      }
+      if (Landing* landing = landing_of(in.variable); landing != nullptr) {
+        from_it.push_back(landing);
         block.variables()[block.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
                                                static_cast<std::uint32_t>(i), 0};
       }
     }
-    receivers.push_back(
-        std::make_unique<Receiver>(store, settings.boards[i], variables, settings.lease_ns, block.peers()[i]));
+    receivers.push_back(std::make_unique<Receiver>(settings.boards[i], from_it, landings_mutex, block.peers()[i]));
   }
   block.magic.store(kMirrorMagic, std::memory_order_release);
   if (Status published = file.publish(); !published) {
@@ -202,8 +224,11 @@ void Mirror::Impl::manage() {
       current = schedule;
     }
     std::int64_t next = beacons->cycle(now, current);
-    for (const auto& receiver : receivers) {
-      next = std::min(next, receiver->expire(now));
+    {
+      const std::lock_guard<std::mutex> guard(landings_mutex);
+      for (const auto& landing : landings) {
+        next = std::min(next, landing->expire(now));
+      }
     }
     block.dds_messages.store(dds_message_count(), std::memory_order_relaxed);
     wake_manager.wait_until(next);

@@ -97,6 +97,28 @@ TEST_F(Lab, A_board_whose_interface_is_missing_joins_when_it_comes) {
   EXPECT_EQ(block("a").problem.get(), "");
 }
 
+TEST_F(Lab, A_standby_takes_over_and_keeps_the_lead) {
+  NEEDS_LAB("a b c");
+  start({"a", "t::count", "-", "plain"}, {"b", "c"}, lab());
+  start({"b", "t::count", "-", "plain"}, {"a", "c"}, lab());
+  start({"c", "-", "t::count@a,t::count@b", "plain"}, {"a", "b"}, lab());
+  put("a", "t::count", std::int64_t{100});
+  put("b", "t::count", std::int64_t{101});
+  ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("c", "t::count") == 100; })) << "the longest in service leads";
+  ASSERT_TRUE(wait_until([&] { return peer("c", "b").frames.load() > 2; }));
+  EXPECT_EQ(get<std::int64_t>("c", "t::count"), 100);
+  stop("a", SIGKILL);
+  ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("c", "t::count") == 101; }));
+  EXPECT_GT(confirmed("c", "t::count"), 0) << "valid all the time";
+  start({"a", "t::count", "-", "plain"}, {"b", "c"}, lab());
+  put("a", "t::count", std::int64_t{102});
+  ASSERT_TRUE(wait_until([&] { return sees("c", "a", PeerState::Alive) && peer("c", "a").frames.load() > 0; }));
+  put("b", "t::count", std::int64_t{103});
+  EXPECT_TRUE(wait_until([&] { return get<std::int64_t>("c", "t::count") == 103; }));
+  stop("b", SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return get<std::int64_t>("c", "t::count") == 102; }));
+}
+
 TEST_F(Lab, Two_boards_of_one_name_say_so) {
   NEEDS_LAB("a b");
   start({"a", "t::count", "-", "plain"}, {"c"}, lab());
