@@ -50,6 +50,7 @@ struct ModulePlaces {
   Place deadline;
   Place priority;
   Place core;
+  Place standby;
   Place signal;
   std::vector<Place> reads;   // parallel to Module::reads
   std::vector<Place> writes;  // parallel to Module::writes
@@ -66,7 +67,9 @@ struct Module {
   Nanos deadline{};  // 0: none given (sporadic: required; periodic: the period)
   Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: off
   int priority = 0;
-  int core = -1;  // -1: the node's
+  int core = -1;            // -1: the node's
+  std::string standby;      // of a plant: board that runs it too and takes over; empty: none
+  bool is_standby = false;  // this is that second one
   scheduler::OverrunPolicy overrun = scheduler::OverrunPolicy::Skip;
   bool after_base = false;  // sporadic: <position>after-base</position>
   int signal = 0;           // legacy process: POSIX signal number each release, 0: none

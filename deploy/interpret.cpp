@@ -24,6 +24,12 @@ void interpret(const Element& root, Config& config, Report& report) {
   }
   check_root_attributes(root, {}, report);
   read_configuration(root, config, report);
+  for (const Module& module : config.modules) {
+    if (!module.standby.empty()) {
+      report.error(module.places.standby,
+                   "<standby> names another board of a plant, and a module.xml is of one board; remove it");
+    }
+  }
   if (std::none_of(root.children.begin(), root.children.end(), [](const Element& e) { return e.name == "module"; })) {
     report.error(root.place, "<root> has no <module>; add one per program");
   }

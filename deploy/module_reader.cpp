@@ -41,24 +41,16 @@ class ModuleReader {
     void (ModuleReader::*read)(const Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 18> kKnown{{
-        {"filename", false, &ModuleReader::read_file},
-        {"name", false, &ModuleReader::read_name},
-        {"moduletype", false, &ModuleReader::read_type},
-        {"operationtype", false, &ModuleReader::read_operation},
-        {"period", false, &ModuleReader::read_period},
-        {"offset", false, &ModuleReader::read_offset},
-        {"priority", false, &ModuleReader::read_priority},
-        {"deadline", false, &ModuleReader::read_deadline},
-        {"budget", false, &ModuleReader::read_budget},
-        {"core", false, &ModuleReader::read_core_element},
-        {"overrun", false, &ModuleReader::read_overrun},
-        {"position", false, &ModuleReader::read_position},
-        {"signal", false, &ModuleReader::read_signal_element},
-        {"argument", true, &ModuleReader::read_argument},
-        {"access", false, &ModuleReader::read_access},
-        {"restart", false, &ModuleReader::read_restart},
-        {"failsafe", true, &ModuleReader::read_failsafe},
+    static constexpr std::array<Known, 19> kKnown{{
+        {"filename", false, &ModuleReader::read_file},     {"name", false, &ModuleReader::read_name},
+        {"moduletype", false, &ModuleReader::read_type},   {"operationtype", false, &ModuleReader::read_operation},
+        {"period", false, &ModuleReader::read_period},     {"offset", false, &ModuleReader::read_offset},
+        {"priority", false, &ModuleReader::read_priority}, {"deadline", false, &ModuleReader::read_deadline},
+        {"budget", false, &ModuleReader::read_budget},     {"core", false, &ModuleReader::read_core_element},
+        {"overrun", false, &ModuleReader::read_overrun},   {"position", false, &ModuleReader::read_position},
+        {"standby", false, &ModuleReader::read_standby},   {"signal", false, &ModuleReader::read_signal_element},
+        {"argument", true, &ModuleReader::read_argument},  {"access", false, &ModuleReader::read_access},
+        {"restart", false, &ModuleReader::read_restart},   {"failsafe", true, &ModuleReader::read_failsafe},
         {"property", true, &ModuleReader::read_property},
     }};
     return kKnown;
@@ -172,6 +164,13 @@ class ModuleReader {
   void read_core_element(const Element& e) {
     module_.places.core = e.text_place;
     module_.core = read_core(e, report_);
+  }
+
+  void read_standby(const Element& e) {
+    if (const auto text = text_of(e, "backup", report_)) {
+      module_.places.standby = e.text_place;
+      module_.standby = *text;
+    }
   }
 
   void read_overrun(const Element& e) {

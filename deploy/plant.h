@@ -31,8 +31,10 @@ struct Plant : TypeFiles {
   int domain = kDefaultDomain;                  // DDS domain between the boards, 0..230
   std::optional<int> external_domain = 0;       // typed topics for other tools; empty: none
   bool multicast = true;                        // false: boards find each other by <board address="">
+  std::filesystem::path security;               // folder of its keys (docs/security.md); empty: open to anyone
+  Place security_place;                         // of the folder, else of <plant>
   Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
-  std::vector<Board> boards;  // in file order
+  std::vector<Board> boards;                    // in file order
   std::vector<VariableRule> variables;
   static constexpr int kDefaultDomain = 77;
 };
@@ -51,9 +53,10 @@ ReadPlant read_plant_text(std::string_view xml, const std::filesystem::path& pre
 
 // One variable that leaves its board.
 struct Route {
-  std::string variable;              // full name
-  std::size_t owner = 0;             // into Plant::boards
-  std::vector<std::size_t> readers;  // boards that need it, the owner not among them
+  std::string variable;               // full name
+  std::size_t owner = 0;              // into Plant::boards
+  std::vector<std::size_t> standbys;  // boards whose value counts when the owner's does not come
+  std::vector<std::size_t> readers;   // boards that need it, none of those above
   Nanos every{};
   bool best_effort = false;
   Nanos oldest{};  // age of the value at most when a periodic module reads it, kNetworkHop included; 0: not known
@@ -70,6 +73,10 @@ struct PlantCheck {
   std::map<std::string, std::size_t> owners;
   [[nodiscard]] bool ok() const noexcept;
 };
+
+// Where the keys of a board are: in the plant's folder, or, on a board to which they were copied, in
+// $INDUROP_KEYS_DIR/PLANT/BOARD, normally below /etc/indurop/keys. Empty for an open plant.
+std::filesystem::path keys_folder(const Plant& plant, const std::string& board);
 
 // Checks every board, then what holds between them: one owner per variable, a writer for every reader, equal types,
 // data age across boards. Names in Plant::variables become full names. A board's schema gains the variables its modules

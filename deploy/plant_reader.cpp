@@ -35,6 +35,7 @@ class PlantReader {
       return;
     }
     check_root_attributes(root_, {"name"}, report_);
+    plant_.security_place = root_.place;
     check_no_text(root_, report_);
     if (const Attribute* name = need_attribute(root_, "name", "<plant name=\"cell\">", report_)) {
       plant_.name = checked_name(*name, "plant");
@@ -45,6 +46,7 @@ class PlantReader {
     if (!boards_given_) {
       report_.error(root_.place, "<plant> has no <board>; add one per board, with its modules in it");
     }
+    add_standbys(plant_, report_);
     check_plant_rules(plant_, places_, report_);
   }
 
@@ -55,13 +57,14 @@ class PlantReader {
     void (PlantReader::*read)(const Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 7> kKnown{{
+    static constexpr std::array<Known, 8> kKnown{{
         {"board", true, &PlantReader::read_board},
         {"variable", true, &PlantReader::read_variable},
         {"domain", false, &PlantReader::read_domain},
         {"external", false, &PlantReader::read_external},
         {"multicast", false, &PlantReader::read_multicast},
         {"lease", false, &PlantReader::read_lease},
+        {"security", false, &PlantReader::read_security},
         {"types", true, &PlantReader::read_types},
     }};
     return kKnown;
@@ -117,6 +120,19 @@ class PlantReader {
       return;
     }
     plant_.lease = value.value_or(plant_.lease);
+  }
+
+  void read_security(const Element& e) {
+    const auto text = text_of(e, "keys", report_);
+    if (!text) {
+      return;
+    }
+    plant_.security_place = e.text_place;
+    if (text->find_first_of("\r\n\t") != std::string::npos) {
+      report_.error(e.text_place, "the name of the folder contains a tab or line break; write it in one line");
+      return;
+    }
+    plant_.security = (folder_ / *text).lexically_normal();
   }
 
   void read_types(const Element& e) { read_type_file(e, folder_, plant_, report_); }

@@ -50,7 +50,9 @@ class RouteFinder {
 
  private:
   // The board whose value counts; empty: there is none, or an error says why.
-  std::optional<std::size_t> owner_of(const std::string& name, const Users& users, const VariableRule* rule) {
+  std::optional<std::size_t> owner_of(const std::string& name, const Users& all, const VariableRule* rule) {
+    Users users = all;
+    std::erase_if(users.writers, [this](const User& writer) { return uses_.module(writer).is_standby; });
     if (rule != nullptr && !rule->owner.empty()) {
       return named_owner(name, users, *rule);
     }
@@ -121,8 +123,14 @@ class RouteFinder {
     Route route;
     route.variable = name;
     route.owner = owner;
+    for (const User& writer : users.writers) {
+      if (writer.board != owner && uses_.module(writer).is_standby) {
+        route.standbys.push_back(writer.board);
+      }
+    }
+    const std::vector<std::size_t>& standbys = route.standbys;
     for (const std::size_t board : boards_of(users.readers)) {
-      if (board != owner) {
+      if (board != owner && std::find(standbys.begin(), standbys.end(), board) == standbys.end()) {
         route.readers.push_back(board);
         arriving_.insert({name, board});
       }

@@ -144,6 +144,42 @@ std::string interface_problem(std::string_view name) {
          "follows an '@', for example eth0";
 }
 
+void add_standbys(Plant& plant, Report& report) {
+  std::vector<std::string> names;
+  for (const Board& board : plant.boards) {
+    names.push_back(board.name);
+  }
+  std::vector<std::pair<Board*, Module>> seconds;
+  for (const Board& board : plant.boards) {
+    for (const Module& module : board.config.modules) {
+      if (module.standby.empty()) {
+        continue;
+      }
+      const auto other = std::find_if(plant.boards.begin(), plant.boards.end(),
+                                      [&](const Board& b) { return b.name == module.standby; });
+      if (other == plant.boards.end()) {
+        report.error(module.places.standby,
+                     "<standby>: there is no board " + in_quotes(module.standby) + suggestion(module.standby, names));
+      } else if (&*other == &board) {
+        report.error(module.places.standby, "<standby>: " + in_quotes(module.name) +
+                                                " runs on this board anyway; name another one, that outlives it");
+      } else if (std::any_of(other->config.modules.begin(), other->config.modules.end(),
+                             [&](const Module& m) { return m.name == module.name; })) {
+        report.error(module.places.standby, "<standby>: the board " + in_quotes(module.standby) +
+                                                " has a module named " + in_quotes(module.name) +
+                                                " of its own; give one of them another <name>");
+      } else {
+        seconds.emplace_back(&*other, module);
+      }
+    }
+  }
+  for (auto& [board, module] : seconds) {
+    module.is_standby = true;
+    module.standby.clear();
+    board->config.modules.push_back(std::move(module));
+  }
+}
+
 void check_plant_rules(const Plant& plant, const PlantPlaces& places, Report& report) {
   check_names(plant, report);
   check_addresses(plant, report);

@@ -25,6 +25,8 @@ struct PlantPlaces {
   Place external;  // likewise
 };
 // What can be wrong between elements that are right each on its own.
+// Gives each module with <standby> a second one on that board.
+void add_standbys(Plant& plant, Report& report);
 void check_plant_rules(const Plant& plant, const PlantPlaces& places, Report& report);
 
 }  // namespace indurop::deploy

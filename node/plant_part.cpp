@@ -24,10 +24,14 @@ mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::Plant
     }
   }
   for (const deploy::Route& route : check.routes) {
-    if (route.owner == board) {
+    const bool stands_by = std::find(route.standbys.begin(), route.standbys.end(), board) != route.standbys.end();
+    if (route.owner == board || stands_by) {
       settings.outgoing.push_back({route.variable, route.every.count(), route.best_effort});
     } else if (std::find(route.readers.begin(), route.readers.end(), board) != route.readers.end()) {
       settings.incoming.push_back({route.variable, plant.boards[route.owner].name});
+      for (const std::size_t other : route.standbys) {
+        settings.incoming.push_back({route.variable, plant.boards[other].name});
+      }
     }
   }
   return settings;

@@ -111,6 +111,23 @@ TEST_F(CheckPlant, What_is_written_on_one_board_and_read_on_another_travels) {
   EXPECT_THAT(names_of(sut.result.boards[1].schema), ElementsAre("n::x"));
 }
 
+TEST_F(CheckPlant, A_standby_writes_the_same_variables_and_owns_none) {
+  write("w.so", {"n::in"}, {"n::x"});
+  write("r.so", {"n::x"}, {"n::in"});
+  const CheckedPlant sut = checked(board("a", periodic("w.so", "1ms", 1, "<standby>b</standby>")) +
+                                   board("b", periodic("q.so", "1ms", 2)) + board("c", periodic("r.so", "1ms", 1)));
+  ASSERT_EQ(sut.plant.boards[1].config.modules.size(), 2U);
+  EXPECT_TRUE(sut.plant.boards[1].config.modules[1].is_standby);
+  ASSERT_EQ(sut.result.routes.size(), 2U);
+  const Route& in = sut.result.routes[0];
+  EXPECT_EQ(in.owner, 2U);
+  EXPECT_THAT(in.readers, ElementsAre(0U, 1U)) << "both need the inputs";
+  const Route& x = sut.result.routes[1];
+  EXPECT_EQ(x.owner, 0U);
+  EXPECT_THAT(x.standbys, ElementsAre(1U));
+  EXPECT_THAT(x.readers, ElementsAre(2U));
+}
+
 TEST_F(CheckPlant, A_writer_on_another_board_is_a_writer) {
   EXPECT_THAT(check_lines(writer_and_reader()), IsEmpty());
 }

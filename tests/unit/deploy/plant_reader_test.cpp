@@ -54,6 +54,32 @@ TEST(PlantReader, Defaults) {
   EXPECT_EQ(b.config.modules[0].file, "/cell/a.so");
 }
 
+TEST(PlantReader, A_standby_is_the_same_module_on_another_board) {
+  const std::string module = periodic("a.so", "1ms", 1, "<standby>spare</standby>");
+  const ReadPlant sut = read_plant_text(plant(board("name=\"main\"", module) + board("name=\"spare\"")), "/cell/p.xml");
+  EXPECT_THAT(lines(sut.diagnostics), ElementsAre(HasSubstr("has a module named 'a' of its own")));
+  const ReadPlant other = read_plant_text(
+      plant(board("name=\"main\"", module) + board("name=\"spare\"", periodic("b.so", "1ms", 1))), "/cell/p.xml");
+  ASSERT_THAT(lines(other.diagnostics), IsEmpty());
+  const auto& modules = other.plant.boards[1].config.modules;
+  ASSERT_EQ(modules.size(), 2U);
+  EXPECT_EQ(modules[1].file, "/cell/a.so");
+  EXPECT_TRUE(modules[1].is_standby);
+  EXPECT_FALSE(other.plant.boards[0].config.modules[0].is_standby);
+}
+
+TEST(PlantReader, A_standby_that_cannot_be_is_refused) {
+  const auto with = [](const std::string& name) {
+    return lines_of(plant(board("name=\"main\"", periodic("a.so", "1ms", 1, "<standby>" + name + "</standby>")) +
+                          board("name=\"spare\"", periodic("b.so", "1ms", 1))));
+  };
+  EXPECT_THAT(with("spar"), ElementsAre(HasSubstr("there is no board 'spar'; did you mean 'spare'?")));
+  EXPECT_THAT(with("main"), ElementsAre(HasSubstr("runs on this board anyway")));
+  EXPECT_THAT(lines(read_config_text("<root>" + periodic("a.so", "1ms", 1, "<standby>b</standby>") + "</root>", "m.xml")
+                        .diagnostics),
+              ElementsAre(HasSubstr("<standby> names another board of a plant")));
+}
+
 TEST(PlantReader, Every_element_reaches_the_plant) {
   const ReadPlant sut = read_plant_text(R"(<?xml version="1.0" encoding="UTF-8"?>
 <plant xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="plant.xsd" name="cell-1">
