@@ -132,6 +132,7 @@ bool Node::read_modules(std::vector<deploy::Diagnostic>& diagnostics) {
   config_ = std::move(read.config);
   check_ = deploy::check_config(config_, {true, options_.adjust});
   diagnostics.insert(diagnostics.end(), check_.diagnostics.begin(), check_.diagnostics.end());
+  external_.configure(config_, check_);
   return check_.ok();
 }
 
@@ -149,6 +150,7 @@ bool Node::read_plant(std::vector<deploy::Diagnostic>& diagnostics) {
     if (plant.boards[i].name == options_.board) {
       mirror_settings_ = mirror_settings(plant, checked, i);
       mirror_settings_->one_host = options_.one_host;
+      external_.configure(plant, checked, i, options_.one_host);
       config_ = std::move(plant.boards[i].config);
       check_ = std::move(checked.boards[i]);
     }
@@ -375,6 +377,7 @@ bool Node::start_schedule() {
   if (!start_mirror()) {
     return false;
   }
+  external_.start(options_.node, *store_, cores_without_modules(), console_);
   if (const Status started = engine_->start(ticks); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return fail(kFailed);
@@ -391,17 +394,23 @@ bool Node::start_schedule() {
   return true;
 }
 
+// Empty if modules are on each.
+std::vector<int> Node::cores_without_modules() const {
+  std::vector<int> cores = rt::allowed_cores();
+  std::erase_if(cores, [this](int core) {
+    return core == core_ || std::any_of(config_.modules.begin(), config_.modules.end(),
+                                        [core](const deploy::Module& module) { return module.core == core; });
+  });
+  return cores;
+}
+
 bool Node::start_mirror() {
   if (!mirror_settings_) {
     return true;
   }
   mirror_settings_->fifo_priority = obtained_.fifo != 0 ? scheduler::kMirrorPriority : 0;
   // Not where the modules are, if there is another core.
-  std::vector<int> cores = rt::allowed_cores();
-  std::erase_if(cores, [this](int core) {
-    return core == core_ || std::any_of(config_.modules.begin(), config_.modules.end(),
-                                        [core](const deploy::Module& module) { return module.core == core; });
-  });
+  const std::vector<int> cores = cores_without_modules();
   const auto spin = options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}));
   mirror_settings_->spin = !cores.empty() && spin.mode != deploy::SpinSetting::Mode::Off && obtained_.fifo != 0;
   mirror_settings_->cores = cores.empty() ? rt::allowed_cores() : cores;
@@ -493,6 +502,7 @@ void Node::shut_down() {
   if (started_) {
     (void)phases_->call_all("stop", &ModuleDescriptor::stop);
   }
+  external_.stop();
   mirror_.reset();  // what stop() wrote still travels; then the other boards see at once that this one is gone
   if (retainer_ != nullptr) {
     retainer_->stop(console_);

@@ -16,6 +16,7 @@
 #include "deploy/check.h"
 #include "mirror/mirror.h"
 #include "node/console.h"
+#include "node/external_part.h"
 #include "node/failsafe.h"
 #include "node/module_library.h"
 #include "node/normal_threads.h"
@@ -55,6 +56,7 @@ class Node {
   bool start_modules();
   bool start_schedule();
   bool start_mirror();
+  [[nodiscard]] std::vector<int> cores_without_modules() const;
   void supervise();
   void shut_down();
   int finish();
@@ -86,6 +88,7 @@ class Node {
   std::unique_ptr<Retainer> retainer_;
   std::optional<mirror::Settings> mirror_settings_;  // of a board of a plant
   std::optional<mirror::Mirror> mirror_;
+  ExternalPart external_;
   std::vector<ModuleLibrary> libraries_;  // one per module, empty for processes
   std::vector<scheduler::Task> tasks_;
   scheduler::SystemClock clock_;

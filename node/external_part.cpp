@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/external_part.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "mirror/external_type.h"
+#include "vars/shm_file.h"
+
+namespace indurop::node {
+namespace {
+
+using External = deploy::VariableRule::External;
+
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  const std::string list = fmt::format(
+      "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMost)), ", "));
+  return names.size() > kMost ? fmt::format("{} and {} more", list, names.size() - kMost) : list;
+}
+
+}  // namespace
+
+void ExternalPart::add(const std::vector<deploy::VariableRule>& rules, const std::string& variable) {
+  const auto rule = std::find_if(rules.begin(), rules.end(), [&](const auto& r) { return r.name == variable; });
+  if (rule == rules.end()) {
+    settings_.variables.push_back({variable});
+  } else if (rule->external != External::Off) {
+    settings_.variables.push_back({variable, nullptr, rule->external == External::Write, rule->every.count()});
+  }
+}
+
+void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board,
+                             bool one_host) {
+  if (!plant.external_domain || plant.types.empty()) {
+    return;
+  }
+  wanted_ = true;
+  types_ = plant;
+  settings_.domain = *plant.external_domain;
+  settings_.interface_name = plant.boards[board].interface_name;
+  settings_.address = plant.boards[board].address;
+  settings_.multicast = plant.multicast;
+  settings_.one_host = one_host;
+  for (const deploy::Board& other : plant.boards) {
+    if (!other.address.empty()) {
+      settings_.peers.push_back(other.address);
+    }
+  }
+  for (const auto& [variable, owner] : check.owners) {
+    if (owner == board) {
+      add(plant.variables, variable);
+    }
+  }
+}
+
+void ExternalPart::configure(const deploy::Config& config, const deploy::CheckResult& check) {
+  const deploy::ExternalPlane& plane = config.external;
+  if (!plane.domain || plane.types.empty()) {
+    return;
+  }
+  wanted_ = true;
+  types_ = plane;
+  settings_.domain = *plane.domain;
+  settings_.interface_name = plane.interface_name;
+  for (const schema::Variable& variable : check.schema.variables) {
+    add(plane.variables, variable.name);
+  }
+}
+
+void ExternalPart::find_types(const schema::Schema& schema, Console& console) {
+  std::vector<std::string> problems;
+  libraries_.load(types_, problems);
+  std::vector<std::string> unknown;
+  std::erase_if(settings_.variables, [&](mirror::Exported& exported) {
+    const auto known = std::find_if(schema.variables.begin(), schema.variables.end(),
+                                    [&](const schema::Variable& v) { return v.name == exported.variable; });
+    if (known == schema.variables.end()) {
+      return true;
+    }
+    const TypeLibraries::Found found = libraries_.find(mirror::descriptor_symbol(*known));
+    if (found.descriptor == nullptr) {
+      unknown.push_back(exported.variable);
+      return true;
+    }
+    if (const std::string wrong = mirror::descriptor_problem(found.descriptor, *known); !wrong.empty()) {
+      problems.push_back(
+          fmt::format("the types library {} was built from another .glb than the modules: {}; other tools do not see "
+                      "{}. Build both together",
+                      found.library, wrong, exported.variable));
+      return true;
+    }
+    exported.type = found.descriptor;
+    return false;
+  });
+  for (const std::string& problem : problems) {
+    console.error("{}", problem);
+  }
+  if (!unknown.empty()) {
+    console.warning("no types library has the type of {}: other tools do not see {}", some_of(unknown),
+                    unknown.size() == 1 ? "it" : "them");
+  }
+}
+
+void ExternalPart::start(const std::string& node, vars::Store& store, std::vector<int> cores, Console& console) {
+  (void)vars::remove_shm_file(vars::external_file(node));  // of an earlier run
+  if (!wanted_) {
+    return;
+  }
+  find_types(store.schema(), console);
+  settings_.cores = std::move(cores);
+  auto started = mirror::External::start(settings_, node, store);
+  if (!started) {
+    console.error(
+        "other tools do not see the variables: {}: {}", started.error().where,
+        started.error().sys_errno != 0 ? std::strerror(started.error().sys_errno) : to_string(started.error().code));
+    return;
+  }
+  external_ = std::move(started).value();
+  const auto settable = std::count_if(settings_.variables.begin(), settings_.variables.end(),
+                                      [](const mirror::Exported& exported) { return exported.writable; });
+  console.info("{} variables for other tools in DDS domain {}, {} of them can be set", settings_.variables.size(),
+               settings_.domain, settable);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node's part for tools of others: which of its variables they see, with which types. What goes wrong here is said
+// and never keeps modules from running.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deploy/plant.h"
+#include "mirror/external.h"
+#include "node/console.h"
+#include "node/type_library.h"
+#include "vars/store.h"
+
+namespace indurop::node {
+
+class ExternalPart {
+ public:
+  // Of a board of a plant: the variables it owns. `board`: index into plant.boards.
+  void configure(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board, bool one_host);
+  // Of a module.xml: all variables.
+  void configure(const deploy::Config& config, const deploy::CheckResult& check);
+
+  // Loads the types and starts. `store` is borrowed until stop(). `cores`: the threads may run on.
+  void start(const std::string& node, vars::Store& store, std::vector<int> cores, Console& console);
+  void stop() noexcept { external_.reset(); }
+
+ private:
+  void add(const std::vector<deploy::VariableRule>& rules, const std::string& variable);
+  void find_types(const schema::Schema& schema, Console& console);
+
+  bool wanted_ = false;
+  mirror::ExternalSettings settings_;
+  deploy::TypeFiles types_;
+  TypeLibraries libraries_;
+  std::optional<mirror::External> external_;  // ends before its types are gone
+};
+
+}  // namespace indurop::node

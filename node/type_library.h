@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Libraries of DDS types that indurop_add_glb(... TYPES) builds, loaded to look up descriptors by name.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deploy/config.h"
+
+namespace indurop::node {
+
+class TypeLibraries {
+ public:
+  TypeLibraries() = default;
+  TypeLibraries(const TypeLibraries&) = delete;
+  TypeLibraries& operator=(const TypeLibraries&) = delete;
+  ~TypeLibraries();
+
+  // Libraries that cannot be loaded are left out and told in `problems`.
+  void load(const deploy::TypeFiles& files, std::vector<std::string>& problems);
+
+  struct Found {
+    const void* descriptor = nullptr;  // valid as long as the libraries are loaded; null: nobody has it
+    std::string library;               // as written in the XML
+  };
+  // In the first library that has it.
+  [[nodiscard]] Found find(const std::string& symbol) const;
+
+ private:
+  struct Library {
+    std::string name;
+    void* handle = nullptr;
+  };
+  std::vector<Library> libraries_;
+};
+
+}  // namespace indurop::node
