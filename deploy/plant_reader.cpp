@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 
 #include "deploy/config_reader.h"
@@ -47,6 +48,12 @@ class PlantReader {
       report_.error(root_.place, "<plant> has no <board>; add one per board, with its modules in it");
     }
     add_standbys(plant_, report_);
+    for (const Board& board : plant_.boards) {
+      if (board.config.modules.empty() && !board.name.empty() && !misspelt_.contains(board.name)) {
+        report_.note(board.place,
+                     "the board " + in_quotes(board.name) + " has no <module>; it runs nothing and owns no variable");
+      }
+    }
     check_plant_rules(plant_, places_, report_);
   }
 
@@ -151,9 +158,8 @@ class PlantReader {
     read_configuration(e, board.config, report_);
     const bool misspelt = std::any_of(e.children.begin(), e.children.end(),
                                       [](const Element& child) { return !meant(child.name, {"module"}).empty(); });
-    if (board.config.modules.empty() && !misspelt && !board.name.empty()) {
-      report_.note(e.place,
-                   "the board " + in_quotes(board.name) + " has no <module>; it runs nothing and owns no variable");
+    if (misspelt) {
+      misspelt_.insert(board.name);
     }
     plant_.boards.push_back(std::move(board));
   }
@@ -171,6 +177,7 @@ class PlantReader {
   FirstPlaces given_;
   FirstPlaces variables_;
   PlantPlaces places_;
+  std::set<std::string> misspelt_;  // boards in which something was probably meant as <module>
   bool boards_given_ = false;
 };
 
