@@ -91,6 +91,7 @@ class PlantCheckRun {
     }
     check_use(uses, set_by_hand, report);
     check_ages(context, result_.routes);
+    check_security(plant_, options_, report);
   }
 
   void add_owners_of_the_rest() {

@@ -8,6 +8,7 @@
 
 #include "mirror/dds_log.h"
 #include "mirror/interface.h"
+#include "mirror/security.h"
 
 namespace indurop::mirror {
 namespace {
@@ -15,18 +16,6 @@ namespace {
 constexpr int kProtocol = 1;
 constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when ports are tried one by one
 constexpr std::array<const char*, kStreams> kStreamNames = {"prompt", "loose", "bulk"};
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&' || c == '<' || c == '>' || c == '"' || c == '\'') {
-      out += fmt::format("&#{};", static_cast<int>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::string network(const Settings& settings, const std::string& interface_name) {
   std::string text = fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", xml_text(interface_name));
@@ -47,9 +36,9 @@ std::string discovery(const Settings& settings) {
     }
   }
   if (!peers.empty() || settings.known_ports) {
-    text += fmt::format(
-        "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
-        kParticipantsPerHost);
+    text +=
+        fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
+                    kParticipantsPerHost);
   }
   if (!peers.empty()) {
     text += fmt::format("<Peers>{}</Peers>", peers);
@@ -94,7 +83,8 @@ std::string domain_configuration(const Settings& settings, const std::string& in
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
          // A lost last value is repaired within milliseconds, not 100.
          "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
-         "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay></Internal>";
+         "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay></Internal>" +
+         (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
 }
 
 Participant join_plant(const Settings& settings, std::string& problem) {
@@ -102,7 +92,7 @@ Participant join_plant(const Settings& settings, std::string& problem) {
   Participant joined;
   std::string note;
   const std::string interface_name = choose_interface(settings, problem, note);
-  if (interface_name.empty()) {
+  if (interface_name.empty() || !security_usable(settings.security, problem)) {
     return joined;
   }
   const auto id = static_cast<dds_domainid_t>(settings.domain);
@@ -115,6 +105,9 @@ Participant join_plant(const Settings& settings, std::string& problem) {
   if (!joined.participant.ok()) {
     const std::string said = last_dds_message();
     problem = said.empty() ? joined.participant.why() : said;
+    if (settings.security.on()) {
+      problem = fmt::format("keys refused (indurop keys list tells more): {}", problem);
+    }
     joined.domain.reset();
     return joined;
   }

@@ -22,6 +22,17 @@ struct Incoming {
   std::string owner;  // board
 };
 
+// Files of DDS Security: what this board shows and what it judges others by. All empty: the network is open.
+struct Security {
+  std::string authority;
+  std::string certificate;
+  std::string key;
+  std::string governance;
+  std::string permissions;
+  std::string revoked;  // may be empty
+  [[nodiscard]] bool on() const noexcept { return !key.empty(); }
+};
+
 struct Settings {
   std::string plant;
   std::string board;
@@ -30,7 +41,9 @@ struct Settings {
   std::string address;         // own IP address or host name, may be empty
   bool multicast = true;       // false: boards are found at `peers`
   std::vector<std::string> peers;
-  bool one_host = false;  // all boards run here: loopback only
+  bool one_host = false;     // all boards run here: loopback only
+  bool known_ports = false;  // may be found at its address by who names it as a peer, multicast or not
+  Security security;
   std::int64_t lease_ns = 500'000'000;
   int fifo_priority = 0;            // of the mirror's threads, 0: normal scheduling
   bool spin = false;                // the sender may be awake early, on a core that no module uses

@@ -3,7 +3,22 @@
 
 #include <algorithm>
 
+#include "deploy/plant_keys.h"
+
 namespace indurop::node {
+
+namespace {
+
+mirror::Security security_of(const std::filesystem::path& folder) {
+  if (folder.empty()) {
+    return {};
+  }
+  const deploy::ParticipantKeys keys(folder);
+  return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
+          keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+}
+
+}  // namespace
 
 mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board) {
   const deploy::Board& own = plant.boards[board];
@@ -14,6 +29,7 @@ mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::Plant
   settings.interface_name = own.interface_name;
   settings.address = own.address;
   settings.multicast = plant.multicast;
+  settings.security = security_of(deploy::keys_folder(plant, own.name));
   settings.lease_ns = plant.lease.count();
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {
     if (i != board) {

@@ -13,6 +13,7 @@ extern const Verb kDoctorVerb;
 extern const Verb kGetVerb;
 extern const Verb kHzVerb;
 extern const Verb kJitterVerb;
+extern const Verb kKeysVerb;
 extern const Verb kLogVerb;
 extern const Verb kNewVerb;
 extern const Verb kNodesVerb;

@@ -14,6 +14,7 @@ THIRD_PARTY = {
     "xml": ("tinyxml2.h", "libxml/", "expat.h", "pugixml.hpp"),
     "iceoryx": ("iceoryx_hoofs/", "iceoryx_posh/", "iceoryx_binding_c/"),
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
+    "openssl": ("openssl/",),
     "gtest": ("gtest/", "gmock/"),
     "benchmark": ("benchmark/",),
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board without modules: a store with some variables, and its mirror. Runs until SIGTERM.
 //   mirror_board NODE BOARD DOMAIN one-host|network LEASE_MS VARIANT OTHER,OTHER... OUT,OUT... VARIABLE@OWNER,...
-// A "-" stands for an empty list. VARIANT: which of two schemas (see make_schema).
+//   [KEYS]
+// A "-" stands for an empty list. VARIANT: which of two schemas (see make_schema). KEYS: folder of the board's keys.
 
 #include <csignal>
 #include <cstdio>
@@ -30,7 +31,7 @@ std::vector<std::string> split(const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 10) {
+  if (argc != 10 && argc != 11) {
     return 2;
   }
   sigset_t stop;
@@ -57,6 +58,11 @@ int main(int argc, char** argv) {
   for (const std::string& name : split(argv[9])) {
     const std::size_t at = name.find('@');
     settings.incoming.push_back({name.substr(0, at), name.substr(at + 1)});
+  }
+  if (argc == 11) {
+    const std::string keys = argv[10];
+    settings.security = {keys + "/ca.pem",         keys + "/identity.pem",    keys + "/identity.key",
+                         keys + "/governance.p7s", keys + "/permissions.p7s", keys + "/revoked.pem"};
   }
   const std::atomic<std::uint64_t> tick{7};
   auto mirror = indurop::mirror::Mirror::start(settings, argv[1], store.value(), tick);

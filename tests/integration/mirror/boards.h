@@ -42,6 +42,7 @@ struct BoardPlan {
   std::string out = "-";
   std::string in = "-";
   std::string variant = "plain";
+  std::string keys;  // folder; empty: none
 };
 
 class Boards : public ::testing::Test {
@@ -75,6 +76,9 @@ class Boards : public ::testing::Test {
                                     std::string(lab.empty() ? "one-host" : "network"), std::to_string(kLeaseMs),
                                     plan.variant, list.empty() ? std::string("-") : list, plan.out, plan.in}) {
       words.push_back(word);
+    }
+    if (!plan.keys.empty()) {
+      words.push_back(plan.keys);
     }
     nodes_.push_back(node(place));
     const pid_t pid = ::fork();

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of check_plant() that looks at the plant's keys.
+
+#include <chrono>
+#include <cstdlib>
+
+#include "deploy/plant.h"
+#include "deploy/plant_keys.h"
+#include "deploy/plant_parts.h"
+#include "deploy/text.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::chrono::days kSoon{30};
+
+void check_board(const Plant& plant, const std::string& board, bool runs_here, Report& report) {
+  const Instant now = instant_now();
+  const KeyCheck check = check_board_keys(keys_folder(plant, board), plant.name, board, now);
+  const std::string whose = "keys of board " + in_quotes(board) + ": " + check.problem;
+  switch (check.fault) {
+    case KeyFault::None:
+      if (check.validity.until < now + kSoon) {
+        report.warning(plant.security_place, "the keys of board " + in_quotes(board) + " are valid until " +
+                                                 utc_text(check.validity.until) + "; indurop keys renew " + board);
+      }
+      return;
+    case KeyFault::Missing:
+      report.error(plant.security_place, whose + "; make them with indurop keys init or indurop keys add " + board +
+                                             ", or copy them from where they were made");
+      return;
+    case KeyFault::Wrong:
+      report.error(plant.security_place, whose + "; indurop keys list shows what is there");
+      return;
+    case KeyFault::NotNow:
+      // A board goes on with its own modules, the network comes back with new keys.
+      if (runs_here) {
+        report.warning(plant.security_place, whose + "; indurop keys renew " + board + ", or set the clock");
+      } else {
+        report.error(plant.security_place, whose + "; indurop keys renew " + board);
+      }
+      return;
+  }
+}
+
+}  // namespace
+
+std::filesystem::path keys_folder(const Plant& plant, const std::string& board) {
+  if (plant.security.empty()) {
+    return {};
+  }
+  std::error_code ignored;
+  std::filesystem::path beside = PlantKeys(plant.security).board(board);
+  if (std::filesystem::exists(beside, ignored)) {
+    return std::filesystem::absolute(beside, ignored).lexically_normal();
+  }
+  const char* named = std::getenv("INDUROP_KEYS_DIR");
+  const std::filesystem::path on_board = named != nullptr && *named != '\0' ? named : "/etc/indurop/keys";
+  const std::filesystem::path copied = on_board / plant.name / board;
+  return std::filesystem::exists(copied, ignored) ? copied : beside;
+}
+
+void check_security(const Plant& plant, const CheckOptions& options, Report& report) {
+  if (plant.security.empty()) {
+    report.note(plant.security_place,
+                "the plant is open: anyone in the network can read and write the boards' variables; make keys with "
+                "indurop keys init, then say where they are with <security>keys</security>");
+    return;
+  }
+  for (const Board& board : plant.boards) {
+    if (options.board.empty() || options.board == board.name) {
+      check_board(plant, board.name, !options.board.empty(), report);
+    }
+  }
+}
+
+}  // namespace indurop::deploy

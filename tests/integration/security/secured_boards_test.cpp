@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boards of a secured plant on loopback, and strangers, viewers and boards with wrong keys beside them.
+
+#include <wire.h>
+
+#include <filesystem>
+
+#include "deploy/plant_keys.h"
+#include "mirror/dds_setup.h"
+#include "tests/integration/mirror/boards.h"
+
+namespace indurop::test {
+namespace {
+
+namespace fs = std::filesystem;
+using deploy::ParticipantKeys;
+using deploy::PlantKeys;
+using mirror::PeerState;
+using ::testing::HasSubstr;
+
+class Secured : public Boards {
+ protected:
+  Secured() : folder_(fs::temp_directory_path() / ("indurop-keys-" + std::to_string(::getpid()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Secured() override { fs::remove_all(folder_); }
+
+  PlantKeys make(const std::string& name, std::chrono::days valid = std::chrono::days(100)) {
+    PlantKeys keys(folder_ / name);
+    EXPECT_EQ(keys.make("testplant", {"a", "b", "c"}, deploy::instant_now() + valid), "");
+    return keys;
+  }
+  void start_a(const fs::path& keys) { start({"a", "t::count", "t::reply@b", "plain", keys.string()}, {"b"}); }
+  void start_b(const fs::path& keys) { start({"b", "t::reply", "t::count@a", "plain", keys.string()}, {"a"}); }
+  void exchange(std::int64_t values) {
+    for (std::int64_t i = 1; i <= values; ++i) {
+      put("a", "t::count", i);
+      put("b", "t::reply", -i);
+      ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == i; })) << why("b");
+      ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("a", "t::reply") == -i; })) << why("a");
+    }
+  }
+  std::string why(const std::string& board) { return board + ": " + block(board).problem.get(); }
+  std::string problem_of(const std::string& board) {
+    EXPECT_TRUE(wait_until([&] { return !block(board).problem.get().empty(); })) << "no problem is shown";
+    EXPECT_EQ(block(board).network.load(), mirror::Network::Connecting);
+    return block(board).problem.get();
+  }
+  static void copy(const fs::path& from, const fs::path& to) {
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+  }
+  // A participant of this process.
+  static mirror::Settings participant(const fs::path& folder) {
+    const ParticipantKeys keys(folder);
+    mirror::Settings settings;
+    settings.plant = "testplant";
+    settings.domain = domain();
+    settings.one_host = true;
+    settings.security = {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
+                         keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+    return settings;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Secured, Two_boards_of_a_plant_exchange_values) {
+  const PlantKeys keys = make("keys");
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(20);
+  EXPECT_EQ(block("a").problem.get(), "");
+}
+
+TEST_F(Secured, Who_has_no_keys_hears_nothing) {
+  const PlantKeys keys = make("keys");
+  start({"c", "-", "t::count@a", "plain", ""}, {"a", "b"});
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(20);
+  EXPECT_TRUE(sees("c", "a", PeerState::Absent));
+  EXPECT_EQ(get<std::int64_t>("c", "t::count"), 0);
+}
+
+TEST_F(Secured, Who_has_no_keys_is_not_heard) {
+  const PlantKeys keys = make("keys");
+  start({"a", "t::count", "-", "plain", ""}, {"b", "c"});
+  put("a", "t::count", std::int64_t{666});
+  start({"c", "t::reply", "-", "plain", keys.board("c").string()}, {"a", "b"});
+  start({"b", "-", "t::count@a,t::reply@c", "plain", keys.board("b").string()}, {"a", "c"});
+  for (std::int64_t i = 1; i <= 20; ++i) {
+    put("c", "t::reply", i);
+    ASSERT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::reply") == i; })) << why("b");
+  }
+  EXPECT_TRUE(sees("b", "a", PeerState::Absent));
+  EXPECT_EQ(get<std::int64_t>("b", "t::count"), 0);
+}
+
+TEST_F(Secured, A_board_with_keys_of_another_authority_is_kept_out) {
+  const PlantKeys keys = make("keys");
+  const PlantKeys foreign = make("foreign");
+  start({"c", "t::pair", "t::count@a", "plain", foreign.board("c").string()}, {"a", "b"});
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(20);
+  EXPECT_TRUE(sees("c", "a", PeerState::Absent));
+  EXPECT_EQ(get<std::int64_t>("c", "t::count"), 0);
+}
+
+TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
+  const PlantKeys keys = make("keys");
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(1);
+  const mirror::Settings settings = participant(keys.viewer());
+  std::string problem;
+  const mirror::Participant viewer = mirror::join_plant(settings, problem);
+  ASSERT_TRUE(viewer.participant.ok()) << problem;
+  const auto topic = mirror::catalogue_topic("testplant");
+  const auto reader = mirror::make_reader(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, settings,
+                                          mirror::Stream::Prompt, nullptr);
+  ASSERT_TRUE(reader.ok()) << reader.why();
+  EXPECT_TRUE(wait_until([&] {
+    void* sample = nullptr;
+    dds_sample_info_t info{};
+    const int count = dds_take(reader.get(), &sample, &info, 1, 1);
+    if (count > 0) {
+      (void)dds_return_loan(reader.get(), &sample, count);
+    }
+    return count > 0;
+  })) << "the viewer hears nothing";
+  const auto writer = mirror::make_writer(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, settings,
+                                          mirror::Stream::Prompt);
+  EXPECT_FALSE(writer.ok());
+}
+
+TEST_F(Secured, An_expired_certificate_is_named) {
+  const PlantKeys keys = make("keys", std::chrono::days(-1));
+  start_a(keys.board("a"));
+  EXPECT_THAT(problem_of("a"), HasSubstr("expired"));
+}
+
+TEST_F(Secured, A_certificate_of_another_authority_is_named) {
+  const PlantKeys keys = make("keys");
+  const PlantKeys foreign = make("foreign");
+  copy(ParticipantKeys(foreign.board("a")).authority, ParticipantKeys(keys.board("a")).authority);
+  start_a(keys.board("a"));
+  EXPECT_THAT(problem_of("a"), HasSubstr("keys refused"));
+}
+
+TEST_F(Secured, A_key_that_is_missing_is_named) {
+  const PlantKeys keys = make("keys");
+  fs::remove(ParticipantKeys(keys.board("a")).key);
+  start_a(keys.board("a"));
+  EXPECT_THAT(problem_of("a"), HasSubstr("identity.key cannot be read: No such file"));
+}
+
+}  // namespace
+}  // namespace indurop::test
