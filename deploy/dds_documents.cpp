@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/dds_documents.h"
+#include "schema/topic_name.h"
 
 #include <fmt/format.h>
 
@@ -19,13 +20,13 @@ struct Topics {
 };
 
 Topics topics_of(Role role, const std::string& plant, const std::string& name) {
-  const std::string own = kTopics + plant + "/";
+  const std::string own = kTopics + schema::topic_part(plant) + "/";
   const std::string deploy = std::string(kTopics) + "deploy/";
   switch (role) {
     case Role::Board:
       // A board that was taken over can lie about its own variables, not about those of others.
-      return {{own + name + "/*", own + "catalogue", own + "beacon", deploy + "board", deploy + "request",
-               deploy + "blob/*"},
+      return {{own + schema::topic_part(name) + "/*", own + "catalogue", own + "beacon", deploy + "board",
+               deploy + "request", deploy + "blob/*"},
               {own + "*", deploy + "*"}};
     case Role::Viewer:
       return {{}, {own + "*", deploy + "board"}};

@@ -9,6 +9,7 @@
 #include "mirror/dds_log.h"
 #include "mirror/interface.h"
 #include "mirror/security.h"
+#include "schema/topic_name.h"
 
 namespace indurop::mirror {
 namespace {
@@ -18,10 +19,12 @@ constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when 
 constexpr std::array<const char*, kStreams> kStreamNames = {"prompt", "loose", "bulk"};
 
 std::string network(const Settings& settings, const std::string& interface_name) {
-  std::string text = fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>", xml_text(interface_name));
+  const bool multicast = settings.multicast && !settings.one_host;
+  // Loopback can do it, but does not say so.
+  std::string text = fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", xml_text(interface_name),
+                                 multicast && interface_name == "lo" ? " multicast=\"true\"" : "");
   // Multicast finds the other boards; data goes to those that read it.
-  text +=
-      fmt::format("<AllowMulticast>{}</AllowMulticast>", settings.multicast && !settings.one_host ? "spdp" : "false");
+  text += fmt::format("<AllowMulticast>{}</AllowMulticast>", multicast ? "spdp" : "false");
   return "<General>" + text + "</General>";
 }
 
@@ -116,15 +119,16 @@ Participant join_plant(const Settings& settings, std::string& problem) {
 }
 
 std::string frames_topic(const std::string& plant, const std::string& board, Stream stream) {
-  return fmt::format("indurop/{}/{}/{}/{}", kProtocol, plant, board, kStreamNames[static_cast<std::size_t>(stream)]);
+  return fmt::format("indurop/{}/{}/{}/{}", kProtocol, schema::topic_part(plant), schema::topic_part(board),
+                     kStreamNames[static_cast<std::size_t>(stream)]);
 }
 
 std::string catalogue_topic(const std::string& plant) {
-  return fmt::format("indurop/{}/{}/catalogue", kProtocol, plant);
+  return fmt::format("indurop/{}/{}/catalogue", kProtocol, schema::topic_part(plant));
 }
 
 std::string beacon_topic(const std::string& plant) {
-  return fmt::format("indurop/{}/{}/beacon", kProtocol, plant);
+  return fmt::format("indurop/{}/{}/beacon", kProtocol, schema::topic_part(plant));
 }
 
 Entity make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,

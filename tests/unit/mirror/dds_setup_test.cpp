@@ -53,6 +53,7 @@ TEST(Domain_configuration, A_name_cannot_break_out_of_its_place) {
 TEST(Topics, Boards_and_streams_have_their_own) {
   EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/1/cell/a/prompt");
   EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/1/cell/a/bulk");
+  EXPECT_EQ(frames_topic("c_1", "a-b", Stream::Prompt), "indurop/1/c__1/a_mb/prompt");
   EXPECT_EQ(catalogue_topic("cell"), "indurop/1/cell/catalogue");
 }
 

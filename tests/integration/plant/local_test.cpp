@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop run PLANT --local: all boards on one host.
+
+#include <csignal>
+
+#include "plant_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Local : public PlantTest {
+ protected:
+  Program& run(const std::string& plant, std::vector<std::string> more = {"-q"}) {
+    more.insert(more.begin(), {"run", plant, "--local"});
+    return indurop(more);
+  }
+};
+
+TEST_F(Local, Boards_close_a_loop_and_end_together) {
+  const std::string report = folder() / "r.json";
+  Program& sut = run(two_boards(), {"-q", "--duration", "60s", "--report", report});
+  EXPECT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
+  const pid_t sensor = pid_of("sensor");
+  const pid_t control = pid_of("control");
+  sut.signal(SIGINT);
+  EXPECT_EQ(sut.wait(), 130);
+  EXPECT_FALSE(alive(sensor));
+  EXPECT_FALSE(alive(control));
+  for (const char* board : {"sensor", "control"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder() / ("r." + node(board) + ".json"))) << board;
+  }
+}
+
+TEST_F(Local, A_duration_ends_all_of_them) {
+  EXPECT_EQ(run(two_boards(), {"-q", "--duration", "300ms"}).wait(), 0);
+}
+
+TEST_F(Local, A_killed_board_leaves_the_others_running_and_can_come_back) {
+  const std::string plant = two_boards();
+  Program& sut = run(plant);
+  ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
+  ::kill(pid_of("control"), SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "the declared fallback";
+  EXPECT_TRUE(sut.says("board " + node("control") + " was ended by signal 9"));
+  EXPECT_TRUE(sut.running());
+  indurop({"run", plant, "--board", node("control"), "--one-host", "-q"});
+  EXPECT_TRUE(wait_until([&] { return controlled(); }));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 143);
+}
+
+TEST_F(Local, A_killed_runner_takes_its_boards_along) {
+  Program& sut = run(two_boards());
+  ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
+  const pid_t sensor = pid_of("sensor");
+  const pid_t control = pid_of("control");
+  sut.kill();
+  EXPECT_TRUE(wait_until([&] { return !alive(sensor) && !alive(control); }));
+}
+
+TEST_F(Local, A_standby_keeps_the_loop_closed) {
+  Program& sut =
+      run(write(board("sensor", "table") + board("control", "controller", "<standby>" + node("backup") + "</standby>") +
+                board("backup", "")));
+  ASSERT_TRUE(wait_until([&] { return controlled() && std::abs(speed("backup") - 2) < 0.01; })) << sut.err();
+  for (const char* leaving : {"control", "backup"}) {
+    ::kill(pid_of(leaving), SIGKILL);
+    if (leaving == std::string("control")) {
+      const double before = value("backup", "cell::encoder");
+      EXPECT_TRUE(wait_until([&] { return value("backup", "cell::encoder") > before + 1; })) << "the table turns on";
+      EXPECT_GT(torque("sensor"), 0);
+      EXPECT_LT(torque("sensor"), 1);
+    } else {
+      EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "nobody is left";
+    }
+  }
+}
+
+TEST_F(Local, Errors_of_the_plant_are_said_once_and_nothing_runs) {
+  Program& sut = run(write(board("sensor", "table") + board("control", "no_such_module")));
+  EXPECT_EQ(sut.wait(), 4);
+  const std::string said = sut.err();
+  const auto first = said.find("no_such_module.so");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(pid_of("sensor"), 0);
+}
+
+TEST_F(Local, Without_saying_how_a_plant_is_not_run) {
+  Program& sut = indurop({"run", two_boards()});
+  EXPECT_EQ(sut.wait(), 2);
+  EXPECT_THAT(sut.err(), HasSubstr("--local"));
+  EXPECT_THAT(sut.err(), HasSubstr("--board NAME"));
+}
+
+TEST_F(Local, A_board_the_plant_does_not_have_is_named_with_those_it_has) {
+  Program& sut = indurop({"run", two_boards(), "--board", "nobody"});
+  EXPECT_EQ(sut.wait(), 2);
+  EXPECT_THAT(sut.err(), HasSubstr("has no board nobody; it has " + node("sensor") + ", " + node("control")));
+}
+
+TEST_F(Local, Status_tells_of_the_other_board) {
+  run(two_boards());
+  ASSERT_TRUE(wait_until([&] { return controlled(); }));
+  Program& sut = indurop({"status", "--node", node("sensor"), "-o", "json"});
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_THAT(sut.out(), HasSubstr("\"board\":\"" + node("control") + "\",\"state\":\"alive\""));
+  EXPECT_THAT(sut.out(), HasSubstr("\"name\":\"cell::torque\",\"owner\":\"" + node("control") + "\""));
+}
+
+}  // namespace
+}  // namespace indurop::test
