@@ -30,7 +30,12 @@ Settings network_of(const ExternalSettings& external) {
   settings.multicast = external.multicast;
   settings.peers = external.peers;
   settings.peers.emplace_back("127.0.0.1");  // tools on this board
-  settings.one_host = external.one_host || external.interface_name == "lo";
+  settings.known_ports = true;
+  if (external.one_host) {
+    // Not as among boards: tools of others look for us by multicast.
+    settings.interface_name = "lo";
+    settings.multicast = true;
+  }
   settings.lease_ns = kLeaseNs;
   return settings;
 }

@@ -14,7 +14,7 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kUnreadNs = 1'000'000'000;  // how fresh the last value is kept that a late joiner gets first
+constexpr std::int64_t kUnreadNs = 100'000'000;    // how fresh the last value is kept that a late joiner gets first
 constexpr std::int64_t kRepeatNs = 1'000'000'000;  // for readers that missed the first one while they were matched
 constexpr auto kRelaxed = std::memory_order_relaxed;
 

@@ -13,6 +13,7 @@ THIRD_PARTY = {
     "cli": ("CLI/",),
     "xml": ("tinyxml2.h", "libxml/", "expat.h", "pugixml.hpp"),
     "iceoryx": ("iceoryx_hoofs/", "iceoryx_posh/", "iceoryx_binding_c/"),
+    "fastdds": ("fastdds/", "fastrtps/", "fastcdr/"),
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
     "openssl": ("openssl/",),
     "gtest": ("gtest/", "gmock/"),

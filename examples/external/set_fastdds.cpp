@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets the target of the axis, with Fast DDS and the types that fastddsgen made of station.idl: nothing of InduRoP.
+//   set_fastdds MILLIMETRES [DOMAIN]    exit code 0: the axis said that this is its target now; 3: it has another one
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "stationPubSubTypes.h"
+
+namespace {
+
+namespace fast = eprosima::fastdds::dds;
+using namespace std::chrono_literals;
+
+constexpr auto kPatience = 20s;
+
+template <class Condition>
+bool wait_until(Condition condition) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) {
+      return false;
+    }
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+int set_target(fast::DomainParticipant& participant, double wanted) {
+  fast::TypeSupport type(new station::target_PubSubType);
+  type.register_type(&participant);
+  auto* const topic = participant.create_topic("station/target", type.get_type_name(), fast::TOPIC_QOS_DEFAULT);
+  auto* const writer = participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)
+                           ->create_datawriter(topic, fast::DATAWRITER_QOS_DEFAULT);  // reliable
+  // Whoever sets a variable also hears what it is afterwards: a value out of range is not taken.
+  fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
+  qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
+  auto* const reader = participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic, qos);
+
+  // A value written before the axis listens would be lost.
+  fast::PublicationMatchedStatus listeners;
+  const bool heard = wait_until([&] {
+    writer->get_publication_matched_status(listeners);
+    fast::SubscriptionMatchedStatus speakers;
+    reader->get_subscription_matched_status(speakers);
+    return listeners.current_count >= 2 && speakers.current_count >= 2;  // the axis, and we ourselves
+  });
+  if (!heard) {
+    std::fprintf(stderr, "nobody takes station/target: is the node running, in this domain?\n");
+    return 1;
+  }
+  station::target_ value;
+  value.value(wanted);
+  writer->write(&value);
+  const auto own = writer->get_instance_handle();
+  double now = -1;
+  const bool told = wait_until([&] {
+    fast::SampleInfo info;
+    while (reader->take_next_sample(&value, &info) == ReturnCode_t::RETCODE_OK) {
+      if (info.valid_data && info.publication_handle != own) {
+        now = value.value();
+        return true;
+      }
+    }
+    return false;
+  });
+  if (!told) {
+    std::fprintf(stderr, "the axis does not say what its target is now\n");
+    return 1;
+  }
+  std::printf("target is %.3f mm\n", now);
+  return now == wanted ? 0 : 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: set_fastdds MILLIMETRES [DOMAIN]\n");
+    return 2;
+  }
+  const auto domain = static_cast<std::uint32_t>(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 0);
+  auto* const participant =
+      fast::DomainParticipantFactory::get_instance()->create_participant(domain, fast::PARTICIPANT_QOS_DEFAULT);
+  if (participant == nullptr) {
+    std::fprintf(stderr, "cannot join DDS domain %u\n", domain);
+    return 1;
+  }
+  const int code = set_target(*participant, std::strtod(argv[1], nullptr));
+  participant->delete_contained_entities();
+  fast::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  return code;
+}
