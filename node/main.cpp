@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "node/agent.h"
 #include "node/node.h"
 #include "node/options.h"
 #include "node/trampoline.h"
@@ -15,6 +16,9 @@ int main(int argc, char** argv) {
   const auto options = indurop::node::parse_options(argc, argv, exit_code);
   if (!options) {
     return exit_code;
+  }
+  if (options->agent) {
+    return indurop::node::run_agent(*options);
   }
   indurop::node::Node node(*options);
   return node.run();

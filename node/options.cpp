@@ -50,10 +50,18 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   CLI::App app{"Runs the modules of a module.xml, or of one board of a plant, on this host, each on its own schedule.",
                "indurop-node"};
   app.set_version_flag("--version", INDUROP_VERSION);
-  app.add_option("config", options.config, "module.xml, or a plant's manifest with --board")->required();
+  auto* config = app.add_option("config", options.config, "module.xml, or a plant's manifest with --board");
   auto* board = app.add_option("--board", options.board, "board of the plant to be")->check(check_node);
   app.add_flag("--one-host", options.one_host, "all boards of the plant run on this host: stay on loopback")
       ->needs(board);
+  auto* agent = app.add_flag("--agent", options.agent, "stay and run what indurop deploy sends to this board")
+                    ->needs(board)
+                    ->excludes(config);
+  app.add_option("--domain", options.domain, "DDS domain of the agents (default: 76)")
+      ->needs(agent)
+      ->check(CLI::Range(0, 230));
+  app.add_option("--interface", options.interface_name, "network interface of the agent (default: the only one)")
+      ->needs(agent);
   app.add_option("--node", node, "name of the node on this host (default: that of the board, else local)")
       ->check(check_node);
   app.add_option("--duration", duration, "end after this time (5s, 500ms)")->check(check_duration);
@@ -64,6 +72,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--spin", spin, "auto, off or a time to spin before each tick")->check(check_spin);
   app.add_flag("-q,--quiet", options.quiet, "only warnings and errors");
   app.footer(
+      "indurop-node --agent --board NAME makes this host a board that indurop deploy can reach.\n"
       "indurop run PLANT --local runs all boards of a plant on this host.\n\n"
       "Exit codes: 0 ok, 1 failed, 2 usage, 4 configuration has errors, 7 real-time rights not obtained\n"
       "(--require-rt), 8 variables of modules disagree, 130 interrupted.");
@@ -71,6 +80,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? kOk : kUsage;
+    return std::nullopt;
+  }
+  if (options.config.empty() && !options.agent) {
+    fmt::print(stderr, "indurop-node: error: name a module.xml, a plant's manifest, or --agent\n");
+    exit_code = kUsage;
     return std::nullopt;
   }
   if (node.empty()) {

@@ -35,6 +35,9 @@ struct Options {
   bool quiet = false;  // no summary, no messages of the node but warnings and errors
   std::optional<int> core;
   std::optional<deploy::SpinSetting> spin;
+  bool agent = false;          // stay and run what is deployed
+  std::optional<int> domain;   // of the agents
+  std::string interface_name;  // of the agent
 };
 
 // Parses the command line. Empty: the program is to end with `exit_code` (help, version, usage error; said already).

@@ -7,8 +7,10 @@
 
 namespace indurop::tools {
 
+extern const Verb kBoardsVerb;
 extern const Verb kCheckVerb;
 extern const Verb kCleanVerb;
+extern const Verb kDeployVerb;
 extern const Verb kDoctorVerb;
 extern const Verb kGetVerb;
 extern const Verb kHzVerb;

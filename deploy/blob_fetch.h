@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pieces of one file are asked for and have come: in order, a window ahead, asked for again if nothing comes.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace indurop::deploy {
+
+class BlobFetch {
+ public:
+  static constexpr std::uint64_t kWindow = 2U << 20U;  // bytes under way at most
+  static constexpr std::int64_t kPatienceNs = 500'000'000;
+
+  struct Range {
+    std::uint64_t offset = 0;
+    std::uint64_t length = 0;
+    bool restart = false;  // what was asked before is void
+  };
+
+  // The first `have` of `size` bytes are there already.
+  BlobFetch(std::uint64_t size, std::uint64_t have) : size_(size), have_(have), asked_(have) {}
+
+  // What to ask for now, if anything.
+  std::optional<Range> ask(std::int64_t now_ns) {
+    if (complete()) {
+      return std::nullopt;
+    }
+    const bool restart = !begun_ || now_ns - moved_ns_ > kPatienceNs;
+    if (restart) {
+      asked_ = have_;
+    } else if (asked_ == size_ || asked_ - have_ > kWindow / 2) {
+      return std::nullopt;
+    }
+    begun_ = true;
+    moved_ns_ = now_ns;
+    const std::uint64_t until = size_ - have_ > kWindow ? have_ + kWindow : size_;
+    const Range range{asked_, until - asked_, restart};
+    asked_ = until;
+    return range;
+  }
+
+  // True if these bytes come next; they are to be kept then. Others are to be dropped.
+  bool take(std::uint64_t offset, std::uint64_t length, std::int64_t now_ns) {
+    if (offset != have_ || length == 0 || length > size_ - have_) {
+      return false;
+    }
+    have_ += length;
+    moved_ns_ = now_ns;
+    return true;
+  }
+
+  [[nodiscard]] std::uint64_t have() const noexcept { return have_; }
+  [[nodiscard]] bool complete() const noexcept { return have_ == size_; }
+
+ private:
+  std::uint64_t size_;
+  std::uint64_t have_;
+  std::uint64_t asked_;
+  bool begun_ = false;
+  std::int64_t moved_ns_ = 0;
+};
+
+}  // namespace indurop::deploy

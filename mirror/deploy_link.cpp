@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/deploy_link.h"
+
+#include <deploy.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <map>
+#include <random>
+
+#include "mirror/dds_setup.h"
+#include "rt/clock.h"
+#include "rt/signal_word.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr int kProtocol = 1;
+constexpr std::int64_t kLeaseNs = 2'000'000'000;
+constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
+constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
+
+std::string topic_name(const std::string& what) {
+  return fmt::format("indurop/{}/deploy/{}", kProtocol, what);
+}
+
+std::string blob_topic(std::uint64_t requester) {
+  return topic_name(fmt::format("blob/{:016x}", requester));
+}
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+Qos make_qos(bool state) {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kBlockNs);
+  dds_qset_durability(qos.get(), state ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, state ? 1 : kDepth);
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kLeaseNs);
+  dds_qset_writer_data_lifecycle(qos.get(), true);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  return qos;
+}
+
+// Samples are only read, and copied before dds_write returns.
+char* text_of(const std::string& text) {
+  return const_cast<char*>(text.c_str());
+}
+
+class Names {
+ public:
+  explicit Names(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      pointers_.push_back(text_of(name));
+    }
+  }
+  template <class Sequence>
+  void put(Sequence& sequence) {
+    sequence._buffer = pointers_.data();
+    sequence._length = sequence._maximum = static_cast<std::uint32_t>(pointers_.size());
+    sequence._release = false;
+  }
+  template <class Sequence>
+  static std::vector<std::string> get(const Sequence& sequence) {
+    return {sequence._buffer, sequence._buffer + sequence._length};
+  }
+
+ private:
+  std::vector<char*> pointers_;
+};
+
+template <class Enum>
+Enum bounded(std::uint8_t value, Enum last) {
+  return value <= static_cast<std::uint8_t>(last) ? static_cast<Enum>(value) : last;
+}
+
+deploy::BoardReport from_wire(const indurop_deploy_BoardReport& in) {
+  deploy::BoardReport out;
+  out.board = in.board;
+  out.agent = in.agent;
+  out.host = in.host;
+  out.release = in.release;
+  out.generation = in.generation;
+  out.plant = in.plant;
+  out.current = in.current;
+  out.current_size = in.current_size;
+  out.previous = in.previous;
+  out.members = Names::get(in.members);
+  out.deployer = in.deployer;
+  out.deployer_host = in.deployer_host;
+  out.proposed = in.proposed;
+  out.phase = bounded(in.phase, deploy::Phase::Failed);
+  out.stage = bounded(in.stage, deploy::Phase::Failed);
+  out.files = in.files;
+  out.files_done = in.files_done;
+  out.bytes = in.bytes;
+  out.bytes_done = in.bytes_done;
+  out.message = in.message;
+  out.node = bounded(in.node, deploy::NodeCondition::Failed);
+  out.tick = in.tick;
+  out.lost_ticks = in.lost_ticks;
+  out.overruns = in.overruns;
+  out.faults = in.faults;
+  out.clock_offset_ns = in.clock_offset_ns;
+  return out;
+}
+
+deploy::Order from_wire(const indurop_deploy_Order& in) {
+  deploy::Order out;
+  out.deployer = in.deployer;
+  out.host = in.host;
+  out.deployment = in.deployment;
+  out.size = in.size;
+  out.generation = in.generation;
+  out.boards = Names::get(in.boards);
+  out.step = bounded(in.step, deploy::Step::Abort);
+  out.said_at_ns = in.said_at_ns;
+  out.switch_at_ns = in.switch_at_ns;
+  out.health_ns = in.health_ns;
+  return out;
+}
+
+// Takes all samples of a reader; `use` gets each with its information.
+template <class Sample, class Use>
+void take_all(dds_entity_t reader, Use use) {
+  constexpr std::uint32_t kAtOnce = 32;
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  for (;;) {
+    samples[0] = nullptr;
+    const int count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) {
+      return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      use(*static_cast<const Sample*>(samples[i]), infos[i]);
+    }
+    (void)dds_return_loan(reader, samples.data(), count);
+  }
+}
+
+}  // namespace
+
+struct DeployLink::Impl {
+  // Empty: made. Else what failed.
+  std::string make();
+  Entity reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
+  Entity writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
+
+  std::uint64_t self = 0;
+  rt::SignalWord wake;  // used by listeners until the readers are gone
+  Participant joined;
+  Entity boards_out;
+  Entity orders_out;
+  Entity requests_out;
+  std::map<std::uint64_t, Entity> blobs_out;  // by requester
+  Entity boards_in;
+  Entity orders_in;
+  Entity requests_in;
+  Entity blobs_in;
+};
+
+Entity DeployLink::Impl::reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
+  const dds_entity_t made = dds_create_topic(joined.participant.get(), &type, topic.c_str(), nullptr, nullptr);
+  if (made < 0) {
+    return Entity(made);
+  }
+  const Qos qos = make_qos(state);
+  dds_listener_t* listener = dds_create_listener(&wake);
+  dds_lset_data_available(listener,
+                          [](dds_entity_t /*reader*/, void* word) { static_cast<rt::SignalWord*>(word)->wake(); });
+  Entity in(dds_create_reader(joined.participant.get(), made, qos.get(), listener));
+  dds_delete_listener(listener);
+  return in;
+}
+
+Entity DeployLink::Impl::writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
+  const dds_entity_t made = dds_create_topic(joined.participant.get(), &type, topic.c_str(), nullptr, nullptr);
+  const Qos qos = make_qos(state);
+  return made < 0 ? Entity(made) : Entity(dds_create_writer(joined.participant.get(), made, qos.get(), nullptr));
+}
+
+std::string DeployLink::Impl::make() {
+  boards_in = reader(indurop_deploy_BoardReport_desc, topic_name("board"), true);
+  orders_in = reader(indurop_deploy_Order_desc, topic_name("order"), true);
+  requests_in = reader(indurop_deploy_Request_desc, topic_name("request"), false);
+  blobs_in = reader(indurop_deploy_Chunk_desc, blob_topic(self), false);
+  boards_out = writer(indurop_deploy_BoardReport_desc, topic_name("board"), true);
+  orders_out = writer(indurop_deploy_Order_desc, topic_name("order"), true);
+  requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
+  for (const Entity* entity :
+       {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
+    if (!entity->ok()) {
+      return "deployment topics cannot be made: " + entity->why();
+    }
+  }
+  return {};
+}
+
+std::uint64_t new_session() {
+  // The clock first, so that of two deployers the one that began earlier has the smaller number.
+  std::random_device random;
+  return (static_cast<std::uint64_t>(rt::wall_ns()) & ~std::uint64_t{0xffff}) | (random() & 0xffffU);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
+}
+
+std::unique_ptr<DeployLink> DeployLink::open(const LinkSettings& settings, std::string& problem) {
+  Settings network;
+  network.domain = settings.domain;
+  network.interface_name = settings.interface_name;
+  network.address = settings.address;
+  network.multicast = settings.multicast;
+  network.peers = settings.peers;
+  network.one_host = settings.one_host;
+  network.known_ports = true;
+  network.lease_ns = kLeaseNs;
+  auto impl = std::make_unique<Impl>();
+  impl->self = settings.self;
+  impl->wake.init(false);
+  impl->joined = join_plant(network, problem);
+  if (!impl->joined.participant.ok()) {
+    return nullptr;
+  }
+  if (const std::string failed = impl->make(); !failed.empty()) {
+    problem = failed;
+    return nullptr;
+  }
+  return std::unique_ptr<DeployLink>(new DeployLink(std::move(impl)));
+}
+
+DeployLink::DeployLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+DeployLink::~DeployLink() = default;
+
+void DeployLink::publish(const deploy::BoardReport& report) {
+  indurop_deploy_BoardReport out{};
+  Names members(report.members);
+  out.board = text_of(report.board);
+  out.agent = report.agent;
+  out.host = text_of(report.host);
+  out.release = text_of(report.release);
+  out.generation = report.generation;
+  out.plant = text_of(report.plant);
+  out.current = text_of(report.current);
+  out.current_size = report.current_size;
+  out.previous = text_of(report.previous);
+  members.put(out.members);
+  out.deployer = report.deployer;
+  out.deployer_host = text_of(report.deployer_host);
+  out.proposed = text_of(report.proposed);
+  out.phase = static_cast<std::uint8_t>(report.phase);
+  out.stage = static_cast<std::uint8_t>(report.stage);
+  out.files = report.files;
+  out.files_done = report.files_done;
+  out.bytes = report.bytes;
+  out.bytes_done = report.bytes_done;
+  out.message = text_of(report.message);
+  out.node = static_cast<std::uint8_t>(report.node);
+  out.tick = report.tick;
+  out.lost_ticks = report.lost_ticks;
+  out.overruns = report.overruns;
+  out.faults = report.faults;
+  out.clock_offset_ns = report.clock_offset_ns;
+  (void)dds_write(impl_->boards_out.get(), &out);  // told again soon
+}
+
+void DeployLink::publish(const deploy::Order& order) {
+  indurop_deploy_Order out{};
+  Names boards(order.boards);
+  out.deployer = order.deployer;
+  out.host = text_of(order.host);
+  out.deployment = text_of(order.deployment);
+  out.size = order.size;
+  out.generation = order.generation;
+  boards.put(out.boards);
+  out.step = static_cast<std::uint8_t>(order.step);
+  out.said_at_ns = order.said_at_ns;
+  out.switch_at_ns = order.switch_at_ns;
+  out.health_ns = order.health_ns;
+  (void)dds_write(impl_->orders_out.get(), &out);
+}
+
+void DeployLink::request(const deploy::BlobRequest& request) {
+  const indurop_deploy_Request out{request.requester, request.source, text_of(request.blob),
+                                   request.offset,    request.length, request.restart};
+  (void)dds_write(impl_->requests_out.get(), &out);
+}
+
+DeployLink::Sent DeployLink::send(std::uint64_t requester, const deploy::BlobChunk& chunk) {
+  Entity& writer = impl_->blobs_out[requester];
+  if (!writer.ok()) {
+    writer = impl_->writer(indurop_deploy_Chunk_desc, blob_topic(requester), false);
+  }
+  dds_publication_matched_status_t matched{};
+  if (!writer.ok() || dds_get_publication_matched_status(writer.get(), &matched) < 0) {
+    return Sent::Failed;
+  }
+  if (matched.current_count == 0) {
+    return Sent::Later;
+  }
+  indurop_deploy_Chunk out{};
+  out.source = chunk.source;
+  out.blob = text_of(chunk.blob);
+  out.offset = chunk.offset;
+  out.missing = chunk.missing;
+  out.data._buffer = const_cast<std::uint8_t*>(chunk.data.data());
+  out.data._length = out.data._maximum = static_cast<std::uint32_t>(chunk.data.size());
+  const dds_return_t code = dds_write(writer.get(), &out);
+  return code == DDS_RETCODE_TIMEOUT ? Sent::Later : code < 0 ? Sent::Failed : Sent::Yes;
+}
+
+std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
+  std::vector<BoardNews> news;
+  take_all<indurop_deploy_BoardReport>(impl_->boards_in.get(), [&](const auto& sample, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      news.push_back({from_wire(sample), false});
+    }
+    if (info.instance_state != DDS_IST_ALIVE) {
+      deploy::BoardReport report;
+      report.board = sample.board;
+      report.agent = sample.agent;
+      news.push_back({std::move(report), true});
+    }
+  });
+  return news;
+}
+
+std::vector<DeployLink::OrderNews> DeployLink::take_orders() {
+  std::vector<OrderNews> news;
+  take_all<indurop_deploy_Order>(impl_->orders_in.get(), [&](const auto& sample, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      news.push_back({from_wire(sample), false});
+    }
+    if (info.instance_state != DDS_IST_ALIVE) {
+      deploy::Order order;
+      order.deployer = sample.deployer;
+      news.push_back({std::move(order), true});
+    }
+  });
+  return news;
+}
+
+std::vector<deploy::BlobRequest> DeployLink::take_requests() {
+  std::vector<deploy::BlobRequest> requests;
+  take_all<indurop_deploy_Request>(impl_->requests_in.get(), [&](const auto& sample, const dds_sample_info_t& info) {
+    if (info.valid_data && sample.source == impl_->self) {
+      requests.push_back({sample.requester, sample.source, sample.blob, sample.offset, sample.length, sample.restart});
+    }
+  });
+  return requests;
+}
+
+std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
+  std::vector<deploy::BlobChunk> chunks;
+  take_all<indurop_deploy_Chunk>(impl_->blobs_in.get(), [&](const auto& sample, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      chunks.push_back({sample.source,
+                        sample.blob,
+                        sample.offset,
+                        sample.missing,
+                        {sample.data._buffer, sample.data._buffer + sample.data._length}});
+    }
+  });
+  return chunks;
+}
+
+void DeployLink::wait(std::int64_t deadline_ns) {
+  impl_->wake.wait_until(deadline_ns);
+  while (impl_->wake.try_wait()) {
+  }
+}
+
+}  // namespace indurop::mirror

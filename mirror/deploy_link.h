@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// How agents of boards and deployers reach each other: their words (deploy/deployment_words.h) as DDS topics. No DDS
+// here. One thread uses a link.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deploy/deployment_words.h"
+
+namespace indurop::mirror {
+
+struct LinkSettings {
+  // Not the domain of a plant: boards without any deployment are found here, and values of plants do not pass by.
+  static constexpr int kDefaultDomain = 76;
+  int domain = kDefaultDomain;
+  std::string interface_name;      // empty: the only one, or the one with `address`
+  std::string address;             // own
+  std::vector<std::string> peers;  // looked for there as well, for networks without multicast
+  bool multicast = true;
+  bool one_host = false;   // all of it on loopback
+  std::uint64_t self = 0;  // session of this agent or deployer
+};
+
+// A session number that no other run has.
+std::uint64_t new_session();
+std::string host_name();
+
+class DeployLink {
+ public:
+  // Largest piece of a file in one message.
+  static constexpr std::size_t kChunk = 60'000;
+
+  // Null, and `problem` says why, if the network cannot be had now: try again later. Else `problem` may hold something
+  // the user should know.
+  static std::unique_ptr<DeployLink> open(const LinkSettings& settings, std::string& problem);
+  DeployLink(const DeployLink&) = delete;
+  DeployLink& operator=(const DeployLink&) = delete;
+  ~DeployLink();
+
+  // What is published stays for late joiners until it is replaced, or the link is closed.
+  void publish(const deploy::BoardReport& report);
+  void publish(const deploy::Order& order);
+  void request(const deploy::BlobRequest& request);
+  enum class Sent { Yes, Later, Failed };
+  // Later: the network or the receiver is not ready for it.
+  Sent send(std::uint64_t requester, const deploy::BlobChunk& chunk);
+
+  // What has come since. `gone`: the board or deployer has left, or is not heard; only its name and number are set.
+  struct BoardNews {
+    deploy::BoardReport report;
+    bool gone = false;
+  };
+  struct OrderNews {
+    deploy::Order order;
+    bool gone = false;
+  };
+  std::vector<BoardNews> take_boards();
+  std::vector<OrderNews> take_orders();
+  std::vector<deploy::BlobRequest> take_requests();  // to this session
+  std::vector<deploy::BlobChunk> take_chunks();
+
+  // Until something came or CLOCK_MONOTONIC `deadline_ns`.
+  void wait(std::int64_t deadline_ns);
+
+ private:
+  struct Impl;
+  explicit DeployLink(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace indurop::mirror

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/agent.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "deploy/board_transaction.h"
+#include "deploy/plant.h"
+#include "mirror/blob_server.h"
+#include "node/agent_state.h"
+#include "node/board_process.h"
+#include "node/fetcher.h"
+#include "node/stop_signal.h"
+#include "rt/clock.h"
+
+namespace indurop::node {
+namespace {
+
+using deploy::BoardTransaction;
+using Do = BoardTransaction::Do;
+
+constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kTellNs = 500'000'000;  // at least
+constexpr std::int64_t kTellFastNs = 50'000'000;
+constexpr std::int64_t kNetworkRetryNs = 1'000'000'000;
+
+// First error of a check, and how many more.
+std::string first_error(const std::vector<deploy::Diagnostic>& diagnostics) {
+  std::string text;
+  std::size_t more = 0;
+  for (const deploy::Diagnostic& diagnostic : diagnostics) {
+    if (diagnostic.severity != deploy::Diagnostic::Severity::Error) {
+      continue;
+    }
+    if (text.empty()) {
+      deploy::Diagnostic shown = diagnostic;
+      shown.file = std::filesystem::path(shown.file).filename().string();
+      text = deploy::to_string(shown);
+    } else {
+      ++more;
+    }
+  }
+  return more > 0 ? fmt::format("{} (and {} more)", text, more) : text;
+}
+
+std::vector<std::string> node_arguments(const Options& options) {
+  std::vector<std::string> words;
+  if (options.one_host) {
+    words.emplace_back("--one-host");
+  }
+  if (options.core) {
+    words.insert(words.end(), {"--core", std::to_string(*options.core)});
+  }
+  if (options.require_rt) {
+    words.emplace_back("--require-rt");
+  }
+  if (options.quiet) {
+    words.emplace_back("--quiet");
+  }
+  return words;
+}
+
+class Agent {
+ public:
+  Agent(const Options& options, Console& console, AgentState& state)
+      : options_(options),
+        console_(console),
+        state_(state),
+        self_(mirror::new_session()),
+        transaction_(options.board),
+        fetcher_(state, self_),
+        process_(options.board, node_arguments(options), console),
+        server_(self_, [this](const std::string& name, mirror::BlobServer::Blob& blob) { return find(name, blob); }) {
+    link_settings_.domain = options.domain.value_or(mirror::LinkSettings::kDefaultDomain);
+    link_settings_.interface_name = options.interface_name;
+    link_settings_.one_host = options.one_host;
+    link_settings_.self = self_;
+    host_ = mirror::host_name();
+  }
+
+  int run(StopSignal& signals) {
+    resume();
+    while (signals.wait(0) == 0) {
+      const std::int64_t now = rt::now_ns();
+      process_.step(now);
+      connect(now);
+      if (link_ != nullptr) {
+        listen(now);
+        work(now);
+        tell(now);
+      }
+      follow(now);
+      pause(signals);
+    }
+    console_.info("stopping: signal {}", signals.received());
+    link_.reset();  // the others see at once that this board leaves
+    process_.end();
+    return signals.received() == SIGINT ? kInterrupted : kOk;
+  }
+
+ private:
+  // The last committed deployment, without any network.
+  void resume() {
+    const Committed& committed = state_.committed();
+    if (committed.current.empty()) {
+      console_.info("board {}: nothing is deployed yet", options_.board);
+      return;
+    }
+    std::string problem = state_.install(committed.current);
+    if (problem.empty()) {
+      console_.info("board {}: resuming deployment {} of plant {}", options_.board, deploy::shown_id(committed.current),
+                    committed.plant);
+      process_.want(state_.manifest(committed.current));
+    } else {
+      console_.error("the committed deployment cannot be resumed: {}", problem);
+    }
+  }
+
+  bool find(const std::string& name, mirror::BlobServer::Blob& blob) const {
+    if (name == deploy::kHistoryBlob) {
+      blob.text = state_.history_text();
+      return true;
+    }
+    blob.file = state_.file(name);
+    return state_.has(name);
+  }
+
+  void connect(std::int64_t now) {
+    if (link_ != nullptr || now < connect_ns_) {
+      return;
+    }
+    connect_ns_ = now + kNetworkRetryNs;
+    std::string problem;
+    link_ = mirror::DeployLink::open(link_settings_, problem);
+    if (!problem.empty() && problem != network_problem_) {
+      console_.warning("{}", problem);
+    }
+    network_problem_ = problem;
+  }
+
+  void listen(std::int64_t now) {
+    for (const auto& news : link_->take_orders()) {
+      perform(news.gone ? transaction_.deployer_gone(news.order.deployer)
+                        : transaction_.hear(news.order, now, rt::wall_ns()),
+              now);
+    }
+    for (auto& news : link_->take_boards()) {
+      const auto key = std::pair(news.report.board, news.report.agent);
+      if (news.gone) {
+        others_.erase(key);
+      } else {
+        others_[key] = std::move(news.report);
+      }
+    }
+    for (const auto& [key, other] : others_) {
+      const bool mine = std::find(other.members.begin(), other.members.end(), options_.board) != other.members.end();
+      if (key.first != options_.board && mine && other.generation > state_.committed().generation) {
+        perform(transaction_.catch_up(other, now), now);
+      }
+    }
+  }
+
+  void work(std::int64_t now) {
+    if (fetcher_.active()) {
+      const Fetcher::Result result = fetcher_.step(*link_, now);
+      if (result == Fetcher::Result::Done) {
+        perform(transaction_.fetched({}), now);
+      } else if (result == Fetcher::Result::Failed) {
+        perform(transaction_.fetched(fetcher_.problem()), now);
+      }
+    } else {
+      (void)link_->take_chunks();
+    }
+    busy_ = server_.serve(*link_, now);
+  }
+
+  void follow(std::int64_t now) {
+    perform(transaction_.time(now), now);
+    const deploy::Phase phase = transaction_.phase();
+    if (phase == deploy::Phase::Trial || phase == deploy::Phase::Healthy) {
+      const BoardProcess::Health health = process_.health(transaction_.order().boards);
+      perform(transaction_.node(health.problem, health.missing, now), now);
+    }
+  }
+
+  void perform(Do what, std::int64_t now) {
+    const deploy::Order& order = transaction_.order();
+    switch (what) {
+      case Do::Nothing:
+        return;
+      case Do::Fetch:
+        console_.info("deployment {} of {}: fetching", deploy::shown_id(order.deployment), order.host);
+        fetcher_.begin(transaction_.source(), order.deployment, order.size);
+        break;
+      case Do::Check:
+        tell(now);  // it may take a while
+        perform(transaction_.checked(check(order.deployment), rt::now_ns()), rt::now_ns());
+        break;
+      case Do::Switch:
+        console_.info("deployment {}: switching", deploy::shown_id(order.deployment));
+        process_.want(state_.manifest(order.deployment));
+        break;
+      case Do::Commit:
+        commit(order);
+        break;
+      case Do::GoBack:
+        console_.error("deployment {}: going back: {}", deploy::shown_id(order.deployment), transaction_.message());
+        go_back(order);
+        break;
+      case Do::Forget:
+        fetcher_.cancel();
+        console_.warning("deployment {}: given up: {}", deploy::shown_id(order.deployment), transaction_.message());
+        break;
+    }
+    tell_now_ = true;
+  }
+
+  std::string check(const std::string& id) {
+    if (std::string problem = state_.install(id); !problem.empty()) {
+      return problem;
+    }
+    deploy::ReadPlant read = deploy::read_plant(state_.manifest(id));
+    if (!read.ok()) {
+      return first_error(read.diagnostics);
+    }
+    deploy::CheckOptions how;
+    how.board = options_.one_host ? std::string{} : options_.board;
+    const deploy::PlantCheck checked = deploy::check_plant(read.plant, how);
+    const bool here = std::any_of(read.plant.boards.begin(), read.plant.boards.end(),
+                                  [this](const deploy::Board& board) { return board.name == options_.board; });
+    return here ? first_error(checked.diagnostics) : fmt::format("the plant has no board {}", options_.board);
+  }
+
+  static HistoryEntry history_of(const deploy::Order& order, const std::string& plant, const std::string& outcome) {
+    return {order.deployment, plant, order.generation, order.host, rt::wall_ns(), outcome};
+  }
+
+  void commit(const deploy::Order& order) {
+    std::string problem;
+    const auto package = state_.package(order.deployment, problem);
+    Committed next = state_.committed();
+    next.generation = order.generation;
+    if (package) {
+      next.plant = package->plant;
+      next.members = package->boards;
+    }
+    if (next.current != order.deployment) {
+      next.previous = next.current;
+    }
+    next.current = order.deployment;
+    std::error_code error;
+    next.current_size = std::filesystem::file_size(state_.file(order.deployment), error);
+    next.history.push_back(history_of(order, next.plant, "committed"));
+    problem = state_.commit(std::move(next));
+    if (!problem.empty()) {
+      console_.error("deployment {} runs but cannot be committed: {}", deploy::shown_id(order.deployment), problem);
+      return;
+    }
+    console_.info("deployment {}: committed", deploy::shown_id(order.deployment));
+    state_.collect_garbage();
+  }
+
+  void go_back(const deploy::Order& order) {
+    Committed same = state_.committed();
+    same.history.push_back(history_of(order, same.plant, "rolled back: " + transaction_.message()));
+    process_.want(state_.manifest(same.current));
+    if (const std::string problem = state_.commit(std::move(same)); !problem.empty()) {
+      console_.error("{}", problem);
+    }
+  }
+
+  deploy::BoardReport report() {
+    const Committed& committed = state_.committed();
+    const deploy::Order& order = transaction_.order();
+    const BoardProcess::Figures figures = process_.figures();
+    deploy::BoardReport out;
+    out.board = options_.board;
+    out.agent = self_;
+    out.host = host_;
+    out.release = INDUROP_VERSION;
+    out.generation = committed.generation;
+    out.plant = committed.plant;
+    out.current = committed.current;
+    out.current_size = committed.current_size;
+    out.previous = committed.previous;
+    out.members = committed.members;
+    out.deployer = order.deployer;
+    out.deployer_host = order.host;
+    out.proposed = order.deployment;
+    out.phase = transaction_.phase();
+    out.stage = transaction_.stage();
+    out.files = fetcher_.files();
+    out.files_done = fetcher_.files_done();
+    out.bytes = fetcher_.bytes();
+    out.bytes_done = fetcher_.bytes_done();
+    out.message = transaction_.message();
+    if (out.message.empty() && process_.condition() != deploy::NodeCondition::Running) {
+      out.message = process_.reason();
+    }
+    out.node = process_.condition();
+    out.tick = figures.tick;
+    out.lost_ticks = figures.lost_ticks;
+    out.overruns = figures.overruns;
+    out.faults = figures.faults;
+    out.clock_offset_ns = transaction_.clock_offset_ns();
+    return out;
+  }
+
+  void tell(std::int64_t now) {
+    const bool moving = transaction_.phase() != deploy::Phase::Steady || process_.condition() != told_node_;
+    if (link_ == nullptr || (!tell_now_ && now - told_ns_ < (moving ? kTellFastNs : kTellNs))) {
+      return;
+    }
+    told_ns_ = now;
+    tell_now_ = false;
+    told_node_ = process_.condition();
+    link_->publish(report());
+  }
+
+  void pause(StopSignal& signals) {
+    if (link_ == nullptr) {
+      signals.wait(kLookNs);
+    } else if (!busy_) {
+      link_->wait(rt::now_ns() + kLookNs);
+    }
+  }
+
+  const Options& options_;
+  Console& console_;
+  AgentState& state_;
+  std::uint64_t self_;
+  std::string host_;
+  BoardTransaction transaction_;
+  Fetcher fetcher_;
+  BoardProcess process_;
+  mirror::BlobServer server_;
+  mirror::LinkSettings link_settings_;
+  std::unique_ptr<mirror::DeployLink> link_;
+  std::int64_t connect_ns_ = 0;
+  std::string network_problem_;
+  std::map<std::pair<std::string, std::uint64_t>, deploy::BoardReport> others_;
+  bool busy_ = false;
+  bool tell_now_ = true;
+  std::int64_t told_ns_ = 0;
+  deploy::NodeCondition told_node_ = deploy::NodeCondition::None;
+};
+
+}  // namespace
+
+int run_agent(const Options& options) {
+  StopSignal signals;
+  Console console(options.board + "-agent", options.quiet);
+  std::string problem;
+  auto state = AgentState::open(options.board, problem);
+  if (!state) {
+    console.error("{}", problem);
+    return kFailed;
+  }
+  return Agent(options, console, *state).run(signals);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/board_roster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rt/clock.h"
+#include "tools/interrupt.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents speak twice a second
+
+}  // namespace
+
+void add_link_options(CLI::App& app, mirror::LinkSettings& settings) {
+  app.add_option("--domain", settings.domain,
+                 fmt::format("DDS domain of the agents (default: {})", mirror::LinkSettings::kDefaultDomain))
+      ->check(CLI::Range(0, 230))
+      ->type_name("N");
+  app.add_option("--interface", settings.interface_name, "Network interface to the boards (default: the only one)")
+      ->type_name("IF");
+  app.add_flag("--one-host", settings.one_host, "The agents run on this host: stay on loopback");
+}
+
+std::unique_ptr<mirror::DeployLink> open_link(Context& context, mirror::LinkSettings& settings) {
+  settings.self = mirror::new_session();
+  std::string problem;
+  auto link = mirror::DeployLink::open(settings, problem);
+  if (link == nullptr) {
+    context.out.error(problem);
+  } else if (!problem.empty()) {
+    context.out.note(problem);
+  }
+  return link;
+}
+
+void BoardRoster::listen(mirror::DeployLink& link, std::int64_t now_ns, std::vector<Gone>* gone) {
+  for (auto& news : link.take_boards()) {
+    const auto key = std::pair(news.report.board, news.report.agent);
+    if (news.gone) {
+      boards_.erase(key);
+      if (gone != nullptr) {
+        gone->push_back({key.first, key.second});
+      }
+    } else {
+      boards_[key] = {std::move(news.report), now_ns};
+    }
+  }
+}
+
+void BoardRoster::gather_until(mirror::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {
+  const std::int64_t deadline = rt::now_ns() + time_ns;
+  while (!interrupted() && rt::now_ns() < deadline) {
+    link.wait(std::min(deadline, rt::now_ns() + kLookNs));
+    listen(link, rt::now_ns());
+    if (enough(context)) {
+      return;
+    }
+  }
+}
+
+const BoardRoster::Entry* BoardRoster::find(const std::string& board) const {
+  const Entry* best = nullptr;
+  for (auto at = boards_.lower_bound({board, 0}); at != boards_.end() && at->first.first == board; ++at) {
+    if (best == nullptr || at->second.heard_ns >= best->heard_ns) {
+      best = &at->second;
+    }
+  }
+  return best;
+}
+
+std::string BoardRoster::twins(const std::string& board, std::int64_t now_ns) const {
+  std::string hosts;
+  int count = 0;
+  for (auto at = boards_.lower_bound({board, 0}); at != boards_.end() && at->first.first == board; ++at) {
+    if (now_ns - at->second.heard_ns < kSilentNs) {
+      hosts += (count++ > 0 ? " and " : "") + at->second.report.host;
+    }
+  }
+  return count > 1 ? hosts : std::string{};
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes a deployment through on all its boards: what deploy and rollback have in common.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "deploy/deployment_words.h"
+#include "mirror/blob_server.h"
+#include "mirror/deploy_link.h"
+#include "tools/board_roster.h"
+#include "tools/table.h"
+#include "tools/verb.h"
+
+namespace indurop::tools {
+
+struct Deployment {
+  deploy::Order order;  // who, what, for whom
+  mirror::BlobServer::Find files;
+  std::int64_t patience_ns = 0;  // how long nothing at all may happen
+  JsonValue head;                // of the result as JSON
+  std::string title;             // "plant cell, deployment 0123456789ab"
+};
+
+// Prints progress and the result; returns the exit code.
+int run_deployment(Context& context, mirror::DeployLink& link, BoardRoster& roster, Deployment deployment);
+
+// The generation after all those heard.
+std::uint64_t next_generation(const BoardRoster& roster);
+// Those boards of `wanted` that are there. Empty after an error: some are missing (and `allow_missing` is not set), or
+// two have one name; `code` is the exit code then.
+std::vector<std::string> present_boards(Context& context, mirror::DeployLink& link, BoardRoster& roster,
+                                        const std::vector<std::string>& wanted, bool allow_missing,
+                                        std::int64_t timeout_ns, int& code);
+
+}  // namespace indurop::tools
