@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -353,7 +354,10 @@ bool Node::start_modules() {
 bool Node::start_schedule() {
   store_->prefault();
   run_file_->prefault();
-  if (const Status locked = rt::lock_memory(); locked) {
+  // Used while starting, and by the threads that talk to other boards, which are not real-time.
+  constexpr std::array<std::string_view, 6> kNotNeeded{"libddsc",         "libcrypto",          "libssl",
+                                                       "libiceoryx_posh", "libiceoryx_binding", "libtinyxml2"};
+  if (const Status locked = rt::lock_memory(kNotNeeded); locked) {
     run_->obtained.memory_locked = 1;
   } else if (obtained_.fifo != 0) {
     copy_text(run_->obtained.why, "mlockall refused: raise the limit of locked memory (memlock unlimited)");

@@ -2,11 +2,14 @@
 #include "rt/machine.h"
 
 #include <fcntl.h>
+#include <link.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/timex.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
@@ -31,10 +34,35 @@ long read_number(const char* path, long fallback) noexcept {
   return value;
 }
 
+// Gives up the pages of a library's code and constants; they come back from its file when they are used.
+int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
+  const std::string_view path = library->dlpi_name;
+  const auto& except = *static_cast<const std::span<const std::string_view>*>(names);
+  if (std::none_of(except.begin(), except.end(),
+                   [path](std::string_view name) { return path.find(name) != std::string_view::npos; })) {
+    return 0;
+  }
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  for (int i = 0; i < library->dlpi_phnum; ++i) {
+    const auto& segment = library->dlpi_phdr[i];
+    if (segment.p_type != PT_LOAD || (segment.p_flags & PF_W) != 0) {
+      continue;
+    }
+    const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
+    const std::uintptr_t end = library->dlpi_addr + segment.p_vaddr + segment.p_memsz;
+    auto* const memory = reinterpret_cast<void*>(begin);
+    (void)::munlock(memory, end - begin);
+    (void)::madvise(memory, end - begin, MADV_DONTNEED);
+  }
+  return 0;
+}
+
 }  // namespace
 
-Status lock_memory() noexcept {
+Status lock_memory(std::span<const std::string_view> except) noexcept {
+  ::malloc_trim(0);  // what starting up has freed need not be locked
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+    ::dl_iterate_phdr(&let_go, &except);
     return {};
   }
   return Error{errno == EPERM ? Errc::PermissionDenied : Errc::NoSpace, errno, "lock memory (mlockall)"};

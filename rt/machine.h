@@ -6,11 +6,14 @@
 #include <indurop/result.h>
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 
 namespace indurop::rt {
 
-// Locks present and future memory of this process. Errors: PermissionDenied, NoSpace (the limit is too small).
-Status lock_memory() noexcept;
+// Locks present and future memory of this process, but not code and constants of libraries whose path contains one of
+// `except`. Errors: PermissionDenied, NoSpace (the limit is too small).
+Status lock_memory(std::span<const std::string_view> except = {}) noexcept;
 
 // Keeps the processors out of deep idle states while it lives (/dev/cpu_dma_latency held open at 0): halves the
 // wake-up time and is what cyclictest does too.
