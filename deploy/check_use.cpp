@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Variables with too many users or too few.
 
+#include <algorithm>
+
 #include "deploy/check_parts.h"
 #include "deploy/text.h"
 
@@ -21,9 +23,18 @@ void check_writers_of_one_board(const std::string& name, const Users& users, con
   }
 }
 
+bool has_initial_value(const std::string& name, const schema::Schema& schema) {
+  return std::any_of(schema.variables.begin(), schema.variables.end(),
+                     [&](const schema::Variable& v) { return v.name == name && !v.initial.empty(); });
+}
+
 void check_never_written(const std::string& name, const Users& users, const Uses& uses, Report& report) {
   const Place place = uses.module(users.readers.front()).places.file;
   const std::string text = in_quotes(name) + " is read by " + enumerate(uses.names(users.readers)) + " but ";
+  if (has_initial_value(name, uses.board(users.readers.front()).result.schema)) {
+    report.note(place, text + "no module writes it: a parameter, with the value of its declaration unless set by hand");
+    return;
+  }
   if (uses.unknown_writers().empty()) {
     report.warning(place, text + "no module writes it; it keeps its initial value unless set by hand");
     return;

@@ -74,6 +74,16 @@ TEST_F(CheckAccess, Read_but_never_written_is_a_warning_and_the_reverse_a_note) 
                           HasSubstr("note: 'n::out' is written by a but no module reads it")));
 }
 
+TEST_F(CheckAccess, Read_but_never_written_with_a_value_of_its_own_is_a_parameter) {
+  ModuleSpec spec;
+  spec.schema.variables.push_back(variable("n::gain"));
+  spec.schema.variables.back().initial = {0, 0, 0, 0, 0, 0, 0, 0x40};
+  spec.reads = {"n::gain"};
+  write_module(folder_ / "a.so", spec);
+  EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1)),
+              ElementsAre(HasSubstr("note: 'n::gain' is read by a but no module writes it: a parameter")));
+}
+
 TEST_F(CheckAccess, Sensor_control_and_motor_in_the_wrong_order_are_told_how_to_swap) {
   write("RS.so", {}, {"n::sensor"});
   write("GC.so", {"n::sensor"}, {"n::command"});
