@@ -58,7 +58,7 @@ std::string threads(const Settings& settings) {
                         settings.fifo_priority)
           : "";
   for (const char* name : {"recv", "tev", "gc", "dq.builtins", "dq.user"}) {
-    text += fmt::format("<Thread Name=\"{}\">{}<StackSize>512 kB</StackSize></Thread>", name,
+    text += fmt::format("<Thread Name=\"{}\">{}<StackSize>256 kB</StackSize></Thread>", name,
                         name == std::string_view("gc") ? "" : realtime);
   }
   return "<Threads>" + text + "</Threads>";
