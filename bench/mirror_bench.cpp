@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One end of a mirror: `mirror_bench write|read DOMAIN SECONDS BYTES COUNT`. The writer changes COUNT variables of
-// BYTES bytes every millisecond; the first word of each is the time of its write, CLOCK_MONOTONIC, which the namespaces
-// of one machine share. The reader compares it with the time the value was taken over. Prints one line of JSON.
+// One end of a mirror: `mirror_bench write|alone|read DOMAIN SECONDS BYTES COUNT`; `alone` writes without a mirror. The
+// writer changes COUNT variables of BYTES bytes every millisecond; the first word of each is the time of its write,
+// CLOCK_MONOTONIC, which the namespaces of one machine share. The reader compares it with the time the value was taken
+// over. Prints one line of JSON.
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -68,15 +69,26 @@ double cpu_seconds(int who) {
          static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) * 1e-6;
 }
 
-void write_values(vars::Store& store, mirror::Mirror& mirror, std::atomic<std::uint64_t>& tick, double seconds) {
+double at_part(const std::vector<std::int64_t>& sorted, double part) {
+  return sorted.empty()
+             ? 0.0
+             : static_cast<double>(sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))]) /
+                   1000;
+}
+
+void write_values(vars::Store& store, mirror::Mirror* mirror, std::atomic<std::uint64_t>& tick, double seconds) {
   (void)rt::set_fifo(90);
   (void)rt::pin_to_core(rt::allowed_cores().back());
   const auto end = static_cast<std::uint64_t>(seconds * 1000);
   const double process = cpu_seconds(RUSAGE_SELF);
   const double own = cpu_seconds(RUSAGE_THREAD);
+  std::vector<std::int64_t> late;
+  late.reserve(end);
   const std::int64_t start = rt::now_ns();
   for (std::uint64_t n = 0; n < end; ++n) {
-    rt::sleep_until(start + static_cast<std::int64_t>(n) * kTickNs);
+    const std::int64_t planned = start + static_cast<std::int64_t>(n) * kTickNs;
+    rt::sleep_until(planned);
+    late.push_back(rt::now_ns() - planned);
     tick.store(n + 1);
     for (const auto& entry : store.directory()) {
       const std::int64_t now = rt::now_ns();
@@ -84,11 +96,15 @@ void write_values(vars::Store& store, mirror::Mirror& mirror, std::atomic<std::u
       std::memcpy(bytes, &now, sizeof now);
       (void)store.write(entry, 0, bytes);
     }
-    mirror.notify();
+    if (mirror != nullptr) {
+      mirror->notify();
+    }
   }
   const double mirrors = (cpu_seconds(RUSAGE_SELF) - process) - (cpu_seconds(RUSAGE_THREAD) - own);
-  std::printf("{\"ticks\": %llu, \"mirror_us_per_tick\": %.2f}\n", static_cast<unsigned long long>(end),
-              mirrors / static_cast<double>(end) * 1e6);
+  std::sort(late.begin(), late.end());
+  std::printf("{\"ticks\": %llu, \"mirror_us_per_tick\": %.2f, \"late_p50_us\": %.2f, \"late_p99_us\": %.2f}\n",
+              static_cast<unsigned long long>(end), mirrors / static_cast<double>(end) * 1e6, at_part(late, 0.5),
+              at_part(late, 0.99));
 }
 
 void read_values(vars::Store& store, const mirror::PeerRecord& peer, double seconds) {
@@ -116,30 +132,25 @@ void read_values(vars::Store& store, const mirror::PeerRecord& peer, double seco
   }
   const double mirrors = (cpu_seconds(RUSAGE_SELF) - process) - (cpu_seconds(RUSAGE_THREAD) - own);
   std::sort(latencies.begin(), latencies.end());
-  const auto at = [&](double part) {
-    return latencies.empty()
-               ? 0.0
-               : static_cast<double>(
-                     latencies[static_cast<std::size_t>(part * static_cast<double>(latencies.size() - 1))]) /
-                     1000;
-  };
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   std::printf(
       "{\"samples\": %zu, \"p50_us\": %.2f, \"p99_us\": %.2f, \"max_us\": %.2f, \"frames\": %llu, \"lost\": %llu, "
       "\"cpu_s\": %.3f, \"rss_kb\": %ld}\n",
-      latencies.size(), at(0.5), at(0.99), at(1.0), static_cast<unsigned long long>(peer.frames.load()),
-      static_cast<unsigned long long>(peer.lost_updates.load()), mirrors, usage.ru_maxrss);
+      latencies.size(), at_part(latencies, 0.5), at_part(latencies, 0.99), at_part(latencies, 1.0),
+      static_cast<unsigned long long>(peer.frames.load()), static_cast<unsigned long long>(peer.lost_updates.load()),
+      mirrors, usage.ru_maxrss);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 6) {
-    std::fprintf(stderr, "usage: mirror_bench write|read DOMAIN SECONDS BYTES COUNT\n");
+    std::fprintf(stderr, "usage: mirror_bench write|alone|read DOMAIN SECONDS BYTES COUNT\n");
     return 2;
   }
-  const bool writer = std::string(argv[1]) == "write";
+  const std::string mode = argv[1];
+  const bool writer = mode != "read";
   const double seconds = std::atof(argv[3]);
   const schema::Schema schema = make_schema(static_cast<std::uint32_t>(std::atoi(argv[4])), std::atoi(argv[5]));
   const std::string node = std::string("mirror-bench-") + argv[1];
@@ -150,7 +161,9 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::atomic<std::uint64_t> tick{0};
-  {
+  if (mode == "alone") {
+    write_values(store.value(), nullptr, tick, seconds);
+  } else {
     auto mirror = mirror::Mirror::start(make_settings(writer, std::atoi(argv[2]), schema), node, store.value(), tick);
     const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
     if (!mirror || !file) {
@@ -163,7 +176,7 @@ int main(int argc, char** argv) {
       rt::sleep_until(rt::now_ns() + kTickNs);
     }
     if (writer) {
-      write_values(store.value(), mirror.value(), tick, seconds);
+      write_values(store.value(), &mirror.value(), tick, seconds);
     } else {
       read_values(store.value(), peer, seconds);
     }
