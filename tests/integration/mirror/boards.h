@@ -42,7 +42,7 @@ struct BoardPlan {
   std::string out = "-";
   std::string in = "-";
   std::string variant = "plain";
-  std::string keys;  // folder; empty: none
+  std::string keys{};  // folder; empty: none
 };
 
 class Boards : public ::testing::Test {
