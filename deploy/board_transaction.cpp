@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::int64_t kRetryNs = 30'000'000'000;  // after a deployment that could not be taken over
 constexpr std::int64_t kLongestHealthNs = 600'000'000'000;
-constexpr std::int64_t kSlowStartNs = 10'000'000'000;  // beyond the window, for what comes up late
 
 }  // namespace
 
@@ -172,7 +171,7 @@ Do BoardTransaction::node(const std::string& problem, const std::string& missing
     phase_ = Phase::Healthy;
     return Do::Nothing;
   }
-  return now_ns < trial_end_ns_ + std::min(order_.health_ns, kSlowStartNs) ? Do::Nothing : fail(missing);
+  return now_ns < trial_end_ns_ + kSlowStartNs ? Do::Nothing : fail(missing);
 }
 
 Do BoardTransaction::time(std::int64_t now_ns) {

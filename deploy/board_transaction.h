@@ -26,6 +26,7 @@ class BoardTransaction {
 
   static constexpr std::int64_t kSilenceNs = 5'000'000'000;  // a deployer not heard for so long is gone
   static constexpr std::int64_t kClockTrustNs = 100'000'000;
+  static constexpr std::int64_t kSlowStartNs = 5'000'000'000;  // beyond the health window, for what comes up late
   static constexpr std::int64_t kJoinHealthNs = 3'000'000'000;
 
   explicit BoardTransaction(std::string board) : board_(std::move(board)) {}

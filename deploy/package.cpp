@@ -25,7 +25,7 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;
 
 bool is_safe_path(const std::string& text) {
   const std::filesystem::path path(text);
-  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal() != path ||
+  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||
       text.back() == '/' || text.find('\0') != std::string::npos) {
     return false;
   }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "deploy/board_transaction.h"
+
 namespace indurop::deploy {
 namespace {
 
@@ -144,7 +146,8 @@ bool PlantTransaction::time(std::int64_t now_ns, std::int64_t wall_ns) {
     verdict_ = Verdict::Committed;
     ending_ns_ = now_ns;
   } else if (order_.step == Step::Prepare || order_.step == Step::Switch) {
-    const std::int64_t limit = patience_ns_ + (order_.step == Step::Switch ? 2 * order_.health_ns : 0);
+    const std::int64_t limit =
+        patience_ns_ + (order_.step == Step::Switch ? order_.health_ns + BoardTransaction::kSlowStartNs : 0);
     if (now_ns - moved_ns_ > limit) {
       const Phase wanted = order_.step == Step::Prepare ? Phase::Prepared : Phase::Healthy;
       for (const std::string& board : order_.boards) {

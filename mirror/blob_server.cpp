@@ -96,6 +96,14 @@ bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
       forget(waiting);
     }
   }
+  std::erase_if(waiting_, [&](const auto& entry) {
+    const Waiting& waiting = entry.second;
+    const bool idle = waiting.requests.empty() && now_ns - waiting.stuck_since_ns > kStuckNs;
+    if (idle) {
+      link.forget(entry.first);
+    }
+    return idle;
+  });
   return more;
 }
 

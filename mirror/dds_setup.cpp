@@ -86,8 +86,10 @@ std::string domain_configuration(const Settings& settings, const std::string& in
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
          // A lost last value is repaired within milliseconds, not 100.
          "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
-         "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay></Internal>" +
-         (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
+         "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>" +
+         // Files: keep sending while the first pieces are being acknowledged.
+         (settings.known_ports ? "<Watermarks><WhcHigh>4 MB</WhcHigh><WhcLow>1 MB</WhcLow></Watermarks>" : "") +
+         "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
 }
 
 Participant join_plant(const Settings& settings, std::string& problem) {
@@ -95,7 +97,8 @@ Participant join_plant(const Settings& settings, std::string& problem) {
   Participant joined;
   std::string note;
   const std::string interface_name = choose_interface(settings, problem, note);
-  if (interface_name.empty() || !security_usable(settings.security, problem)) {
+  if (interface_name.empty() ||
+      (settings.security.on() && !security_usable(settings.security, security_plugins(), problem))) {
     return joined;
   }
   const auto id = static_cast<dds_domainid_t>(settings.domain);

@@ -312,6 +312,10 @@ DeployLink::Sent DeployLink::send(std::uint64_t requester, const deploy::BlobChu
   return code == DDS_RETCODE_TIMEOUT ? Sent::Later : code < 0 ? Sent::Failed : Sent::Yes;
 }
 
+void DeployLink::forget(std::uint64_t requester) {
+  impl_->blobs_out.erase(requester);
+}
+
 std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
   std::vector<BoardNews> news;
   take_all<indurop_deploy_BoardReport>(impl_->boards_in.get(), [&](const auto& sample, const dds_sample_info_t& info) {

@@ -48,6 +48,7 @@ class DeployLink {
   enum class Sent { Yes, Later, Failed };
   // Later: the network or the receiver is not ready for it.
   Sent send(std::uint64_t requester, const deploy::BlobChunk& chunk);
+  void forget(std::uint64_t requester);  // it wants no more for now
 
   // What has come since. `gone`: the board or deployer has left, or is not heard; only its name and number are set.
   struct BoardNews {

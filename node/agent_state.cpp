@@ -229,8 +229,12 @@ std::string AgentState::install(const std::string& id) {
     return {};  // it got its name when it was complete, and an id has one content
   }
   fs::remove_all(fresh, error);
+  std::set<fs::path> folders{fresh};
   for (const deploy::PackageFile& entry : content->files) {
     const fs::path name = fresh / entry.path;
+    for (fs::path folder = name.parent_path(); folder != fresh; folder = folder.parent_path()) {
+      folders.insert(folder);
+    }
     fs::create_directories(name.parent_path(), error);
     if (error) {
       return failed("cannot make", name.parent_path(), error.value());
@@ -242,6 +246,9 @@ std::string AgentState::install(const std::string& id) {
     if (entry.executable && ::chmod(name.c_str(), 0755) != 0) {
       return failed("cannot make executable", name, errno);
     }
+  }
+  for (const fs::path& folder : folders) {
+    (void)sync_path(folder);
   }
   fs::rename(fresh, target, error);
   if (error) {

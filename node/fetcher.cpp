@@ -52,6 +52,8 @@ void Fetcher::begin(std::uint64_t source, const std::string& id, std::uint64_t s
   wanted_.clear();
   if (!deploy::is_digest(id) || size > kLargestPackage) {
     problem_ = "the deployment offered has no sound id or size";
+  } else if (!state_.has(id) && size == 0) {
+    problem_ = fmt::format("deployment {} is not on this board any more", deploy::shown_id(id));
   } else if (!state_.has(id)) {
     wanted_.push_back({id, size, "the package"});
   }

@@ -46,11 +46,11 @@ std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry
     message = fmt::format("two agents have this name, on {}", hosts);
   }
   const bool steady = board.phase == deploy::Phase::Steady;
-  return {Cell(board.board, Style::Bold),
-          Cell(board.host),
+  return {Cell(printable(board.board), Style::Bold),
+          Cell(printable(board.host)),
           Cell(deploy::to_text(board.node), style_of(board.node)),
           {steady ? "" : deploy::to_text(board.phase), deploy::to_text(board.phase), Style::Warn},
-          Cell(board.plant),
+          Cell(printable(board.plant)),
           {board.current.empty() ? "-" : deploy::shown_id(board.current), board.current},
           {"", board.previous},
           {"", board.generation},

@@ -114,7 +114,7 @@ class Run {
       if (report.phase == shown.phase && (!fetching || now - shown.at_ns < kProgressNs)) {
         continue;
       }
-      std::string line = fmt::format("  {:<16} {}", board, deploy::to_text(report.phase));
+      std::string line = fmt::format("  {:<16} {}", board, word_for(report));
       if (fetching) {
         line += fmt::format("  {}/{} files, {} of {}", report.files_done, report.files, human_bytes(report.bytes_done),
                             human_bytes(report.bytes));
@@ -129,6 +129,13 @@ class Run {
         context_.out.message_line(line);
       }
     }
+  }
+
+  [[nodiscard]] const char* word_for(const deploy::BoardReport& report) const {
+    if (report.phase != deploy::Phase::Steady) {
+      return deploy::to_text(report.phase);
+    }
+    return report.current == deployment_.order.deployment ? "committed" : "as before";
   }
 
   [[nodiscard]] Table table() const {
@@ -222,7 +229,8 @@ std::uint64_t next_generation(const BoardRoster& roster) {
   for (const auto& [key, entry] : roster.all()) {
     last = std::max(last, entry.report.generation);
   }
-  return last + 1;
+  // Not below the clock: a board that was away for long must not come back with a higher number than all others.
+  return std::max(last + 1, static_cast<std::uint64_t>(rt::wall_ns() / rt::kNanosPerSecond));
 }
 
 std::vector<std::string> present_boards(Context& context, mirror::DeployLink& link, BoardRoster& roster,

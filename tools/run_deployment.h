@@ -26,7 +26,7 @@ struct Deployment {
 // Prints progress and the result; returns the exit code.
 int run_deployment(Context& context, mirror::DeployLink& link, BoardRoster& roster, Deployment deployment);
 
-// The generation after all those heard.
+// A generation above all those heard.
 std::uint64_t next_generation(const BoardRoster& roster);
 // Those boards of `wanted` that are there. Empty after an error: some are missing (and `allow_missing` is not set), or
 // two have one name; `code` is the exit code then.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boards and deployers that are killed in the middle: what is committed is never lost.
+
+#include <sys/mount.h>
+
+#include "plant_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Killed : public PlantTest {
+ protected:
+  void SetUp() override {
+    start_agent("a");
+    start_agent("b");
+    const Outcome done = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+    ASSERT_EQ(done.code, 0) << done.err;
+    committed_ = done.json()["deployment"];
+    next_ = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
+  }
+  bool in_phase(const std::string& name, const std::string& phase) {
+    const Json one = indurop({"boards", "--wait", "200ms", "-o", "json"}).json();
+    if (one.is_object()) {
+      for (const Json& entry : one["boards"]) {
+        if (entry["board"] == board(name) && entry["phase"] == phase) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+  bool both_run_the_committed() {
+    return wait_until([&] { return runs("a", committed_) && runs("b", committed_); });
+  }
+  std::string committed_;
+  std::string next_;
+};
+
+TEST_F(Killed, A_board_without_power_resumes_what_was_committed) {
+  stop_agent("a", SIGKILL);
+  kill_node(board("a"));
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Killed, An_agent_that_comes_back_takes_over_its_running_node) {
+  const pid_t node = vars::running_node(board("a"));
+  ASSERT_GT(node, 0);
+  stop_agent("a", SIGKILL);
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+  EXPECT_EQ(vars::running_node(board("a")), node);
+  stop_agent("a", SIGTERM);
+  EXPECT_EQ(vars::running_node(board("a")), 0) << "an agent that is stopped stops its node";
+}
+
+TEST_F(Killed, A_node_that_is_killed_is_started_again) {
+  const pid_t node = vars::running_node(board("a"));
+  kill_node(board("a"));
+  EXPECT_TRUE(wait_until([&] { return vars::running_node(board("a")) != node && runs("a", committed_); }));
+}
+
+TEST_F(Killed, A_node_that_dies_again_and_again_stays_down) {
+  for (int i = 0; i < 4; ++i) {
+    pid_t node = 0;
+    ASSERT_TRUE(wait_until([&] { return (node = vars::running_node(board("a"))) > 0; })) << i;
+    ::kill(node, SIGKILL);
+    ASSERT_TRUE(wait_until([&] { return vars::running_node(board("a")) != node; }));
+  }
+  EXPECT_TRUE(wait_until([&] { return report("a")["state"] == "failed"; }));
+  EXPECT_THAT(report("a")["message"].get<std::string>(), HasSubstr("signal 9"));
+}
+
+TEST_F(Killed, A_board_that_dies_in_the_trial_rolls_all_back) {
+  const pid_t deployer = start_indurop({"deploy", next_, "--health", "8s"}, "killed.out");
+  ASSERT_TRUE(wait_until([&] { return in_phase("a", "trial"); }));
+  stop_agent("a", SIGKILL);
+  kill_node(board("a"));
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Killed, A_deployer_that_dies_in_the_trial_is_no_commit) {
+  const pid_t deployer = start_indurop({"deploy", next_, "--health", "20s"}, "killed.out");
+  ASSERT_TRUE(wait_until([&] { return in_phase("a", "trial"); }));
+  ::kill(deployer, SIGKILL);
+  (void)finish(deployer, "killed.out");
+  EXPECT_TRUE(both_run_the_committed());
+  EXPECT_THAT(report("a")["message"].get<std::string>(), HasSubstr("deployer"));
+  EXPECT_EQ(deploy(next_).code, 0) << "and the next one finds the boards free";
+}
+
+TEST_F(Killed, An_interrupted_deployment_is_taken_back_at_once) {
+  const pid_t deployer = start_indurop({"deploy", next_, "--health", "20s"}, "killed.out");
+  ASSERT_TRUE(wait_until([&] { return in_phase("b", "trial"); }));
+  ::kill(deployer, SIGINT);
+  EXPECT_EQ(finish(deployer, "killed.out").code, 130);
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Killed, A_board_that_missed_the_commit_takes_it_over) {
+  stop_agent("b", SIGKILL);
+  kill_node(board("b"));
+  const Outcome done = deploy(next_, {"--allow-missing", "--timeout", "4s"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  start_agent("b");
+  EXPECT_TRUE(wait_until([&] { return runs("b", done.json()["deployment"]); }));
+}
+
+TEST_F(Killed, A_half_written_state_file_is_not_read) {
+  stop_agent("a", SIGTERM);
+  std::ofstream(folder() / "state" / board("a") / "committed.json.new") << "{ half";
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+class FullDisk : public PlantTest {
+ protected:
+  ~FullDisk() override {
+    if (mounted_) {
+      ::umount2(path("small").c_str(), MNT_DETACH);
+    }
+  }
+  bool mounted_ = false;
+};
+
+TEST_F(FullDisk, Is_told_and_changes_nothing) {
+  std::filesystem::create_directories(folder() / "small");
+  mounted_ = ::mount("tmpfs", path("small").c_str(), "tmpfs", 0, "size=2m") == 0;
+  if (!mounted_) {
+    GTEST_SKIP() << "a small disk cannot be mounted here (root is needed)";
+  }
+  std::ofstream(folder() / "steady.so", std::ios::app) << std::string(4U << 20U, 'x');
+  start_agent("a", {}, path("small"));
+  start_agent("b");
+  const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr(board("a") + ": disk full"));
+  EXPECT_EQ(report("a")["state"], "empty");
+  EXPECT_EQ(report("b")["state"], "empty");
+  stop_agent("a", SIGTERM);
+}
+
+}  // namespace
+}  // namespace indurop::test

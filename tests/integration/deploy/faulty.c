@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs for a while, then writes where nothing is.
+static int runs;
+void run(void) {
+  if (++runs > 100) {
+    *(volatile int*)0 = 0;
+  }
+}

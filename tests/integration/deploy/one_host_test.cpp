@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deployments to two agents on one host, and the ways they end.
+
+#include "plant_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Deploying : public PlantTest {
+ protected:
+  void start_both() {
+    start_agent("a");
+    start_agent("b");
+  }
+  // The id of what both run now.
+  std::string deployed(const std::string& file) {
+    const Outcome done = deploy(file);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.code == 0 ? done.json()["deployment"].get<std::string>() : "";
+  }
+};
+
+TEST_F(Deploying, A_plant_is_put_to_work_on_all_boards) {
+  start_both();
+  const Outcome done = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("open: no keys"));
+  const Json result = done.json();
+  EXPECT_EQ(result["result"], "committed");
+  ASSERT_EQ(result["boards"].size(), 2U);
+  const Json seen = report("a");
+  EXPECT_EQ(seen["state"], "running");
+  EXPECT_EQ(seen["deployment"], result["deployment"]);
+  EXPECT_GT(seen["tick"].get<int>(), 0);
+  EXPECT_TRUE(runs("b", result["deployment"]));
+}
+
+TEST_F(Deploying, A_module_that_faults_on_one_board_rolls_all_back) {
+  start_both();
+  const std::string good = deployed(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+  const Outcome bad = deploy(manifest("v2.xml", {{"a", "other"}, {"b", "faulty"}}), {"--health", "5s"});
+  EXPECT_EQ(bad.code, 5) << bad.err;
+  EXPECT_EQ(bad.json()["result"], "rolled back");
+  EXPECT_THAT(bad.err, HasSubstr(board("b") + ": module faulty faulted: SIGSEGV"));
+  EXPECT_TRUE(wait_until([&] { return runs("a", good) && runs("b", good); }));
+}
+
+TEST_F(Deploying, The_first_deployment_that_does_not_do_leaves_nothing_running) {
+  start_both();
+  EXPECT_EQ(deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "faulty"}}), {"--health", "5s"}).code, 5);
+  EXPECT_TRUE(wait_until([&] { return report("a")["state"] == "empty" && report("b")["state"] == "empty"; }));
+  EXPECT_EQ(vars::running_node(board("a")), 0);
+}
+
+TEST_F(Deploying, A_missing_board_is_named_and_nothing_is_deployed) {
+  start_agent("a");
+  const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}), {"--timeout", "1s"});
+  EXPECT_EQ(refused.code, 6);
+  EXPECT_THAT(refused.err, HasSubstr("missing: " + board("b")));
+  EXPECT_EQ(report("a")["state"], "empty");
+}
+
+TEST_F(Deploying, A_missing_board_takes_over_what_it_missed_when_it_comes) {
+  start_agent("a");
+  const Outcome done =
+      deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}), {"--timeout", "2s", "--allow-missing"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  start_agent("b");
+  EXPECT_TRUE(wait_until([&] { return runs("b", done.json()["deployment"]); }));
+}
+
+TEST_F(Deploying, Errors_of_the_manifest_are_told_before_anything_moves) {
+  start_both();
+  const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "gone"}}));
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_THAT(refused.err, HasSubstr("v1.xml:3:"));
+  EXPECT_THAT(refused.err, HasSubstr("nothing was deployed"));
+  EXPECT_EQ(deploy(path("steady.so")).code, 2);
+}
+
+TEST_F(Deploying, Rollback_goes_back_and_history_tells_it) {
+  start_both();
+  const std::string first = deployed(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+  const std::string second = deployed(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}}));
+  ASSERT_NE(first, second);
+  const Outcome back = indurop({"rollback", "--health", "500ms", "-o", "json"});
+  ASSERT_EQ(back.code, 0) << back.err;
+  EXPECT_EQ(back.json()["deployment"], first);
+  EXPECT_TRUE(runs("a", first) && runs("b", first));
+  const Outcome named = indurop({"rollback", second.substr(0, 8), "--health", "500ms"});
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_TRUE(runs("a", second));
+  const Json past = indurop({"history", "-o", "json"}).json();
+  ASSERT_EQ(past["deployments"].size(), 4U);
+  EXPECT_EQ(past["deployments"][0]["deployment"], first);
+  EXPECT_EQ(past["deployments"][3]["deployment"], second);
+  EXPECT_EQ(past["deployments"][3]["current"], true);
+  EXPECT_EQ(past["deployments"][3]["boards"].size(), 2U);
+  EXPECT_EQ(indurop({"rollback", "ffffffff"}).code, 1);
+}
+
+TEST_F(Deploying, Of_two_deployers_at_once_one_is_told_that_it_is_busy) {
+  start_both();
+  const std::string one = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  const std::string two = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
+  const pid_t first = start_indurop({"deploy", one, "--health", "3s", "-o", "json"}, "one.out");
+  const pid_t second = start_indurop({"deploy", two, "--health", "3s", "-o", "json"}, "two.out");
+  const Outcome a = finish(first, "one.out");
+  const Outcome b = finish(second, "two.out");
+  const Outcome& winner = a.code == 0 ? a : b;
+  const Outcome& loser = a.code == 0 ? b : a;
+  ASSERT_EQ(winner.code, 0) << a.err << b.err;
+  ASSERT_EQ(loser.code, 1) << loser.err;
+  EXPECT_EQ(loser.json()["result"], "busy");
+  EXPECT_THAT(loser.err, HasSubstr("busy with deployment"));
+  EXPECT_TRUE(runs("a", winner.json()["deployment"]) && runs("b", winner.json()["deployment"]));
+}
+
+TEST_F(Deploying, Two_agents_of_one_name_are_refused) {
+  start_both();
+  std::filesystem::create_directories(folder() / "elsewhere");
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  // The state directory of the second is another machine's; its node would be the same here, but none is started.
+  const std::string twin = path("elsewhere");
+  const pid_t known = agent("a");
+  start_agent("a", {}, twin);
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  EXPECT_TRUE(wait_until([&] {
+    const Outcome refused = deploy(file, {"--timeout", "1s"});
+    return refused.code == 1 && refused.err.find("two agents call themselves " + board("a")) != std::string::npos;
+  }));
+  stop_agent("a", SIGTERM);
+  adopt_agent("a", known);
+}
+
+TEST_F(Deploying, An_agent_needs_a_board_and_a_place) {
+  start_agent("a");
+  ASSERT_TRUE(wait_until([&] { return report("a").is_object(); }));
+  const pid_t known = agent("a");
+  start_agent("a");  // the same state directory
+  EXPECT_TRUE(wait_until([&] { return text(path("a.log")).find("another agent of board") != std::string::npos; }));
+  stop_agent("a", SIGTERM);
+  adopt_agent("a", known);
+}
+
+}  // namespace
+}  // namespace indurop::test

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// One board in a deployment: every way out of it.
+
+#include "deploy/board_transaction.h"
+
+#include <gmock/gmock.h>
+
+namespace indurop::deploy {
+namespace {
+
+using Do = BoardTransaction::Do;
+using testing::HasSubstr;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class Board : public testing::Test {
+ protected:
+  Order order(Step step, std::uint64_t deployer = 7) const {
+    Order out;
+    out.deployer = deployer;
+    out.host = "desk";
+    out.deployment = "d1";
+    out.generation = 3;
+    out.boards = {"a", "b"};
+    out.step = step;
+    out.health_ns = kSecond;
+    out.said_at_ns = wall_;
+    out.switch_at_ns = wall_ + 300 * kMs;
+    return out;
+  }
+  Do hear(Step step, std::uint64_t deployer = 7) { return sut_.hear(order(step, deployer), now_, wall_); }
+  void prepare() {
+    ASSERT_EQ(hear(Step::Prepare), Do::Fetch);
+    ASSERT_EQ(sut_.fetched(""), Do::Check);
+    ASSERT_EQ(sut_.checked("", now_), Do::Nothing);
+    ASSERT_EQ(sut_.phase(), Phase::Prepared);
+  }
+  void switch_over() {
+    prepare();
+    ASSERT_EQ(hear(Step::Switch), Do::Nothing);
+    now_ += 300 * kMs;
+    ASSERT_EQ(sut_.time(now_), Do::Switch);
+    ASSERT_EQ(sut_.phase(), Phase::Trial);
+  }
+  void become_healthy() {
+    switch_over();
+    now_ += kSecond;
+    ASSERT_EQ(sut_.node("", "", now_), Do::Nothing);
+    ASSERT_EQ(sut_.phase(), Phase::Healthy);
+  }
+
+  BoardTransaction sut_{"a"};
+  std::int64_t now_ = 100 * kSecond;
+  std::int64_t wall_ = 5'000 * kSecond;
+};
+
+TEST_F(Board, Commits_when_all_goes_well) {
+  become_healthy();
+  EXPECT_EQ(hear(Step::Commit), Do::Commit);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+  EXPECT_EQ(hear(Step::Commit), Do::Nothing);
+}
+
+TEST_F(Board, Orders_for_others_are_not_heard) {
+  Order other = order(Step::Prepare);
+  other.boards = {"b"};
+  EXPECT_EQ(sut_.hear(other, now_, wall_), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Board, The_first_deployer_wins) {
+  prepare();
+  EXPECT_EQ(hear(Step::Prepare, 8), Do::Nothing);
+  EXPECT_EQ(hear(Step::Abort, 8), Do::Nothing);
+  EXPECT_EQ(sut_.order().deployer, 7U);
+  EXPECT_EQ(sut_.phase(), Phase::Prepared);
+}
+
+TEST_F(Board, Words_said_again_change_nothing) {
+  become_healthy();
+  EXPECT_EQ(hear(Step::Prepare), Do::Nothing);
+  EXPECT_EQ(hear(Step::Switch), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Healthy);
+}
+
+TEST_F(Board, A_failed_fetch_ends_in_failed_and_an_abort_ends_that) {
+  ASSERT_EQ(hear(Step::Prepare), Do::Fetch);
+  EXPECT_EQ(sut_.fetched("disk full"), Do::Forget);
+  EXPECT_EQ(sut_.phase(), Phase::Failed);
+  EXPECT_EQ(sut_.stage(), Phase::Fetching);
+  EXPECT_EQ(hear(Step::Abort), Do::Nothing);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+  EXPECT_EQ(sut_.message(), "disk full");
+  EXPECT_EQ(hear(Step::Prepare), Do::Nothing) << "the same deployer's old words";
+  EXPECT_EQ(hear(Step::Prepare, 9), Do::Fetch);
+}
+
+TEST_F(Board, A_failed_check_says_so) {
+  ASSERT_EQ(hear(Step::Prepare), Do::Fetch);
+  ASSERT_EQ(sut_.fetched(""), Do::Check);
+  EXPECT_EQ(sut_.checked("wrong processor", now_), Do::Forget);
+  EXPECT_EQ(sut_.stage(), Phase::Checking);
+}
+
+TEST_F(Board, A_node_that_dies_in_its_trial_goes_back_at_once) {
+  switch_over();
+  EXPECT_EQ(sut_.node("module x faulted", "", now_), Do::GoBack);
+  EXPECT_EQ(sut_.phase(), Phase::Failed);
+  EXPECT_EQ(hear(Step::Abort), Do::Nothing);
+  EXPECT_EQ(sut_.message(), "module x faulted");
+}
+
+TEST_F(Board, A_node_that_is_not_well_by_the_end_of_its_window_goes_back) {
+  switch_over();
+  now_ += kSecond;
+  EXPECT_EQ(sut_.node("", "still starting", now_), Do::Nothing);
+  now_ += BoardTransaction::kSlowStartNs;
+  EXPECT_EQ(sut_.node("", "still starting", now_), Do::GoBack);
+  EXPECT_EQ(sut_.message(), "still starting");
+}
+
+TEST_F(Board, An_abort_in_the_trial_goes_back) {
+  switch_over();
+  EXPECT_EQ(hear(Step::Abort), Do::GoBack);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Board, A_silent_deployer_is_given_up_in_every_phase) {
+  ASSERT_EQ(hear(Step::Prepare), Do::Fetch);
+  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilenceNs), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilenceNs + 1), Do::Forget);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Board, A_deployer_that_leaves_in_the_trial_is_no_commit) {
+  become_healthy();
+  EXPECT_EQ(sut_.deployer_gone(8), Do::Nothing);
+  EXPECT_EQ(sut_.deployer_gone(7), Do::GoBack);
+  EXPECT_THAT(sut_.message(), HasSubstr("deployer"));
+}
+
+TEST_F(Board, Switches_at_the_instant_by_the_clock_if_clocks_agree) {
+  prepare();
+  wall_ += 20 * kMs;  // on the way
+  Order late = order(Step::Switch);
+  late.said_at_ns -= 20 * kMs;
+  late.switch_at_ns -= 20 * kMs;
+  ASSERT_EQ(sut_.hear(late, now_, wall_), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_ + 279 * kMs), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_ + 280 * kMs), Do::Switch);
+}
+
+TEST_F(Board, A_clock_an_hour_off_does_not_hold_up_the_switch) {
+  prepare();
+  ASSERT_EQ(sut_.hear(order(Step::Switch), now_, wall_ + 3600 * kSecond), Do::Nothing);
+  EXPECT_THAT(sut_.message(), HasSubstr("+3600.0 s"));
+  EXPECT_EQ(sut_.time(now_ + 299 * kMs), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_ + 300 * kMs), Do::Switch);
+}
+
+TEST_F(Board, Takes_over_what_it_missed_without_a_deployer) {
+  BoardReport other;
+  other.board = "b";
+  other.agent = 42;
+  other.current = "d9";
+  other.generation = 9;
+  other.members = {"a", "b"};
+  EXPECT_EQ(sut_.catch_up(other, now_), Do::Fetch);
+  EXPECT_EQ(sut_.source(), 42U);
+  EXPECT_EQ(sut_.fetched(""), Do::Check);
+  EXPECT_EQ(sut_.checked("", now_), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_), Do::Switch);
+  EXPECT_EQ(sut_.node("", "board b is silent", now_ + BoardTransaction::kJoinHealthNs), Do::Commit);
+  EXPECT_EQ(sut_.order().generation, 9U);
+}
+
+TEST_F(Board, What_cannot_be_taken_over_is_not_tried_without_end) {
+  BoardReport other;
+  other.agent = 42;
+  other.generation = 9;
+  ASSERT_EQ(sut_.catch_up(other, now_), Do::Fetch);
+  EXPECT_EQ(sut_.fetched("disk full"), Do::Forget);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+  EXPECT_EQ(sut_.catch_up(other, now_ + kSecond), Do::Nothing);
+  EXPECT_EQ(sut_.catch_up(other, now_ + 60 * kSecond), Do::Fetch);
+}
+
+TEST_F(Board, A_deployer_comes_before_taking_over) {
+  BoardReport other;
+  other.agent = 42;
+  other.generation = 9;
+  ASSERT_EQ(sut_.catch_up(other, now_), Do::Fetch);
+  EXPECT_EQ(hear(Step::Prepare), Do::Fetch);
+  EXPECT_FALSE(sut_.joining());
+  EXPECT_EQ(sut_.source(), 7U);
+}
+
+}  // namespace
+}  // namespace indurop::deploy

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// What travels to boards, and what a board makes of a package it is sent.
+
+#include "deploy/package.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "deploy/digest.h"
+
+namespace indurop::deploy {
+namespace {
+
+using testing::HasSubstr;
+
+Package sample() {
+  Package package;
+  package.plant = "cell";
+  package.manifest = "plant.xml";
+  package.boards = {"a", "b"};
+  package.files = {{"mods/x.so", std::string(64, 'a'), 10, true}, {"plant.xml", std::string(64, 'b'), 20, false}};
+  return package;
+}
+
+std::string problem_of(const Package& package) {
+  std::string problem;
+  return read_package(to_text(package), problem) ? "" : problem;
+}
+
+TEST(Digest, Known_values) {
+  EXPECT_EQ(digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_FALSE(is_digest(std::string(63, 'a')));
+  EXPECT_FALSE(is_digest(std::string(64, 'A')));
+}
+
+TEST(Package, Text_and_back) {
+  std::string problem;
+  const auto sut = read_package(to_text(sample()), problem);
+  ASSERT_TRUE(sut) << problem;
+  EXPECT_EQ(to_text(*sut), to_text(sample()));
+  EXPECT_TRUE(sut->files[0].executable);
+}
+
+TEST(Package, Paths_that_leave_the_folder_are_refused) {
+  for (const char* path : {"../x", "/etc/passwd", "a/../../x", "a//b", "./x", "", "a/", "a/.."}) {
+    Package bad = sample();
+    bad.files[0].path = path;
+    EXPECT_THAT(problem_of(bad), HasSubstr("no path")) << path;
+  }
+}
+
+TEST(Package, What_contradicts_itself_is_refused) {
+  Package twice = sample();
+  twice.files[0].path = "plant.xml";
+  EXPECT_THAT(problem_of(twice), HasSubstr("twice"));
+  Package below = sample();
+  below.files[0].path = "plant.xml/x";
+  EXPECT_THAT(problem_of(below), HasSubstr("both a file and a folder"));
+  Package digest = sample();
+  digest.files[0].digest = "../../x";
+  EXPECT_THAT(problem_of(digest), HasSubstr("SHA-256"));
+  Package manifest = sample();
+  manifest.manifest = "other.xml";
+  EXPECT_THAT(problem_of(manifest), HasSubstr("manifest"));
+  Package huge = sample();
+  huge.files[0].size = ~std::uint64_t{0};
+  EXPECT_THAT(problem_of(huge), HasSubstr("larger"));
+}
+
+TEST(Package, Garbage_is_no_package) {
+  for (const char* text :
+       {"", "{", "[]", "null", "{\"indurop_package\":1}", "{\"indurop_package\":\"x\"}",
+        "{\"indurop_package\":1,\"plant\":1,\"manifest\":2,\"boards\":3,\"files\":4}",
+        "{\"indurop_package\":1,\"plant\":\"p\",\"manifest\":\"m\",\"boards\":[1],\"files\":[]}",
+        "{\"indurop_package\":1,\"plant\":\"p\",\"manifest\":\"m\",\"boards\":[\"a\"],\"files\":[{}]}"}) {
+    std::string problem;
+    EXPECT_FALSE(read_package(text, problem)) << text;
+    EXPECT_NE(problem, "") << text;
+  }
+  std::string problem;
+  EXPECT_FALSE(read_package("{\"indurop_package\":2}", problem));
+  EXPECT_THAT(problem, HasSubstr("another InduRoP version"));
+}
+
+class Packing : public testing::Test {
+ protected:
+  Packing() : folder_(std::filesystem::temp_directory_path() / ("irp-pack-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_ / "cell");
+    std::filesystem::create_directories(folder_ / "mods");
+    put("cell/plant.xml", "manifest");
+    put("mods/x.so", "module");
+  }
+  ~Packing() override { std::filesystem::remove_all(folder_); }
+  void put(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  Plant plant(const std::string& module) const {
+    Plant out;
+    out.file = folder_ / "cell/plant.xml";
+    out.name = "cell";
+    out.boards.resize(1);
+    out.boards[0].name = "a";
+    out.boards[0].config.modules.resize(1);
+    out.boards[0].config.modules[0].file_as_written = module;
+    return out;
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(Packing, Files_keep_their_places_to_each_other) {
+  std::string problem;
+  const auto sut = pack_plant(plant("../mods/x.so"), problem);
+  ASSERT_TRUE(sut) << problem;
+  ASSERT_EQ(sut->package.files.size(), 2U);
+  EXPECT_EQ(sut->package.manifest, "cell/plant.xml");
+  EXPECT_EQ(sut->package.files[1].path, "mods/x.so");
+  EXPECT_EQ(sut->package.files[1].digest, digest_of("module"));
+  EXPECT_EQ(sut->sources.at(digest_of("module")), folder_ / "mods/x.so");
+  EXPECT_EQ(sut->id, digest_of(sut->text));
+}
+
+TEST_F(Packing, One_changed_byte_is_another_deployment) {
+  std::string problem;
+  const std::string before = pack_plant(plant("../mods/x.so"), problem)->id;
+  EXPECT_EQ(pack_plant(plant("../mods/x.so"), problem)->id, before);
+  put("mods/x.so", "Module");
+  EXPECT_NE(pack_plant(plant("../mods/x.so"), problem)->id, before);
+}
+
+TEST_F(Packing, Files_of_the_board_itself_do_not_travel) {
+  std::string problem;
+  const auto sut = pack_plant(plant("/usr/bin/env"), problem);
+  ASSERT_TRUE(sut) << problem;
+  EXPECT_EQ(sut->package.files.size(), 1U);
+}
+
+TEST_F(Packing, A_file_that_cannot_be_read_is_named) {
+  std::string problem;
+  EXPECT_FALSE(pack_plant(plant("gone.so"), problem));
+  EXPECT_THAT(problem, HasSubstr("gone.so"));
+}
+
+}  // namespace
+}  // namespace indurop::deploy

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// The deployer: what it tells the boards, and what it makes of their answers.
+
+#include "deploy/plant_transaction.h"
+
+#include <gmock/gmock.h>
+
+namespace indurop::deploy {
+namespace {
+
+using Verdict = PlantTransaction::Verdict;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Key;
+using testing::Pair;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+Order make_order() {
+  Order order;
+  order.deployer = 7;
+  order.deployment = "new";
+  order.generation = 4;
+  order.boards = {"a", "b"};
+  order.health_ns = kSecond;
+  return order;
+}
+
+class Deployer : public testing::Test {
+ protected:
+  BoardReport report(const std::string& board, Phase phase) const {
+    BoardReport out;
+    out.board = board;
+    out.agent = board == "a" ? 1 : 2;
+    out.deployer = 7;
+    out.phase = phase;
+    out.node = NodeCondition::Running;
+    out.current = "old";
+    out.generation = 3;
+    return out;
+  }
+  void say(const BoardReport& report) { sut_.hear(report, now_); }
+  void all(Phase phase) {
+    say(report("a", phase));
+    say(report("b", phase));
+  }
+  bool time() { return sut_.time(now_, wall_); }
+  void to_trial() {
+    all(Phase::Prepared);
+    ASSERT_TRUE(time());
+    ASSERT_EQ(sut_.order().step, Step::Switch);
+    all(Phase::Trial);
+  }
+
+  std::int64_t now_ = 50 * kSecond;
+  std::int64_t wall_ = 1'000 * kSecond;
+  PlantTransaction sut_{make_order(), 5 * kSecond, now_};
+};
+
+TEST_F(Deployer, Switches_when_all_are_prepared_and_commits_when_all_are_healthy) {
+  EXPECT_EQ(sut_.order().step, Step::Prepare);
+  say(report("a", Phase::Prepared));
+  EXPECT_FALSE(time());
+  say(report("b", Phase::Prepared));
+  EXPECT_TRUE(time());
+  EXPECT_EQ(sut_.order().step, Step::Switch);
+  EXPECT_EQ(sut_.order().switch_at_ns, wall_ + PlantTransaction::kSwitchAheadNs);
+  say(report("a", Phase::Healthy));
+  say(report("b", Phase::Trial));
+  EXPECT_FALSE(time());
+  say(report("b", Phase::Healthy));
+  EXPECT_TRUE(time());
+  EXPECT_EQ(sut_.order().step, Step::Commit);
+  EXPECT_FALSE(sut_.finished());
+  for (const char* board : {"a", "b"}) {
+    BoardReport done = report(board, Phase::Steady);
+    done.current = "new";
+    done.generation = 4;
+    say(done);
+  }
+  time();
+  EXPECT_TRUE(sut_.finished());
+  EXPECT_EQ(sut_.verdict(), Verdict::Committed);
+  EXPECT_TRUE(sut_.unconfirmed().empty());
+}
+
+TEST_F(Deployer, A_board_that_cannot_prepare_leaves_everything_as_it_was) {
+  say(report("a", Phase::Prepared));
+  BoardReport failed = report("b", Phase::Failed);
+  failed.stage = Phase::Fetching;
+  failed.message = "disk full";
+  say(failed);
+  time();
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+  all(Phase::Steady);
+  time();
+  EXPECT_TRUE(sut_.finished());
+  EXPECT_EQ(sut_.verdict(), Verdict::Refused);
+  EXPECT_THAT(sut_.reasons(), ElementsAre(Pair("b", "disk full")));
+}
+
+TEST_F(Deployer, A_check_that_fails_on_a_board_is_told_apart) {
+  BoardReport failed = report("b", Phase::Failed);
+  failed.stage = Phase::Checking;
+  say(failed);
+  EXPECT_EQ(sut_.verdict(), Verdict::CheckFailed);
+}
+
+TEST_F(Deployer, A_fault_in_the_trial_rolls_all_boards_back) {
+  to_trial();
+  BoardReport failed = report("b", Phase::Failed);
+  failed.stage = Phase::Trial;
+  failed.message = "module x faulted";
+  say(failed);
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+  EXPECT_EQ(sut_.verdict(), Verdict::RolledBack);
+  say(report("a", Phase::Trial));
+  time();
+  EXPECT_FALSE(sut_.finished());
+  BoardReport restarting = report("a", Phase::Steady);
+  restarting.node = NodeCondition::Starting;
+  say(restarting);
+  say(report("b", Phase::Steady));
+  time();
+  EXPECT_FALSE(sut_.finished()) << "the old node of a is not up again";
+  say(report("a", Phase::Steady));
+  time();
+  EXPECT_TRUE(sut_.finished());
+}
+
+TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
+  to_trial();
+  sut_.board_gone("b", 99, now_);
+  EXPECT_EQ(sut_.order().step, Step::Switch) << "another agent";
+  sut_.board_gone("b", 2, now_);
+  EXPECT_EQ(sut_.verdict(), Verdict::RolledBack);
+}
+
+TEST_F(Deployer, An_agent_that_was_started_again_does_not_count_as_the_same) {
+  all(Phase::Fetching);
+  BoardReport again = report("b", Phase::Steady);
+  again.agent = 5;
+  say(again);
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+  EXPECT_THAT(sut_.reasons().at("b"), HasSubstr("again"));
+}
+
+TEST_F(Deployer, A_board_that_gives_up_ends_it) {
+  all(Phase::Prepared);
+  BoardReport steady = report("b", Phase::Steady);
+  steady.message = "not heard";
+  say(steady);
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+}
+
+TEST_F(Deployer, After_the_commit_was_said_nothing_takes_it_back) {
+  to_trial();
+  all(Phase::Healthy);
+  time();
+  BoardReport failed = report("b", Phase::Failed);
+  say(failed);
+  sut_.board_gone("b", 2, now_);
+  sut_.give_up(now_);
+  EXPECT_EQ(sut_.verdict(), Verdict::Committed);
+  now_ += PlantTransaction::kWindUpNs + 1;
+  time();
+  EXPECT_TRUE(sut_.finished());
+  EXPECT_THAT(sut_.unconfirmed(), ElementsAre("a", "b"));
+}
+
+TEST_F(Deployer, Boards_of_another_deployer_are_busy_after_a_while) {
+  BoardReport other = report("b", Phase::Trial);
+  other.deployer = 3;
+  other.deployer_host = "desk";
+  other.proposed = "0123456789abcdef";
+  say(other);
+  time();
+  EXPECT_EQ(sut_.order().step, Step::Prepare);
+  now_ += PlantTransaction::kBusyNs + 1;
+  time();
+  EXPECT_EQ(sut_.verdict(), Verdict::Busy);
+  EXPECT_EQ(sut_.reasons().at("b"), "busy with deployment 0123456789ab of desk");
+}
+
+TEST_F(Deployer, Of_two_at_once_the_earlier_goes_on) {
+  Order rival = make_order();
+  rival.deployer = 8;
+  rival.boards = {"b", "c"};
+  sut_.rival(rival, now_);
+  EXPECT_EQ(sut_.verdict(), Verdict::Open);
+  rival.deployer = 6;
+  rival.boards = {"c"};
+  sut_.rival(rival, now_);
+  EXPECT_EQ(sut_.verdict(), Verdict::Open) << "no board in common";
+  rival.boards = {"b"};
+  sut_.rival(rival, now_);
+  EXPECT_EQ(sut_.verdict(), Verdict::Busy);
+}
+
+TEST_F(Deployer, Nothing_happening_ends_it) {
+  say(report("a", Phase::Prepared));
+  now_ += 5 * kSecond + 1;
+  time();
+  EXPECT_EQ(sut_.verdict(), Verdict::Refused);
+  EXPECT_THAT(sut_.reasons(), ElementsAre(Key("b")));
+}
+
+TEST_F(Deployer, Bytes_that_come_are_something_happening) {
+  BoardReport fetching = report("a", Phase::Fetching);
+  for (int i = 0; i < 5; ++i) {
+    fetching.bytes_done += 100;
+    say(fetching);
+    now_ += 4 * kSecond;
+    time();
+  }
+  EXPECT_EQ(sut_.verdict(), Verdict::Open);
+}
+
+TEST_F(Deployer, The_user_may_give_up) {
+  to_trial();
+  sut_.give_up(now_);
+  EXPECT_EQ(sut_.order().step, Step::Abort);
+  EXPECT_EQ(sut_.verdict(), Verdict::Interrupted);
+}
+
+}  // namespace
+}  // namespace indurop::deploy
