@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 namespace indurop::deploy {
 namespace {
@@ -31,7 +31,9 @@ constexpr int kPublic = 0644;
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::ostringstream text;
+  text << in.rdbuf();  // unlike a stream's iterators it does not throw if this is a folder
+  return text.str();
 }
 
 // A file that is not there yet. Returns what went wrong.
@@ -185,11 +187,13 @@ fs::path aside(const fs::path& folder) {
 std::string missing_file(const ParticipantKeys& keys) {
   for (const fs::path& file :
        {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
-    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) {
+      return fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "it is no file");
+    }
+    if (::access(file.c_str(), R_OK) != 0) {
       return fmt::format("cannot read {}: {}", file.string(), std::strerror(errno));
     }
-    ::close(fd);
   }
   return {};
 }

@@ -13,6 +13,7 @@ namespace {
 struct Log {
   std::mutex mutex;
   std::string last;
+  std::string refusal;
   std::atomic<std::uint64_t> count{0};
 };
 Log& log() {
@@ -29,6 +30,9 @@ void sink(void* /*context*/, const dds_log_data_t* data) {
   to.count.fetch_add(1, std::memory_order_relaxed);
   const std::lock_guard<std::mutex> guard(to.mutex);
   to.last.assign(text.substr(0, kLongest));
+  if (text.find("handshake") != std::string_view::npos && text.find("failed") != std::string_view::npos) {
+    to.refusal = to.last;
+  }
 }
 
 }  // namespace
@@ -40,6 +44,11 @@ void catch_dds_log() {
 std::string last_dds_message() {
   const std::lock_guard<std::mutex> guard(log().mutex);
   return log().last;
+}
+
+std::string last_refusal() {
+  const std::lock_guard<std::mutex> guard(log().mutex);
+  return log().refusal;
 }
 
 std::uint64_t dds_message_count() noexcept {

@@ -13,6 +13,8 @@ namespace indurop::mirror {
 void catch_dds_log();
 // The last message, one line without DDS's own prefix; empty if there was none. Thread safe, not real-time safe.
 std::string last_dds_message();
+// The last one that says why two participants with keys do not let each other in; empty: none.
+std::string last_refusal();
 std::uint64_t dds_message_count() noexcept;
 
 }  // namespace indurop::mirror

@@ -76,6 +76,7 @@ struct Mirror::Impl {
   vars::ShmFile file;
   MirrorBlock& block;
   std::uint64_t session;
+  std::string refused;  // what was said last about keys
 
   Landing* landing_of(const std::string& variable);
 
@@ -231,6 +232,11 @@ void Mirror::Impl::manage() {
       }
     }
     block.dds_messages.store(dds_message_count(), std::memory_order_relaxed);
+    // Why boards do not come that are expected, or who knocks.
+    if (const std::string now_refused = last_refusal(); now_refused != refused) {
+      refused = now_refused;
+      block.problem.set("keys of somebody in the network do not match: " + refused);
+    }
     wake_manager.wait_until(next);
   }
 }

@@ -94,11 +94,11 @@ std::string security_configuration(const Security& security, const fs::path& plu
          "</AccessControl><Cryptographic>" + library(kPlugins[2], "crypto", plugins) + "</Cryptographic></Security>";
 }
 
-bool security_usable(const Security& security, std::string& problem) {
+bool security_usable(const Security& security, const fs::path& plugins, std::string& problem) {
   if (!security.on()) {
     return true;
   }
-  if (security_plugins().empty()) {
+  if (plugins.empty()) {
     problem = fmt::format(
         "the plant is secured, but {} and the other two plugins of DDS Security are not beside {}; "
         "install the package libddsc0debian",

@@ -19,6 +19,6 @@ std::filesystem::path security_plugins();
 std::string security_configuration(const Security& security, const std::filesystem::path& plugins);
 
 // Are the plugins there, and the files readable. Otherwise `problem` says what to do.
-bool security_usable(const Security& security, std::string& problem);
+bool security_usable(const Security& security, const std::filesystem::path& plugins, std::string& problem);
 
 }  // namespace indurop::mirror

@@ -87,7 +87,7 @@ int list(Context& context, const Request& request) {
     const auto days = std::chrono::floor<std::chrono::days>(each.validity.until - now).count();
     table.add({Cell(to_text(each.role)), Cell(each.name), Cell(deploy::utc_text(each.validity.until)),
                Cell(std::to_string(days), JsonValue(days)), Cell(each.problem), Cell(each.folder.string())});
-    ok = ok && each.problem.empty();
+    ok = ok && (each.problem.empty() || each.revoked);
   }
   print_table(context, table, {{"plant", keys.plant()}, {"folder", keys.folder().string()}}, "keys");
   return ok ? kOk : kFailed;
@@ -132,13 +132,10 @@ int init(Context& context, const Request& request) {
                                read.plant.name, keys.folder().string(), counted(boards.size(), "board"),
                                deploy::utc_text(until(request)).substr(0, 10)));
   if (read.plant.security.empty()) {
-    const fs::path folder = fs::path(request.plant).parent_path();
+    const fs::path here = fs::absolute(request.plant, ignored).lexically_normal().parent_path();
+    const fs::path there = fs::absolute(keys.folder(), ignored).lexically_normal();
     context.out.note(fmt::format("next: write <security>{}</security> into {}",
-                                 fs::absolute(keys.folder())
-                                     .lexically_normal()
-                                     .lexically_proximate(fs::absolute(folder).lexically_normal())
-                                     .string(),
-                                 request.plant));
+                                 there.lexically_proximate(here).string(), request.plant));
   }
   context.out.note(
       fmt::format("copy {}/boards/BOARD to /etc/indurop/keys/{}/BOARD of each board, for its node's user "
@@ -237,7 +234,7 @@ void add_common(CLI::App* verb, Request& request) {
 
 void add_days(CLI::App* verb, Request& request) {
   verb->add_option("--days", request.days, fmt::format("How long they are valid (default: {})", kDefaultDays))
-      ->check(CLI::Range(1, kMostDays))
+      ->check(CLI::Range(1, kMostDays).description(""))
       ->type_name("N");
 }
 

@@ -177,6 +177,9 @@ int run_local(Context& context, const std::filesystem::path& program, const std:
   if (!ok) {
     return kCheckFailed;
   }
+  if (read.plant.security.empty()) {
+    context.out.note("the plant is open: anyone on this host can read and write its variables (indurop keys init)");
+  }
   const std::vector<int> cores = rt::allowed_cores();
   std::vector<Child> children;
   for (std::size_t i = 0; i < read.plant.boards.size(); ++i) {

@@ -107,6 +107,8 @@ TEST_F(Secured, A_board_with_keys_of_another_authority_is_kept_out) {
   exchange(20);
   EXPECT_TRUE(sees("c", "a", PeerState::Absent));
   EXPECT_EQ(get<std::int64_t>("c", "t::count"), 0);
+  EXPECT_TRUE(wait_until([&] { return block("c").problem.get().find("do not match") != std::string::npos; }));
+  EXPECT_THAT(block("c").problem.get(), HasSubstr("unable to get local issuer certificate"));
 }
 
 TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
@@ -134,6 +136,49 @@ TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
   const auto writer = mirror::make_writer(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, settings,
                                           mirror::Stream::Prompt);
   EXPECT_FALSE(writer.ok());
+}
+
+TEST_F(Secured, A_board_cannot_speak_for_another_one) {
+  const PlantKeys keys = make("keys");
+  const mirror::Settings settings = participant(keys.board("b"));
+  std::string problem;
+  const mirror::Participant b = mirror::join_plant(settings, problem);
+  ASSERT_TRUE(b.participant.ok()) << problem;
+  const auto writer = [&](const char* board) {
+    return mirror::make_writer(b.participant.get(), indurop_wire_Frame_desc,
+                               mirror::frames_topic("testplant", board, mirror::Stream::Prompt), settings,
+                               mirror::Stream::Prompt);
+  };
+  EXPECT_TRUE(writer("b").ok());
+  EXPECT_FALSE(writer("a").ok());
+}
+
+TEST_F(Secured, A_revoked_board_is_kept_out) {
+  const PlantKeys keys = make("keys");
+  const auto all = keys.list(deploy::instant_now());
+  ASSERT_EQ(all[2].name, "c");
+  const fs::path old_list = keys.board("c") / "old.pem";  // the thief does not install the list against himself
+  copy(ParticipantKeys(keys.board("c")).revoked, old_list);
+  ASSERT_EQ(keys.revoke(all[2]), "");
+  copy(old_list, ParticipantKeys(keys.board("c")).revoked);
+  start({"c", "t::pair", "t::count@a", "plain", keys.board("c").string()}, {"a", "b"});
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(20);
+  EXPECT_TRUE(sees("c", "a", PeerState::Absent));
+  EXPECT_EQ(get<std::int64_t>("c", "t::count"), 0);
+  EXPECT_TRUE(wait_until([&] { return block("a").problem.get().find("revoked") != std::string::npos; }));
+}
+
+TEST_F(Secured, A_killed_board_is_noticed_and_let_in_again) {
+  const PlantKeys keys = make("keys");
+  start_a(keys.board("a"));
+  start_b(keys.board("b"));
+  exchange(3);
+  stop("a", SIGKILL);
+  ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Silent); }));
+  start_a(keys.board("a"));
+  exchange(5);
 }
 
 TEST_F(Secured, An_expired_certificate_is_named) {

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "mirror/security.h"
+
 namespace indurop::mirror {
 namespace {
 
@@ -48,6 +50,34 @@ TEST(Domain_configuration, No_priority_is_asked_for_without_the_right_to_it) {
 
 TEST(Domain_configuration, A_name_cannot_break_out_of_its_place) {
   EXPECT_THAT(domain_configuration(plain(), "e\"/><Evil x='&"), Not(HasSubstr("<Evil")));
+}
+
+TEST(Domain_configuration, Keys_switch_security_on) {
+  Settings settings = plain();
+  EXPECT_THAT(domain_configuration(settings, "eth7"), Not(HasSubstr("Security")));
+  settings.security = {"/k/ca.pem", "/k/a&b.pem", "/k/a.key", "/k/g.p7s", "/k/p.p7s", ""};
+  const std::string sut = domain_configuration(settings, "eth7");
+  EXPECT_THAT(sut, HasSubstr("<IdentityCertificate>file:/k/a&#38;b.pem</IdentityCertificate>"));
+  EXPECT_THAT(sut, HasSubstr("<PermissionsCA>file:/k/ca.pem</PermissionsCA>"));
+  EXPECT_THAT(sut, Not(HasSubstr("<CRL>")));
+  EXPECT_THAT(sut, HasSubstr(security_plugins().string() + "/libdds_security_crypto.so"));
+}
+
+TEST(Security, Without_plugins_it_is_said_where_they_come_from) {
+  std::string problem;
+  EXPECT_FALSE(security_usable({"/k", "/k", "/k", "/k", "/k", ""}, {}, problem));
+  EXPECT_THAT(problem, HasSubstr("libddsc0debian"));
+}
+
+TEST(Security, A_file_that_cannot_be_read_is_named) {
+  std::string problem;
+  EXPECT_FALSE(security_usable({"/nosuch/ca.pem", "/k", "/k", "/k", "/k", ""}, "/plugins", problem));
+  EXPECT_THAT(problem, HasSubstr("/nosuch/ca.pem cannot be read: No such file"));
+}
+
+TEST(Security, An_open_plant_needs_nothing) {
+  std::string problem;
+  EXPECT_TRUE(security_usable({}, {}, problem));
 }
 
 TEST(Topics, Boards_and_streams_have_their_own) {

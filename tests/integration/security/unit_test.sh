@@ -1,0 +1,23 @@
+#!/bin/sh
+# The service: what systemd finds wrong with it, and that it has the two rights it needs and no others.
+# Usage: unit_test.sh SOURCE_DIR PROGRAM_DIR
+set -eu
+unit=$1/systemd/indurop-node@.service.in
+fail() { echo "$unit: $1" >&2; exit 1; }
+
+for key in CapabilityBoundingSet AmbientCapabilities; do
+  grep -qx "$key=CAP_SYS_NICE CAP_IPC_LOCK" "$unit" || fail "$key is not what a node needs"
+done
+for line in NoNewPrivileges=yes ProtectSystem=strict ProtectHome=yes User=indurop LimitMEMLOCK=infinity; do
+  grep -qx "$line" "$unit" || fail "$line is missing"
+done
+if grep -Eq '^(RestrictRealtime|PrivateDevices|ProtectClock|DynamicUser|MemoryDenyWriteExecute)=(yes|true)' "$unit"; then
+  fail "real-time threads, hardware or shared memory would not work"
+fi
+
+command -v systemd-analyze >/dev/null || { echo "skipped: no systemd-analyze"; exit 0; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+sed -e "s|@INDUROP_PROGRAMS@|$2|" -e "s|@INDUROP_DOCS@|$1/docs|" "$unit" >"$work/indurop-node@.service"
+said=$(systemd-analyze verify "$work/indurop-node@.service" 2>&1 | grep -F "$work" || true)
+[ -z "$said" ] || fail "$said"
