@@ -97,7 +97,8 @@ Participant join_plant(const Settings& settings, std::string& problem) {
   Participant joined;
   std::string note;
   const std::string interface_name = choose_interface(settings, problem, note);
-  if (interface_name.empty() || !security_usable(settings.security, problem)) {
+  if (interface_name.empty() ||
+      (settings.security.on() && !security_usable(settings.security, security_plugins(), problem))) {
     return joined;
   }
   const auto id = static_cast<dds_domainid_t>(settings.domain);
