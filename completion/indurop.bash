@@ -16,7 +16,7 @@ _indurop_xml() { COMPREPLY=($(compgen -f -X '!*.xml' -- "$cur") $(compgen -d -- 
 
 _indurop() {
   local cur prev verb word
-  local verbs="new check plan keys doctor run stop reset clean status nodes ps vars get set watch hz jitter overruns log help"
+  local verbs="new check plan keys doctor run stop reset clean status nodes ps vars get set watch hz jitter overruns log deploy rollback history boards help"
   if declare -F _get_comp_words_by_ref >/dev/null; then
     _get_comp_words_by_ref -n : cur prev
   else
@@ -47,7 +47,7 @@ _indurop() {
     return
   fi
   case $verb in
-    check | plan | run) _indurop_xml ;;
+    check | plan | run | deploy) _indurop_xml ;;
     keys)
       if [[ $prev == init ]]; then _indurop_xml; else _indurop_words "init add list renew revoke"; fi ;;
     get | set | watch | vars | hz) _indurop_variables ;;
