@@ -88,7 +88,9 @@ std::string domain_configuration(const Settings& settings, const std::string& in
          "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
          "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>" +
          // Files: keep sending while the first pieces are being acknowledged.
-         (settings.known_ports ? "<Watermarks><WhcHigh>4 MB</WhcHigh><WhcLow>1 MB</WhcLow></Watermarks>" : "") +
+         (settings.known_ports
+              ? "<Watermarks><WhcHigh>4 MB</WhcHigh><WhcLow>1 MB</WhcLow><WhcHighInit>2 MB</WhcHighInit></Watermarks>"
+              : "") +
          "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
 }
 
