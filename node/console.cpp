@@ -28,7 +28,8 @@ const scheduler::OverrunEntry* newest_overrun(const scheduler::RunBlock& run, st
 }
 
 std::string describe(const scheduler::RunBlock& run, const scheduler::OverrunEntry& entry) {
-  std::string text = fmt::format("the last at tick {} (slot {}): ", entry.tick, entry.slot);
+  std::string text =
+      fmt::format("the last at tick {} (slot {}): ", std::uint64_t{entry.tick}, std::uint64_t{entry.slot});
   text += entry.started != 0 ? fmt::format("it had been running for {:.1f} us after starting {:.1f} us late",
                                            microseconds(entry.own_ns), microseconds(entry.latency_ns))
                              : std::string("it was still waiting for its turn");

@@ -98,29 +98,43 @@ struct ProcessSlot {
   std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
 };
 
+// A number that one thread writes while others may read it; what belongs together is told by a sequence number.
+template <class T>
+class Relaxed {
+ public:
+  Relaxed& operator=(T value) noexcept {
+    value_.store(value, std::memory_order_relaxed);
+    return *this;
+  }
+  operator T() const noexcept { return value_.load(std::memory_order_relaxed); }  // NOLINT(google-explicit-constructor)
+
+ private:
+  std::atomic<T> value_;
+};
+
 // One entry of the slot log: who ran when. Ring, newest overwrites oldest.
 struct SlotEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last; 0 while being written
-  std::uint64_t tick;
-  std::uint64_t slot;
-  std::int64_t release_ns;
-  std::int64_t start_ns;
-  std::int64_t end_ns;
-  std::uint32_t module;
-  std::uint32_t reserved;
+  Relaxed<std::uint64_t> tick;
+  Relaxed<std::uint64_t> slot;
+  Relaxed<std::int64_t> release_ns;
+  Relaxed<std::int64_t> start_ns;
+  Relaxed<std::int64_t> end_ns;
+  Relaxed<std::uint32_t> module;
+  Relaxed<std::uint32_t> reserved;
 };
 
 // One overrun: who, when, what it used itself, who ran before it in that basic period.
 struct OverrunEntry {
   std::atomic<std::uint64_t> sequence;  // entry number + 1, stored last
-  std::uint64_t tick;
-  std::uint64_t slot;
-  std::int64_t own_ns;       // time since its start, or 0 if it had not started
-  std::int64_t latency_ns;   // its own release-to-run latency
-  std::int32_t previous;     // module that ran before it in the slot, -1 none
-  std::int64_t previous_ns;  // and how long that took
-  std::uint32_t started;     // 0: it was still waiting for its turn
-  std::uint32_t module;
+  Relaxed<std::uint64_t> tick;
+  Relaxed<std::uint64_t> slot;
+  Relaxed<std::int64_t> own_ns;       // time since its start, or 0 if it had not started
+  Relaxed<std::int64_t> latency_ns;   // its own release-to-run latency
+  Relaxed<std::int32_t> previous;     // module that ran before it in the slot, -1 none
+  Relaxed<std::int64_t> previous_ns;  // and how long that took
+  Relaxed<std::uint32_t> started;     // 0: it was still waiting for its turn
+  Relaxed<std::uint32_t> module;
 };
 
 // Text from irp::printf and from the node's real-time threads, for a normal thread to print.
