@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::chrono::days kSoon{30};
 
-void check_board(const Plant& plant, const std::string& board, bool runs_here, Report& report) {
+// Returns the authority the board trusts; empty if that is not known.
+std::string check_board(const Plant& plant, const std::string& board, bool runs_here, Report& report) {
   const Instant now = instant_now();
   const KeyCheck check = check_board_keys(keys_folder(plant, board), plant.name, board, now);
   const std::string whose = "keys of board " + in_quotes(board) + ": " + check.problem;
@@ -24,14 +25,14 @@ void check_board(const Plant& plant, const std::string& board, bool runs_here, R
         report.warning(plant.security_place, "the keys of board " + in_quotes(board) + " are valid until " +
                                                  utc_text(check.validity.until) + "; indurop keys renew " + board);
       }
-      return;
+      break;
     case KeyFault::Missing:
       report.error(plant.security_place, whose + "; make them with indurop keys init or indurop keys add " + board +
                                              ", or copy them from where they were made");
-      return;
+      break;
     case KeyFault::Wrong:
       report.error(plant.security_place, whose + "; indurop keys list shows what is there");
-      return;
+      break;
     case KeyFault::NotNow:
       // A board goes on with its own modules, the network comes back with new keys.
       if (runs_here) {
@@ -39,8 +40,9 @@ void check_board(const Plant& plant, const std::string& board, bool runs_here, R
       } else {
         report.error(plant.security_place, whose + "; indurop keys renew " + board);
       }
-      return;
+      break;
   }
+  return check.authority;
 }
 
 }  // namespace
@@ -67,9 +69,17 @@ void check_security(const Plant& plant, const CheckOptions& options, Report& rep
                 "indurop keys init, then say where they are with <security>keys</security>");
     return;
   }
+  std::string first;  // authority
   for (const Board& board : plant.boards) {
-    if (options.board.empty() || options.board == board.name) {
-      check_board(plant, board.name, !options.board.empty(), report);
+    if (!options.board.empty() && options.board != board.name) {
+      continue;
+    }
+    const std::string authority = check_board(plant, board.name, !options.board.empty(), report);
+    first = first.empty() ? authority : first;
+    if (!authority.empty() && authority != first) {
+      report.error(plant.security_place, "the keys of board " + in_quotes(board.name) +
+                                             " were made by another authority than those of the boards before it; they "
+                                             "would not let each other in");
     }
   }
 }

@@ -320,11 +320,11 @@ std::vector<KeyListing> PlantKeys::list(Instant now) const {
 KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, const std::string& board, Instant now) {
   const ParticipantKeys keys(folder);
   if (std::string missing = missing_file(keys); !missing.empty()) {
-    return {KeyFault::Missing, std::move(missing), {}};
+    return {KeyFault::Missing, std::move(missing), {}, {}};
   }
   const std::string certificate = read_text(keys.certificate);
   const std::string authority = read_text(keys.authority);
-  const auto wrong = [](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}}; };
+  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority}; };
   const auto facts = read_certificate(certificate);
   if (!facts) {
     return wrong(keys.certificate.string() + " is no certificate");
@@ -347,14 +347,14 @@ KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, cons
   if (signed_text(read_text(keys.permissions), authority).find(">" + facts->subject + "<") == std::string::npos) {
     return wrong(fmt::format("{} is not for {}", keys.permissions.string(), facts->subject));
   }
-  KeyCheck check{KeyFault::None, {}, facts->validity};
+  KeyCheck check{KeyFault::None, {}, facts->validity, authority};
   if (is_revoked(certificate, read_text(keys.revoked))) {
-    check = {KeyFault::Wrong, fmt::format("{} was revoked", keys.certificate.string()), facts->validity};
+    check.fault = KeyFault::Wrong;
+    check.problem = fmt::format("{} was revoked", keys.certificate.string());
   } else if (now < facts->validity.from || now > facts->validity.until) {
-    check = {KeyFault::NotNow,
-             fmt::format("{} is valid from {} to {}, and now is {}", keys.certificate.string(),
-                         utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now)),
-             facts->validity};
+    check.fault = KeyFault::NotNow;
+    check.problem = fmt::format("{} is valid from {} to {}, and now is {}", keys.certificate.string(),
+                                utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now));
   }
   return check;
 }

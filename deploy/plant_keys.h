@@ -66,6 +66,7 @@ struct KeyCheck {
   KeyFault fault = KeyFault::None;
   std::string problem;
   Validity validity;
+  std::string authority;  // its certificate; empty after Missing
 };
 // As those of a board of the plant at this time.
 KeyCheck check_board_keys(const std::filesystem::path& folder, const std::string& plant, const std::string& board,

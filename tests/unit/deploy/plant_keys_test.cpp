@@ -220,6 +220,16 @@ TEST_F(Keys, Check_looks_for_those_of_every_board) {
   EXPECT_THAT(checked("<security>keys</security>", {.machine = true, .board = "a"}), Not(Contains(HasSubstr("keys"))));
 }
 
+TEST_F(Keys, Check_finds_boards_that_would_not_let_each_other_in) {
+  make();
+  const PlantKeys other(folder_ / "other");
+  ASSERT_EQ(other.make("cell", {"b"}, now + days(100)), "");
+  fs::remove_all(sut.board("b"));
+  fs::rename(other.board("b"), sut.board("b"));
+  EXPECT_THAT(checked("<security>keys</security>"),
+              Contains(HasSubstr("error: the keys of board 'b' were made by another authority")));
+}
+
 TEST_F(Keys, Check_warns_before_they_end) {
   make(days(5));
   EXPECT_THAT(checked("<security>keys</security>"),
