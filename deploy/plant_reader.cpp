@@ -54,10 +54,25 @@ class PlantReader {
                      "the board " + in_quotes(board.name) + " has no <module>; it runs nothing and owns no variable");
       }
     }
+    keep_secured();
     check_plant_rules(plant_, places_, report_);
   }
 
  private:
+  // Who keeps strangers out of the plant does not let them in here by leaving something out.
+  void keep_secured() {
+    if (plant_.security.empty() || !plant_.external_domain) {
+      return;
+    }
+    if (places_.external.line == 0) {
+      plant_.external_domain.reset();
+    } else if (!plant_.types.empty()) {
+      report_.warning(places_.external,
+                      "the boards are secured, this domain is not: anyone in the network reads the variables in it and "
+                      "sets those with external=\"write\"; write off, or keep it on a network of its own");
+    }
+  }
+
   struct Known {
     const char* name;
     bool repeatable;

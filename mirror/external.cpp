@@ -59,6 +59,7 @@ struct External::Impl {
   std::vector<std::unique_ptr<ExternalTopic>> topics;
   std::map<std::string, ExternalTopic*, std::less<>> unopened;  // by topic name
   Participant joined;
+  dds_guid_t own_guid{};
   Entity subscriptions;  // readers in the network; only if there are unopened topics
   std::atomic<bool> stop{false};
   rt::SignalWord wake;
@@ -116,6 +117,7 @@ bool External::Impl::join(std::string& problem) {
 
 bool External::Impl::open_topics(std::string& problem) {
   const dds_entity_t participant = joined.participant.get();
+  (void)dds_get_guid(participant, &own_guid);
   const bool eager = topics.size() <= kEagerTopics;
   for (const auto& topic : topics) {
     if (!(eager ? topic->open(participant, problem) : topic->open_reader(participant, problem))) {
@@ -151,7 +153,8 @@ void External::Impl::look_for_readers() noexcept {
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const auto& reader = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
-      const auto found = infos[i].valid_data && reader.topic_name != nullptr
+      const bool own = std::equal(std::begin(own_guid.v), std::end(own_guid.v), std::begin(reader.participant_key.v));
+      const auto found = infos[i].valid_data && !own && reader.topic_name != nullptr
                              ? unopened.find(std::string_view(reader.topic_name))
                              : unopened.end();
       std::string problem;

@@ -146,11 +146,13 @@ bool ExternalTopic::refresh() noexcept {
 }
 
 bool ExternalTopic::write(std::int64_t now_ns) noexcept {
-  const dds_return_t result = dds_write(writer_.get(), sent_.data());
+  // DDS looks at some types only; readers would drop the sample without a word.
+  const std::string strange = strange_value(variable().type, sent_);
+  const dds_return_t result = strange.empty() ? dds_write(writer_.get(), sent_.data()) : DDS_RETCODE_BAD_PARAMETER;
   if (result == DDS_RETCODE_BAD_PARAMETER) {
     block_.refused_by_dds.fetch_add(1, kRelaxed);
-    refusal_ =
-        fmt::format("{} is not published: an enum or bool in it has a value its type does not know", variable().name);
+    refusal_ = fmt::format("{} is not published: an enum or bool in it has a value its type does not know ({})",
+                           variable().name, strange);
     return true;  // the same value would be refused again
   }
   if (result < 0) {
@@ -205,9 +207,9 @@ void ExternalTopic::take_over(const std::uint8_t* sample) noexcept {
   const schema::Variable& known = variable();
   std::copy_n(sample, scratch_.size(), scratch_.begin());
   tidy_texts(known.type, scratch_);
-  std::string message;
+  std::string message = strange_value(known.type, scratch_);
   const schema::Range range = known.range.value_or(schema::Range{-kUnlimited, kUnlimited});
-  bool taken = schema::check_range(range, known.type, scratch_, message).ok();
+  bool taken = message.empty() && schema::check_range(range, known.type, scratch_, message).ok();
   if (taken && !store_.write(entry_, 0, scratch_)) {
     taken = false;
     message = "its writer lock is held by somebody who is stopped";

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace indurop::mirror {
 namespace {
@@ -39,7 +40,49 @@ void tidy(const schema::Type& type, std::uint8_t* at, std::uint64_t size) noexce
   }
 }
 
+bool can_be_strange(const schema::Type& type) noexcept {
+  return type.base == schema::Base::Bool || type.base == schema::Base::Enum ||
+         std::any_of(type.fields.begin(), type.fields.end(),
+                     [](const auto& field) { return can_be_strange(field.type); });
+}
+
+std::string strange_part(const schema::Type& type, const std::uint8_t* at, std::uint64_t size,
+                         const std::string& path) {
+  if (!can_be_strange(type) || type.element_size == 0) {
+    return {};
+  }
+  for (std::uint64_t offset = 0; offset + type.element_size <= size; offset += type.element_size) {
+    std::int64_t number = 0;
+    bool known = true;
+    if (type.base == schema::Base::Bool) {
+      number = at[offset];
+      known = number <= 1;
+    } else if (type.base == schema::Base::Enum) {
+      std::int32_t value = 0;
+      std::memcpy(&value, at + offset, sizeof value);
+      number = value;
+      known = std::any_of(type.enumerators.begin(), type.enumerators.end(),
+                          [value](const schema::Enumerator& one) { return one.value == value; });
+    }
+    if (!known) {
+      return path.empty() ? std::to_string(number) : fmt::format("{}: {}", path, number);
+    }
+    for (const schema::Field& field : type.fields) {
+      std::string found = strange_part(field.type, at + offset + field.offset, field.type.size(),
+                                       path.empty() ? field.name : path + "." + field.name);
+      if (!found.empty()) {
+        return found;
+      }
+    }
+  }
+  return {};
+}
+
 }  // namespace
+
+std::string strange_value(const schema::Type& type, std::span<const std::uint8_t> value) {
+  return strange_part(type, value.data(), value.size(), "");
+}
 
 std::string idl_type_name(const schema::Variable& variable) {
   const bool plain = variable.type.base == schema::Base::Struct && variable.type.dims.empty();

@@ -21,6 +21,9 @@ std::string descriptor_problem(const void* descriptor, const schema::Variable& v
 // "cell::encoder" has the topic "cell/encoder".
 std::string external_topic(const std::string& variable);
 
+// Empty if all enums and bools inside a value have values of their types; else the first that has not: "mode: 7".
+std::string strange_value(const schema::Type& type, std::span<const std::uint8_t> value);
+
 bool holds_text(const schema::Type& type) noexcept;
 // Ends every text inside a value at the latest in its last byte and clears what is behind the end.
 void tidy_texts(const schema::Type& type, std::span<std::uint8_t> value) noexcept;

@@ -4,6 +4,7 @@
 
 #include "deploy/reader.h"
 #include "rt/clock.h"
+#include "tools/external_view.h"
 #include "tools/interrupt.h"
 #include "tools/mirror_view.h"
 #include "tools/node_choice.h"
@@ -110,6 +111,7 @@ Table module_table(const RunView& run, bool alive) {
 int show_once(Context& context, const std::string& node, const RunView& run) {
   const NodeReport report = report_of(node, run);
   const auto mirror = view_mirror(node);
+  const auto external = view_external(node);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
@@ -119,10 +121,16 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
         context.out.line(line);
       }
     }
+    if (external) {
+      for (const std::string& line : external_lines(*external, context.out)) {
+        context.out.line(line);
+      }
+    }
     context.out.line();
   }
   JsonValue head = json_of(report);
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
+  head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), std::move(head), "modules");
   return report.alive ? kOk : kUnreachable;
 }

@@ -46,11 +46,15 @@ int main(int argc, char** argv) {
       if (info.valid_data) {
         print(sample);
         left -= left > 0 ? 1 : 0;
-      } else {
-        printf("nobody publishes station/state any more\n");
       }
       dds_return_loan(reader, &sample, 1);
       sample = NULL;
+    }
+    dds_subscription_matched_status_t nodes;
+    if (dds_get_subscription_matched_status(reader, &nodes) == 0 && nodes.current_count_change < 0 &&
+        nodes.current_count == 0) {
+      printf("nobody publishes station/state any more\n");
+      fflush(stdout);
     }
   }
   dds_delete(participant);

@@ -60,9 +60,13 @@ int main(int argc, char** argv) {
       if (info.valid_data) {
         print(state);
         left -= left > 0 ? 1 : 0;
-      } else {
-        std::printf("nobody publishes station/state any more\n");
       }
+    }
+    fast::SubscriptionMatchedStatus nodes;
+    reader->get_subscription_matched_status(nodes);
+    if (nodes.current_count_change < 0 && nodes.current_count == 0) {
+      std::printf("nobody publishes station/state any more\n");
+      std::fflush(stdout);
     }
   }
   participant->delete_contained_entities();

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// A running node and the programs of examples/external: Cyclone DDS in C, Fast DDS in C++, both generated from the IDL.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "mirror/external_block.h"
+#include "node_fixture.h"
+#include "vars/shm_file.h"
+
+namespace indurop::test {
+namespace {
+
+class Live : public NodeTest {
+ protected:
+  // Tests that run at the same time do not hear each other.
+  static std::string domain() { return std::to_string(1 + ::getpid() % 200); }
+
+  // The example's module.xml, on loopback and with a domain of its own.
+  std::string configuration(const std::string& types = EXAMPLE_FOLDER "/libstation_types.so") const {
+    return write("external.xml",
+                 "<root><external interface=\"lo\">" + domain() + "</external><types>" + types +
+                     "</types><variable name=\"station::target\" external=\"write\"/><module><filename>" +
+                     EXAMPLE_FOLDER +
+                     "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
+                     "</operationtype><period>1ms</period><priority>1</priority></module></root>");
+  }
+  Program& start_axis() {
+    Program& program = start_file(configuration(), {"--node", node()});
+    EXPECT_TRUE(wait_until_running(program)) << program.err();
+    EXPECT_TRUE(wait_until([&] { return block() != nullptr && block()->network.load() == mirror::Network::Up; }))
+        << (block() == nullptr ? "no external plane" : block()->problem.get());
+    EXPECT_TRUE(runs_reach("axis", 300)) << "what a late joiner gets first may be 100 ms old";
+    return program;
+  }
+  const mirror::ExternalBlock* block() {
+    if (!file_) {
+      auto opened = vars::ShmFile::open(vars::external_file(node()), vars::Mode::ReadOnly);
+      if (opened) {
+        file_ = std::move(opened).value();
+      }
+    }
+    return file_ ? reinterpret_cast<const mirror::ExternalBlock*>(file_->data()) : nullptr;
+  }
+  Program& tool(const std::vector<std::string>& words) {
+    std::vector<std::string> command = words;
+    command.front() = std::string(EXAMPLE_FOLDER) + "/" + command.front();
+    const Environment alone{
+        {"CYCLONEDDS_URI=<General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces></General>",
+         "FASTRTPS_DEFAULT_PROFILES_FILE=" EXAMPLE_SOURCES "/loopback_fastdds.xml"},
+        static_cast<uid_t>(-1),
+        {}};
+    programs_.push_back(std::make_unique<Program>(command, alone));
+    return *programs_.back();
+  }
+  static std::size_t lines(Program& program) {
+    const std::string text = program.out();
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+  static void expect_plausible(const std::string& line) {
+    std::istringstream in(line);
+    std::string word;
+    unsigned long long cycle = 0;
+    double position = -1;
+    double force[3] = {};
+    std::string mode;
+    int inside = -1;
+    in >> word >> cycle >> word >> position >> word >> word >> force[0] >> force[1] >> force[2] >> word >> word >>
+        mode >> word >> inside >> word;
+    EXPECT_GT(cycle, 0U) << line;
+    EXPECT_GE(position, 0) << line;
+    EXPECT_LE(position, 100) << line;
+    EXPECT_EQ(force[1], 9.5) << line;
+    EXPECT_EQ(force[2], -9.5) << line;
+    EXPECT_THAT(mode, ::testing::AnyOf("moving", "arrived")) << line;
+    EXPECT_EQ(inside, 1) << line;
+    EXPECT_CONTAINS(line, "program 'pick and place'");
+  }
+  static void expect_samples(Program& program, std::size_t count) {
+    EXPECT_EQ(program.wait(), 0) << program.err();
+    std::istringstream all(program.out());
+    std::string line;
+    std::size_t seen = 0;
+    while (std::getline(all, line)) {
+      expect_plausible(line);
+      ++seen;
+    }
+    EXPECT_EQ(seen, count) << program.out() << program.err();
+  }
+  // Names two variables of the node by the tool, as a user would.
+  std::string get(const std::string& variable) const {
+    std::string text = indurop({"get", variable, "--node", node()}).out;
+    return text;
+  }
+
+ private:
+  std::optional<vars::ShmFile> file_;
+};
+
+TEST_F(Live, A_Cyclone_program_sees_the_state) {
+  start_axis();
+  expect_samples(tool({"watch_cyclone", domain(), "5"}), 5);
+}
+
+TEST_F(Live, A_killed_reader_disturbs_nobody) {
+  Program& node = start_axis();
+  Program& first = tool({"watch_cyclone", domain()});
+  Program& second = tool({"watch_cyclone", domain()});
+  ASSERT_TRUE(wait_until([&] { return lines(first) > 3 && lines(second) > 3; })) << first.err();
+  for (int i = 0; i < 5; ++i) {
+    Program& victim = tool({"watch_cyclone", domain()});
+    ASSERT_TRUE(wait_until([&] { return lines(victim) > 1; }));
+    victim.kill();
+    const std::size_t before = lines(second);
+    ASSERT_TRUE(wait_until([&] { return lines(second) > before + 5; }));
+  }
+  first.signal(SIGSTOP);  // reads nothing any more, but is still there
+  const std::size_t before = lines(second);
+  EXPECT_TRUE(wait_until([&] { return lines(second) > before + 50; }));
+  first.kill();
+  EXPECT_EQ(module("axis").faults.load(), 0U);
+  node.signal(SIGTERM);
+  EXPECT_EQ(node.wait(), 0);
+  EXPECT_TRUE(second.prints("nobody publishes station/state any more"));
+}
+
+TEST_F(Live, A_node_that_comes_back_is_heard_again) {
+  Program& watch = tool({"watch_cyclone", domain()});
+  Program& node = start_axis();
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; }));
+  node.kill();
+  ASSERT_EQ(node.wait(), 128 + SIGKILL);
+  const std::size_t before = lines(watch);
+  start_axis();
+  EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; }));
+}
+
+TEST_F(Live, Types_of_another_glb_are_named_and_the_modules_run) {
+  Program& sut = start_file(configuration(STRANGE_TYPES), {"--node", node()});
+  ASSERT_TRUE(wait_until_running(sut));
+  EXPECT_TRUE(sut.says("was built from another .glb than the modules: station::State has 16 bytes there"));
+  EXPECT_TRUE(sut.says("no types library has the type of station::limit"));
+  EXPECT_TRUE(wait_until([&] { return block() != nullptr && block()->topics == 1; })) << "the one that fits";
+  EXPECT_TRUE(runs_reach("axis", 20));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+TEST_F(Live, Status_tells_who_reads) {
+  start_axis();
+  Program& watch = tool({"watch_cyclone", domain()});
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 0; }));
+  EXPECT_TRUE(wait_until([&] {
+    return contains(indurop({"status", "--node", node()}).out,
+                    "DDS domain " + domain() + ", 3 topics, 1 with readers, 1 can be set");
+  })) << indurop({"status", "--node", node()}).out;
+}
+
+#ifdef WITH_FASTDDS
+TEST_F(Live, A_Fast_DDS_program_sees_the_state) {
+  start_axis();
+  expect_samples(tool({"watch_fastdds", domain(), "5"}), 5);
+  // Somebody who comes when the axis rests.
+  ASSERT_TRUE(wait_until([&] { return contains(get("station::state.mode"), "ARRIVED"); }));
+  expect_samples(tool({"watch_fastdds", domain(), "1"}), 1);
+}
+
+TEST_F(Live, A_Fast_DDS_program_sets_the_target_within_its_range) {
+  start_axis();
+  Program& good = tool({"set_fastdds", "42.5", domain()});
+  EXPECT_EQ(good.wait(), 0) << good.out() << good.err();
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+  Program& bad = tool({"set_fastdds", "501", domain()});
+  EXPECT_EQ(bad.wait(), 3) << bad.out() << bad.err();
+  EXPECT_CONTAINS(bad.out(), "target is 42.500 mm");
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+  EXPECT_EQ(block()->refused.load(), 1U);
+  EXPECT_CONTAINS(block()->problem.get(), "station::target from outside is refused: 501 is outside 0..500");
+}
+#else
+TEST_F(Live, Fast_DDS_programs) {
+  GTEST_SKIP() << "fastddsgen or libfastrtps-dev is not installed";
+}
+#endif
+
+}  // namespace
+}  // namespace indurop::test

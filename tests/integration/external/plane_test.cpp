@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+// The external plane of one store, seen by a Cyclone DDS program that knows only the IDL.
+
+#include <dds/dds.h>
+#include <gmock/gmock.h>
+#include <indurop/generated.h>
+#include <indurop/indurop.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinds.h"
+#include "mirror/external.h"
+#include "mirror/external_block.h"
+#include "mirror/external_type.h"
+#include "program.h"
+#include "schema/elf.h"
+#include "vars/store.h"
+
+namespace indurop::test {
+namespace {
+
+using mirror::Exported;
+using mirror::ExternalBlock;
+
+schema::Schema own_schema() {
+  const auto file = schema::read_module_file("/proc/self/exe");
+  return schema::from_json(file.value().schema_json).value();
+}
+
+class Plane : public ::testing::Test {
+ protected:
+  Plane() : schema_(own_schema()) {}
+  ~Plane() override {
+    if (participant_ > 0) {
+      dds_delete(participant_);
+    }
+    sut_.reset();
+    store_.reset();
+    (void)vars::remove_node(node());
+  }
+
+  static std::string node() { return "et" + std::to_string(::getpid()); }
+  // Tests that run at the same time do not hear each other.
+  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+
+  // `more`: further variables of type kinds::Inner, named kinds::moreN.
+  void start(int more = 0) {
+    const auto inner = std::find_if(schema_.variables.begin(), schema_.variables.end(),
+                                    [](const auto& v) { return v.name == "kinds::wanted_inner"; });
+    const schema::Variable pattern = *inner;
+    for (int i = 0; i < more; ++i) {
+      schema_.variables.push_back(pattern);
+      schema_.variables.back().name = "kinds::more" + std::to_string(i);
+    }
+    auto store = vars::Store::create(node(), schema_);
+    ASSERT_TRUE(store.ok());
+    store_ = std::move(store).value();
+    mirror::ExternalSettings settings;
+    settings.domain = domain();
+    settings.one_host = true;
+    for (const schema::Variable& variable : schema_.variables) {
+      settings.variables.push_back(
+          {variable.name, descriptor_of(variable), variable.name.find("wanted") != std::string::npos, 0});
+    }
+    auto started = mirror::External::start(settings, node(), *store_);
+    ASSERT_TRUE(started.ok());
+    sut_ = std::move(started).value();
+    auto file = vars::ShmFile::open(vars::external_file(node()), vars::Mode::ReadOnly);
+    ASSERT_TRUE(file.ok());
+    file_ = std::move(file).value();
+    ASSERT_TRUE(wait_until([&] { return block().network.load() == mirror::Network::Up; })) << block().problem.get();
+    participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain()), nullptr, nullptr);
+    ASSERT_GT(participant_, 0);
+  }
+
+  static const void* descriptor_of(const schema::Variable& variable) {
+    for (const dds_topic_descriptor_t* type :
+         {&kinds_All_desc, &kinds_Inner_desc, &kinds_tick__desc, &kinds_colour__desc, &kinds_word__desc,
+          &kinds_pair__desc, &kinds_wanted__desc, &kinds_rigid__desc}) {
+      if (mirror::descriptor_problem(type, variable).empty()) {
+        return type;
+      }
+    }
+    ADD_FAILURE() << "no type for " << variable.name;
+    return nullptr;
+  }
+
+  const ExternalBlock& block() const { return *reinterpret_cast<const ExternalBlock*>(file_->data()); }
+
+  template <class T>
+  void put(const std::string& variable, const T& value) {
+    const auto* entry = store_->find(abi::fnv1a64(variable.data(), variable.size()));
+    ASSERT_NE(entry, nullptr);
+    ASSERT_EQ(entry->value_size, sizeof value);
+    std::array<std::uint8_t, sizeof value> bytes{};
+    std::memcpy(bytes.data(), &value, sizeof value);
+    ASSERT_TRUE(store_->write(*entry, 0, bytes).ok());
+  }
+  template <class T>
+  T get(const std::string& variable) {
+    const auto* entry = store_->find(abi::fnv1a64(variable.data(), variable.size()));
+    std::array<std::uint8_t, sizeof(T)> bytes{};
+    EXPECT_TRUE(store_->read(*entry, 0, bytes).ok());
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+
+  dds_entity_t reader(const dds_topic_descriptor_t& type, const char* topic, bool late_joiner = true) {
+    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+    dds_qset_durability(qos.get(), late_joiner ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
+    const dds_entity_t made = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
+    EXPECT_GT(made, 0);
+    return dds_create_reader(participant_, made, qos.get(), nullptr);
+  }
+  dds_entity_t writer(const dds_topic_descriptor_t& type, const char* topic) {
+    const dds_entity_t made = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
+    EXPECT_GT(made, 0);
+    return dds_create_writer(participant_, made, nullptr, nullptr);  // reliable unless said otherwise
+  }
+  static bool matched(dds_entity_t writer) {
+    dds_publication_matched_status_t status{};
+    dds_get_publication_matched_status(writer, &status);
+    return status.current_count > 0;
+  }
+  // The next value, if there is one.
+  template <class T>
+  static std::optional<T> take(dds_entity_t reader) {
+    void* sample = nullptr;
+    dds_sample_info_t info{};
+    if (dds_take(reader, &sample, &info, 1, 1) <= 0) {
+      return std::nullopt;
+    }
+    std::optional<T> value;
+    if (info.valid_data) {
+      value = *static_cast<const T*>(sample);
+    }
+    dds_return_loan(reader, &sample, 1);
+    return value;
+  }
+  // True as soon as a value fulfils the condition.
+  template <class T, class Condition>
+  static bool receives(dds_entity_t reader, Condition condition) {
+    return wait_until([&] {
+      const auto value = take<T>(reader);
+      return value && condition(*value);
+    });
+  }
+
+  schema::Schema schema_;
+  std::optional<vars::Store> store_;
+  std::optional<mirror::External> sut_;
+  std::optional<vars::ShmFile> file_;
+  dds_entity_t participant_ = 0;
+};
+
+::kinds::All something() {
+  ::kinds::All all{};
+  all.yes = true;
+  all.letter = 'x';
+  all.i8 = -8;
+  all.u8 = 200;
+  all.i16 = -16000;
+  all.u16 = 60000;
+  all.i32 = -2'000'000'000;
+  all.u32 = 4'000'000'000;
+  all.i64 = std::numeric_limits<std::int64_t>::min();
+  all.u64 = std::numeric_limits<std::uint64_t>::max();
+  all.f = 1.5F;
+  all.d = -0.1;
+  all.colour = ::kinds::BLUE;
+  all.text = "1234567";
+  all.inner = {7, 0.25};
+  all.list = {{{8, -0.5}, {9, 0.75}}};
+  all.grid = {{{1, 2, 3}, {4, 5, 6}}};
+  all.names[0] = "abc";
+  all.names[1] = "";
+  return all;
+}
+
+void expect_something(const kinds_All& all) {
+  EXPECT_TRUE(all.yes);
+  EXPECT_EQ(all.letter, 'x');
+  EXPECT_EQ(all.i8, -8);
+  EXPECT_EQ(all.u8, 200);
+  EXPECT_EQ(all.i16, -16000);
+  EXPECT_EQ(all.u16, 60000);
+  EXPECT_EQ(all.i32, -2'000'000'000);
+  EXPECT_EQ(all.u32, 4'000'000'000U);
+  EXPECT_EQ(all.i64, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(all.u64, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(all.f, 1.5F);
+  EXPECT_EQ(all.d, -0.1);
+  EXPECT_EQ(all.colour, kinds_BLUE);
+  EXPECT_STREQ(all.text, "1234567");
+  EXPECT_EQ(all.inner.small, 7);
+  EXPECT_EQ(all.inner.wide, 0.25);
+  EXPECT_EQ(all.list[0].wide, -0.5);
+  EXPECT_EQ(all.list[1].small, 9);
+  EXPECT_EQ(all.grid[1][2], 6);
+  EXPECT_STREQ(all.names[0], "abc");
+  EXPECT_STREQ(all.names[1], "");
+}
+
+TEST_F(Plane, Values_of_every_kind_arrive_as_they_are) {
+  start();
+  EXPECT_EQ(block().topics, 9U);
+  EXPECT_EQ(block().writable, 2U);
+  const dds_entity_t all = reader(kinds_All_desc, "kinds/all");
+  const dds_entity_t word = reader(kinds_word__desc, "kinds/word");
+  const dds_entity_t pair = reader(kinds_pair__desc, "kinds/pair");
+  const dds_entity_t colour = reader(kinds_colour__desc, "kinds/colour");
+  put("kinds::all", something());
+  put("kinds::pair", std::array<std::int16_t, 2>{-3, 4});
+  put("kinds::colour", std::int32_t{1});
+  EXPECT_TRUE(receives<kinds_All>(all, [](const kinds_All& value) {
+    if (value.u8 == 200) {
+      expect_something(value);
+    }
+    return value.u8 == 200;
+  }));
+  EXPECT_TRUE(receives<kinds_word_>(word, [](const auto& value) { return std::string(value.value) == "abc"; }));
+  EXPECT_TRUE(
+      receives<kinds_pair_>(pair, [](const auto& value) { return value.value[0] == -3 && value.value[1] == 4; }));
+  EXPECT_TRUE(receives<kinds_colour_>(colour, [](const auto& value) { return value.value == kinds_GREEN; }));
+  EXPECT_TRUE(wait_until([&] { return block().read.load() == 4; }));
+}
+
+TEST_F(Plane, A_late_joiner_gets_the_last_value) {
+  start();
+  put("kinds::all", something());
+  const dds_entity_t first = reader(kinds_All_desc, "kinds/all");
+  ASSERT_TRUE(receives<kinds_All>(first, [](const kinds_All& value) { return value.u8 == 200; }));
+  const dds_entity_t second = reader(kinds_All_desc, "kinds/all");
+  EXPECT_TRUE(receives<kinds_All>(second, [](const kinds_All& value) { return value.u8 == 200; }));
+  // Not even asking for it: the value is said again for whoever has come.
+  const dds_entity_t third = reader(kinds_All_desc, "kinds/all", false);
+  EXPECT_TRUE(receives<kinds_All>(third, [](const kinds_All& value) { return value.u8 == 200; }));
+}
+
+TEST_F(Plane, What_does_not_change_is_not_repeated) {
+  start();
+  const dds_entity_t word = reader(kinds_word__desc, "kinds/word");
+  const dds_entity_t tick = reader(kinds_tick__desc, "kinds/tick");
+  int words = 0;
+  for (std::uint32_t i = 1; i <= 200; ++i) {
+    put("kinds::tick", i);
+    put("kinds::word", std::array<char, 6>{'a', 'b', 'c'});  // the same again
+    ASSERT_TRUE(receives<kinds_tick_>(tick, [&](const auto& value) { return value.value == i; }));
+    words += take<kinds_word_>(word) ? 1 : 0;
+  }
+  EXPECT_GE(words, 1);
+  EXPECT_LE(words, 3) << "when it was discovered, and once more";
+}
+
+TEST_F(Plane, Texts_without_an_end_get_one) {
+  start();
+  const dds_entity_t word = reader(kinds_word__desc, "kinds/word");
+  put("kinds::word", std::array<char, 6>{'1', '2', '3', '4', '5', '6'});
+  EXPECT_TRUE(receives<kinds_word_>(word, [](const auto& value) { return std::string(value.value) == "12345"; }));
+}
+
+TEST_F(Plane, A_value_its_type_does_not_know_is_counted_and_named_and_the_others_go_on) {
+  start();
+  const dds_entity_t colour = reader(kinds_colour__desc, "kinds/colour");
+  const dds_entity_t tick = reader(kinds_tick__desc, "kinds/tick");
+  put("kinds::colour", std::int32_t{77});
+  ASSERT_TRUE(wait_until([&] { return block().refused_by_dds.load() > 0; }));
+  EXPECT_TRUE(wait_until([&] { return block().problem.get().find("kinds::colour") != std::string::npos; }));
+  put("kinds::tick", std::uint32_t{5});
+  EXPECT_TRUE(receives<kinds_tick_>(tick, [](const auto& value) { return value.value == 5; }));
+  put("kinds::colour", std::int32_t{2});
+  EXPECT_TRUE(receives<kinds_colour_>(colour, [](const auto& value) { return value.value == kinds_BLUE; }));
+}
+
+TEST_F(Plane, A_variable_marked_so_is_set_from_outside) {
+  start();
+  const dds_entity_t out = writer(kinds_wanted__desc, "kinds/wanted");
+  ASSERT_TRUE(wait_until([&] { return matched(out); }));
+  const kinds_wanted_ value{7.5};
+  ASSERT_EQ(dds_write(out, &value), 0);
+  EXPECT_TRUE(wait_until([&] { return get<double>("kinds::wanted") == 7.5; }));
+  EXPECT_EQ(block().received.load(), 1U);
+}
+
+TEST_F(Plane, What_is_out_of_range_is_refused_and_the_truth_is_said_again) {
+  start();
+  const dds_entity_t in = reader(kinds_wanted__desc, "kinds/wanted");
+  const dds_entity_t out = writer(kinds_wanted__desc, "kinds/wanted");
+  ASSERT_TRUE(wait_until([&] { return matched(out) && block().read.load() > 0; }));
+  for (const double bad : {99.0, std::numeric_limits<double>::quiet_NaN(), -11.0}) {
+    const std::uint64_t before = block().refused.load();
+    const kinds_wanted_ value{bad};
+    ASSERT_EQ(dds_write(out, &value), 0);
+    ASSERT_TRUE(wait_until([&] { return block().refused.load() == before + 1; }));
+    EXPECT_TRUE(receives<kinds_wanted_>(in, [](const auto& seen) { return seen.value == 1; }));
+  }
+  EXPECT_EQ(get<double>("kinds::wanted"), 1);
+  EXPECT_EQ(block().received.load(), 0U);
+  EXPECT_TRUE(wait_until([&] {
+    return block().problem.get() == "a value for kinds::wanted from outside is refused: -11 is outside -10..10";
+  })) << block().problem.get();
+}
+
+TEST_F(Plane, Ranges_of_fields_hold_too) {
+  start();
+  const dds_entity_t out = writer(kinds_Inner_desc, "kinds/wanted_inner");
+  ASSERT_TRUE(wait_until([&] { return matched(out); }));
+  const kinds_Inner bad{1, 2.0};
+  ASSERT_EQ(dds_write(out, &bad), 0);
+  ASSERT_TRUE(wait_until([&] { return block().refused.load() == 1; }));
+  const kinds_Inner good{1, 0.5};
+  ASSERT_EQ(dds_write(out, &good), 0);
+  EXPECT_TRUE(wait_until([&] { return get<::kinds::Inner>("kinds::wanted_inner").wide == 0.5; }));
+}
+
+TEST_F(Plane, What_is_not_marked_cannot_be_set) {
+  start();
+  const dds_entity_t marked = writer(kinds_wanted__desc, "kinds/wanted");
+  const dds_entity_t out = writer(kinds_rigid__desc, "kinds/rigid");
+  ASSERT_TRUE(wait_until([&] { return matched(marked); }));
+  const kinds_rigid_ value{8};
+  ASSERT_EQ(dds_write(out, &value), 0);
+  const kinds_wanted_ last{2};
+  ASSERT_EQ(dds_write(marked, &last), 0);
+  ASSERT_TRUE(wait_until([&] { return get<double>("kinds::wanted") == 2; }));
+  EXPECT_FALSE(matched(out));
+  EXPECT_EQ(get<double>("kinds::rigid"), 3);
+}
+
+TEST_F(Plane, Of_very_many_variables_the_topics_are_made_when_somebody_asks) {
+  start(600);
+  EXPECT_EQ(block().topics, 609U);
+  const dds_entity_t listing = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  EXPECT_FALSE(take<dds_builtintopic_endpoint_t>(listing)) << "nothing is announced yet";
+  put("kinds::more417", ::kinds::Inner{3, 0.5});
+  const dds_entity_t in = reader(kinds_Inner_desc, "kinds/more417");
+  EXPECT_TRUE(receives<kinds_Inner>(in, [](const auto& value) { return value.small == 3; }));
+  const dds_entity_t out = writer(kinds_wanted__desc, "kinds/wanted");
+  ASSERT_TRUE(wait_until([&] { return matched(out); }));
+}
+
+TEST_F(Plane, Somebody_who_wants_what_is_not_offered_is_named) {
+  start();
+  const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_PERSISTENT);
+  const dds_entity_t topic = dds_create_topic(participant_, &kinds_tick__desc, "kinds/tick", nullptr, nullptr);
+  const dds_entity_t in = dds_create_reader(participant_, topic, qos.get(), nullptr);
+  ASSERT_GT(in, 0);
+  EXPECT_TRUE(wait_until([&] { return block().mismatched.load() > 0; }));
+  EXPECT_TRUE(wait_until([&] { return block().problem.get().find("kinds/tick") != std::string::npos; }));
+}
+
+}  // namespace
+}  // namespace indurop::test
