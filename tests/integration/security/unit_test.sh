@@ -11,6 +11,8 @@ done
 for line in NoNewPrivileges=yes ProtectSystem=strict ProtectHome=yes User=indurop LimitMEMLOCK=infinity; do
   grep -qx "$line" "$unit" || fail "$line is missing"
 done
+# Without it a node cannot tell whether its clock is kept by others.
+grep -Eq '^SystemCallFilter=.*clock_adjtime' "$unit" || fail "a node reads the state of the clock"
 if grep -Eq '^(RestrictRealtime|PrivateDevices|ProtectClock|DynamicUser|MemoryDenyWriteExecute)=(yes|true)' "$unit"; then
   fail "real-time threads, hardware or shared memory would not work"
 fi
