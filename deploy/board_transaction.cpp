@@ -119,7 +119,9 @@ Do BoardTransaction::catch_up(const BoardReport& from, std::int64_t now_ns) {
   retry_ns_ = now_ns + kRetryNs;
   Order order;
   order.host = from.board;
+  order.plant = from.plant;
   order.deployment = from.current;
+  order.grant = from.grant;
   order.size = from.current_size;
   order.generation = from.generation;
   order.boards = from.members;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/deployment_words.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace indurop::deploy {
 
 const char* to_text(Phase phase) noexcept {
@@ -39,6 +42,17 @@ const char* to_text(NodeCondition condition) noexcept {
       return "failed";
   }
   return "?";
+}
+
+std::string grant_text(const std::string& plant, const std::string& deployment, std::uint64_t generation) {
+  return fmt::format("indurop deployment\n{}\n{}\n{}\n", plant, deployment, generation);
+}
+
+std::string order_text(const Order& order) {
+  return fmt::format("indurop order\n{}{}\n{}\n{}\n{}\n{}\n{}\n{}\n",
+                     grant_text(order.plant, order.deployment, order.generation), order.deployer, order.size,
+                     static_cast<int>(order.step), order.said_at_ns, order.switch_at_ns, order.health_ns,
+                     fmt::join(order.boards, ","));
 }
 
 }  // namespace indurop::deploy

@@ -58,7 +58,10 @@ struct BoardReport {
   std::uint32_t files_done = 0;
   std::uint64_t bytes = 0;
   std::uint64_t bytes_done = 0;
-  std::string message;  // why it failed or went back; else what people should know
+  std::string grant;          // the deployer's signature of grant_text() of what is committed; empty: unsigned
+  std::uint64_t refused = 0;  // deployer that this board does not take orders of
+  std::string refusal;        // and why
+  std::string message;        // why it failed or went back; else what people should know
   // Its node.
   NodeCondition node = NodeCondition::None;
   std::uint64_t tick = 0;
@@ -71,6 +74,7 @@ struct BoardReport {
 struct Order {
   std::uint64_t deployer = 0;  // this run of the deployer
   std::string host;
+  std::string plant;
   std::string deployment;  // id: digest of the package's text
   std::uint64_t size = 0;  // of the package's text
   std::uint64_t generation = 0;
@@ -79,7 +83,13 @@ struct Order {
   std::int64_t said_at_ns = 0;    // CLOCK_REALTIME of the deployer
   std::int64_t switch_at_ns = 0;  // likewise; with Step::Switch
   std::int64_t health_ns = 0;     // how long the new deployment is watched before it counts as good
+  std::string grant;              // signature of grant_text(); empty: unsigned
+  std::string signature;          // of order_text()
 };
+
+// What is signed: that a deployment is one of the plant's, for good, and what a deployer says just now.
+std::string grant_text(const std::string& plant, const std::string& deployment, std::uint64_t generation);
+std::string order_text(const Order& order);
 
 // A piece of a file. Files are named by their digest.
 struct BlobRequest {

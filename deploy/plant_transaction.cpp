@@ -56,6 +56,9 @@ void PlantTransaction::hear(const BoardReport& report, std::int64_t now_ns) {
 }
 
 void PlantTransaction::judge(const std::string& board, const BoardReport& report, std::int64_t now_ns) {
+  if (report.refused == order_.deployer) {
+    abort(Verdict::Refused, board, report.refusal, now_ns);
+  }
   if (report.phase == Phase::Failed && ours(report)) {
     const bool check = report.stage == Phase::Checking;
     abort(check ? Verdict::CheckFailed : Verdict::Refused, board, report.message, now_ns);

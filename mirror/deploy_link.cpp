@@ -96,6 +96,9 @@ deploy::BoardReport from_wire(const indurop_deploy_BoardReport& in) {
   out.bytes = in.bytes;
   out.bytes_done = in.bytes_done;
   out.message = in.message;
+  out.grant = in.grant;
+  out.refused = in.refused;
+  out.refusal = in.refusal;
   out.node = bounded(in.node, deploy::NodeCondition::Failed);
   out.tick = in.tick;
   out.lost_ticks = in.lost_ticks;
@@ -109,6 +112,7 @@ deploy::Order from_wire(const indurop_deploy_Order& in) {
   deploy::Order out;
   out.deployer = in.deployer;
   out.host = in.host;
+  out.plant = in.plant;
   out.deployment = in.deployment;
   out.size = in.size;
   out.generation = in.generation;
@@ -117,6 +121,8 @@ deploy::Order from_wire(const indurop_deploy_Order& in) {
   out.said_at_ns = in.said_at_ns;
   out.switch_at_ns = in.switch_at_ns;
   out.health_ns = in.health_ns;
+  out.grant = in.grant;
+  out.signature = in.signature;
   return out;
 }
 
@@ -258,6 +264,9 @@ void DeployLink::publish(const deploy::BoardReport& report) {
   out.bytes = report.bytes;
   out.bytes_done = report.bytes_done;
   out.message = text_of(report.message);
+  out.grant = text_of(report.grant);
+  out.refused = report.refused;
+  out.refusal = text_of(report.refusal);
   out.node = static_cast<std::uint8_t>(report.node);
   out.tick = report.tick;
   out.lost_ticks = report.lost_ticks;
@@ -272,6 +281,7 @@ void DeployLink::publish(const deploy::Order& order) {
   Names boards(order.boards);
   out.deployer = order.deployer;
   out.host = text_of(order.host);
+  out.plant = text_of(order.plant);
   out.deployment = text_of(order.deployment);
   out.size = order.size;
   out.generation = order.generation;
@@ -280,6 +290,8 @@ void DeployLink::publish(const deploy::Order& order) {
   out.said_at_ns = order.said_at_ns;
   out.switch_at_ns = order.switch_at_ns;
   out.health_ns = order.health_ns;
+  out.grant = text_of(order.grant);
+  out.signature = text_of(order.signature);
   (void)dds_write(impl_->orders_out.get(), &out);
 }
 

@@ -10,6 +10,7 @@
 #include "mirror/blob_server.h"
 #include "node/agent_state.h"
 #include "node/board_process.h"
+#include "node/deploy_keys.h"
 #include "node/fetcher.h"
 #include "node/stop_signal.h"
 #include "rt/clock.h"
@@ -68,6 +69,7 @@ class Agent {
         console_(console),
         state_(state),
         self_(mirror::new_session()),
+        keys_(options.board),
         transaction_(options.board),
         fetcher_(state, self_),
         process_(options.board, node_arguments(options), console),
@@ -141,9 +143,11 @@ class Agent {
 
   void listen(std::int64_t now) {
     for (const auto& news : link_->take_orders()) {
-      perform(news.gone ? transaction_.deployer_gone(news.order.deployer)
-                        : transaction_.hear(news.order, now, rt::wall_ns()),
-              now);
+      if (news.gone) {
+        perform(transaction_.deployer_gone(news.order.deployer), now);
+      } else if (may_order(news.order)) {
+        perform(transaction_.hear(news.order, now, rt::wall_ns()), now);
+      }
     }
     for (auto& news : link_->take_boards()) {
       const auto key = std::pair(news.report.board, news.report.agent);
@@ -155,10 +159,36 @@ class Agent {
     }
     for (const auto& [key, other] : others_) {
       const bool mine = std::find(other.members.begin(), other.members.end(), options_.board) != other.members.end();
-      if (key.first != options_.board && mine && other.generation > state_.committed().generation) {
+      if (key.first != options_.board && mine && other.generation > state_.committed().generation &&
+          keys_.refusal(other.plant, deploy::grant_text(other.plant, other.current, other.generation), other.grant)
+              .empty()) {
         perform(transaction_.catch_up(other, now), now);
       }
     }
+  }
+
+  // Orders meant for this board are taken from who may deploy to it; others are told why not.
+  bool may_order(const deploy::Order& order) {
+    if (std::find(order.boards.begin(), order.boards.end(), options_.board) == order.boards.end()) {
+      return false;
+    }
+    std::string why = keys_.refusal(order.plant, deploy::order_text(order), order.signature);
+    if (why.empty()) {
+      why =
+          keys_.refusal(order.plant, deploy::grant_text(order.plant, order.deployment, order.generation), order.grant);
+    }
+    const bool begins = order.step == deploy::Step::Prepare && transaction_.phase() == deploy::Phase::Steady;
+    if (why.empty() && begins && order.generation <= state_.committed().generation &&
+        order.deployer != transaction_.order().deployer) {
+      why = "this board has a newer deployment than that; deploy again";
+    }
+    if (!why.empty() && order.step == deploy::Step::Prepare && refused_ != order.deployer) {
+      console_.warning("an order of {} was refused: {}", order.host, why);
+      refused_ = order.deployer;
+      refusal_ = why;
+      tell_now_ = true;
+    }
+    return why.empty();
   }
 
   void work(std::int64_t now) {
@@ -224,6 +254,9 @@ class Agent {
     if (!read.ok()) {
       return first_error(read.diagnostics);
     }
+    if (read.plant.name != transaction_.order().plant) {
+      return fmt::format("plant {} was offered, and {} is in the package", transaction_.order().plant, read.plant.name);
+    }
     deploy::CheckOptions how;
     how.board = options_.one_host ? std::string{} : options_.board;
     const deploy::PlantCheck checked = deploy::check_plant(read.plant, how);
@@ -241,6 +274,7 @@ class Agent {
     const auto package = state_.package(order.deployment, problem);
     Committed next = state_.committed();
     next.generation = order.generation;
+    next.grant = order.grant;
     if (package) {
       next.plant = package->plant;
       next.members = package->boards;
@@ -294,6 +328,9 @@ class Agent {
     out.files_done = fetcher_.files_done();
     out.bytes = fetcher_.bytes();
     out.bytes_done = fetcher_.bytes_done();
+    out.grant = committed.grant;
+    out.refused = refused_;
+    out.refusal = refusal_;
     out.message = transaction_.message();
     if (out.message.empty() && process_.condition() != deploy::NodeCondition::Running) {
       out.message = process_.reason();
@@ -331,6 +368,7 @@ class Agent {
   AgentState& state_;
   std::uint64_t self_;
   std::string host_;
+  DeployKeys keys_;
   BoardTransaction transaction_;
   Fetcher fetcher_;
   BoardProcess process_;
@@ -340,6 +378,8 @@ class Agent {
   std::int64_t connect_ns_ = 0;
   std::string network_problem_;
   std::map<std::pair<std::string, std::uint64_t>, deploy::BoardReport> others_;
+  std::uint64_t refused_ = 0;
+  std::string refusal_;
   bool busy_ = false;
   bool tell_now_ = true;
   std::int64_t told_ns_ = 0;

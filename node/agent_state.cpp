@@ -97,6 +97,7 @@ Committed from_json(const Json& whole) {
   out.plant = whole.at("plant").get<std::string>();
   out.current = whole.at("current").get<std::string>();
   out.current_size = whole.at("current_size").get<std::uint64_t>();
+  out.grant = whole.value("grant", "");
   out.previous = whole.at("previous").get<std::string>();
   out.members = whole.at("members").get<std::vector<std::string>>();
   for (const Json& entry : whole.at("history")) {
@@ -168,9 +169,10 @@ std::string AgentState::commit(Committed next) {
   if (next.history.size() > kHistoryKept) {
     next.history.erase(next.history.begin(), next.history.end() - kHistoryKept);
   }
-  const Json whole = {{"indurop_state", 1},      {"generation", next.generation},        {"plant", next.plant},
-                      {"current", next.current}, {"current_size", next.current_size},    {"previous", next.previous},
-                      {"members", next.members}, {"history", history_json(next.history)}};
+  const Json whole = {
+      {"indurop_state", 1},        {"generation", next.generation},     {"plant", next.plant},
+      {"current", next.current},   {"current_size", next.current_size}, {"grant", next.grant},
+      {"previous", next.previous}, {"members", next.members},           {"history", history_json(next.history)}};
   std::string problem = replace_file(folder_ / kCommitted, dump(whole));
   if (problem.empty()) {
     committed_ = std::move(next);

@@ -29,6 +29,7 @@ struct Committed {
   std::string plant;
   std::string current;  // deployment ids, empty: none
   std::uint64_t current_size = 0;
+  std::string grant;  // signature of the deployer, empty: unsigned
   std::string previous;
   std::vector<std::string> members;
   std::vector<HistoryEntry> history;  // newest last

@@ -20,6 +20,7 @@ struct Options {
   std::int64_t timeout_ns = 5'000'000'000;
   std::int64_t health_ns = 3'000'000'000;
   bool allow_missing = false;
+  std::filesystem::path keys;
 };
 
 std::vector<std::string> addresses(const deploy::Plant& plant) {
@@ -72,6 +73,9 @@ int deploy_plant(Context& context, Options& options) {
   }
   BoardRoster roster;
   Deployment deployment;
+  if (!read_deploy_key(context, options.keys.empty() ? checked.plant.security : options.keys, deployment.key)) {
+    return kFailed;
+  }
   int code = kFailed;
   deployment.order.boards =
       present_boards(context, *link, roster, packed->package.boards, options.allow_missing, options.timeout_ns, code);
@@ -81,16 +85,15 @@ int deploy_plant(Context& context, Options& options) {
   tell_left_out(context, roster, *packed);
   deployment.order.deployer = options.link.self;
   deployment.order.host = mirror::host_name();
+  deployment.order.plant = packed->package.plant;
   deployment.order.deployment = packed->id;
   deployment.order.size = packed->text.size();
   deployment.order.generation = next_generation(roster);
   deployment.order.health_ns = options.health_ns;
   deployment.patience_ns = options.timeout_ns;
   deployment.title = fmt::format("plant {}, deployment {}", packed->package.plant, deploy::shown_id(packed->id));
-  deployment.head = {{"plant", packed->package.plant},
-                     {"deployment", packed->id},
-                     {"generation", deployment.order.generation},
-                     {"signed", false}};
+  deployment.head = {
+      {"plant", packed->package.plant}, {"deployment", packed->id}, {"generation", deployment.order.generation}};
   deployment.files = [&packed](const std::string& name, mirror::BlobServer::Blob& blob) {
     if (name == packed->id) {
       blob.text = packed->text;
@@ -111,7 +114,6 @@ int deploy_plant(Context& context, Options& options) {
                                          counted(deployment.order.boards.size(), "board"),
                                          counted(packed->package.files.size(), "file"), human_bytes(bytes)));
   }
-  context.out.note("open: no keys. Anybody on this network may deploy to these boards");
   return run_deployment(context, *link, roster, std::move(deployment));
 }
 
@@ -125,6 +127,8 @@ Action declare(CLI::App& app, Context& context) {
                   "Watch the new deployment so long before it is committed (default: 3s)");
   app.add_flag("--allow-missing", options->allow_missing,
                "Deploy to the boards that are there; the others take it over when they come");
+  app.add_option("--keys", options->keys, "Folder of the plant's keys (default: <security> of the manifest)")
+      ->type_name("DIR");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return deploy_plant(c, *options); };
 }

@@ -20,6 +20,7 @@ struct Options {
   std::int64_t timeout_ns = 5'000'000'000;
   std::int64_t health_ns = 3'000'000'000;
   bool allow_missing = false;
+  std::filesystem::path keys;
 };
 
 constexpr std::int64_t kHearNs = 1'000'000'000;
@@ -109,6 +110,9 @@ int roll_back(Context& context, Options& options) {
   }
   const std::vector<std::string> members = newest->members;
   Deployment deployment;
+  if (!read_deploy_key(context, options.keys, deployment.key)) {
+    return kFailed;
+  }
   deployment.order.boards =
       present_boards(context, *link, roster, members, options.allow_missing, options.timeout_ns, code);
   if (deployment.order.boards.empty()) {
@@ -120,6 +124,7 @@ int roll_back(Context& context, Options& options) {
   }
   deployment.order.deployer = options.link.self;
   deployment.order.host = mirror::host_name();
+  deployment.order.plant = plant;
   deployment.order.deployment = target;
   deployment.order.generation = next_generation(roster);
   deployment.order.health_ns = options.health_ns;
@@ -146,6 +151,7 @@ Action declare(CLI::App& app, Context& context) {
                   "Watch the deployment so long before it is committed (default: 3s)");
   app.add_flag("--allow-missing", options->allow_missing,
                "Roll back the boards that are there; the others follow when they come");
+  app.add_option("--keys", options->keys, "Folder of the plant's keys, if it has some")->type_name("DIR");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return roll_back(c, *options); };
 }

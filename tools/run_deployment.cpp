@@ -5,7 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
+#include "deploy/credentials.h"
+#include "deploy/plant_keys.h"
 #include "deploy/plant_transaction.h"
 #include "rt/clock.h"
 #include "tools/interrupt.h"
@@ -99,7 +103,13 @@ class Run {
     if (changed || now - said_ns_ >= kSayNs) {
       said_ns_ = now;
       (void)transaction_.time(now, rt::wall_ns());
-      link_.publish(transaction_.order());
+      deploy::Order order = transaction_.order();
+      if (!deployment_.key.empty()) {
+        order.grant =
+            deploy::signature_of(deploy::grant_text(order.plant, order.deployment, order.generation), deployment_.key);
+        order.signature = deploy::signature_of(deploy::order_text(order), deployment_.key);
+      }
+      link_.publish(order);
     }
   }
 
@@ -163,6 +173,7 @@ class Run {
   int finish() {
     const Verdict verdict = transaction_.verdict();
     JsonValue head = deployment_.head;
+    head["signed"] = !deployment_.key.empty();
     head["result"] = word_of(verdict);
     head["unconfirmed"] = transaction_.unconfirmed();
     print_table(context_, table(), head, "boards");
@@ -222,6 +233,24 @@ class Run {
 
 int run_deployment(Context& context, mirror::DeployLink& link, BoardRoster& roster, Deployment deployment) {
   return Run(context, link, roster, std::move(deployment)).run();
+}
+
+bool read_deploy_key(Context& context, const std::filesystem::path& folder, std::string& key) {
+  if (folder.empty()) {
+    context.out.note("open: no keys. Anybody on this network may deploy to these boards");
+    return true;
+  }
+  const std::filesystem::path file = deploy::PlantKeys(folder).deployer() / "deploy.key";
+  std::ifstream in(file);
+  key.assign(std::istreambuf_iterator<char>(in), {});
+  if (!key.empty() && !deploy::signature_of("probe", key).empty()) {
+    return true;
+  }
+  context.out.error(
+      fmt::format("{} is not there or no key, so the deployment cannot be signed; it comes from indurop "
+                  "keys init, or say where it is with --keys",
+                  file.string()));
+  return false;
 }
 
 std::uint64_t next_generation(const BoardRoster& roster) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "deploy/deployment_words.h"
@@ -17,6 +18,7 @@ namespace indurop::tools {
 
 struct Deployment {
   deploy::Order order;  // who, what, for whom
+  std::string key;      // private key that signs orders; empty: unsigned
   mirror::BlobServer::Find files;
   std::int64_t patience_ns = 0;  // how long nothing at all may happen
   JsonValue head;                // of the result as JSON
@@ -26,6 +28,9 @@ struct Deployment {
 // Prints progress and the result; returns the exit code.
 int run_deployment(Context& context, mirror::DeployLink& link, BoardRoster& roster, Deployment deployment);
 
+// Private key of the deployer in a folder of keys (indurop keys init). False after an error message: it cannot be read.
+// An empty folder is no error: no key.
+bool read_deploy_key(Context& context, const std::filesystem::path& folder, std::string& key);
 // A generation above all those heard.
 std::uint64_t next_generation(const BoardRoster& roster);
 // Those boards of `wanted` that are there. Empty after an error: some are missing (and `allow_missing` is not set), or
