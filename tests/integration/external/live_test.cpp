@@ -91,11 +91,7 @@ class Live : public NodeTest {
     }
     EXPECT_EQ(seen, count) << program.out() << program.err();
   }
-  // Names two variables of the node by the tool, as a user would.
-  std::string get(const std::string& variable) const {
-    std::string text = indurop({"get", variable, "--node", node()}).out;
-    return text;
-  }
+  std::string get(const std::string& variable) const { return indurop({"get", variable, "--node", node()}).out; }
 
  private:
   std::optional<vars::ShmFile> file_;
@@ -158,6 +154,33 @@ TEST_F(Live, Status_tells_who_reads) {
     return contains(indurop({"status", "--node", node()}).out,
                     "DDS domain " + domain() + ", 3 topics, 1 with readers, 1 can be set");
   })) << indurop({"status", "--node", node()}).out;
+}
+
+// Each variable by the board that owns it: nobody writes target and limit, the first board that reads them has them.
+TEST_F(Live, Boards_of_a_plant_show_what_they_own) {
+  const std::string module = "<module><filename>" EXAMPLE_FOLDER
+                             "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
+                             "</operationtype><period>1ms</period><priority>1</priority></module>";
+  const std::string plant = write(
+      "plant.xml", "<plant name=\"" + node() + "\"><domain>" + std::to_string(1 + (::getpid() + 1) % 200) +
+                       "</domain><external>" + domain() +
+                       "</external><types>" EXAMPLE_FOLDER
+                       "/libstation_types.so</types><variable name=\"station::target\" external=\"write\"/><variable "
+                       "name=\"station::limit\" external=\"off\"/><board name=\"empty\"/><board name=\"" +
+                       node() + "\">" + module + "</board></plant>");
+  Program& sut = start_file(plant, {"--node", node(), "--board", node(), "--one-host"});
+  ASSERT_TRUE(wait_until_running(sut)) << sut.err();
+  ASSERT_TRUE(wait_until([&] { return block() != nullptr && block()->network.load() == mirror::Network::Up; }));
+  EXPECT_EQ(block()->topics, 2U) << "state and target, limit is off";
+  EXPECT_EQ(block()->writable, 1U);
+  const std::string other = node() + "e";
+  Program& idle = start_file(plant, {"--node", other, "--board", "empty", "--one-host"});
+  EXPECT_TRUE(idle.says("0 variables for other tools"));
+  EXPECT_TRUE(runs_reach("axis", 300));
+  expect_samples(tool({"watch_cyclone", domain(), "3"}), 3);
+  idle.signal(SIGTERM);
+  EXPECT_EQ(idle.wait(), 0);
+  EXPECT_EQ(indurop({"clean", "--node", other}).code, 0);
 }
 
 #ifdef WITH_FASTDDS
