@@ -12,38 +12,45 @@
 #include "vars/shm_file.h"
 
 namespace indurop::node {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 DeployKeys::DeployKeys(const std::string& board) : board_(board) {
   const char* named = std::getenv("INDUROP_KEYS_DIR");
   folder_ = named != nullptr && *named != '\0' ? named : "/etc/indurop/keys";
 }
 
-bool DeployKeys::any() const {
-  std::error_code error;
-  for (fs::directory_iterator plant(folder_, error), end; plant != end; plant.increment(error)) {
-    std::error_code ignored;
-    if (fs::exists(deploy::ParticipantKeys(plant->path() / board_).deploy_key, ignored)) {
+bool DeployKeys::any(std::error_code& error) const {
+  error.clear();
+  fs::directory_iterator plant(folder_, error);
+  for (const fs::directory_iterator end; !error && plant != end; plant.increment(error)) {
+    if (fs::exists(deploy::ParticipantKeys(plant->path() / board_).deploy_key, error)) {
       return true;
     }
+  }
+  if (error == std::errc::no_such_file_or_directory) {
+    error.clear();
   }
   return false;
 }
 
 std::string DeployKeys::refusal(const std::string& plant, const std::string& text, const std::string& signature) const {
-  if (!any()) {
-    return {};
+  std::error_code error;
+  if (!any(error)) {
+    // Keys that cannot be seen must not count as none.
+    return error ? fmt::format("the keys of this board in {} cannot be read ({}), so nobody can be trusted",
+                               folder_.string(), error.message())
+                 : std::string{};
   }
   if (!vars::valid_node_name(plant)) {
     return "it names no plant";
   }
   const fs::path file = deploy::ParticipantKeys(folder_ / plant / board_).deploy_key;
-  std::ifstream in(file);
-  const std::string key(std::istreambuf_iterator<char>(in), {});
+  std::string key;
+  if (fs::is_regular_file(file, error)) {
+    std::ifstream in(file);
+    key.assign(std::istreambuf_iterator<char>(in), {});
+  }
   if (key.empty()) {
     return fmt::format("this board has keys, but none of plant {}", plant);
   }

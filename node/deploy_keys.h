@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace indurop::node {
 
@@ -13,13 +14,14 @@ class DeployKeys {
   // Looks in $INDUROP_KEYS_DIR, normally /etc/indurop/keys, for PLANT/BOARD/deploy.pub.
   explicit DeployKeys(const std::string& board);
 
-  // Why what was said for this plant does not count; empty: it does. A board without any key takes everything. Reads
-  // the keys each time: they may be brought while the agent runs.
+  // Why what was said for this plant does not count; empty: it does. A board without any key takes everything, one
+  // whose keys cannot be read nothing. Reads the keys each time: they may be brought while the agent runs.
   [[nodiscard]] std::string refusal(const std::string& plant, const std::string& text,
                                     const std::string& signature) const;
 
  private:
-  [[nodiscard]] bool any() const;
+  // With an error it is not known.
+  bool any(std::error_code& error) const;
   std::filesystem::path folder_;
   std::string board_;
 };
