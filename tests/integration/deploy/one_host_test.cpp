@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Deployments to two agents on one host, and the ways they end.
 
+#include <cstdlib>
+
 #include "plant_fixture.h"
 
 namespace indurop::test {
@@ -133,6 +135,32 @@ TEST_F(Deploying, Two_agents_of_one_name_are_refused) {
   }));
   stop_agent("a", SIGTERM);
   adopt_agent("a", known);
+}
+
+TEST_F(Deploying, A_board_with_a_key_takes_signed_deployments_only) {
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  const auto make_keys = [&](const std::string& folder) {
+    const std::string command = std::string(INDUROP_PROGRAM) + " -q keys init " + file + " --dir " + path(folder);
+    return std::system(command.c_str()) == 0;
+  };
+  ASSERT_TRUE(make_keys("keys") && make_keys("strange"));
+  const std::string plant = "p" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder() / "etc");
+  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / plant, std::filesystem::copy_options::recursive);
+  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  start_both();
+  const Outcome unsigned_one = deploy(file);
+  EXPECT_EQ(unsigned_one.code, 1);
+  EXPECT_THAT(unsigned_one.err, HasSubstr("not signed, and this board has a key of plant " + plant));
+  const Outcome strange = deploy(file, {"--keys", path("strange")});
+  EXPECT_EQ(strange.code, 1);
+  EXPECT_THAT(strange.err, HasSubstr("not signed with the key of plant " + plant));
+  EXPECT_EQ(report("a")["state"], "empty");
+  const Outcome done = deploy(file, {"--keys", path("keys")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.json()["signed"], true);
+  EXPECT_TRUE(runs("a", done.json()["deployment"]) && runs("b", done.json()["deployment"]));
+  ::unsetenv("INDUROP_KEYS_DIR");
 }
 
 TEST_F(Deploying, An_agent_needs_a_board_and_a_place) {

@@ -216,6 +216,18 @@ TEST_F(Deployer, Bytes_that_come_are_something_happening) {
   EXPECT_EQ(sut_.verdict(), Verdict::Open);
 }
 
+TEST_F(Deployer, A_board_that_refuses_the_deployer_ends_it) {
+  BoardReport other = report("b", Phase::Steady);
+  other.refused = 8;
+  say(other);
+  EXPECT_EQ(sut_.verdict(), Verdict::Open) << "it refused another one";
+  other.refused = 7;
+  other.refusal = "not signed";
+  say(other);
+  EXPECT_EQ(sut_.verdict(), Verdict::Refused);
+  EXPECT_THAT(sut_.reasons(), ElementsAre(Pair("b", "not signed")));
+}
+
 TEST_F(Deployer, The_user_may_give_up) {
   to_trial();
   sut_.give_up(now_);
