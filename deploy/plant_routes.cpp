@@ -149,8 +149,9 @@ class RouteFinder {
   // Rules that change nothing were meant for another variable.
   void check_rules_used() {
     for (const VariableRule& rule : context_.plant.variables) {
-      if (rule.external != VariableRule::External::Read) {
-        continue;  // it is for others
+      const bool shown = context_.plant.external_domain && !context_.plant.types.empty();
+      if (rule.external != VariableRule::External::Read || (shown && rule.every > Nanos::zero())) {
+        continue;  // it is for tools of others
       }
       const auto found = uses_.variables().find(rule.name);
       if (found == uses_.variables().end()) {
