@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -181,6 +182,50 @@ TEST_F(Live, Boards_of_a_plant_show_what_they_own) {
   idle.signal(SIGTERM);
   EXPECT_EQ(idle.wait(), 0);
   EXPECT_EQ(indurop({"clean", "--node", other}).code, 0);
+}
+
+// As in a real network: two machines, programs with their own defaults.
+class Network : public Live {
+ protected:
+  Network() : lab_("xt" + std::to_string(::getpid() % 100'000)) {}
+  ~Network() override {
+    if (up_) {
+      lab("down");
+    }
+  }
+  bool up() {
+    up_ = ::geteuid() == 0 && lab("up a b 2>/dev/null") == 0;
+    return up_;
+  }
+  Program& on(const std::string& machine, const std::vector<std::string>& words) {
+    std::vector<std::string> command{LAB_PROGRAM, "-l", lab_, "exec", machine};
+    command.insert(command.end(), words.begin(), words.end());
+    programs_.push_back(std::make_unique<Program>(command, environment()));
+    return *programs_.back();
+  }
+
+ private:
+  int lab(const std::string& words) const {
+    return std::system((std::string(LAB_PROGRAM) + " -l " + lab_ + " " + words).c_str());
+  }
+  std::string lab_;
+  bool up_ = false;
+};
+
+TEST_F(Network, Programs_on_another_machine_see_and_set_variables_without_any_setting) {
+  if (!up()) {
+    GTEST_SKIP() << "network namespaces cannot be made here (root and iproute2 are needed)";
+  }
+  Program& axis = on("a", {NODE_PROGRAM, EXAMPLE_FOLDER "/module.xml", "--node", node()});
+  ASSERT_TRUE(wait_until_running(axis)) << axis.err();
+  ASSERT_TRUE(runs_reach("axis", 300));
+  expect_samples(on("b", {EXAMPLE_FOLDER "/watch_cyclone", "0", "3"}), 3);
+#ifdef WITH_FASTDDS
+  expect_samples(on("b", {EXAMPLE_FOLDER "/watch_fastdds", "0", "3"}), 3);
+  Program& set = on("b", {EXAMPLE_FOLDER "/set_fastdds", "42.5", "0"});
+  EXPECT_EQ(set.wait(), 0) << set.out() << set.err();
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+#endif
 }
 
 #ifdef WITH_FASTDDS
