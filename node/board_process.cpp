@@ -38,6 +38,14 @@ const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
   return *static_cast<const scheduler::RunBlock*>(file->data());
 }
 
+// By its name, so that the node has it in the list of processes too; after an update of the file as it is in memory.
+std::string own_program() {
+  constexpr const char* kSelf = "/proc/self/exe";
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::read_symlink(kSelf, error);
+  return !error && ::access(file.c_str(), X_OK) == 0 ? file.string() : kSelf;
+}
+
 std::string describe(int status) {
   return WIFSIGNALED(status)
              ? fmt::format("was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
@@ -98,7 +106,7 @@ void BoardProcess::launch(std::int64_t now_ns) {
   (void)::fcntl(ends[0], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
-  std::vector<std::string> words{"/proc/self/exe", wanted_.string(), "--board", board_};
+  std::vector<std::string> words{own_program(), wanted_.string(), "--board", board_};
   words.insert(words.end(), arguments_.begin(), arguments_.end());
   std::vector<char*> raw;
   for (std::string& word : words) {
