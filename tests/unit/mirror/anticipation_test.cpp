@@ -35,7 +35,7 @@ TEST(Anticipation, Further_reports_of_one_tick_change_nothing) {
 
 TEST(Anticipation, Lost_ticks_do_not_disturb_the_period) {
   Anticipation sut;
-  for (std::uint64_t i = 1; i <= 40; i += i % 5 == 0 ? 3 : 1) {
+  for (std::uint64_t i = 1; i <= 40; i += i % 5 == 0 ? 3U : 1U) {
     sut.reported(i, static_cast<std::int64_t>(i) * kMs);
   }
   EXPECT_FALSE(sut.next(40 * kMs + 1).empty());
