@@ -19,11 +19,12 @@ with-tests:
 	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
-demo: ## install what is missing, build, run the chapter's example and a plant of two boards
+demo: ## install what is missing, build, run the chapter's example, a plant of two boards, the robot cell
 	@.ci/install-deps build
 	@$(MAKE) --no-print-directory all
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/two_boards/demo.sh
+	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
 	@$(CTEST) -LE tidy

@@ -142,6 +142,20 @@ class Bench:
         per_module = (t["inline_band/256"] - t["inline_band/16"]) / 240
         self.row("per module of 256", f"{per_module:.1f}", f"{t['clock_read']:.1f} clock", per_module, 60, " ns")
 
+    def robot(self):
+        self.title("Robot task: six axes (us)")
+        t = {name: ns / 1000 for name, ns in self.google("robot_bench").items()}
+        for name, limit in (("forward", None), ("inverse_all_solutions", None), ("inverse_numeric", None),
+                            ("profile_planned", None), ("step_along_a_path", 20)):
+            self.row(name.replace("_", " "), f"{t[name]:.2f}", "-", t[name], limit, " us")
+
+    def plc(self):
+        self.title("PLC programs (us)")
+        t = {name: ns / 1000 for name, ns in self.google("plc_bench").items()}
+        self.row("scan of 1000 rungs, 1000 variables", f"{t['thousand_rungs']:.2f}", "-", t["thousand_rungs"], 20, " us")
+        self.row("loops in Structured Text / in C++", f"{t['loop_in_st']:.2f}", f"{t['loop_by_hand']:.2f}",
+                 t["loop_in_st"] / t["loop_by_hand"], 1.2)
+
     def many(self, count, attribute):
         """A configuration of `count` modules of 1 ms in priority order."""
         path = os.path.join(self.folder, f"many{count}.xml")
@@ -244,13 +258,13 @@ def main():
     parser.add_argument("--programs", required=True)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=int, default=5)
-    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,bands,wake,watch,start")
+    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,robot,plc,bands,wake,watch,start")
     arguments = parser.parse_args()
     bench = Bench(arguments)
     only = set(filter(None, arguments.only.split(",")))
     bench.hold_idle_states()
     try:
-        for name in ("access", "dispatch", "bands", "wake", "start", "watch"):
+        for name in ("access", "dispatch", "robot", "plc", "bands", "wake", "start", "watch"):
             if not only or name in only:
                 getattr(bench, name)()
         if not only or "lateness" in only:

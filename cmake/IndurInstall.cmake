@@ -5,9 +5,10 @@ include(CMakePackageConfigHelpers)
 set(indurop_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/InduRoP)
 set(indurop_share_dir ${CMAKE_INSTALL_DATADIR}/indurop)
 
-install(TARGETS indurop_headers indurop glb2idl indurop_cli EXPORT InduRoPTargets
+install(TARGETS indurop_headers indurop robot glb2idl indurop_cli EXPORT InduRoPTargets
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/indurop DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT InduRoPTargets NAMESPACE indurop:: DESTINATION ${indurop_package_dir})
 export(EXPORT InduRoPTargets NAMESPACE indurop:: FILE ${PROJECT_BINARY_DIR}/InduRoPTargets.cmake)
@@ -35,6 +36,7 @@ install(FILES
   ${PROJECT_SOURCE_DIR}/idl/IndurIdlc.cmake
   DESTINATION ${indurop_package_dir})
 
+install(FILES ${PROJECT_SOURCE_DIR}/plc/library/motion.st DESTINATION ${indurop_share_dir}/plc)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${indurop_share_dir} USE_SOURCE_PERMISSIONS)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
   DESTINATION ${CMAKE_INSTALL_DOCDIR})

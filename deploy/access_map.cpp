@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "deploy/io_access.h"
+
 namespace indurop::deploy {
 namespace {
 
@@ -31,6 +33,7 @@ class Builder {
       from_code(i);
       from_names(i, module.reads, module.places.reads, true);
       from_names(i, module.writes, module.places.writes, false);
+      from_io(i);
       note_unknown(i);
       check_failsafe(module);
     }
@@ -72,6 +75,19 @@ class Builder {
       } else {
         context_.report.error(places[i], std::string(reads ? "<read>: " : "<write>: ") + message);
       }
+    }
+  }
+
+  void from_io(std::size_t module) {
+    if (!is_io_module(context_.result.facts[module].file)) {
+      return;
+    }
+    const IoAccess access = io_access_of(context_.config.modules[module], context_);
+    for (const schema::Variable* variable : access.reads) {
+      add(module, *variable, true);
+    }
+    for (const schema::Variable* variable : access.writes) {
+      add(module, *variable, false);
     }
   }
 

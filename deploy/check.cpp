@@ -14,7 +14,8 @@ bool CheckResult::ok() const noexcept {
 
 CheckResult check_config(Config& config, const CheckOptions& options) {
   CheckResult result;
-  CheckContext context{config, options, result, Report(config.file.string(), result.diagnostics)};
+  SchemaTexts texts;
+  CheckContext context{config, options, result, Report(config.file.string(), result.diagnostics), texts};
   check_schedule(context);
   if (options.files) {
     check_machine(context);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@
 
 namespace indurop::deploy {
 
+// Modules built from the same .glb files contain the same text; they share what was read from it.
 struct ModuleFacts {
-  schema::ModuleFile file;
-  schema::Schema schema;
+  schema::ModuleFile file;  // without the text of the schema
+  std::shared_ptr<const schema::Schema> schema = std::make_shared<schema::Schema>();
 };
 
 struct VariableUse {

@@ -50,7 +50,7 @@ void check_agreement(std::span<const BoardView> boards, Report& report) {
     Agreement<schema::Function> functions(report, "shared function");  // calls do not leave a board
     for (std::size_t i = 0; i < board.result.facts.size(); ++i) {
       const Module& module = board.config.modules[i];
-      const schema::Schema& schema = board.result.facts[i].schema;
+      const schema::Schema& schema = *board.result.facts[i].schema;
       const std::string name = module.name + (board.name.empty() ? "" : "@" + board.name);
       variables.add(name, module.places.file, schema.variables,
                     [](const auto& a, const auto& b) { return schema::first_difference(a.type, b.type); });

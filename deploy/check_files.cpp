@@ -78,6 +78,7 @@ class FileCheck {
  public:
   FileCheck(CheckContext& context, const Module& module, ModuleFacts& facts)
       : report_(context.report),
+        texts_(context.texts),
         this_machine_(context.options.machine),
         module_(module),
         facts_(facts),
@@ -132,7 +133,8 @@ class FileCheck {
     if (facts_.file.schema_json.empty()) {
       return;
     }
-    auto read = schema::from_json(facts_.file.schema_json);
+    auto read = texts_.read(facts_.file.schema_json);
+    facts_.file.schema_json.clear();
     if (read) {
       facts_.schema = std::move(read.value());
     } else if (read.error().code == Errc::VersionMismatch) {
@@ -185,6 +187,7 @@ class FileCheck {
   }
 
   Report& report_;
+  SchemaTexts& texts_;
   bool this_machine_;
   const Module& module_;
   ModuleFacts& facts_;
@@ -236,6 +239,17 @@ std::string unreadable_file(const Error& failure, const NamedFile& file, bool se
          (failure.code == Errc::Corrupt ? "; is it a module, and completely built?" : "");
 }
 
+Result<std::shared_ptr<const schema::Schema>> SchemaTexts::read(const std::string& text) {
+  if (const auto known = known_.find(text); known != known_.end()) {
+    return known->second;
+  }
+  auto read = schema::from_json(text);
+  if (!read) {
+    return read.error();
+  }
+  return known_.emplace(text, std::make_shared<schema::Schema>(std::move(read.value()))).first->second;
+}
+
 void check_files(CheckContext& context) {
   const auto& modules = context.config.modules;
   context.result.facts.resize(modules.size());
@@ -247,7 +261,7 @@ void check_files(CheckContext& context) {
   }
   std::vector<std::string> differences;  // check_agreement() tells them
   for (const ModuleFacts& facts : context.result.facts) {
-    schema::merge(context.result.schema, facts.schema, differences);
+    schema::merge(context.result.schema, *facts.schema, differences);
   }
   check_functions(context);
 }

@@ -4,6 +4,9 @@
 
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,11 +17,22 @@
 
 namespace indurop::deploy {
 
+// Reads each text once: a plant of many boards has the same in most of its modules.
+class SchemaTexts {
+ public:
+  // Errors: those of schema::from_json.
+  Result<std::shared_ptr<const schema::Schema>> read(const std::string& text);
+
+ private:
+  std::map<std::string, std::shared_ptr<const schema::Schema>, std::less<>> known_;
+};
+
 struct CheckContext {
   Config& config;
   CheckOptions options;
   CheckResult& result;
   Report report;
+  SchemaTexts& texts;
 };
 
 // Basic and macro period, --adjust, number of bands. Fills table, periodic, sporadic, non_real.

@@ -35,7 +35,7 @@ class PlantCheckRun {
       CheckOptions own = options;
       own.machine = options.machine && (options.board.empty() || options.board == board.name);
       CheckResult& result = result_.boards[i];
-      contexts_.push_back({board.config, own, result, Report(plant.file.string(), result.diagnostics)});
+      contexts_.push_back({board.config, own, result, Report(plant.file.string(), result.diagnostics), texts_});
     }
   }
 
@@ -107,6 +107,7 @@ class PlantCheckRun {
   PlantCheck result_;
   std::vector<CheckContext> contexts_;  // of the boards, in their order
   std::vector<Diagnostic> between_;
+  SchemaTexts texts_;
   schema::Schema schema_;  // of all boards
 };
 

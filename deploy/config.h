@@ -112,6 +112,7 @@ struct TypeFiles {
 // What <root> of a module.xml says about tools of others; the manifest of a plant says it for all boards.
 struct ExternalPlane : TypeFiles {
   std::optional<int> domain;   // DDS domain of typed topics; empty: none
+  bool ros2 = false;           // topics have the names and types of ROS 2
   std::string interface_name;  // network interface; empty: the only one
   std::vector<VariableRule> variables;
 };

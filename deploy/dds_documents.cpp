@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/dds_documents.h"
-#include "schema/topic_name.h"
 
 #include <fmt/format.h>
 
 #include <vector>
+
+#include "schema/topic_name.h"
 
 namespace indurop::deploy {
 namespace {
 
 // Any domain: the manifest says which, and may change it without new keys.
 constexpr const char* kDomains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
-// The protocol's number is part of the topics' names, see mirror/.
-constexpr const char* kTopics = "indurop/1/";
 
 struct Topics {
   std::vector<std::string> publish;
@@ -20,12 +19,12 @@ struct Topics {
 };
 
 Topics topics_of(Role role, const std::string& plant, const std::string& name) {
-  const std::string own = kTopics + schema::topic_part(plant) + "/";
-  const std::string deploy = std::string(kTopics) + "deploy/";
+  const std::string own = schema::plant_topics(plant);
+  const std::string deploy = schema::deploy_topics();
   switch (role) {
     case Role::Board:
       // A board that was taken over can lie about its own variables, not about those of others.
-      return {{own + schema::topic_part(name) + "/*", own + "catalogue", own + "beacon", deploy + "board",
+      return {{schema::board_topics(plant, name) + "*", own + "catalogue", own + "beacon", deploy + "board",
                deploy + "request", deploy + "blob/*"},
               {own + "*", deploy + "*"}};
     case Role::Viewer:

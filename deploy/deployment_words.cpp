@@ -40,6 +40,8 @@ const char* to_text(NodeCondition condition) noexcept {
       return "restarting";
     case NodeCondition::Failed:
       return "failed";
+    case NodeCondition::Stopped:
+      return "stopped";
   }
   return "?";
 }

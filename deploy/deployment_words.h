@@ -33,6 +33,7 @@ enum class NodeCondition : std::uint8_t {
   Stopping,
   Restarting,  // died, comes back soon
   Failed,      // died too often, or its configuration is refused: stays down
+  Stopped,     // by order: stays down until it is ordered to start, or deployed anew
 };
 const char* to_text(NodeCondition condition) noexcept;
 

@@ -67,6 +67,13 @@ std::string optional_attribute(const Element& element, const char* name,
   return found->value;
 }
 
+bool has_ros2_names(const Element& element, Report& report) {
+  const auto problem = [](const std::string& text) {
+    return text == "on" || text == "off" ? std::string{} : in_quotes(text) + " is not a value of ros2; write on or off";
+  };
+  return optional_attribute(element, "ros2", problem, report) == "on";
+}
+
 void read_type_file(const Element& element, const std::filesystem::path& folder, TypeFiles& named, Report& report) {
   const auto text = text_of(element, "./libcell_types.so", report);
   if (!text || !is_file_name(element, *text, report)) {
@@ -142,7 +149,8 @@ bool ExternalReader::read(const Element& element) {
 }
 
 void ExternalReader::read_external(const Element& element) {
-  check_attributes(element, {"interface"}, report_);
+  check_attributes(element, {"interface", "ros2"}, report_);
+  plane_.ros2 = has_ros2_names(element, report_);
   plane_.interface_name = optional_attribute(
       element, "interface", [](const std::string& text) { return interface_problem(text); }, report_);
   if (!is_leaf(element, report_)) {

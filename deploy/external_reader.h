@@ -21,6 +21,8 @@ std::optional<int> domain_of(const Element& element, const std::string& text, co
 // The attribute's value; empty if it is not there, or after an error if `problem` has one.
 std::string optional_attribute(const Element& element, const char* name,
                                const std::function<std::string(const std::string&)>& problem, Report& report);
+// What ros2="on" or "off" of an <external> says.
+bool has_ros2_names(const Element& element, Report& report);
 // One <types>.
 void read_type_file(const Element& element, const std::filesystem::path& folder, TypeFiles& types, Report& report);
 // One <variable> that may have these attributes. Empty after an error, or a second one for the same variable.

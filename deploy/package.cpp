@@ -9,8 +9,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "deploy/digest.h"
+#include "deploy/io_access.h"
 
 namespace indurop::deploy {
 namespace {
@@ -44,6 +46,23 @@ std::filesystem::path common_folder(const std::vector<std::filesystem::path>& fi
     common = shared;
   }
   return common;
+}
+
+// A module looks beside the manifest for the files its properties name, one or several in a value: pick.job place.job
+std::vector<std::filesystem::path> files_named_by_properties(const Module& module,
+                                                             const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const Property& property : module.properties) {
+    std::istringstream words(property.value);
+    for (std::string word; words >> word;) {
+      const std::filesystem::path file = (folder / word).lexically_normal();
+      std::error_code none;
+      if (!std::filesystem::path(word).is_absolute() && std::filesystem::is_regular_file(file, none)) {
+        files.push_back(file);
+      }
+    }
+  }
+  return files;
 }
 
 std::string problem_of(const Package& package) {
@@ -151,6 +170,12 @@ std::optional<PackedPlant> pack_plant(const Plant& plant, std::string& problem) 
     packed.package.boards.push_back(board.name);
     for (const Module& module : board.config.modules) {
       add(module.file_as_written);
+      for (const std::filesystem::path& file : files_named_by_properties(module, manifest.parent_path())) {
+        travelling.insert(file);
+      }
+      for (const std::filesystem::path& file : io_files_of(module, manifest.parent_path())) {
+        travelling.insert(file);
+      }
     }
   }
   const std::filesystem::path base = common_folder({travelling.begin(), travelling.end()});

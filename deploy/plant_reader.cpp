@@ -124,12 +124,17 @@ class PlantReader {
   }
 
   void read_external(const Element& e) {
-    const auto text = text_of(e, "0", report_);
-    if (!text) {
+    check_attributes(e, {"ros2"}, report_);
+    plant_.external_ros2 = has_ros2_names(e, report_);
+    if (!is_leaf(e, report_)) {
+      return;
+    }
+    if (e.text.empty()) {
+      report_.error(e.place, "<external> is empty; write, for example, <external>0</external>");
       return;
     }
     places_.external = e.text_place;
-    plant_.external_domain = *text == "off" ? std::nullopt : domain_of(e, *text, ", or off", report_);
+    plant_.external_domain = e.text == "off" ? std::nullopt : domain_of(e, e.text, ", or off", report_);
   }
 
   void read_multicast(const Element& e) { plant_.multicast = choose(e, {"on", "off"}, report_).value_or(0) == 0; }

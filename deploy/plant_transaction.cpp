@@ -115,7 +115,8 @@ bool PlantTransaction::wound_up() {
     const bool committed = report.current == order_.deployment && report.generation >= order_.generation;
     const bool done = order_.step == Step::Commit ? committed : !ours(report) || report.phase == Phase::Steady;
     const bool settled = order_.step == Step::Commit || !switched_ || report.node == NodeCondition::Running ||
-                         report.node == NodeCondition::None || report.node == NodeCondition::Failed;
+                         report.node == NodeCondition::None || report.node == NodeCondition::Failed ||
+                         report.node == NodeCondition::Stopped;
     if (!done || !settled) {
       unconfirmed_.push_back(board);
     }

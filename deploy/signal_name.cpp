@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "deploy/text.h"
 #include "deploy/values.h"
@@ -58,6 +59,14 @@ std::optional<int> by_name(std::string_view name) {
 }
 
 }  // namespace
+
+std::optional<double> read_real(std::string_view text) {
+  text.remove_prefix(text.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
 
 std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low, std::int64_t high) {
   if (text.starts_with('+') && text.size() > 1 && text[1] != '-') {

@@ -31,5 +31,7 @@ std::string signal_name(int signal);
 
 // Whole decimal number within [low, high]; empty otherwise.
 std::optional<std::int64_t> read_integer(std::string_view text, std::int64_t low, std::int64_t high);
+// Finite number, "-0.5" or "1e-3"; empty otherwise.
+std::optional<double> read_real(std::string_view text);
 
 }  // namespace indurop::deploy

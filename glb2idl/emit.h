@@ -31,6 +31,14 @@ struct Output {
 // All of these for all units, and indurop/generated.h last.
 [[nodiscard]] std::vector<Output> emit_all(const Program& program);
 
+// Packages of ROS 2 messages for the same bytes, one folder each. `problems`: all names that ROS 2 cannot have, ready
+// to print; empty if there are none.
+struct RosPackages {
+  std::vector<Output> outputs;
+  std::string problems;
+};
+[[nodiscard]] RosPackages emit_ros2(const Program& program);
+
 // A value of `type` at `bytes` as a C++ initialiser: 5, 0.5, {{1, 2}}, enum values by name.
 [[nodiscard]] std::string initializer_text(const schema::Type& type, const std::uint8_t* bytes);
 // The C++ type of values: std::uint32_t, ::knu::Robot::joints_t, std::array<double, 6>.

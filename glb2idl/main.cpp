@@ -30,6 +30,7 @@ Files that would not change are left alone.
 
   -o, --out-dir DIR    where to write (default: .)
       --depfile FILE   also write a Makefile rule with all files that were read
+      --ros2 DIR       also write packages of ROS 2 messages into DIR
       --check          only report errors, write nothing
   -h, --help           this text
       --version        version
@@ -40,6 +41,7 @@ Exit code: 0 done, 1 errors in the files or while writing, 2 wrong usage.
 struct Options {
   std::string folder = ".";
   std::string depfile;
+  std::string ros2;
   bool check = false;
   std::vector<std::string> files;
 };
@@ -108,6 +110,7 @@ std::optional<int> parse(Arguments arguments, Options& options) {
     Match match = arguments.value(argument, "-o", options.folder);
     match = match == Match::No ? arguments.value(argument, "--out-dir", options.folder) : match;
     match = match == Match::No ? arguments.value(argument, "--depfile", options.depfile) : match;
+    match = match == Match::No ? arguments.value(argument, "--ros2", options.ros2) : match;
     if (match == Match::MissingValue) {
       return usage_error("a value is missing behind " + std::string(argument));
     }
@@ -127,6 +130,11 @@ int run(const Options& options) {
     std::fputs(compilation.messages.c_str(), stderr);
     return kFailed;
   }
+  const RosPackages ros2 = options.ros2.empty() ? RosPackages{} : emit_ros2(compilation.program);
+  if (!ros2.problems.empty()) {
+    std::fputs(ros2.problems.c_str(), stderr);
+    return kFailed;
+  }
   if (options.check) {
     return kOk;
   }
@@ -137,6 +145,9 @@ int run(const Options& options) {
   }
   if (error.empty()) {
     error = write_all(options.folder, outputs);
+  }
+  if (error.empty()) {
+    error = write_all(options.ros2, ros2.outputs);
   }
   if (!error.empty()) {
     std::fprintf(stderr, "glb2idl: error: %s\n", error.c_str());

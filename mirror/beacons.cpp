@@ -23,13 +23,10 @@ Beacons::Beacons(const Settings& settings, std::uint64_t session, MirrorBlock& b
 
 bool Beacons::open(dds_entity_t participant, const Settings& settings, std::string& problem) {
   // A beacon that is repeated late would only tell a wrong time.
-  writer_ =
-      make_writer(participant, indurop_wire_Beacon_desc, beacon_topic(settings.plant), settings, Stream::BestEffort);
-  dds_listener_t* listener = dds_create_listener(this);
-  dds_lset_data_available(listener, &Beacons::on_data);
-  reader_ = make_reader(participant, indurop_wire_Beacon_desc, beacon_topic(settings.plant), settings,
-                        Stream::BestEffort, listener);
-  dds_delete_listener(listener);
+  const Qos qos = plane_qos(settings, Stream::BestEffort);
+  const std::string topic = beacon_topic(settings.plant);
+  writer_ = make_writer(participant, indurop_wire_Beacon_desc, topic, qos);
+  reader_ = make_reader(participant, indurop_wire_Beacon_desc, topic, qos, data_listener(&Beacons::on_data, this));
   if (!writer_.ok() || !reader_.ok()) {
     problem = "cannot exchange beacons: " + (writer_.ok() ? reader_.why() : writer_.why());
   }
@@ -81,15 +78,11 @@ void Beacons::on_data(dds_entity_t reader, void* self) {
 
 void Beacons::take(dds_entity_t reader) noexcept {
   const std::int64_t arrival = rt::wall_ns();
-  void* samples[1] = {nullptr};
-  dds_sample_info_t infos[1];
-  while (dds_take(reader, samples, infos, 1, 1) > 0) {
-    if (infos[0].valid_data) {
-      heard(*static_cast<const indurop_wire_Beacon*>(samples[0]), arrival);
+  take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      heard(beacon, arrival);
     }
-    (void)dds_return_loan(reader, samples, 1);
-    samples[0] = nullptr;
-  }
+  });
 }
 
 void Beacons::heard(const indurop_wire_Beacon& beacon, std::int64_t arrival_ns) noexcept {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mirror/clock_compare.h"
-#include "mirror/entity.h"
+#include "mirror/endpoint.h"
 #include "mirror/mirror_block.h"
 #include "mirror/schedule.h"
 #include "mirror/settings.h"
@@ -44,8 +44,8 @@ class Beacons {
   MirrorBlock& block_;
   std::mutex mutex_;  // between the receive thread and the manager
   std::vector<Peer> peers_;
-  Entity writer_;
-  Entity reader_;
+  Endpoint writer_;
+  Endpoint reader_;
   std::int64_t due_ns_ = 0;
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <mutex>
 
 #include "mirror/dds_log.h"
 #include "mirror/interface.h"
@@ -14,7 +13,6 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr int kProtocol = 1;
 constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when ports are tried one by one
 constexpr std::array<const char*, kStreams> kStreamNames = {"prompt", "loose", "bulk"};
 
@@ -64,20 +62,6 @@ std::string threads(const Settings& settings) {
   return "<Threads>" + text + "</Threads>";
 }
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-Qos make_qos(const Settings& settings, Stream stream) {
-  Qos qos(dds_create_qos(), &dds_delete_qos);
-  dds_qset_reliability(qos.get(), stream == Stream::BestEffort ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
-                       0);
-  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, settings.lease_ns);
-  dds_qset_writer_data_lifecycle(qos.get(), false);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
-}
-
 }  // namespace
 
 std::string domain_configuration(const Settings& settings, const std::string& interface_name) {
@@ -124,30 +108,19 @@ Participant join_plant(const Settings& settings, std::string& problem) {
 }
 
 std::string frames_topic(const std::string& plant, const std::string& board, Stream stream) {
-  return fmt::format("indurop/{}/{}/{}/{}", kProtocol, schema::topic_part(plant), schema::topic_part(board),
-                     kStreamNames[static_cast<std::size_t>(stream)]);
+  return schema::board_topics(plant, board) + kStreamNames[static_cast<std::size_t>(stream)];
 }
 
 std::string catalogue_topic(const std::string& plant) {
-  return fmt::format("indurop/{}/{}/catalogue", kProtocol, schema::topic_part(plant));
+  return schema::plant_topics(plant) + "catalogue";
 }
 
 std::string beacon_topic(const std::string& plant) {
-  return fmt::format("indurop/{}/{}/beacon", kProtocol, schema::topic_part(plant));
+  return schema::plant_topics(plant) + "beacon";
 }
 
-Entity make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,
-                   const Settings& settings, Stream stream) {
-  const Qos qos = make_qos(settings, stream);
-  const dds_entity_t made = dds_create_topic(participant, &type, topic.c_str(), nullptr, nullptr);
-  return made < 0 ? Entity(made) : Entity(dds_create_writer(participant, made, qos.get(), nullptr));
-}
-
-Entity make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,
-                   const Settings& settings, Stream stream, const dds_listener_t* listener) {
-  const Qos qos = make_qos(settings, stream);
-  const dds_entity_t made = dds_create_topic(participant, &type, topic.c_str(), nullptr, nullptr);
-  return made < 0 ? Entity(made) : Entity(dds_create_reader(participant, made, qos.get(), listener));
+Qos plane_qos(const Settings& settings, Stream stream) {
+  return make_qos({.reliable = stream != Stream::BestEffort, .lease_ns = settings.lease_ns});
 }
 
 }  // namespace indurop::mirror

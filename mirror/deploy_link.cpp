@@ -12,34 +12,29 @@
 #include "mirror/dds_setup.h"
 #include "rt/clock.h"
 #include "rt/signal_word.h"
+#include "schema/topic_name.h"
 
 namespace indurop::mirror {
 namespace {
 
-constexpr int kProtocol = 1;
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
 constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
 
 std::string topic_name(const std::string& what) {
-  return fmt::format("indurop/{}/deploy/{}", kProtocol, what);
+  return schema::deploy_topics() + what;
 }
 
 std::string blob_topic(std::uint64_t requester) {
   return topic_name(fmt::format("blob/{:016x}", requester));
 }
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-Qos make_qos(bool state) {
-  Qos qos(dds_create_qos(), &dds_delete_qos);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kBlockNs);
-  dds_qset_durability(qos.get(), state ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, state ? 1 : kDepth);
-  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kLeaseNs);
-  dds_qset_writer_data_lifecycle(qos.get(), true);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
+Qos link_qos(bool state) {
+  return make_qos({.block_ns = kBlockNs,
+                   .for_late_ones = state,
+                   .depth = state ? 1 : kDepth,
+                   .lease_ns = kLeaseNs,
+                   .dispose_at_end = true});
 }
 
 // Samples are only read, and copied before dds_write returns.
@@ -99,7 +94,7 @@ deploy::BoardReport from_wire(const indurop_deploy_BoardReport& in) {
   out.grant = in.grant;
   out.refused = in.refused;
   out.refusal = in.refusal;
-  out.node = bounded(in.node, deploy::NodeCondition::Failed);
+  out.node = bounded(in.node, deploy::NodeCondition::Stopped);
   out.tick = in.tick;
   out.lost_ticks = in.lost_ticks;
   out.overruns = in.overruns;
@@ -126,64 +121,34 @@ deploy::Order from_wire(const indurop_deploy_Order& in) {
   return out;
 }
 
-// Takes all samples of a reader; `use` gets each with its information.
-template <class Sample, class Use>
-void take_all(dds_entity_t reader, Use use) {
-  constexpr std::uint32_t kAtOnce = 32;
-  std::array<void*, kAtOnce> samples{};
-  std::array<dds_sample_info_t, kAtOnce> infos{};
-  for (;;) {
-    samples[0] = nullptr;
-    const int count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
-    if (count <= 0) {
-      return;
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      use(*static_cast<const Sample*>(samples[i]), infos[i]);
-    }
-    (void)dds_return_loan(reader, samples.data(), count);
-  }
-}
-
 }  // namespace
 
 struct DeployLink::Impl {
   // Empty: made. Else what failed.
   std::string make();
-  Entity reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
-  Entity writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
+  Endpoint reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
+  Endpoint writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
 
   std::uint64_t self = 0;
   rt::SignalWord wake;  // used by listeners until the readers are gone
   Participant joined;
-  Entity boards_out;
-  Entity orders_out;
-  Entity requests_out;
-  std::map<std::uint64_t, Entity> blobs_out;  // by requester
-  Entity boards_in;
-  Entity orders_in;
-  Entity requests_in;
-  Entity blobs_in;
+  Endpoint boards_out;
+  Endpoint orders_out;
+  Endpoint requests_out;
+  std::map<std::uint64_t, Endpoint> blobs_out;  // by requester
+  Endpoint boards_in;
+  Endpoint orders_in;
+  Endpoint requests_in;
+  Endpoint blobs_in;
 };
 
-Entity DeployLink::Impl::reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
-  const dds_entity_t made = dds_create_topic(joined.participant.get(), &type, topic.c_str(), nullptr, nullptr);
-  if (made < 0) {
-    return Entity(made);
-  }
-  const Qos qos = make_qos(state);
-  dds_listener_t* listener = dds_create_listener(&wake);
-  dds_lset_data_available(listener,
-                          [](dds_entity_t /*reader*/, void* word) { static_cast<rt::SignalWord*>(word)->wake(); });
-  Entity in(dds_create_reader(joined.participant.get(), made, qos.get(), listener));
-  dds_delete_listener(listener);
-  return in;
+Endpoint DeployLink::Impl::reader(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
+  const auto wake_up = [](dds_entity_t /*reader*/, void* word) { static_cast<rt::SignalWord*>(word)->wake(); };
+  return make_reader(joined.participant.get(), type, topic, link_qos(state), data_listener(wake_up, &wake));
 }
 
-Entity DeployLink::Impl::writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
-  const dds_entity_t made = dds_create_topic(joined.participant.get(), &type, topic.c_str(), nullptr, nullptr);
-  const Qos qos = make_qos(state);
-  return made < 0 ? Entity(made) : Entity(dds_create_writer(joined.participant.get(), made, qos.get(), nullptr));
+Endpoint DeployLink::Impl::writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state) {
+  return make_writer(joined.participant.get(), type, topic, link_qos(state));
 }
 
 std::string DeployLink::Impl::make() {
@@ -194,10 +159,10 @@ std::string DeployLink::Impl::make() {
   boards_out = writer(indurop_deploy_BoardReport_desc, topic_name("board"), true);
   orders_out = writer(indurop_deploy_Order_desc, topic_name("order"), true);
   requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
-  for (const Entity* entity :
+  for (const Endpoint* end :
        {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
-    if (!entity->ok()) {
-      return "deployment topics cannot be made: " + entity->why();
+    if (!end->ok()) {
+      return "deployment topics cannot be made: " + end->why();
     }
   }
   return {};
@@ -302,7 +267,7 @@ void DeployLink::request(const deploy::BlobRequest& request) {
 }
 
 DeployLink::Sent DeployLink::send(std::uint64_t requester, const deploy::BlobChunk& chunk) {
-  Entity& writer = impl_->blobs_out[requester];
+  Endpoint& writer = impl_->blobs_out[requester];
   if (!writer.ok()) {
     writer = impl_->writer(indurop_deploy_Chunk_desc, blob_topic(requester), false);
   }
@@ -381,6 +346,14 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
     }
   });
   return chunks;
+}
+
+int DeployLink::participant() const noexcept {
+  return impl_->joined.participant.get();
+}
+
+rt::SignalWord& DeployLink::wake_word() noexcept {
+  return impl_->wake;
 }
 
 void DeployLink::wait(std::int64_t deadline_ns) {

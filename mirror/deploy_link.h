@@ -11,6 +11,10 @@
 
 #include "deploy/deployment_words.h"
 
+namespace indurop::rt {
+class SignalWord;
+}
+
 namespace indurop::mirror {
 
 struct LinkSettings {
@@ -63,6 +67,10 @@ class DeployLink {
   std::vector<OrderNews> take_orders();
   std::vector<deploy::BlobRequest> take_requests();  // to this session
   std::vector<deploy::BlobChunk> take_chunks();
+
+  // For topics beside these (mirror/command_link.h): what they are made in, and what their readers wake.
+  [[nodiscard]] int participant() const noexcept;
+  [[nodiscard]] rt::SignalWord& wake_word() noexcept;
 
   // Until something came or CLOCK_MONOTONIC `deadline_ns`.
   void wait(std::int64_t deadline_ns);

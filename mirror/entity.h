@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A DDS entity that is deleted with its holder, and what a DDS return code means.
+// A DDS entity that is deleted with its holder, what a DDS return code means, and the loop that empties a reader.
 
 #pragma once
 
 #include <dds/dds.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -39,5 +41,24 @@ class Entity {
  private:
   dds_entity_t handle_ = 0;
 };
+
+// Takes all samples of a reader; `use` gets each with its information. Without valid data a sample holds its key only.
+template <class Sample, class Use>
+void take_all(dds_entity_t reader, Use use) {
+  constexpr std::uint32_t kAtOnce = 32;
+  std::array<void*, kAtOnce> samples{};
+  std::array<dds_sample_info_t, kAtOnce> infos{};
+  for (;;) {
+    samples[0] = nullptr;  // lend us memory
+    const int count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
+    if (count <= 0) {
+      return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      use(*static_cast<const Sample*>(samples[i]), infos[i]);
+    }
+    (void)dds_return_loan(reader, samples.data(), count);
+  }
+}
 
 }  // namespace indurop::mirror

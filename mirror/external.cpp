@@ -5,10 +5,11 @@
 #include <map>
 #include <vector>
 
-#include "mirror/dds_setup.h"
 #include "mirror/external_block.h"
+#include "mirror/external_directory.h"
 #include "mirror/external_topic.h"
 #include "mirror/external_type.h"
+#include "mirror/joining.h"
 #include "rt/clock.h"
 #include "rt/signal_word.h"
 #include "rt/thread.h"
@@ -17,10 +18,10 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kRetryNs = 500'000'000;  // joining a network that is not there
-constexpr std::int64_t kLookNs = 10'000'000;    // for new readers
+constexpr std::int64_t kLookNs = 10'000'000;  // for new readers
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
-constexpr std::size_t kEagerTopics = 500;  // more are announced when somebody asks: discovery has its price
+constexpr std::int64_t kLaterNs = 500'000'000;  // everything that is not silent is due by then
+constexpr std::size_t kEagerTopics = 500;       // more are announced when somebody asks: discovery has its price
 
 Settings network_of(const ExternalSettings& external) {
   Settings settings;
@@ -47,8 +48,8 @@ struct External::Impl {
   Status run();
   void end() noexcept;
   void work();
-  bool join(std::string& problem);
-  bool open_topics(std::string& problem);
+  bool open(dds_entity_t participant, std::string& problem);
+  void close() noexcept;
   void look_for_readers() noexcept;
   std::int64_t serve(std::int64_t now_ns);
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
@@ -58,26 +59,43 @@ struct External::Impl {
   ExternalBlock& block;
   std::vector<std::unique_ptr<ExternalTopic>> topics;
   std::map<std::string, ExternalTopic*, std::less<>> unopened;  // by topic name
-  Participant joined;
   dds_guid_t own_guid{};
   Entity subscriptions;  // readers in the network; only if there are unopened topics
+  ExternalDirectory directory;
+  ExternalDirectory::Content shown;
+  Joining joining;
   std::atomic<bool> stop{false};
   rt::SignalWord wake;
   rt::Thread thread;
 };
 
 External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, vars::ShmFile&& memory)
-    : settings(wanted), file(std::move(memory)), block(*reinterpret_cast<ExternalBlock*>(file.data())) {
+    : settings(wanted),
+      file(std::move(memory)),
+      block(*reinterpret_cast<ExternalBlock*>(file.data())),
+      joining(
+          network_of(wanted), [this](dds_entity_t participant, std::string& why) { return open(participant, why); },
+          [this] { close(); }) {
   wake.init(false);
+  shown.plant = settings.plant;
+  shown.board = settings.board;
+  shown.boards = settings.boards;
+  schema::Schema types;
   for (const Exported& exported : settings.variables) {
     const auto* entry = store.find(abi::fnv1a64(exported.variable.data(), exported.variable.size()));
     if (entry == nullptr || exported.type == nullptr ||
         !descriptor_problem(exported.type, store.schema().variables[entry->schema_index]).empty()) {
       continue;
     }
-    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, block, wake));
+    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, settings.ros2, block, wake));
     block.writable += exported.writable ? 1U : 0U;
+    types.variables.push_back(store.schema().variables[entry->schema_index]);
+    types.variables.back().initial.clear();
+    if (exported.writable) {
+      shown.writable.push_back(exported.variable);
+    }
   }
+  shown.schema = schema::to_json(types);
   block.abi = kExternalAbi;
   block.domain = settings.domain;
   block.topics = static_cast<std::uint32_t>(topics.size());
@@ -98,25 +116,7 @@ Status External::Impl::run() {
   return {};
 }
 
-bool External::Impl::join(std::string& problem) {
-  joined = join_plant(network_of(settings), problem);
-  if (!joined.participant.ok()) {
-    return false;
-  }
-  if (!open_topics(problem)) {
-    for (const auto& topic : topics) {
-      topic->close();
-    }
-    subscriptions.reset();
-    joined.participant.reset();
-    joined.domain.reset();
-    return false;
-  }
-  return true;
-}
-
-bool External::Impl::open_topics(std::string& problem) {
-  const dds_entity_t participant = joined.participant.get();
+bool External::Impl::open(dds_entity_t participant, std::string& problem) {
   (void)dds_get_guid(participant, &own_guid);
   const bool eager = topics.size() <= kEagerTopics;
   for (const auto& topic : topics) {
@@ -134,7 +134,16 @@ bool External::Impl::open_topics(std::string& problem) {
       return false;
     }
   }
-  return true;
+  return directory.open(participant, shown, !eager, problem);
+}
+
+void External::Impl::close() noexcept {
+  directory.close();
+  for (const auto& topic : topics) {
+    topic->close();
+  }
+  unopened.clear();
+  subscriptions.reset();
 }
 
 // Opens the topics that somebody in the network wants to read.
@@ -142,30 +151,24 @@ void External::Impl::look_for_readers() noexcept {
   if (unopened.empty()) {
     return;
   }
-  constexpr std::uint32_t kAtOnce = 32;
-  std::array<void*, kAtOnce> samples{};
-  std::array<dds_sample_info_t, kAtOnce> infos{};
-  for (;;) {
-    samples[0] = nullptr;
-    const int count = dds_take(subscriptions.get(), samples.data(), infos.data(), kAtOnce, kAtOnce);
-    if (count <= 0) {
-      return;
+  const auto open = [this](const std::string& topic) {
+    std::string problem;
+    const auto found = unopened.find(topic);
+    if (found != unopened.end() && found->second->open(joining.participant(), problem)) {
+      unopened.erase(found);
+    } else if (!problem.empty()) {
+      block.problem.set(problem);
     }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& reader = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
-      const bool own = std::equal(std::begin(own_guid.v), std::end(own_guid.v), std::begin(reader.participant_key.v));
-      const auto found = infos[i].valid_data && !own && reader.topic_name != nullptr
-                             ? unopened.find(std::string_view(reader.topic_name))
-                             : unopened.end();
-      std::string problem;
-      if (found != unopened.end() && found->second->open(joined.participant.get(), problem)) {
-        unopened.erase(found);
-      } else if (!problem.empty()) {
-        block.problem.set(problem);
-      }
-    }
-    (void)dds_return_loan(subscriptions.get(), samples.data(), count);
+  };
+  for (const std::string& variable : directory.take_wishes()) {
+    open(external_topic(variable));
   }
+  take_all<dds_builtintopic_endpoint_t>(subscriptions.get(), [&](const auto& reader, const dds_sample_info_t& info) {
+    const bool own = std::equal(std::begin(own_guid.v), std::end(own_guid.v), std::begin(reader.participant_key.v));
+    if (info.valid_data && !own && reader.topic_name != nullptr) {
+      open(reader.topic_name);
+    }
+  });
 }
 
 // One look at everything; when the next one is due.
@@ -196,16 +199,7 @@ void External::Impl::work() {
   if (!settings.cores.empty()) {
     (void)rt::pin_to_cores(settings.cores);
   }
-  while (!stopping()) {
-    std::string problem;
-    const bool done = join(problem);
-    block.problem.set(problem);
-    if (done) {
-      break;
-    }
-    wake.wait_until(rt::now_ns() + kRetryNs);
-  }
-  if (stopping()) {
+  if (!joining.join(stop, wake, block.problem)) {
     return;
   }
   block.network.store(Network::Up, std::memory_order_release);
@@ -215,19 +209,14 @@ void External::Impl::work() {
     while (wake.try_wait()) {
     }
   }
-  (void)serve(rt::now_ns() + kRetryNs);  // what was written last, whenever it were due
+  (void)serve(rt::now_ns() + kLaterNs);  // what was written last, whenever it were due
 }
 
 void External::Impl::end() noexcept {
   stop.store(true, std::memory_order_release);
   wake.wake();
   thread.join();
-  for (const auto& topic : topics) {
-    topic->close();
-  }
-  subscriptions.reset();
-  joined.participant.reset();
-  joined.domain.reset();
+  joining.leave();
 }
 
 Result<External> External::start(const ExternalSettings& settings, const std::string& node, vars::Store& store) {

@@ -20,13 +20,17 @@ inline constexpr std::int64_t kExternalEveryNs = 10'000'000;
 inline constexpr std::int64_t kExternalFastestNs = 1'000'000;
 
 struct ExternalSettings {
-  int domain = 0;                  // DDS domain, 0..230
-  std::string interface_name;      // as of Settings
-  std::string address;             // likewise
-  bool multicast = true;           // false: `peers` and this board are looked for
-  std::vector<std::string> peers;  // addresses
-  bool one_host = false;           // loopback only
-  std::vector<int> cores;          // the threads may run on; empty: all
+  std::string plant;  // empty: a node of its own
+  std::string board;
+  std::vector<std::string> boards;  // of the plant
+  int domain = 0;                   // DDS domain, 0..230
+  bool ros2 = false;                // topics and types have the names of ROS 2
+  std::string interface_name;       // as of Settings
+  std::string address;              // likewise
+  bool multicast = true;            // false: `peers` and this board are looked for
+  std::vector<std::string> peers;   // addresses
+  bool one_host = false;            // loopback only
+  std::vector<int> cores;           // the threads may run on; empty: all
   std::vector<Exported> variables;
 };
 

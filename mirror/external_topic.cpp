@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "mirror/external_type.h"
+#include "schema/ros_name.h"
 
 namespace indurop::mirror {
 namespace {
@@ -18,28 +18,29 @@ constexpr std::int64_t kUnreadNs = 100'000'000;    // how fresh the last value i
 constexpr std::int64_t kRepeatNs = 1'000'000'000;  // for readers that missed the first one while they were matched
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-Qos make_qos(dds_durability_kind_t durability) {
-  Qos qos(dds_create_qos(), &dds_delete_qos);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
-  dds_qset_durability(qos.get(), durability);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-  dds_qset_writer_data_lifecycle(qos.get(), false);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
+// The same bytes under another name, unless that is empty. Without the description of the type, because ROS 2 calls the
+// fields otherwise, and DDS would refuse to connect two descriptions that differ.
+dds_topic_descriptor_t renamed(const dds_topic_descriptor_t& type, const std::string& name) {
+  if (name.empty()) {
+    return type;
+  }
+  return {type.m_size,  type.m_align, type.m_flagset & ~DDS_TOPIC_XTYPES_METADATA,
+          type.m_nkeys, name.c_str(), type.m_keys,
+          type.m_nops,  type.m_ops,   type.m_meta,
+          {},           {},           type.restrict_data_representation};
 }
 
 }  // namespace
 
-ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported,
+ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
                              ExternalBlock& block, rt::SignalWord& wake)
     : store_(store),
       entry_(entry),
-      type_(*static_cast<const dds_topic_descriptor_t*>(exported.type)),
+      ros_type_(ros2 ? schema::ros_type_name(variable()) : std::string{}),
+      type_(renamed(*static_cast<const dds_topic_descriptor_t*>(exported.type), ros_type_)),
       block_(block),
       wake_(wake),
-      topic_name_(external_topic(exported.variable)),
+      topic_name_(ros2 ? schema::ros_topic(exported.variable) : external_topic(exported.variable)),
       writable_(exported.writable),
       texts_(holds_text(variable().type)),
       every_ns_(exported.every_ns > 0 ? std::max(exported.every_ns, kExternalFastestNs) : kExternalEveryNs),
@@ -54,8 +55,16 @@ const schema::Variable& ExternalTopic::variable() const {
   return store_.schema().variables[entry_.schema_index];
 }
 
-dds_listener_t* ExternalTopic::listener() {
-  dds_listener_t* made = dds_create_listener(this);
+Listener ExternalTopic::listener() {
+  Listener listener = data_listener(
+      [](dds_entity_t, void* self) {
+        auto& topic = *static_cast<ExternalTopic*>(self);
+        if (!topic.arrived_.exchange(true, std::memory_order_acq_rel)) {
+          topic.wake_.wake();
+        }
+      },
+      this);
+  dds_listener_t* const made = listener.get();
   dds_lset_publication_matched(made, [](dds_entity_t, const dds_publication_matched_status_t status, void* self) {
     static_cast<ExternalTopic*>(self)->readers_.store(static_cast<int>(status.current_count),
                                                       std::memory_order_release);
@@ -67,36 +76,15 @@ dds_listener_t* ExternalTopic::listener() {
                                       [](dds_entity_t, const dds_requested_incompatible_qos_status_t, void* self) {
                                         static_cast<ExternalTopic*>(self)->disagreements_.fetch_add(1, kRelaxed);
                                       });
-  dds_lset_data_available(made, [](dds_entity_t, void* self) {
-    auto& topic = *static_cast<ExternalTopic*>(self);
-    if (!topic.arrived_.exchange(true, std::memory_order_acq_rel)) {
-      topic.wake_.wake();
-    }
-  });
-  return made;
-}
-
-bool ExternalTopic::make_topic(dds_entity_t participant, std::string& problem) {
-  if (!topic_.ok()) {
-    topic_ = Entity(dds_create_topic(participant, &type_, topic_name_.c_str(), nullptr, nullptr));
-    if (!topic_.ok()) {
-      problem = fmt::format("cannot make the topic {}: {}", topic_name_, topic_.why());
-    }
-  }
-  return topic_.ok();
+  return listener;
 }
 
 bool ExternalTopic::open_reader(dds_entity_t participant, std::string& problem) {
   if (!writable_ || reader_.ok()) {
     return true;
   }
-  if (!make_topic(participant, problem)) {
-    return false;
-  }
-  const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listening(listener(), &dds_delete_listener);
   // Whoever only sends what is new matches too; and what was set before this node ran does not count.
-  const Qos qos = make_qos(DDS_DURABILITY_VOLATILE);
-  reader_ = Entity(dds_create_reader(participant, topic_.get(), qos.get(), listening.get()));
+  reader_ = make_reader(participant, type_, topic_name_, make_qos({.for_late_ones = false}), listener());
   if (!reader_.ok()) {
     problem = fmt::format("cannot receive {}: {}", topic_name_, reader_.why());
   }
@@ -104,13 +92,11 @@ bool ExternalTopic::open_reader(dds_entity_t participant, std::string& problem) 
 }
 
 bool ExternalTopic::open(dds_entity_t participant, std::string& problem) {
-  if (!open_reader(participant, problem) || !make_topic(participant, problem)) {
+  if (!open_reader(participant, problem)) {
     return false;
   }
   if (!writer_.ok()) {
-    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listening(listener(), &dds_delete_listener);
-    const Qos qos = make_qos(DDS_DURABILITY_TRANSIENT_LOCAL);
-    writer_ = Entity(dds_create_writer(participant, topic_.get(), qos.get(), listening.get()));
+    writer_ = make_writer(participant, type_, topic_name_, make_qos({}), listener());
     if (!writer_.ok()) {
       problem = fmt::format("cannot publish {}: {}", topic_name_, writer_.why());
     }
@@ -122,7 +108,6 @@ void ExternalTopic::close() noexcept {
   // Each waits for a listener that is running.
   reader_.reset();
   writer_.reset();
-  topic_.reset();
 }
 
 // True if the variable is not what was published last.

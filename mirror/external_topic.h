@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mirror/entity.h"
+#include "mirror/endpoint.h"
 #include "mirror/external_block.h"
 #include "mirror/external_settings.h"
 #include "rt/signal_word.h"
@@ -20,15 +20,15 @@ namespace indurop::mirror {
 // All but the listeners runs in one thread.
 class ExternalTopic {
  public:
-  // `variable` is known to the store. `wake` is for what came from outside.
-  ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, ExternalBlock& block,
-                rt::SignalWord& wake);
+  // The variable is known to the store. `ros2`: names of ROS 2. `wake` is for what came from outside.
+  ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
+                ExternalBlock& block, rt::SignalWord& wake);
   ExternalTopic(const ExternalTopic&) = delete;
   ExternalTopic& operator=(const ExternalTopic&) = delete;
 
-  // Makes what is missing of topic, writer and, for a writable variable, reader. False: `problem` says why.
+  // Makes what is missing of writer and, for a writable variable, reader. False: `problem` says why.
   bool open(dds_entity_t participant, std::string& problem);
-  // Topic and reader only: the writer is made when somebody wants to read.
+  // Reader only: the writer is made when somebody wants to read.
   bool open_reader(dds_entity_t participant, std::string& problem);
   [[nodiscard]] bool is_open() const noexcept { return writer_.ok(); }
   void close() noexcept;
@@ -45,8 +45,7 @@ class ExternalTopic {
   [[nodiscard]] std::int64_t every_ns() const noexcept { return every_ns_; }
 
  private:
-  bool make_topic(dds_entity_t participant, std::string& problem);
-  [[nodiscard]] dds_listener_t* listener();
+  [[nodiscard]] Listener listener();
   bool refresh() noexcept;
   bool write(std::int64_t now_ns) noexcept;
   void take_over(const std::uint8_t* sample) noexcept;
@@ -55,7 +54,8 @@ class ExternalTopic {
   vars::Store& store_;
   const vars::DirectoryEntry& entry_;
   const abi::RingHeader* ring_ = nullptr;  // null: scalar
-  const dds_topic_descriptor_t& type_;
+  std::string ros_type_;                   // empty: the names of the .idl
+  const dds_topic_descriptor_t type_;
   ExternalBlock& block_;
   rt::SignalWord& wake_;
   std::string topic_name_;
@@ -63,9 +63,8 @@ class ExternalTopic {
   bool texts_;
   std::int64_t every_ns_;
 
-  Entity topic_;
-  Entity writer_;
-  Entity reader_;
+  Endpoint writer_;
+  Endpoint reader_;
   std::vector<std::uint8_t> sent_;     // the value published last
   std::vector<std::uint8_t> scratch_;  // of the same size
   std::uint64_t seen_ = ~std::uint64_t{0};

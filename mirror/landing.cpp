@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace indurop::mirror {
 
@@ -11,9 +12,25 @@ Landing::Landing(vars::Store& store, const vars::DirectoryEntry& entry, std::int
       entry_(&entry),
       variable_(&store.schema().variables[entry.schema_index]),
       confirmed_(abi::confirmed_of(store.entry(entry.name_hash, 0), entry.kind)),
+      update_offset_(abi::update_offset_of(store.entry(entry.name_hash, 0), entry.kind)),
       patient_until_ns_(patient_until_ns),
       present_(entry.value_size) {
+  update_offset_.store(abi::kAlone, std::memory_order_release);
   confirmed_.store(abi::kNeverConfirmed, std::memory_order_release);
+}
+
+std::atomic<std::uint64_t>* Landing::lend_room_for_word() noexcept {
+  return std::exchange(room_lent_, true) ? nullptr
+                                         : &abi::update_word_of(store_.entry(entry_->name_hash, 0), entry_->kind);
+}
+
+void Landing::follow(UpdateWord* word) noexcept {
+  if (word_ == word) {
+    return;
+  }
+  word_ = word;
+  const void* const entry = store_.entry(entry_->name_hash, 0);
+  update_offset_.store(word == nullptr ? abi::kAlone : word->offset_from(entry), std::memory_order_release);
 }
 
 std::size_t Landing::add_source() {
@@ -36,19 +53,20 @@ std::size_t Landing::leader() const noexcept {
   return best;
 }
 
-void Landing::deliver(std::size_t source, std::uint64_t session, std::span<const std::uint8_t> value,
-                      std::int64_t now_ns, PeerRecord& record) noexcept {
-  Source& from = sources_[source];
-  from.session = session;
+void Landing::deliver(const Arrival& arrival, std::span<const std::uint8_t> value, PeerRecord& record) noexcept {
+  Source& from = sources_[arrival.source];
+  from.session = arrival.session;
+  from.word = arrival.word;
   if (!from.last.empty()) {
     std::copy(value.begin(), value.end(), from.last.begin());
   }
-  if (leader() != source) {
+  if (leader() != arrival.source) {
     return;
   }
   put(value, record);
+  follow(arrival.word);  // after the value: whoever reads it with the new word sees the new value
   fallen_back_ = false;
-  confirmed_.store(now_ns, std::memory_order_release);
+  confirmed_.store(arrival.now_ns, std::memory_order_release);
 }
 
 void Landing::silent(std::size_t source, std::int64_t now_ns, PeerRecord& record) noexcept {
@@ -59,6 +77,7 @@ void Landing::silent(std::size_t source, std::int64_t now_ns, PeerRecord& record
   }
   if (const std::size_t next = leader(); next != kNone) {
     put(sources_[next].last, record);
+    follow(sources_[next].word);
     confirmed_.store(now_ns, std::memory_order_release);
     return;
   }
@@ -93,7 +112,14 @@ std::int64_t Landing::expire(std::int64_t now_ns) noexcept {
   if (now_ns < ends) {
     return ends;
   }
+  // No board has sent this value, so it does not belong to the others of its update.
+  if (word_ != nullptr) {
+    word_->begin();
+  }
   fallen_back_ = store_.write(*entry_, 0, variable_->fallback).ok();
+  if (word_ != nullptr) {
+    word_->end(false);
+  }
   return fallen_back_ ? kNever : now_ns;
 }
 

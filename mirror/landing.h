@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mirror/mirror_block.h"
+#include "mirror/update_word.h"
 #include "schema/schema.h"
 #include "vars/store.h"
 
@@ -27,10 +28,17 @@ class Landing {
 
   // A board that sends the variable, in the manifest's order. Returns its number for the calls below.
   std::size_t add_source();
-  // A value arrived: written if its source leads and the store's differs. `session` tells runs of a board apart; the
-  // source with the longest service leads, a restarted one does not take the lead back, so outputs do not jump.
-  void deliver(std::size_t source, std::uint64_t session, std::span<const std::uint8_t> value, std::int64_t now_ns,
-               PeerRecord& record) noexcept;
+  // Room in the variable's entry for the word of one of its boards; null if another board has it.
+  [[nodiscard]] std::atomic<std::uint64_t>* lend_room_for_word() noexcept;
+  struct Arrival {
+    std::size_t source = 0;
+    std::uint64_t session = 0;   // tells runs of a board apart
+    UpdateWord* word = nullptr;  // the value is part of an update; null: it travels by itself
+    std::int64_t now_ns = 0;
+  };
+  // A value arrived: written if its source leads and the store's differs. The source with the longest service leads, a
+  // restarted one does not take the lead back, so outputs do not jump.
+  void deliver(const Arrival& arrival, std::span<const std::uint8_t> value, PeerRecord& record) noexcept;
   // The source's board is gone. If another one is there, its last value counts from now on.
   void silent(std::size_t source, std::int64_t now_ns, PeerRecord& record) noexcept;
   // Writes the fallback if it is time. Returns when to look again.
@@ -38,18 +46,23 @@ class Landing {
 
  private:
   struct Source {
-    std::uint64_t session = 0;       // 0: silent
+    std::uint64_t session = 0;  // 0: silent
+    UpdateWord* word = nullptr;
     std::vector<std::uint8_t> last;  // only where there is more than one source
   };
   static constexpr std::size_t kNone = ~std::size_t{0};
 
   [[nodiscard]] std::size_t leader() const noexcept;
   void put(std::span<const std::uint8_t> value, PeerRecord& record) noexcept;
+  void follow(UpdateWord* word) noexcept;
 
   vars::Store& store_;
   const vars::DirectoryEntry* entry_;
   const schema::Variable* variable_;
   std::atomic<std::int64_t>& confirmed_;
+  std::atomic<std::int64_t>& update_offset_;
+  UpdateWord* word_ = nullptr;  // of the source that leads
+  bool room_lent_ = false;
   std::int64_t patient_until_ns_;
   std::vector<Source> sources_;
   std::vector<std::uint8_t> present_;  // the store's value, to compare with

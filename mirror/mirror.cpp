@@ -2,11 +2,9 @@
 #include "mirror/mirror.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <mutex>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include "mirror/beacons.h"
 #include "mirror/dds_log.h"
 #include "mirror/dds_setup.h"
+#include "mirror/joining.h"
 #include "mirror/landing.h"
 #include "mirror/mirror_block.h"
 #include "mirror/receiver.h"
@@ -26,9 +25,9 @@
 namespace indurop::mirror {
 namespace {
 
-constexpr std::int64_t kRetryNs = 500'000'000;  // joining a network that is not there
-constexpr std::int64_t kLookNs = 10'000'000;    // without a notification: somebody else may have written
+constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: somebody else may have written
 constexpr std::int64_t kBulkLookNs = 20'000'000;
+constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that nobody tells
 
 // Until `wake`, awake in the window. False if the time passed without.
 bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
@@ -60,12 +59,16 @@ struct Mirror::Impl {
         tick(ticks),
         file(std::move(memory)),
         block(*reinterpret_cast<MirrorBlock*>(file.data())),
-        session(static_cast<std::uint64_t>(rt::wall_ns())) {}
+        session(static_cast<std::uint64_t>(rt::wall_ns())),
+        joining(
+            settings, [this](dds_entity_t participant, std::string& why) { return open(participant, why); },
+            [this] { close(); }) {}
 
   Status run();
   void end() noexcept;
   void manage();
-  bool join(std::string& problem);
+  bool open(dds_entity_t participant, std::string& problem);
+  void close() noexcept;
   void take_catalogues() noexcept;
   void send_loop(bool bulk) noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
@@ -87,8 +90,8 @@ struct Mirror::Impl {
   std::mutex landings_mutex;
   std::vector<std::unique_ptr<Landing>> landings;
   std::vector<std::unique_ptr<Receiver>> receivers;
-  Participant joined;
-  Entity catalogues;
+  Endpoint catalogues;
+  Joining joining;
   std::atomic<bool> up{false};
   std::atomic<bool> stop{false};
   rt::SignalWord wake_manager;
@@ -148,10 +151,15 @@ Status Mirror::Impl::run() {
   }
   rt::ThreadSettings thread;
   thread.fifo_priority = settings.fifo_priority;
-  thread.core = settings.cores.size() == 1 ? settings.cores.front() : -1;
   const auto launch = [&](const char* name, rt::Thread& into, auto body) -> Status {
     thread.name = name;
-    auto started = rt::Thread::start(thread, body);
+    auto started = rt::Thread::start(thread, [this, body] {
+      // The threads of DDS inherit where they may run from the manager.
+      if (!settings.cores.empty()) {
+        (void)rt::pin_to_cores(settings.cores);
+      }
+      body();
+    });
     if (!started) {
       return started.error();
     }
@@ -173,43 +181,30 @@ Status Mirror::Impl::run() {
   return {};
 }
 
-bool Mirror::Impl::join(std::string& problem) {
-  joined = join_plant(settings, problem);
-  if (!joined.participant.ok()) {
-    return false;
-  }
-  const dds_entity_t participant = joined.participant.get();
+bool Mirror::Impl::open(dds_entity_t participant, std::string& problem) {
   if (!sender->open(participant, settings, problem) || !beacons->open(participant, settings, problem)) {
     return false;
   }
-  dds_listener_t* listener = dds_create_listener(this);
   const auto wake = [](dds_entity_t /*reader*/, void* self) { static_cast<Impl*>(self)->wake_manager.wake(); };
-  dds_lset_data_available(listener, wake);
-  catalogues = make_reader(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant), settings,
-                           Stream::Prompt, listener);
-  dds_delete_listener(listener);
+  catalogues = make_reader(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant),
+                           plane_qos(settings, Stream::Prompt), data_listener(wake, this));
   if (!catalogues.ok()) {
     problem = "cannot receive catalogues: " + catalogues.why();
-    return false;
   }
-  return true;
+  return catalogues.ok();
+}
+
+void Mirror::Impl::close() noexcept {
+  for (const auto& receiver : receivers) {
+    receiver->close();
+  }
+  beacons->close();
+  sender->close();
+  catalogues.reset();
 }
 
 void Mirror::Impl::manage() {
-  // DDS's own threads inherit where they may run from the one that creates the participant.
-  if (!settings.cores.empty()) {
-    (void)rt::pin_to_cores(settings.cores);
-  }
-  while (!stopping()) {
-    std::string problem;
-    const bool done = join(problem);
-    block.problem.set(problem);
-    if (done) {
-      break;
-    }
-    wake_manager.wait_until(rt::now_ns() + kRetryNs);
-  }
-  if (stopping()) {
+  if (!joining.join(stop, wake_manager, block.problem)) {
     return;
   }
   block.network.store(Network::Up, std::memory_order_release);
@@ -242,37 +237,23 @@ void Mirror::Impl::manage() {
 }
 
 void Mirror::Impl::take_catalogues() noexcept {
-  constexpr std::uint32_t kAtOnce = 8;
-  std::array<void*, kAtOnce> samples{};
-  std::array<dds_sample_info_t, kAtOnce> infos{};
-  for (;;) {
-    samples[0] = nullptr;
-    const int count = dds_take(catalogues.get(), samples.data(), infos.data(), kAtOnce, kAtOnce);
-    if (count <= 0) {
-      return;
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const auto& catalogue = *static_cast<const indurop_wire_Catalogue*>(samples[i]);
-      const auto found = std::find_if(receivers.begin(), receivers.end(),
-                                      [&](const auto& receiver) { return receiver->board() == catalogue.board; });
-      if (found == receivers.end()) {
-        if (settings.board == catalogue.board) {  // and not from here: own samples are left out
-          const bool alive = infos[i].instance_state == DDS_IST_ALIVE;
-          block.problem.set(!alive ? ""
-                                   : fmt::format("another node in the network calls itself board {} of plant {}",
-                                                 settings.board, settings.plant));
-        }
-        continue;
-      }
-      // Without a writer only the key is there.
-      if (infos[i].instance_state != DDS_IST_ALIVE) {
+  take_all<indurop_wire_Catalogue>(catalogues.get(), [this](const auto& catalogue, const dds_sample_info_t& info) {
+    const auto found = std::find_if(receivers.begin(), receivers.end(),
+                                    [&](const auto& receiver) { return receiver->board() == catalogue.board; });
+    // Without a writer only the key is there.
+    const bool alive = info.instance_state == DDS_IST_ALIVE;
+    if (found != receivers.end()) {
+      if (!alive) {
         (*found)->silent();
-      } else if (infos[i].valid_data) {
-        (*found)->announced(catalogue, joined.participant.get(), settings);
+      } else if (info.valid_data) {
+        (*found)->announced(catalogue, joining.participant(), settings);
       }
+    } else if (settings.board == catalogue.board) {  // and not from here: own samples are left out
+      block.problem.set(!alive ? ""
+                               : fmt::format("another node in the network calls itself board {} of plant {}",
+                                             settings.board, settings.plant));
     }
-    (void)dds_return_loan(catalogues.get(), samples.data(), count);
-  }
+  });
 }
 
 void Mirror::Impl::send_loop(bool of_bulk) noexcept {
@@ -280,9 +261,12 @@ void Mirror::Impl::send_loop(bool of_bulk) noexcept {
   Anticipation anticipation;
   while (!stopping()) {
     const std::int64_t now = rt::now_ns();
+    std::int64_t next = now + (of_bulk ? kBulkLookNs : kLookNs);
     if (up.load(std::memory_order_acquire)) {
       const std::uint64_t begun = tick.load(std::memory_order_acquire);
-      sender->cycle(now, begun > 0 ? begun - 1 : 0, of_bulk);
+      if (sender->cycle(now, begun > 0 ? begun - 1 : 0, of_bulk)) {
+        next = now + kLookAgainNs;
+      }
       if (!of_bulk) {
         const std::int64_t took = rt::now_ns() - now;
         block.cycle_ns.store(took, std::memory_order_relaxed);
@@ -292,14 +276,14 @@ void Mirror::Impl::send_loop(bool of_bulk) noexcept {
       }
     }
     const Anticipation::Window window = settings.spin && !of_bulk ? anticipation.next(now) : Anticipation::Window{};
-    if (wait(wake, now + (of_bulk ? kBulkLookNs : kLookNs), window)) {
+    if (wait(wake, next, window)) {
       anticipation.reported(tick.load(std::memory_order_acquire), rt::now_ns());
     }
     while (wake.try_wait()) {
     }
   }
   if (up.load(std::memory_order_acquire)) {
-    sender->cycle(rt::now_ns(), tick.load(std::memory_order_acquire), of_bulk);  // what was written last
+    (void)sender->cycle(rt::now_ns(), tick.load(std::memory_order_acquire), of_bulk);  // what was written last
   }
 }
 
@@ -311,14 +295,7 @@ void Mirror::Impl::end() noexcept {
   prompt.join();
   bulk.join();
   manager.join();
-  for (const auto& receiver : receivers) {
-    receiver->close();
-  }
-  beacons.reset();
-  sender.reset();
-  catalogues.reset();
-  joined.participant.reset();
-  joined.domain.reset();
+  joining.leave();
 }
 
 Result<Mirror> Mirror::start(const Settings& settings, const std::string& node, vars::Store& store,

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -131,5 +132,8 @@ static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0 && sizeof(PeerRecor
 inline constexpr std::size_t mirror_block_size(std::size_t peers, std::size_t incoming) noexcept {
   return sizeof(MirrorBlock) + peers * sizeof(PeerRecord) + incoming * sizeof(IncomingRecord);
 }
+
+// The block in a file's memory, null if there is none of this version or the file is shorter than its counts say.
+const MirrorBlock* mirror_block_in(std::span<const std::byte> memory) noexcept;
 
 }  // namespace indurop::mirror

@@ -24,9 +24,12 @@ const schema::Variable* find_variable(const schema::Schema& schema, const std::s
 
 Receiver::Receiver(std::string board, const std::vector<Landing*>& landings, std::mutex& mutex, PeerRecord& record)
     : board_(std::move(board)), mutex_(mutex), record_(record) {
+  std::atomic<std::uint64_t>* room = nullptr;
   for (Landing* landing : landings) {
     items_.push_back({landing, landing->add_source()});
+    room = room == nullptr ? landing->lend_room_for_word() : room;
   }
+  word_ = UpdateWord(room);
   for (Port& port : ports_) {
     port.receiver = this;
   }
@@ -46,6 +49,11 @@ std::string Receiver::match(const indurop_wire_Catalogue& catalogue, std::vector
   const auto theirs = schema::from_json(catalogue.schema);
   const indurop_wire_CatalogueEntry* const first = catalogue.entries._buffer;
   const indurop_wire_CatalogueEntry* const last = first + catalogue.entries._length;
+  for (const auto* entry = first; entry != last; ++entry) {
+    if (entry->part >= inboxes.size() && entry->part < kMostParts) {
+      inboxes.resize(entry->part + 1);
+    }
+  }
   for (std::uint32_t i = 0; i < items_.size(); ++i) {
     const schema::Variable& mine = items_[i].landing->variable();
     const auto* found = std::find_if(first, last, [&](const auto& entry) { return mine.name == entry.name; });
@@ -63,9 +71,6 @@ std::string Receiver::match(const indurop_wire_Catalogue& catalogue, std::vector
     if (found->part >= kMostParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
       complain(fmt::format("the catalogue of board {} is damaged", board_));
       continue;
-    }
-    if (found->part >= inboxes.size()) {
-      inboxes.resize(found->part + 1);
     }
     Inbox& inbox = inboxes[found->part];
     inbox.size = std::max(inbox.size, found->offset + found->size);
@@ -89,16 +94,18 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds_entity_t p
     layout_ = catalogue.layout;
     matched_ = problem.empty();
     inboxes_ = std::move(inboxes);
+    std::vector<std::uint32_t> sizes;
+    for (const Inbox& inbox : inboxes_) {
+      sizes.push_back(inbox.size);
+    }
+    staging_.reset(sizes);
   }
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
     const auto stream = static_cast<Stream>(i);
     ports_[i].newest_update = 0;
-    dds_listener_t* listener = dds_create_listener(&ports_[i]);
-    dds_lset_data_available(listener, &Receiver::on_data);
     ports_[i].reader = make_reader(participant, indurop_wire_Frame_desc, frames_topic(settings.plant, board_, stream),
-                                   settings, stream, listener);
-    dds_delete_listener(listener);
+                                   plane_qos(settings, stream), data_listener(&Receiver::on_data, &ports_[i]));
     if (!ports_[i].reader.ok()) {
       record_.problem.set("cannot receive: " + ports_[i].reader.why());
     }
@@ -117,31 +124,18 @@ void Receiver::on_data(dds_entity_t reader, void* port) {
 }
 
 void Receiver::take(dds_entity_t reader, Port& port) noexcept {
-  constexpr std::uint32_t kAtOnce = 32;
-  std::array<void*, kAtOnce> samples{};
-  std::array<dds_sample_info_t, kAtOnce> infos{};
-  for (;;) {
-    samples[0] = nullptr;  // lend us memory
-    const int count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
-    if (count <= 0) {
-      return;
+  const std::lock_guard<std::mutex> guard(mutex_);
+  take_all<indurop_wire_Frame>(reader, [&](const indurop_wire_Frame& frame, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      accept(frame, port);
     }
-    {
-      const std::lock_guard<std::mutex> guard(mutex_);
-      const std::int64_t now = rt::now_ns();
-      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        if (infos[i].valid_data) {
-          apply(*static_cast<const indurop_wire_Frame*>(samples[i]), port, now);
-        }
-      }
-    }
-    (void)dds_return_loan(reader, samples.data(), count);
-  }
+  });
 }
 
-void Receiver::apply(const indurop_wire_Frame& frame, Port& port, std::int64_t now_ns) noexcept {
+void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
   constexpr auto kRelaxed = std::memory_order_relaxed;
-  if (frame.session != session_ || frame.layout != static_cast<std::uint32_t>(layout_)) {
+  if (frame.session != session_ || frame.layout != static_cast<std::uint32_t>(layout_) ||
+      frame.part >= inboxes_.size() || frame.data._length < inboxes_[frame.part].size) {
     record_.refused.fetch_add(1, kRelaxed);
     return;
   }
@@ -151,27 +145,48 @@ void Receiver::apply(const indurop_wire_Frame& frame, Port& port, std::int64_t n
     }
     port.newest_update = frame.update;
   }
-  if (frame.part >= inboxes_.size() || inboxes_[frame.part].content.empty()) {
+  const std::int64_t now = rt::now_ns();
+  if (frame.update_sum != 0) {
+    apply_together(frame, now);
+  } else {
+    apply_alone(frame, now);
+  }
+  if (inboxes_[frame.part].content.empty()) {
     return;  // holds nothing this board reads
   }
-  Inbox& inbox = inboxes_[frame.part];
-  if (frame.data._length < inbox.size) {
-    record_.refused.fetch_add(1, kRelaxed);
-    return;
-  }
-  if (frame.update < inbox.update) {
-    return;  // older than what is here
-  }
-  inbox.update = frame.update;
-  for (const Arrival& arrival : inbox.content) {
-    const Item& item = items_[arrival.item];
-    item.landing->deliver(item.source, session_,
-                          {frame.data._buffer + arrival.offset, item.landing->entry().value_size}, now_ns, record_);
-  }
-  record_.heard_ns.store(now_ns, kRelaxed);
+  record_.heard_ns.store(now, kRelaxed);
   record_.delay_ns.store(rt::wall_ns() - frame.source_time_ns, kRelaxed);
   record_.tick.store(frame.tick, kRelaxed);
   record_.frames.fetch_add(1, kRelaxed);
+}
+
+void Receiver::apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept {
+  Inbox& inbox = inboxes_[frame.part];
+  if (frame.update >= inbox.update) {  // else older than what is here
+    inbox.update = frame.update;
+    deliver(inbox, {frame.data._buffer, frame.data._length}, nullptr, now_ns);
+  }
+}
+
+void Receiver::apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept {
+  const Staging::Verdict verdict =
+      staging_.arrived(frame.part, frame.update, frame.update_sum, {frame.data._buffer, frame.data._length}, now_ns);
+  if (verdict == Staging::Verdict::Old || verdict == Staging::Verdict::Wait) {
+    return;
+  }
+  word_.begin();
+  staging_.take(
+      [&](std::uint32_t part, std::span<const std::uint8_t> data) { deliver(inboxes_[part], data, &word_, now_ns); });
+  word_.end(verdict == Staging::Verdict::Whole);
+}
+
+void Receiver::deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word,
+                       std::int64_t now_ns) noexcept {
+  for (const Arrival& arrival : inbox.content) {
+    const Item& item = items_[arrival.item];
+    item.landing->deliver({item.source, session_, word, now_ns},
+                          data.subspan(arrival.offset, item.landing->entry().value_size), record_);
+  }
 }
 
 void Receiver::silent() noexcept {
@@ -181,9 +196,12 @@ void Receiver::silent() noexcept {
   }
   record_.losses.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t now = rt::now_ns();
+  // What a standby takes over must not be read together with what is still this board's.
+  word_.begin();
   for (const Item& item : items_) {
     item.landing->silent(item.source, now, record_);
   }
+  word_.end(word_.whole());
 }
 
 }  // namespace indurop::mirror

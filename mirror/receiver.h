@@ -7,14 +7,17 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "mirror/entity.h"
+#include "mirror/endpoint.h"
 #include "mirror/landing.h"
 #include "mirror/mirror_block.h"
 #include "mirror/packing.h"
 #include "mirror/settings.h"
+#include "mirror/staging.h"
+#include "mirror/update_word.h"
 #include "wire.h"
 
 namespace indurop::mirror {
@@ -47,18 +50,21 @@ class Receiver {
   };
   struct Inbox {
     std::uint32_t size = 0;    // least number of bytes a frame must have
-    std::uint64_t update = 0;  // newest one taken over
+    std::uint64_t update = 0;  // newest one taken over, if it travels alone
     std::vector<Arrival> content;
   };
   struct Port {  // one per stream, known to DDS's listener
     Receiver* receiver = nullptr;
-    Entity reader;
+    Endpoint reader;
     std::uint64_t newest_update = 0;
   };
 
   static void on_data(dds_entity_t reader, void* port);
   void take(dds_entity_t reader, Port& port) noexcept;
-  void apply(const indurop_wire_Frame& frame, Port& port, std::int64_t now_ns) noexcept;
+  void accept(const indurop_wire_Frame& frame, Port& port) noexcept;
+  void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
+  void apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
+  void deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word, std::int64_t now_ns) noexcept;
   std::string match(const indurop_wire_Catalogue& catalogue, std::vector<Inbox>& inboxes) const;
 
   std::string board_;
@@ -68,7 +74,9 @@ class Receiver {
   std::uint64_t session_ = 0;
   std::uint64_t layout_ = 0;
   bool matched_ = false;        // this session's variables agree with ours
-  std::vector<Inbox> inboxes_;  // by part
+  std::vector<Inbox> inboxes_;  // by part, all parts of the board
+  Staging staging_;
+  UpdateWord word_;
   std::array<Port, kStreams> ports_;
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "mirror/dds_setup.h"
 #include "rt/clock.h"
@@ -14,19 +13,17 @@ namespace {
 
 constexpr const char* kRelease = INDUROP_VERSION;
 
-std::uint64_t mix(std::uint64_t hash, const std::string& text) noexcept {
-  for (const char c : text) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  }
-  return hash;
-}
-
 }  // namespace
 
 Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block)
-    : store_(store), block_(block), session_(session), board_(settings.board) {
+    : store_(store),
+      block_(block),
+      session_(session),
+      board_(settings.board),
+      collectors_{Collector(store), Collector(store)} {
   std::vector<Parcel> parcels;
   std::vector<const vars::DirectoryEntry*> entries;
+  std::vector<const Writers*> writers;
   schema::Schema types;
   for (const Outgoing& out : settings.outgoing) {
     const auto* entry = store_.find(abi::fnv1a64(out.variable.data(), out.variable.size()));
@@ -37,25 +34,31 @@ Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t sessi
     types.variables.push_back(variable);
     parcels.push_back({entry->value_size, out.every_ns, variable.maxage_ns, out.best_effort});
     entries.push_back(entry);
+    writers.push_back(out.writers < 0 ? nullptr : &settings.writers[static_cast<std::size_t>(out.writers)]);
   }
   schema_text_ = schema::to_json(types);
-  layout_ = mix(0xcbf29ce484222325ULL, schema_text_);
-  for (Part& part : pack(parcels)) {
-    Outbox out;
+  std::string layout_text = schema_text_;
+  std::vector<Part> parts = pack(parcels);
+  parts_.reserve(parts.size());  // the collectors know where each is
+  for (Part& part : parts) {
+    Outbox& out = parts_.emplace_back();
     out.image.resize(part.size);
+    const bool bulk = part.stream == Stream::Bulk;
     for (const Placed& placed : part.content) {
       const auto* entry = entries[placed.parcel];
-      auto* memory = store_.entry(entry->name_hash, 0);
-      out.items.push_back({entry,
-                           entry->kind == abi::Kind::Ring ? static_cast<const abi::RingHeader*>(memory) : nullptr,
-                           placed.offset, ~std::uint64_t{0}});
-      layout_ = mix(layout_, fmt::format("{}:{}:{}", parts_.size(), placed.offset, entry->value_size));
+      out.content.push_back(entry);
+      collectors_[bulk ? 1 : 0].add(*entry, out.image.data() + placed.offset, &out.dirty,
+                                    bulk ? nullptr : writers[placed.parcel]);
+      layout_text += fmt::format("{}:{}:{}", parts_.size() - 1, placed.offset, entry->value_size);
     }
     out.part = std::move(part);
-    parts_.push_back(std::move(out));
   }
+  layout_ = abi::fnv1a64(layout_text.data(), layout_text.size());
   block_.outgoing = static_cast<std::uint32_t>(entries.size());
   block_.parts = static_cast<std::uint32_t>(parts_.size());
+  for (Collector& collector : collectors_) {
+    (void)collector.collect(0);
+  }
 }
 
 bool Sender::has_bulk() const noexcept {
@@ -64,19 +67,20 @@ bool Sender::has_bulk() const noexcept {
 
 bool Sender::open(dds_entity_t participant, const Settings& settings, std::string& problem) {
   for (const Outbox& out : parts_) {
-    Entity& writer = writers_[static_cast<std::size_t>(out.part.stream)];
+    Endpoint& writer = writers_[static_cast<std::size_t>(out.part.stream)];
     if (writer.ok()) {
       continue;
     }
-    writer = make_writer(participant, indurop_wire_Frame_desc,
-                         frames_topic(settings.plant, settings.board, out.part.stream), settings, out.part.stream);
+    writer =
+        make_writer(participant, indurop_wire_Frame_desc, frames_topic(settings.plant, settings.board, out.part.stream),
+                    plane_qos(settings, out.part.stream));
     if (!writer.ok()) {
       problem = "cannot send values: " + writer.why();
       return false;
     }
   }
-  catalogue_ =
-      make_writer(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant), settings, Stream::Prompt);
+  catalogue_ = make_writer(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant),
+                           plane_qos(settings, Stream::Prompt));
   if (!catalogue_.ok()) {
     problem = "cannot send the catalogue: " + catalogue_.why();
     return false;
@@ -88,14 +92,23 @@ bool Sender::open(dds_entity_t participant, const Settings& settings, std::strin
   return true;
 }
 
+void Sender::close() noexcept {
+  for (Endpoint& writer : writers_) {
+    writer.reset();
+  }
+  catalogue_.reset();
+}
+
 void Sender::publish_catalogue() noexcept {
   std::vector<indurop_wire_CatalogueEntry> entries;
   for (std::uint32_t number = 0; number < parts_.size(); ++number) {
-    for (const Item& item : parts_[number].items) {
+    const Outbox& out = parts_[number];
+    for (std::size_t i = 0; i < out.content.size(); ++i) {
       // The sample is only read, and copied before dds_write returns.
-      const std::string& name = store_.schema().variables[item.entry->schema_index].name;
+      const vars::DirectoryEntry& entry = *out.content[i];
+      const std::string& name = store_.schema().variables[entry.schema_index].name;
       entries.push_back(
-          {const_cast<char*>(name.c_str()), item.entry->type_hash, number, item.offset, item.entry->value_size});
+          {const_cast<char*>(name.c_str()), entry.type_hash, number, out.part.content[i].offset, entry.value_size});
     }
   }
   indurop_wire_Catalogue sample{};
@@ -111,72 +124,62 @@ void Sender::publish_catalogue() noexcept {
   }
 }
 
-void Sender::cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept {
-  std::uint64_t& updates = updates_[bulk ? 1 : 0];
-  bool sent = false;
-  for (std::uint32_t number = 0; number < parts_.size(); ++number) {
-    Outbox& out = parts_[number];
+// What is part of the next update. False: nothing.
+bool Sender::choose(std::int64_t now_ns, bool bulk) noexcept {
+  const std::uint64_t update = updates_[bulk ? 1 : 0] + 1;
+  bool any = false;
+  for (Outbox& out : parts_) {
     if ((out.part.stream == Stream::Bulk) != bulk) {
       continue;
     }
     const std::int64_t since = now_ns - out.sent_ns;
-    if (since < out.part.every_ns) {
-      continue;
-    }
-    out.dirty = refresh(out) || out.dirty;
-    if (out.dirty || since >= out.part.keepalive_ns) {
-      sent = send(out, number, updates + 1, tick, now_ns) || sent;
-    }
-  }
-  if (sent) {
-    ++updates;
-    block_.updates.fetch_add(1, std::memory_order_relaxed);
-  }
-}
-
-bool Sender::refresh(Outbox& out) noexcept {
-  bool changed = false;
-  for (Item& item : out.items) {
-    std::uint8_t* const at = out.image.data() + item.offset;
-    const std::uint32_t size = item.entry->value_size;
-    if (item.ring == nullptr) {
-      std::array<std::uint8_t, sizeof(std::uint64_t)> value{};
-      (void)store_.read(*item.entry, 0, {value.data(), size});
-      if (std::memcmp(value.data(), at, size) != 0) {
-        std::memcpy(at, value.data(), size);
-        changed = true;
+    out.due = since >= out.part.every_ns && (out.dirty || since >= out.part.keepalive_ns);
+    if (out.due) {
+      any = true;
+      if (out.together()) {
+        update_sum_ += update - out.update;
       }
-      continue;
-    }
-    const std::uint64_t version = item.ring->seq.load(std::memory_order_acquire);
-    if (version != item.seen && store_.read(*item.entry, 0, {at, size})) {
-      item.seen = version;  // a commit during the copy is seen next time
-      changed = true;
+      out.update = update;
     }
   }
-  return changed;
+  return any;
 }
 
-bool Sender::send(Outbox& out, std::uint32_t number, std::uint64_t update, std::uint64_t tick,
-                  std::int64_t now_ns) noexcept {
+bool Sender::cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept {
+  const bool look_again = collectors_[bulk ? 1 : 0].collect(now_ns);
+  if (!choose(now_ns, bulk)) {
+    return look_again;
+  }
+  ++updates_[bulk ? 1 : 0];
+  block_.updates.fetch_add(1, std::memory_order_relaxed);
+  for (std::uint32_t number = 0; number < parts_.size(); ++number) {
+    if ((parts_[number].part.stream == Stream::Bulk) == bulk && parts_[number].due) {
+      send(number, tick, now_ns);
+    }
+  }
+  return look_again;
+}
+
+void Sender::send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns) noexcept {
+  Outbox& out = parts_[number];
   indurop_wire_Frame frame{};
   frame.part = number;
   frame.layout = static_cast<std::uint32_t>(layout_);
   frame.session = session_;
-  frame.update = update;
+  frame.update = out.update;
+  frame.update_sum = out.together() ? update_sum_ : 0;
   frame.tick = tick;
   frame.source_time_ns = rt::wall_ns();
   frame.data._length = frame.data._maximum = static_cast<std::uint32_t>(out.image.size());
   frame.data._buffer = out.image.data();
   if (dds_write(writers_[static_cast<std::size_t>(out.part.stream)].get(), &frame) < 0) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
-    return false;  // stays dirty
+    return;  // stays dirty; who waits for it gets it with the next update
   }
   out.dirty = false;
   out.sent_ns = now_ns;
   block_.frames.fetch_add(1, std::memory_order_relaxed);
   block_.bytes.fetch_add(out.image.size(), std::memory_order_relaxed);
-  return true;
 }
 
 }  // namespace indurop::mirror

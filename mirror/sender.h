@@ -9,7 +9,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "mirror/entity.h"
+#include "mirror/collector.h"
+#include "mirror/endpoint.h"
 #include "mirror/mirror_block.h"
 #include "mirror/packing.h"
 #include "mirror/settings.h"
@@ -22,35 +23,36 @@ namespace indurop::mirror {
 class Sender {
  public:
   // `session` tells this run of the board from earlier ones. Variables the store does not hold are left out.
+  // `store` and `settings.writers` are borrowed until the end.
   Sender(vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
 
   // Makes the writers and publishes the catalogue. False: `problem` says why.
   bool open(dds_entity_t participant, const Settings& settings, std::string& problem);
+  // Deletes them. Nobody may be in cycle().
+  void close() noexcept;
 
   // Sends what changed, and what has not been sent for its keep-alive time. Only with `bulk` the large values. One
-  // thread at a time for each of the two.
-  void cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept;
+  // thread at a time for each of the two. True: look again soon, values wait for the end of a run nobody tells.
+  bool cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept;
 
   [[nodiscard]] bool has_bulk() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
 
  private:
-  struct Item {
-    const vars::DirectoryEntry* entry = nullptr;
-    const abi::RingHeader* ring = nullptr;  // null: scalar
-    std::uint32_t offset = 0;               // in the part
-    std::uint64_t seen = 0;                 // version of the ring last copied
-  };
   struct Outbox {
     Part part;
-    std::vector<Item> items;
+    std::vector<const vars::DirectoryEntry*> content;  // as of part.content
     std::vector<std::uint8_t> image;
+    std::uint64_t update = 0;  // number of the last one that has this part
     std::int64_t sent_ns = 0;
     bool dirty = true;
+    bool due = false;
+    // Its values change together with those of other parts.
+    [[nodiscard]] bool together() const noexcept { return part.stream == Stream::Prompt && part.every_ns == 0; }
   };
 
-  bool refresh(Outbox& out) noexcept;
-  bool send(Outbox& out, std::uint32_t number, std::uint64_t update, std::uint64_t tick, std::int64_t now_ns) noexcept;
+  bool choose(std::int64_t now_ns, bool bulk) noexcept;
+  void send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns) noexcept;
   void publish_catalogue() noexcept;
 
   vars::Store& store_;
@@ -60,9 +62,11 @@ class Sender {
   std::string board_;
   std::string schema_text_;
   std::vector<Outbox> parts_;
-  std::array<Entity, kStreams> writers_;
-  Entity catalogue_;
-  std::array<std::uint64_t, 2> updates_{};  // of the prompt and of the bulk thread
+  std::array<Collector, 2> collectors_;  // of the prompt and of the bulk thread
+  std::array<Endpoint, kStreams> writers_;
+  Endpoint catalogue_;
+  std::array<std::uint64_t, 2> updates_{};  // likewise
+  std::uint64_t update_sum_ = 0;            // of the parts that change together
 };
 
 }  // namespace indurop::mirror

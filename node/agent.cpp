@@ -9,6 +9,7 @@
 #include "deploy/plant.h"
 #include "mirror/blob_server.h"
 #include "node/agent_state.h"
+#include "node/board_orders.h"
 #include "node/board_process.h"
 #include "node/deploy_keys.h"
 #include "node/fetcher.h"
@@ -71,8 +72,9 @@ class Agent {
         self_(mirror::new_session()),
         keys_(options.board),
         transaction_(options.board),
-        fetcher_(state, self_),
+        fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), console),
+        orders_(options.board, self_, keys_, process_, console),
         server_(self_, [this](const std::string& name, mirror::BlobServer::Blob& blob) { return find(name, blob); }) {
     link_settings_.domain = options.domain.value_or(mirror::LinkSettings::kDefaultDomain);
     link_settings_.interface_name = options.interface_name;
@@ -96,17 +98,26 @@ class Agent {
       pause(signals);
     }
     console_.info("stopping: signal {}", signals.received());
+    commands_.reset();
     link_.reset();  // the others see at once that this board leaves
     process_.end();
     return signals.received() == SIGINT ? kInterrupted : kOk;
   }
 
  private:
+  [[nodiscard]] bool belongs(const std::vector<std::string>& members) const {
+    return std::find(members.begin(), members.end(), options_.board) != members.end();
+  }
+
   // The last committed deployment, without any network.
   void resume() {
     const Committed& committed = state_.committed();
     if (committed.current.empty()) {
       console_.info("board {}: nothing is deployed yet", options_.board);
+      return;
+    }
+    if (!belongs(committed.members)) {
+      console_.info("board {}: not part of plant {} any more", options_.board, committed.plant);
       return;
     }
     std::string problem = state_.install(committed.current);
@@ -135,6 +146,14 @@ class Agent {
     connect_ns_ = now + kNetworkRetryNs;
     std::string problem;
     link_ = mirror::DeployLink::open(link_settings_, problem);
+    if (link_ != nullptr) {
+      std::string failed;
+      commands_ = mirror::CommandLink::open(*link_, mirror::CommandSide::Agent, failed);
+      if (commands_ == nullptr) {
+        problem = failed;
+        link_.reset();
+      }
+    }
     if (!problem.empty() && problem != network_problem_) {
       console_.warning("{}", problem);
     }
@@ -158,8 +177,12 @@ class Agent {
       }
     }
     for (const auto& [key, other] : others_) {
-      const bool mine = std::find(other.members.begin(), other.members.end(), options_.board) != other.members.end();
-      if (key.first != options_.board && mine && other.generation > state_.committed().generation &&
+      // It missed a deployment of its plant, which may be the one that leaves it out.
+      const bool dropped = other.plant == state_.committed().plant && belongs(state_.committed().members);
+      const bool complete =
+          std::find(other.members.begin(), other.members.end(), key.first) != other.members.end();  // has all files
+      if (key.first != options_.board && complete && (belongs(other.members) || dropped) &&
+          other.generation > state_.committed().generation &&
           keys_.refusal(other.plant, deploy::grant_text(other.plant, other.current, other.generation), other.grant)
               .empty()) {
         perform(transaction_.catch_up(other, now), now);
@@ -169,7 +192,7 @@ class Agent {
 
   // Orders meant for this board are taken from who may deploy to it; others are told why not.
   bool may_order(const deploy::Order& order) {
-    if (std::find(order.boards.begin(), order.boards.end(), options_.board) == order.boards.end()) {
+    if (!belongs(order.boards)) {
       return false;
     }
     std::string why = keys_.refusal(order.plant, deploy::order_text(order), order.signature);
@@ -192,6 +215,8 @@ class Agent {
   }
 
   void work(std::int64_t now) {
+    orders_.step(*commands_, state_.committed().plant,
+                 transaction_.phase() == deploy::Phase::Steady ? "" : "a deployment is under way", now);
     if (fetcher_.active()) {
       const Fetcher::Result result = fetcher_.step(*link_, now);
       if (result == Fetcher::Result::Done) {
@@ -229,7 +254,8 @@ class Agent {
         break;
       case Do::Switch:
         console_.info("deployment {}: switching", deploy::shown_id(order.deployment));
-        process_.want(state_.manifest(order.deployment));
+        held_before_ = process_.held();
+        process_.want(manifest_for(order.deployment));
         break;
       case Do::Commit:
         commit(order);
@@ -246,7 +272,23 @@ class Agent {
     tell_now_ = true;
   }
 
+  // The deployment is of this board's plant and leaves it out, perhaps not for the first time.
+  bool leaves(const std::string& id) const {
+    std::string problem;
+    const auto package = state_.package(id, problem);
+    return package && package->plant == state_.committed().plant && !belongs(package->boards);
+  }
+
+  std::filesystem::path manifest_for(const std::string& id) const {
+    std::string problem;
+    const auto package = id.empty() ? std::nullopt : state_.package(id, problem);
+    return package && belongs(package->boards) ? state_.manifest(id) : std::filesystem::path{};
+  }
+
   std::string check(const std::string& id) {
+    if (leaves(id)) {
+      return {};
+    }
     if (std::string problem = state_.install(id); !problem.empty()) {
       return problem;
     }
@@ -298,7 +340,10 @@ class Agent {
   void go_back(const deploy::Order& order) {
     Committed same = state_.committed();
     same.history.push_back(history_of(order, same.plant, "rolled back: " + transaction_.message()));
-    process_.want(state_.manifest(same.current));
+    process_.want(manifest_for(same.current));
+    if (!held_before_.empty()) {
+      process_.hold(held_before_);
+    }
     if (const std::string problem = state_.commit(std::move(same)); !problem.empty()) {
       console_.error("{}", problem);
     }
@@ -334,6 +379,9 @@ class Agent {
     out.message = transaction_.message();
     if (out.message.empty() && process_.condition() != deploy::NodeCondition::Running) {
       out.message = process_.reason();
+    }
+    if (out.message.empty() && !committed.current.empty() && !belongs(committed.members)) {
+      out.message = fmt::format("not part of plant {} any more", committed.plant);
     }
     out.node = process_.condition();
     out.tick = figures.tick;
@@ -372,9 +420,12 @@ class Agent {
   BoardTransaction transaction_;
   Fetcher fetcher_;
   BoardProcess process_;
+  std::string held_before_;  // the trial
+  BoardOrders orders_;
   mirror::BlobServer server_;
   mirror::LinkSettings link_settings_;
   std::unique_ptr<mirror::DeployLink> link_;
+  std::unique_ptr<mirror::CommandLink> commands_;
   std::int64_t connect_ns_ = 0;
   std::string network_problem_;
   std::map<std::pair<std::string, std::uint64_t>, deploy::BoardReport> others_;

@@ -74,11 +74,25 @@ void BoardProcess::want(const std::filesystem::path& manifest) {
   restarts_.clear();
   deaths_ = 0;
   start_ns_ = 0;
+  held_.clear();
   reason_.clear();
   last_error_.clear();
-  if (condition_ == NodeCondition::Failed || condition_ == NodeCondition::Restarting) {
+  if (pid_ <= 0) {
     condition_ = NodeCondition::None;
   }
+}
+
+void BoardProcess::hold(const std::string& reason) {
+  held_ = reason;
+  reason_ = reason;
+  if (pid_ <= 0) {
+    condition_ = NodeCondition::Stopped;
+  }
+}
+
+void BoardProcess::release() {
+  const std::filesystem::path same = wanted_;
+  want(same);
 }
 
 bool BoardProcess::adopt() {
@@ -186,7 +200,7 @@ void BoardProcess::note_end(int status, std::int64_t now_ns) {
   asked_to_stop_ = false;
   run_.reset();
   if (wished) {
-    condition_ = NodeCondition::None;
+    condition_ = held_.empty() ? NodeCondition::None : NodeCondition::Stopped;
     return;
   }
   ++deaths_;
@@ -240,7 +254,7 @@ void BoardProcess::step(std::int64_t now_ns) {
     note_end(status, now_ns);
   }
   if (pid_ > 0) {
-    if (running_ != wanted_ || asked_to_stop_) {
+    if (running_ != wanted_ || asked_to_stop_ || !held_.empty()) {
       signal_stop(now_ns);
     } else if (look() && condition_ == NodeCondition::Starting &&
                present(run_).state.load() == scheduler::NodeState::Running) {
@@ -248,7 +262,7 @@ void BoardProcess::step(std::int64_t now_ns) {
     }
     return;
   }
-  if (wanted_.empty() || condition_ == NodeCondition::Failed || now_ns < start_ns_) {
+  if (wanted_.empty() || !held_.empty() || condition_ == NodeCondition::Failed || now_ns < start_ns_) {
     return;
   }
   if (!adopt()) {
@@ -297,6 +311,9 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   if (deaths_ > 0) {
     return {reason_, {}};
   }
+  if (wanted_.empty()) {
+    return {{}, pid_ > 0 ? "its node has not ended" : ""};
+  }
   if (condition_ != NodeCondition::Running || !look() || present(run_).tick.load() == 0) {
     return {{}, "its node has not begun to run"};
   }
@@ -309,17 +326,13 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
     }
   }
   const auto file = vars::ShmFile::open(vars::mirror_file(board_), vars::Mode::ReadOnly);
-  if (!file || file.value().size() < sizeof(mirror::MirrorBlock)) {
+  const mirror::MirrorBlock* mirror =
+      file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
+  if (mirror == nullptr) {
     return {{}, "its mirror has not begun to run"};
   }
-  const auto& mirror = *reinterpret_cast<const mirror::MirrorBlock*>(file.value().data());
-  if (mirror.magic.load() != mirror::kMirrorMagic || mirror.abi != mirror::kMirrorAbi ||
-      reinterpret_cast<const std::byte*>(mirror.peers() + mirror.peer_count) >
-          file.value().data() + file.value().size()) {
-    return {{}, "its mirror has not begun to run"};
-  }
-  for (std::uint32_t i = 0; i < mirror.peer_count; ++i) {
-    const mirror::PeerRecord& peer = mirror.peers()[i];
+  for (std::uint32_t i = 0; i < mirror->peer_count; ++i) {
+    const mirror::PeerRecord& peer = mirror->peers()[i];
     const mirror::PeerState state = peer.state.load();
     const bool meant = std::find(boards.begin(), boards.end(), peer.name) != boards.end();
     if (meant && peer.wanted > 0 && state != mirror::PeerState::Alive) {

@@ -33,6 +33,11 @@ class BoardProcess {
 
   // What should run from now on; empty: nothing. The same again: a node that has failed gets a new chance.
   void want(const std::filesystem::path& manifest);
+  // The node is ended and stays down until release() or want(); `reason` is what people are told.
+  void hold(const std::string& reason);
+  void release();
+  [[nodiscard]] const std::string& held() const noexcept { return held_; }  // the reason, empty: not held
+  [[nodiscard]] bool has_node() const noexcept { return pid_ > 0; }
   void step(std::int64_t now_ns);
   // Ends the node and waits for that.
   void end();
@@ -72,6 +77,7 @@ class BoardProcess {
   Console& console_;
   std::filesystem::path wanted_;
   std::filesystem::path running_;
+  std::string held_;
   pid_t pid_ = -1;
   bool adopted_ = false;
   int output_ = -1;

@@ -38,12 +38,15 @@ void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantChec
   }
   wanted_ = true;
   types_ = plant;
+  settings_.plant = plant.name;
   settings_.domain = *plant.external_domain;
+  settings_.ros2 = plant.external_ros2;
   settings_.interface_name = plant.boards[board].interface_name;
   settings_.address = plant.boards[board].address;
   settings_.multicast = plant.multicast;
   settings_.one_host = one_host;
   for (const deploy::Board& other : plant.boards) {
+    settings_.boards.push_back(other.name);
     if (!other.address.empty()) {
       settings_.peers.push_back(other.address);
     }
@@ -63,6 +66,7 @@ void ExternalPart::configure(const deploy::Config& config, const deploy::CheckRe
   wanted_ = true;
   types_ = plane;
   settings_.domain = *plane.domain;
+  settings_.ros2 = plane.ros2;
   settings_.interface_name = plane.interface_name;
   for (const schema::Variable& variable : check.schema.variables) {
     add(plane.variables, variable.name);
@@ -110,6 +114,7 @@ void ExternalPart::start(const std::string& node, vars::Store& store, std::vecto
   }
   find_types(store.schema(), console);
   settings_.cores = std::move(cores);
+  settings_.board = node;
   auto started = mirror::External::start(settings_, node, store);
   if (!started) {
     console.error(

@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -84,8 +85,9 @@ bool Fetcher::plan_files() {
   wanted_.clear();
   at_ = 0;
   std::set<std::string> seen;
+  const bool needed = std::find(package->boards.begin(), package->boards.end(), board_) != package->boards.end();
   for (const deploy::PackageFile& file : package->files) {
-    if (!state_.has(file.digest) && seen.insert(file.digest).second) {
+    if (needed && !state_.has(file.digest) && seen.insert(file.digest).second) {
       wanted_.push_back({file.digest, file.size, file.path});
       bytes_ += file.size;
     }

@@ -18,7 +18,9 @@ namespace indurop::node {
 
 class Fetcher {
  public:
-  Fetcher(AgentState& state, std::uint64_t self) : state_(state), self_(self) {}
+  // Of a deployment that does not have `board` nothing but the package is fetched.
+  Fetcher(AgentState& state, std::uint64_t self, std::string board)
+      : state_(state), self_(self), board_(std::move(board)) {}
   Fetcher(const Fetcher&) = delete;
   Fetcher& operator=(const Fetcher&) = delete;
   ~Fetcher();
@@ -53,6 +55,7 @@ class Fetcher {
 
   AgentState& state_;
   std::uint64_t self_;
+  std::string board_;
   std::uint64_t source_ = 0;
   std::string id_;
   bool active_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop-node: the scheduler node of one board.
 
+#include <cstdlib>
 #include <string_view>
 
 #include "node/agent.h"
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
   if (options->agent) {
     return indurop::node::run_agent(*options);
   }
+  // Modules that look for their node by name, through a channel for example, are to find this one.
+  ::setenv("INDUROP_NODE", options->node.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): before any thread
   indurop::node::Node node(*options);
   return node.run();
 }

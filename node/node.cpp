@@ -237,9 +237,7 @@ bool Node::make_memory() {
   run_ = static_cast<scheduler::RunBlock*>(run_file_->data());
   run_->node_pid.store(::getpid());
   run_->node_start_time = vars::process_start_time(::getpid());
-  timespec wall{};
-  ::clock_gettime(CLOCK_REALTIME, &wall);
-  run_->started_wall_ns = wall.tv_sec * rt::kNanosPerSecond + wall.tv_nsec;
+  run_->started_wall_ns = rt::wall_ns();
   run_->obtained = obtained_;
   scheduler::init_run_block(*run_, setup_);
   if (!mirror_settings_) {
@@ -390,6 +388,8 @@ bool Node::start_schedule() {
     mirror_->announce({run_->epoch_ns + rt::wall_ns() - rt::now_ns(), setup_.basic_period_ns, setup_.macro_period_ns});
   }
   normal_threads_->start();
+  orders_ = std::make_unique<ModuleOrders>(ModuleOrders::Parts{config_, *run_, libraries_, *engine_, *processes_,
+                                                               *normal_threads_, *phases_, *failsafe_, console_});
   run_->state.store(scheduler::NodeState::Running);
   console_.info("running {} modules of {}: basic period {}, macro period {}{}", config_.modules.size(),
                 config_.file.filename().string(), deploy::format_duration(deploy::Nanos(setup_.basic_period_ns)),
@@ -418,6 +418,7 @@ bool Node::start_mirror() {
   const auto spin = options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}));
   mirror_settings_->spin = !cores.empty() && spin.mode != deploy::SpinSetting::Mode::Off && obtained_.fifo != 0;
   mirror_settings_->cores = cores.empty() ? rt::allowed_cores() : cores;
+  name_writers(*mirror_settings_, config_, check_, *engine_);
   auto started = mirror::Mirror::start(*mirror_settings_, options_.node, *store_, run_->tick);
   if (!started) {
     console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
@@ -477,6 +478,7 @@ void Node::supervise() {
       stop_because(processes_->reason());
       break;
     }
+    orders_->look(now);
     console_.report(now, false);
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
@@ -503,6 +505,9 @@ void Node::shut_down() {
     processes_->end_all();
   }
   runtime::stop_function_servers();
+  if (orders_ != nullptr) {
+    orders_->end();
+  }
   if (started_) {
     (void)phases_->call_all("stop", &ModuleDescriptor::stop);
   }

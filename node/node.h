@@ -19,6 +19,7 @@
 #include "node/external_part.h"
 #include "node/failsafe.h"
 #include "node/module_library.h"
+#include "node/module_orders.h"
 #include "node/normal_threads.h"
 #include "node/options.h"
 #include "node/phases.h"
@@ -96,6 +97,7 @@ class Node {
   std::unique_ptr<Processes> processes_;
   std::unique_ptr<Phases> phases_;
   std::unique_ptr<NormalThreads> normal_threads_;
+  std::unique_ptr<ModuleOrders> orders_;
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
   bool started_ = false;
   bool leave_nothing_ = false;  // nothing of this node was there before, and nothing of this run is worth keeping

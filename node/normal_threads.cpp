@@ -20,6 +20,8 @@ struct NormalThreads::Normal {
   scheduler::TaskState state;
   scheduler::Runner runner;
   std::int64_t period_ns = 0;
+  std::atomic<bool> halt{false};
+  std::int64_t give_up_ns = 0;
   std::atomic<bool> done{false};
   rt::Thread thread;
 };
@@ -35,22 +37,56 @@ NormalThreads::~NormalThreads() {
 void NormalThreads::start() {
   for (std::uint32_t i = 0; i < config_.modules.size(); ++i) {
     const deploy::Module& module = config_.modules[i];
-    if (module.type != scheduler::ModuleType::Thread || module.operation != scheduler::Operation::NonReal) {
-      continue;
-    }
-    auto normal = std::make_unique<Normal>(run_, clock_, hooks_, trace_);
-    normal->state.task.index = i;
-    normal->state.task.operation = scheduler::Operation::NonReal;
-    normal->state.task.run = libraries_[i].functions().run;
-    normal->state.record = &run_.modules()[i];
-    normal->period_ns = module.period.count();
-    auto thread =
-        rt::Thread::start({"irp-normal", 0, module.core, kStackBytes}, [this, &normal = *normal] { loop(normal); });
-    if (thread) {
-      normal->thread = std::move(thread).value();
-      normals_.push_back(std::move(normal));
+    if (module.type == scheduler::ModuleType::Thread && module.operation == scheduler::Operation::NonReal) {
+      (void)launch(i);
     }
   }
+}
+
+bool NormalThreads::launch(std::uint32_t module) {
+  auto normal = std::make_unique<Normal>(run_, clock_, hooks_, trace_);
+  normal->state.task.index = module;
+  normal->state.task.operation = scheduler::Operation::NonReal;
+  normal->state.task.run = libraries_[module].functions().run;
+  normal->state.record = &run_.modules()[module];
+  normal->period_ns = config_.modules[module].period.count();
+  auto thread = rt::Thread::start({"irp-normal", 0, config_.modules[module].core, kStackBytes},
+                                  [this, &normal = *normal] { loop(normal); });
+  if (!thread) {
+    return false;
+  }
+  normal->thread = std::move(thread).value();
+  normals_.push_back(std::move(normal));
+  return true;
+}
+
+NormalThreads::Normal* NormalThreads::find(std::uint32_t module) noexcept {
+  const auto found = std::find_if(normals_.begin(), normals_.end(),
+                                  [module](const auto& normal) { return normal->state.task.index == module; });
+  return found == normals_.end() ? nullptr : found->get();
+}
+
+void NormalThreads::halt(std::uint32_t module, std::int64_t now_ns) {
+  if (Normal* normal = find(module); normal != nullptr) {
+    normal->give_up_ns = now_ns + kGraceNs;
+    normal->halt.store(true);
+  }
+}
+
+bool NormalThreads::has_ended(std::uint32_t module, std::int64_t now_ns) {
+  Normal* normal = find(module);
+  if (normal == nullptr) {
+    return true;
+  }
+  if (!normal->done.load()) {
+    if (now_ns > normal->give_up_ns) {
+      normal->runner.enforce_budget(now_ns, true, 1);
+    }
+    return false;
+  }
+  normal->thread.join();
+  std::erase_if(normals_, [normal](const auto& one) { return one.get() == normal; });
+  return true;
 }
 
 void NormalThreads::loop(Normal& normal) noexcept {
@@ -59,14 +95,15 @@ void NormalThreads::loop(Normal& normal) noexcept {
   scheduler::ModuleRecord& record = *normal.state.record;
   record.state.store(scheduler::ModuleState::Running);
   scheduler::TaskState* const only[] = {&normal.state};
+  const auto leaving = [&] { return stop_.load() || normal.halt.load(); };
   std::int64_t next = rt::now_ns();
   do {
     normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), rt::now_ns());
     next = std::max(next + normal.period_ns, rt::now_ns());
-    while (normal.period_ns > 0 && rt::now_ns() < next && !stop_.load()) {
+    while (normal.period_ns > 0 && rt::now_ns() < next && !leaving()) {
       rt::sleep_until(std::min(next, rt::now_ns() + kLookNs));
     }
-  } while (normal.period_ns > 0 && !stop_.load() && normal.state.enabled.load());
+  } while (normal.period_ns > 0 && !leaving() && normal.state.enabled.load());
   normal.runner.detach_thread();
   if (normal.state.enabled.load()) {
     record.state.store(scheduler::ModuleState::Exited);

@@ -27,8 +27,15 @@ class NormalThreads {
   // Waits for the runs in progress, 2 s at most: what does not return by then is ended like an overdue run().
   void stop();
 
+  // One of them alone. launch(): false if there is no thread for it. halt() only asks; one that does not return within
+  // the same time is ended by has_ended(), which is true then, too, for a module that has no thread.
+  bool launch(std::uint32_t module);
+  void halt(std::uint32_t module, std::int64_t now_ns);
+  bool has_ended(std::uint32_t module, std::int64_t now_ns);
+
  private:
   struct Normal;
+  Normal* find(std::uint32_t module) noexcept;
   void loop(Normal& normal) noexcept;
 
   const deploy::Config& config_;

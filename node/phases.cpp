@@ -2,6 +2,7 @@
 #include "node/phases.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <string_view>
 
@@ -11,10 +12,25 @@ namespace indurop::node {
 namespace {
 
 constexpr std::int64_t kLookNs = 1'000'000;
-constexpr std::int64_t kGraceNs = 3'000'000'000;
 constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
 
 }  // namespace
+
+// The scheduler's runner contains faults; this is one run of it without a schedule and without statistics.
+struct Phases::Call {
+  Call(scheduler::RunBlock& run, scheduler::Clock& clock, const scheduler::Hooks& hooks)
+      : runner(run, clock, hooks, trace, 1) {}
+  std::uint32_t index = 0;
+  const char* phase = "";
+  scheduler::CoreTrace trace;
+  scheduler::ModuleRecord scratch{};
+  scheduler::TaskState state;
+  scheduler::Runner runner;
+  std::atomic<bool> done{false};
+  bool told = false;
+  std::int64_t began_ns = rt::now_ns();
+  rt::Thread thread;
+};
 
 Phases::Phases(const deploy::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
                Console& console, StopSignal& signals, const scheduler::Hooks& hooks)
@@ -30,71 +46,83 @@ bool Phases::call_all(const char* phase, void (*ModuleDescriptor::*function)()) 
   });
   bool ok = true;
   for (const std::uint32_t i : order) {
-    if (auto* wanted = libraries_[i].functions().*function; wanted != nullptr) {
+    const bool stopped = run_.modules()[i].state.load() == scheduler::ModuleState::Stopped;
+    if (auto* wanted = libraries_[i].functions().*function; wanted != nullptr && !stopped) {
       ok = call(i, phase, wanted) && ok;
     }
   }
   return ok;
 }
 
-bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
-  // The scheduler's runner contains faults; this is one run of it without a schedule and without statistics.
-  scheduler::CoreTrace trace;
-  scheduler::ModuleRecord scratch{};
-  scheduler::TaskState state;
-  state.task.index = index;
-  state.task.run = function;
-  state.record = &scratch;
-  state.logged = false;
-  scheduler::Runner runner(run_, clock_, hooks_, trace, 1);
-  std::atomic<bool> done{false};
-  auto thread = rt::Thread::start({"irp-phase", 0, -1, kStackBytes}, [&] {
+Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (*function)()) {
+  CallPointer call(new Call(run_, clock_, hooks_), [](Call* over) { delete over; });
+  call->index = index;
+  call->phase = phase;
+  call->state.task.index = index;
+  call->state.task.run = function;
+  call->state.record = &call->scratch;
+  call->state.logged = false;
+  auto thread = rt::Thread::start({"irp-phase", 0, -1, kStackBytes}, [this, &one = *call] {
     const rt::HandlerStack handler_stack;
-    runner.attach_thread();
-    scheduler::TaskState* const only[] = {&state};
-    runner.run(only, 0, clock_.now());
-    runner.detach_thread();
-    done.store(true, std::memory_order_release);
+    one.runner.attach_thread();
+    scheduler::TaskState* const only[] = {&one.state};
+    one.runner.run(only, 0, clock_.now());
+    one.runner.detach_thread();
+    one.done.store(true, std::memory_order_release);
   });
   if (!thread) {
     console_.error("module {}: {}() could not be called: no thread ({})", config_.modules[index].name, phase,
                    std::strerror(thread.error().sys_errno));
-    return false;
+    return {nullptr, [](Call* /*none*/) {}};
   }
-  wait_for_end(index, phase, runner, done);
-  thread.value().join();
-  if (state.enabled.load()) {
+  call->thread = std::move(thread).value();
+  return call;
+}
+
+bool Phases::ended(Call& call, std::int64_t now_ns, std::int64_t limit_ns) {
+  if (call.done.load(std::memory_order_acquire)) {
     return true;
   }
-  scheduler::ModuleRecord& record = run_.modules()[index];
-  fmt::format_to_n(record.last_fault, sizeof record.last_fault - 1, "{}() failed: {}", phase, scratch.last_fault);
+  if (limit_ns != 0 && now_ns - call.began_ns > limit_ns) {
+    call.runner.enforce_budget(now_ns, true, 1);
+  } else if (!call.told && now_ns - call.began_ns > kGraceNs) {
+    console_.warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
+                     kGraceNs / rt::kNanosPerSecond);
+    call.told = true;
+  }
+  return false;
+}
+
+bool Phases::conclude(CallPointer call) {
+  call->thread.join();
+  if (call->state.enabled.load()) {
+    return true;
+  }
+  scheduler::ModuleRecord& record = run_.modules()[call->index];
+  const auto end = fmt::format_to_n(record.last_fault, sizeof record.last_fault - 1, "{}() failed: {}", call->phase,
+                                    call->scratch.last_fault);
+  *end.out = '\0';
   record.fault_kind.store(static_cast<std::uint32_t>(scheduler::FaultKind::StartFailed));
   record.state.store(scheduler::ModuleState::Faulted);
   record.faults.fetch_add(1, std::memory_order_release);
   return false;
 }
 
-void Phases::wait_for_end(std::uint32_t index, const char* phase, scheduler::Runner& runner,
-                          const std::atomic<bool>& done) {
+bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
+  CallPointer call = begin(index, phase, function);
+  if (call == nullptr) {
+    return false;
+  }
   // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
-  const std::int64_t began = rt::now_ns();
-  std::int64_t give_up = std::string_view(phase) == "stop" ? began + kGraceNs : 0;
-  bool told = false;
-  while (!done.load(std::memory_order_acquire)) {
+  std::int64_t limit = std::string_view(phase) == "stop" ? kGraceNs : 0;
+  while (!ended(*call, rt::now_ns(), limit)) {
     const int number = signals_.wait(kLookNs);
-    const std::int64_t now = rt::now_ns();
-    console_.report(now, false);
-    if (number != 0 && give_up == 0) {
-      give_up = now + kGraceNs;
-    }
-    if (give_up != 0 && now > give_up) {
-      runner.enforce_budget(now, true, 1);
-    } else if (!told && now - began > kGraceNs) {
-      console_.warning("module {}: {}() has not returned for {} s; the node waits for it", config_.modules[index].name,
-                       phase, kGraceNs / rt::kNanosPerSecond);
-      told = true;
+    console_.report(rt::now_ns(), false);
+    if (number != 0 && limit == 0) {
+      limit = rt::now_ns() - call->began_ns + kGraceNs;
     }
   }
+  return conclude(std::move(call));
 }
 
 }  // namespace indurop::node

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "deploy/config.h"
@@ -22,11 +22,22 @@ class Phases {
 
   // Calls one function of every thread module that has it, by priority. False if any of them failed: those modules are
   // marked as faulted, with the reason.
+  // Modules stopped by order have had their stop() and are left out.
   bool call_all(const char* phase, void (*ModuleDescriptor::*function)());
+
+  // One call on a thread of its own, for whoever has other things to do meanwhile.
+  struct Call;
+  using CallPointer = std::unique_ptr<Call, void (*)(Call*)>;
+  // Null after an error on the console.
+  CallPointer begin(std::uint32_t index, const char* phase, void (*function)());
+  // It has returned. One that takes longer than `limit_ns` (0: none) is ended as a fault.
+  bool ended(Call& call, std::int64_t now_ns, std::int64_t limit_ns);
+  // After that: false if it failed; the module is marked as faulted then, with the reason.
+  bool conclude(CallPointer call);
+  static constexpr std::int64_t kGraceNs = 3'000'000'000;  // for stop()
 
  private:
   bool call(std::uint32_t index, const char* phase, void (*function)());
-  void wait_for_end(std::uint32_t index, const char* phase, scheduler::Runner& runner, const std::atomic<bool>& done);
 
   const deploy::Config& config_;
   scheduler::RunBlock& run_;

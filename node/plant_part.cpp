@@ -9,6 +9,8 @@ namespace indurop::node {
 
 namespace {
 
+constexpr std::int64_t kPatienceNs = 1'000'000'000;
+
 mirror::Security security_of(const std::filesystem::path& folder) {
   if (folder.empty()) {
     return {};
@@ -16,6 +18,28 @@ mirror::Security security_of(const std::filesystem::path& folder) {
   const deploy::ParticipantKeys keys(folder);
   return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
           keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+}
+
+const scheduler::Band* band_of(const std::string& module, const deploy::Config& config,
+                               const scheduler::Engine& engine) {
+  const auto found = std::find_if(config.modules.begin(), config.modules.end(),
+                                  [&](const deploy::Module& known) { return known.name == module; });
+  return found == config.modules.end() ? nullptr
+                                       : engine.band_of(static_cast<std::uint32_t>(found - config.modules.begin()));
+}
+
+// Null if nobody writes the variable, several bands do, or something that is in no band.
+const scheduler::Band* writer_of(const std::string& variable, const deploy::Config& config,
+                                 const deploy::CheckResult& check, const scheduler::Engine& engine) {
+  const auto use = std::find_if(check.uses.begin(), check.uses.end(),
+                                [&](const deploy::VariableUse& known) { return known.name == variable; });
+  if (use == check.uses.end() || use->writers.empty()) {
+    return nullptr;
+  }
+  const scheduler::Band* const band = band_of(use->writers.front(), config, engine);
+  const bool alone = std::all_of(use->writers.begin(), use->writers.end(),
+                                 [&](const std::string& module) { return band_of(module, config, engine) == band; });
+  return alone ? band : nullptr;
 }
 
 }  // namespace
@@ -51,6 +75,26 @@ mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::Plant
     }
   }
   return settings;
+}
+
+void name_writers(mirror::Settings& settings, const deploy::Config& config, const deploy::CheckResult& check,
+                  const scheduler::Engine& engine) {
+  std::vector<const scheduler::Band*> bands;
+  for (mirror::Outgoing& out : settings.outgoing) {
+    const scheduler::Band* const band = writer_of(out.variable, config, check, engine);
+    if (band == nullptr) {
+      continue;
+    }
+    const auto known = std::find(bands.begin(), bands.end(), band);
+    out.writers = static_cast<int>(known - bands.begin());
+    if (known == bands.end()) {
+      bands.push_back(band);
+      // Who is a process of its own wakes nobody here when it is done.
+      settings.writers.push_back({[band] { return band->activity(); },
+                                  band->plan().kind != scheduler::BandKind::Process,
+                                  std::max(kPatienceNs, 2 * band->plan().period_ns)});
+    }
+  }
 }
 
 }  // namespace indurop::node

@@ -3,6 +3,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 
@@ -120,6 +121,8 @@ bool Processes::supervise(std::int64_t now_ns) {
       int status = 0;
       if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
         died(child, status, now_ns);
+      } else if (child.stopping) {
+        insist(child, now_ns);
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         module.state.store(ModuleState::Running, std::memory_order_release);
       } else {
@@ -149,6 +152,9 @@ void Processes::died(Child& child, int status, std::int64_t now_ns) {
   scheduler::ModuleRecord& module = record(child);
   child.pid = -1;
   module.pid.store(0, std::memory_order_release);
+  if (child.stopping) {
+    return;
+  }
   if (child.module->operation == Operation::NonReal && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     module.state.store(ModuleState::Exited, std::memory_order_release);
     return;
@@ -209,16 +215,66 @@ void Processes::enforce_budget(Child& child, std::int64_t now_ns) {
   }
 }
 
+Processes::Child* Processes::find(std::uint32_t module) noexcept {
+  for (Child& child : children_) {
+    if (child.index == module) {
+      return &child;
+    }
+  }
+  return nullptr;
+}
+
+void Processes::ask_to_end(Child& child) {
+  slot(child).stop.store(1, std::memory_order_release);  // waitPeriod() or irp::stop_requested() tells it
+  slot(child).wake.wake();
+  if (child.module->signal != 0) {
+    ::kill(child.pid, SIGTERM);  // it knows nothing of us
+  }
+}
+
+void Processes::stop(std::uint32_t module, std::int64_t now_ns) {
+  if (Child* child = find(module); child != nullptr) {
+    record(*child).state.store(ModuleState::Stopped, std::memory_order_release);  // not released from here on
+    child->stopping = true;
+    child->stop_ns = now_ns;
+    if (child->pid > 0) {
+      ask_to_end(*child);
+    }
+  }
+}
+
+void Processes::insist(Child& child, std::int64_t now_ns) {
+  const std::int64_t since = now_ns - child.stop_ns;
+  if (since > kEndGraceNs) {
+    console_.warning("module {} did not end within 2 s and was killed", record(child).name);
+    ::kill(child.pid, SIGKILL);
+    child.stop_ns = now_ns;
+  } else if (since > kAskedNs) {
+    ::kill(child.pid, SIGTERM);  // it asks neither
+  }
+}
+
+bool Processes::has_ended(std::uint32_t module) const noexcept {
+  return std::none_of(children_.begin(), children_.end(),
+                      [module](const Child& child) { return child.index == module && child.pid > 0; });
+}
+
+bool Processes::start(std::uint32_t module) {
+  Child* child = find(module);
+  if (child == nullptr) {
+    return false;
+  }
+  child->stopping = false;
+  child->restarts.clear();
+  return launch(*child);
+}
+
 void Processes::end_all() {
   for (Child& child : children_) {
     if (child.pid <= 0) {
       continue;
     }
-    slot(child).stop.store(1, std::memory_order_release);  // waitPeriod() or irp::stop_requested() tells it
-    slot(child).wake.wake();
-    if (child.module->signal != 0) {
-      ::kill(child.pid, SIGTERM);  // it knows nothing of us
-    }
+    ask_to_end(child);
   }
   const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
   for (Child& child : children_) {

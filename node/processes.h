@@ -33,6 +33,11 @@ class Processes {
   // Deaths, restarts, enrolments, budgets. True if the node is to stop because of one (reason()).
   bool supervise(std::int64_t now_ns);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+  // One of them alone. stop() only asks; supervise() sees to its end, which is no fault, and has_ended() tells of it.
+  // start(): false if it cannot be launched (said on the console).
+  void stop(std::uint32_t module, std::int64_t now_ns);
+  [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
+  bool start(std::uint32_t module);
   // Asks all to end, waits, kills what is left.
   void end_all();
 
@@ -46,7 +51,12 @@ class Processes {
     bool killed_for_budget = false;
     bool warned = false;  // that it does not expect its signal
     std::int64_t launched_ns = 0;
+    bool stopping = false;  // by order
+    std::int64_t stop_ns = 0;
   };
+  Child* find(std::uint32_t module) noexcept;
+  void ask_to_end(Child& child);
+  void insist(Child& child, std::int64_t now_ns);
   [[nodiscard]] bool managed(const Child& child) const noexcept;
   // A process that was launched is ready to be released.
   bool enrolled(Child& child);

@@ -13,6 +13,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -57,11 +59,48 @@ int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
   return 0;
 }
 
+struct Range {
+  std::uintptr_t begin = 0;
+  std::uintptr_t end = 0;
+};
+
+// From the first to the last of its mappings: after a fork it may be in several pieces.
+Range heap() noexcept {
+  Range found;
+  std::FILE* const maps = std::fopen("/proc/self/maps", "re");
+  if (maps == nullptr) {
+    return found;
+  }
+  char line[512];
+  while (std::fgets(line, sizeof line, maps) != nullptr) {
+    if (std::strstr(line, "[heap]") != nullptr) {
+      char* rest = nullptr;
+      const std::uintptr_t begin = std::strtoull(line, &rest, 16);
+      found.begin = found.end == 0 ? begin : found.begin;
+      found.end = *rest == '-' ? std::strtoull(rest + 1, nullptr, 16) : found.end;
+    }
+  }
+  std::fclose(maps);
+  return found;
+}
+
+// Starting up frees tens of megabytes between what stays. mlockall() puts memory behind all of it, so the free pages
+// can only be given back afterwards; those in use remain locked, the others are again when somebody allocates them.
+void let_go_of_free_heap() noexcept {
+  const Range range = heap();
+  auto* const memory = reinterpret_cast<void*>(range.begin);
+  if (range.end > range.begin && ::munlock(memory, range.end - range.begin) == 0) {
+    ::malloc_trim(0);
+    const Range rest = heap();  // its end may have been given back too
+    (void)::mlock2(memory, rest.end - range.begin, MLOCK_ONFAULT);
+  }
+}
+
 }  // namespace
 
 Status lock_memory(std::span<const std::string_view> except) noexcept {
-  ::malloc_trim(0);  // what starting up has freed need not be locked
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+    let_go_of_free_heap();
     ::dl_iterate_phdr(&let_go, &except);
     return {};
   }

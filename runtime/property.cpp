@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // irp::property: the text of the module's properties in the run block, as numbers.
 
+#include <indurop/files.h>
 #include <indurop/irp.h>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -163,3 +165,13 @@ bool property_bool(const char* name, bool& value) {
 }
 
 }  // namespace irp::detail
+
+std::string irp::file_beside_config(const std::string& name) {
+  indurop::runtime::Process::get();  // knows INDUROP_NODE
+  const auto* run = indurop::runtime::hot.run.load(std::memory_order_acquire);
+  if (run == nullptr || name.empty()) {
+    return name;
+  }
+  const std::filesystem::path config(std::string(run->config_file, strnlen(run->config_file, sizeof run->config_file)));
+  return (config.parent_path() / name).lexically_normal().string();
+}

@@ -10,6 +10,7 @@
 
 #include "runtime/process.h"
 #include "vars/ring.h"
+#include "vars/together.h"
 
 namespace {
 
@@ -52,6 +53,10 @@ void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint
                        std::uint32_t length) noexcept {
   indurop::vars::read_slow(const_cast<indurop::abi::RingHeader&>(*ring), to, offset,
                            length);  // NOLINT: mapped writable
+}
+
+bool indurop_read_together(indurop::abi::Piece* pieces, std::uint32_t count) noexcept {
+  return indurop::vars::read_together({pieces, count});
 }
 
 void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound) {

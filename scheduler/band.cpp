@@ -49,6 +49,14 @@ bool Band::busy() const noexcept {
   return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
 }
 
+std::uint64_t Band::activity() const noexcept {
+  const bool process = plan_.kind == BandKind::Process;
+  const auto& done_word = process ? tasks_.front()->slot->done : done_;
+  const auto& released_word = process ? tasks_.front()->slot->released : released_;
+  const std::uint64_t done = done_word.load(std::memory_order_acquire);
+  return 2 * done + (released_word.load(std::memory_order_acquire) != done ? 1 : 0);
+}
+
 void Band::skip(std::uint64_t releases) noexcept {
   for (TaskState* state : tasks_) {
     if (state->task.operation == Operation::Periodic && state->enabled.load(kRelaxed)) {
@@ -154,7 +162,8 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
   ModuleRecord& record = *state.record;
   const std::int32_t pid = record.pid.load(kRelaxed);
   if (record.state.load(std::memory_order_acquire) != ModuleState::Running || pid <= 0) {
-    if (state.task.operation == Operation::Periodic && record.runs.load(kRelaxed) > 0) {
+    const bool missed = record.state.load(kRelaxed) != ModuleState::Stopped;
+    if (state.task.operation == Operation::Periodic && record.runs.load(kRelaxed) > 0 && missed) {
       count(record.skipped);
     }
     return;

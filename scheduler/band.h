@@ -53,8 +53,18 @@ class Band {
   // The part of it between two sleeps: runs every outstanding release whose predecessors are done.
   void drain() noexcept;
 
+  // Releases so far, and whether all up to this one are done: for whoever waits until a module that is not entered any
+  // more has left. Any thread.
+  [[nodiscard]] std::uint64_t released() const noexcept { return released_.load(std::memory_order_seq_cst); }
+  [[nodiscard]] bool has_done(std::uint64_t release) const noexcept {
+    return done_.load(std::memory_order_seq_cst) >= release;
+  }
+
   // If it sleeps until a predecessor is done, it looks again. Any thread.
   void look_again() noexcept;
+
+  // Changes with every run and is odd from a release until its run is over. Real-time safe, any thread.
+  [[nodiscard]] std::uint64_t activity() const noexcept;
 
   [[nodiscard]] Runner& runner() noexcept { return runner_; }
   [[nodiscard]] std::span<TaskState* const> tasks() const noexcept { return tasks_; }

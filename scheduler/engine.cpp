@@ -140,6 +140,55 @@ void Engine::connect_predecessors() {
   }
 }
 
+TaskState* Engine::thread_module(std::uint32_t module) noexcept {
+  for (const auto& state : states_) {
+    if (state->task.index == module && state->task.type == ModuleType::Thread) {
+      return state.get();
+    }
+  }
+  return nullptr;
+}
+
+Band* Engine::band_of(const TaskState& state) noexcept {
+  const auto holds = [&state](const Band& band) {
+    return std::find(band.tasks().begin(), band.tasks().end(), &state) != band.tasks().end();
+  };
+  if (after_base_ != nullptr && holds(*after_base_)) {
+    return after_base_.get();
+  }
+  const auto found = std::find_if(bands_.begin(), bands_.end(), [&](const auto& band) { return holds(*band); });
+  return found == bands_.end() ? nullptr : found->get();
+}
+
+bool Engine::disable(std::uint32_t module) noexcept {
+  TaskState* state = thread_module(module);
+  const Band* band = state == nullptr ? nullptr : band_of(*state);
+  if (band == nullptr) {
+    return false;
+  }
+  state->enabled.store(false, std::memory_order_seq_cst);
+  state->last_release = band->released();
+  return true;
+}
+
+bool Engine::at_rest(std::uint32_t module) noexcept {
+  TaskState* state = thread_module(module);
+  Band* band = state == nullptr ? nullptr : band_of(*state);
+  if (band == nullptr || band->has_done(state->last_release)) {
+    return true;
+  }
+  if (band->runner().current() == state) {
+    band->runner().enforce_budget(clock_.now(), true, settings_.stop_grace_ns);
+  }
+  return false;
+}
+
+void Engine::enable(std::uint32_t module) noexcept {
+  if (TaskState* state = thread_module(module); state != nullptr) {
+    state->enabled.store(true, std::memory_order_release);
+  }
+}
+
 void Engine::wake_waiting() noexcept {
   for (const auto& band : bands_) {
     band->look_again();
@@ -284,7 +333,7 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
   if (gated_) {
     wake_waiting();
   }
-  if (core.primary && hooks_.worked != nullptr) {
+  if ((core.primary || core.inline_band != nullptr) && hooks_.worked != nullptr) {
     hooks_.worked(hooks_.context);
   }
 }
@@ -319,6 +368,19 @@ void Engine::watchdog_loop() noexcept {
       after_base_->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
     }
   }
+}
+
+const Band* Engine::band_of(std::uint32_t module) const noexcept {
+  const auto runs = [module](const Band& band) {
+    return std::any_of(band.tasks().begin(), band.tasks().end(), [module](const TaskState* state) {
+      return state->task.index == module && state->task.legacy_signal == 0;
+    });
+  };
+  if (after_base_ != nullptr && runs(*after_base_)) {
+    return after_base_.get();
+  }
+  const auto found = std::find_if(bands_.begin(), bands_.end(), [&](const auto& band) { return runs(*band); });
+  return found == bands_.end() ? nullptr : found->get();
 }
 
 void Engine::join() noexcept {

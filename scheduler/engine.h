@@ -48,8 +48,19 @@ class Engine {
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(std::memory_order_acquire) || finished(); }
   [[nodiscard]] bool finished() const noexcept { return ticking_.load(std::memory_order_acquire) == 0; }
 
+  // A thread module of the schedule is not entered any more, its place stays empty: the others keep theirs. A run in
+  // progress goes on: at_rest() tells when none is. False for other modules. One normal thread calls these.
+  bool disable(std::uint32_t module) noexcept;
+  // Ends a run that takes longer than the grace of a stopping node, as a fault.
+  [[nodiscard]] bool at_rest(std::uint32_t module) noexcept;
+  void enable(std::uint32_t module) noexcept;
+
   // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.
   void join() noexcept;
+
+  // The band that runs a module, by its index in the block's records. Null: none, or the scheduler does not see the end
+  // of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
+  [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept;
 
   // The tick in which everything is on this core without any thread: for tests and simulation with a virtual clock.
   void step(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
@@ -60,6 +71,8 @@ class Engine {
   void build_sporadic(const std::vector<TaskState*>& sporadic);
   void connect_predecessors();
   Core& core(int number);
+  TaskState* thread_module(std::uint32_t module) noexcept;
+  Band* band_of(const TaskState& state) noexcept;
   Status start_band_threads();
   void tick_loop(Core& core, std::uint64_t ticks) noexcept;
   void end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept;

@@ -15,7 +15,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 2;
+inline constexpr std::uint32_t kRunAbi = 3;
 inline constexpr std::size_t kNameLength = 96;
 inline constexpr std::size_t kTextLength = 160;
 
@@ -27,7 +27,7 @@ enum class ModuleState : std::uint32_t {
   Loaded,    // start() not called yet
   Starting,  // process launched, not yet ready
   Running,
-  Stopped,     // by policy or at the end of the run
+  Stopped,     // by order, or at the end of the run
   Faulted,     // quarantined after a fault, see last_fault
   Restarting,  // process waiting for its restart delay
   Exited,      // a non-real-time module that finished
@@ -74,7 +74,10 @@ struct ModuleRecord {
   std::atomic<std::uint32_t> fault_kind;     // FaultKind of the last fault
   std::atomic<std::uint64_t> fault_tick;
   char last_fault[kTextLength];  // "SIGSEGV at address 0x0"; valid once fault_kind is set
-  std::int64_t last_start_ns;    // CLOCK_MONOTONIC, of the run in progress or the last one
+  // Orders from outside, see module_order.h.
+  std::atomic<std::uint64_t> order;
+  std::atomic<std::uint64_t> answer;
+  std::int64_t last_start_ns;  // CLOCK_MONOTONIC, of the run in progress or the last one
   std::atomic<std::int64_t> last_exec_ns;
   // Distributions.
   Distribution jitter;    // |J_n|, Eq. (1), ns

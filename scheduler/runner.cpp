@@ -71,7 +71,8 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int
   }
   current_start_.store(clock_.now(), std::memory_order_relaxed);
   for (; position_ < tasks_.size(); ++position_) {
-    if (tasks_[position_]->enabled.load(std::memory_order_acquire)) [[likely]] {
+    // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
+    if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
       call_current();
     } else {
       times_[position_] = {};

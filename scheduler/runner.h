@@ -23,7 +23,8 @@ struct TaskState {
   ModuleRecord* record = nullptr;
   ProcessSlot* slot = nullptr;  // process modules
   JitterReference jitter;
-  std::atomic<bool> enabled{true};  // false: stopped or faulted, never entered again
+  std::atomic<bool> enabled{true};  // false: stopped or faulted, not entered
+  std::uint64_t last_release = 0;   // of its band that may have entered it before disable()
   std::uint64_t accounted = 0;      // process modules: last release whose run was counted
   bool logged = true;               // false: its runs are no part of the schedule and stay out of the slot log
 };

@@ -4,6 +4,7 @@
 
 #include "rt/clock.h"
 #include "tools/board_roster.h"
+#include "tools/board_table.h"
 #include "tools/repeat.h"
 #include "tools/units.h"
 #include "tools/verbs.h"
@@ -19,51 +20,6 @@ struct Options {
   BoardRoster roster;
 };
 
-Style style_of(deploy::NodeCondition condition) {
-  switch (condition) {
-    case deploy::NodeCondition::Running:
-      return Style::Good;
-    case deploy::NodeCondition::Failed:
-      return Style::Bad;
-    case deploy::NodeCondition::None:
-      return Style::Dim;
-    case deploy::NodeCondition::Starting:
-    case deploy::NodeCondition::Stopping:
-    case deploy::NodeCondition::Restarting:
-      break;
-  }
-  return Style::Warn;
-}
-
-Cell number(std::uint64_t value, Style if_any = Style::None) {
-  return {std::to_string(value), value, value > 0 ? if_any : Style::Dim};
-}
-
-std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry, std::int64_t now) {
-  const deploy::BoardReport& board = entry.report;
-  std::string message = printable(board.message);
-  if (const std::string hosts = roster.twins(board.board, now); !hosts.empty()) {
-    message = fmt::format("two agents have this name, on {}", hosts);
-  }
-  const bool steady = board.phase == deploy::Phase::Steady;
-  return {Cell(printable(board.board), Style::Bold),
-          Cell(printable(board.host)),
-          Cell(deploy::to_text(board.node), style_of(board.node)),
-          {steady ? "" : deploy::to_text(board.phase), deploy::to_text(board.phase), Style::Warn},
-          Cell(printable(board.plant)),
-          {board.current.empty() ? "-" : deploy::shown_id(board.current), board.current},
-          {"", board.previous},
-          {"", board.generation},
-          number(board.tick),
-          number(board.lost_ticks, Style::Warn),
-          number(board.overruns, Style::Warn),
-          number(board.faults, Style::Bad),
-          {"", board.clock_offset_ns},
-          {"", board.release},
-          {human_age(now - entry.heard_ns), now - entry.heard_ns},
-          Cell(message, Style::Bad)};
-}
-
 int show(Context& context, Options& options) {
   if (options.open == nullptr) {
     options.open = open_link(context, options.link);
@@ -74,26 +30,7 @@ int show(Context& context, Options& options) {
   }
   const std::int64_t now = rt::now_ns();
   options.roster.listen(*options.open, now);
-  constexpr Align kRight = Align::Right;
-  Table table({{"BOARD", "board"},
-               {"HOST", "host", Align::Left, 3},
-               {"STATE", "state"},
-               {"DEPLOYING", "phase"},
-               {"PLANT", "plant"},
-               {"DEPLOYMENT", "deployment"},
-               {"", "previous"},
-               {"", "generation"},
-               {"TICK", "tick", kRight, 2},
-               {"LOST", "lost_ticks", kRight, 2},
-               {"OVERRUNS", "overruns", kRight},
-               {"FAULTS", "faults", kRight},
-               {"", "clock_offset_ns"},
-               {"", "release"},
-               {"HEARD", "age_ns", kRight, 1},
-               {"MESSAGE", "message"}});
-  for (const auto& [key, entry] : options.roster.all()) {
-    table.add(row(options.roster, entry, now));
-  }
+  const Table table = board_table(options.roster, now);
   if (table.empty()) {
     context.out.note(
         fmt::format("no board was heard on domain {} within {}; agents are started with indurop-node "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "deploy/package.h"
 #include "rt/clock.h"
@@ -33,15 +34,43 @@ std::vector<std::string> addresses(const deploy::Plant& plant) {
   return all;
 }
 
-// Boards that run this plant and are not in it any more.
-void tell_left_out(Context& context, const BoardRoster& roster, const deploy::PackedPlant& packed) {
+constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // for boards that are not in the manifest to be heard
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// Boards that run this plant and are not in it any more: those that are there take part, so that their nodes end with
+// the same switch and come back if it is taken back.
+void add_left_out(Context& context, mirror::DeployLink& link, BoardRoster& roster, const deploy::Package& package,
+                  std::vector<std::string>& boards) {
+  const auto heard = [&](const auto& entry) {
+    const deploy::BoardReport& report = entry.second.report;
+    return report.plant != package.plant || std::all_of(report.members.begin(), report.members.end(),
+                                                        [&](const auto& m) { return roster.find(m) != nullptr; });
+  };
+  roster.gather(link, kLeftOutNs, [&] { return std::all_of(roster.all().begin(), roster.all().end(), heard); });
+  std::set<std::string> silent;
   for (const auto& [key, entry] : roster.all()) {
-    const auto& boards = packed.package.boards;
-    if (entry.report.plant == packed.package.plant && !entry.report.current.empty() &&
-        std::find(boards.begin(), boards.end(), key.first) == boards.end()) {
-      context.out.note(
-          fmt::format("board {} runs an earlier deployment of this plant and is not part of it any more", key.first));
+    const deploy::BoardReport& report = entry.report;
+    if (report.plant != package.plant || report.current.empty()) {
+      continue;
     }
+    for (const std::string& member : report.members) {
+      if (!among(package.boards, member) && roster.find(member) == nullptr) {
+        silent.insert(member);
+      }
+    }
+    if (among(report.members, key.first) && !among(package.boards, key.first) && !among(boards, key.first)) {
+      context.out.note(fmt::format("board {} is not part of the plant any more: its node ends with this deployment",
+                                   printable(key.first)));
+      boards.push_back(key.first);
+    }
+  }
+  for (const std::string& board : silent) {
+    context.out.note(
+        fmt::format("board {} is not part of the plant any more and was not heard: its node ends when it comes back",
+                    printable(board)));
   }
 }
 
@@ -82,7 +111,7 @@ int deploy_plant(Context& context, Options& options) {
   if (deployment.order.boards.empty()) {
     return code;
   }
-  tell_left_out(context, roster, *packed);
+  add_left_out(context, *link, roster, packed->package, deployment.order.boards);
   deployment.order.deployer = options.link.self;
   deployment.order.host = mirror::host_name();
   deployment.order.plant = packed->package.plant;

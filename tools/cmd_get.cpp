@@ -17,8 +17,8 @@ int get(Context& context, const std::vector<std::string>& names) {
   if (!store) {
     return code;
   }
-  const std::string absence = store_absence(store->header());
-  if (!absence.empty()) {
+  const std::string absence = values_absence(context, *store);
+  if (!absence.empty() && context.far_values == nullptr) {
     context.out.note(fmt::format("node '{}' is {}: these are the last values", context.node, absence));
   }
   std::vector<Item> items;
@@ -41,7 +41,7 @@ int get(Context& context, const std::vector<std::string>& names) {
     }
     table.add({Cell(item.name), Cell(text, raw_value(item.place.type, bytes)), Cell(item.place.unit)});
   }
-  print_table(context, table, {{"node", context.node}, {"running", absence.empty()}}, "values");
+  print_table(context, table, {{"node", name_of_source(context)}, {"running", absence.empty()}}, "values");
   return kOk;
 }
 
@@ -51,6 +51,7 @@ Action declare(CLI::App& app, Context& context) {
       ->required()
       ->type_name("NAME");
   add_node_option(app, context);
+  add_far_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [names](Context& c) { return get(c, *names); };
 }

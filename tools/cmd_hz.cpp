@@ -98,7 +98,7 @@ class Counter {
 void print(Context& context, const Item& item, const Counter& counter) {
   if (context.format == Format::Json) {
     JsonValue whole = document();
-    whole["node"] = context.node;
+    whole["node"] = name_of_source(context);
     whole["name"] = item.name;
     whole["rate_hz"] = counter.rate();
     whole["min_ns"] = counter.min_ns();
@@ -130,7 +130,13 @@ int hz(Context& context, const Options& options) {
     context.out.error(fmt::format("'{}' matches {} variables; hz takes one", options.name, items.size()));
     return kUsage;
   }
-  be_gentle(context.node);
+  if (context.far_values == nullptr) {
+    be_gentle(context.node);
+  } else {
+    context.out.note(
+        "values that come over the network are counted: a board sends a variable every 10 ms at most, or "
+        "as <variable every> says");
+  }
   Counter counter(*store, items.front());
   if (!counter.exact()) {
     context.out.note("this variable does not number its updates: changes seen at 1000 looks per second are counted");
@@ -155,7 +161,7 @@ int hz(Context& context, const Options& options) {
     if (!context.out.flush() || timed_out || (reports > 0 && ++done >= reports)) {
       return kOk;
     }
-    if (store->retired() || !store_absence(store->header()).empty()) {
+    if (context.far_values == nullptr && (store->retired() || !store_absence(store->header()).empty())) {
       context.out.error(fmt::format("node '{}' does not run any more", context.node));
       return kUnreachable;
     }
@@ -169,6 +175,7 @@ Action declare(CLI::App& app, Context& context) {
   app.add_flag("--once", options->once, "One line, after a second");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
   add_node_option(app, context);
+  add_far_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});
   return [options](Context& c) { return hz(c, *options); };
 }

@@ -2,8 +2,10 @@
 // indurop set: writes values once, after all of them were found good.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
+#include "tools/far_values.h"
 #include "tools/node_choice.h"
 #include "tools/variables.h"
 #include "tools/verbs.h"
@@ -69,6 +71,26 @@ bool parse_one(Context& context, const vars::Store& store, const std::string& na
   return true;
 }
 
+// One after the other; boards take whole variables.
+int set_afar(Context& context, const vars::Store& store, const std::vector<Assignment>& assignments) {
+  for (const auto& [item, bytes] : assignments) {
+    std::vector<std::uint8_t> whole(item.place.variable->type.size());
+    const Status read = store.read(*item.entry, 0, whole);
+    if (!read.ok()) {
+      context.out.error(fmt::format("{} cannot be read: {}", item.name, read.error().where));
+      return kFailed;
+    }
+    std::copy(bytes.begin(), bytes.end(), whole.begin() + item.place.offset);
+    bool timed_out = false;
+    const std::string problem = context.far_values->set(item.place.variable->name, whole, timed_out);
+    if (!problem.empty()) {
+      context.out.error(fmt::format("{} was not set: {}", item.name, problem));
+      return timed_out ? kUnreachable : kFailed;
+    }
+  }
+  return kOk;
+}
+
 int set(Context& context, const std::vector<std::string>& words) {
   const auto pairs = split(context, words);
   if (pairs.empty()) {
@@ -89,6 +111,9 @@ int set(Context& context, const std::vector<std::string>& words) {
       context.out.note("nothing was changed");
     }
     return kFailed;
+  }
+  if (context.far_values != nullptr) {
+    return set_afar(context, *store, assignments);
   }
   for (const auto& [item, bytes] : assignments) {
     const Status written = store->write(*item.entry, item.place.offset, bytes);
@@ -111,6 +136,7 @@ Action declare(CLI::App& app, Context& context) {
   auto words = std::make_shared<std::vector<std::string>>();
   app.add_option("assignment", *words, "NAME VALUE, or NAME=VALUE ...")->required()->type_name("TEXT");
   add_node_option(app, context);
+  add_far_options(app, context);
   return [words](Context& c) { return set(c, *words); };
 }
 

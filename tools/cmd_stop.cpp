@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop stop: asks the node to end and waits until it has.
+// indurop stop: asks the node to end and waits until it has. Of single modules and of boards: orders.h.
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -11,16 +11,13 @@
 #include "rt/clock.h"
 #include "tools/interrupt.h"
 #include "tools/node_choice.h"
+#include "tools/orders.h"
 #include "tools/units.h"
 #include "tools/verbs.h"
 #include "vars/node_lock.h"
 
 namespace indurop::tools {
 namespace {
-
-struct Options {
-  std::int64_t timeout_ns = 10'000'000'000;
-};
 
 // A process by a handle that cannot come to mean another one.
 class ProcessHandle {
@@ -43,7 +40,7 @@ class ProcessHandle {
   int file_;
 };
 
-int stop(Context& context, const Options& options) {
+int stop_node(Context& context, const OrderOptions& options) {
   int code = kOk;
   const auto chosen = choose_node(context, code);
   if (!chosen) {
@@ -84,18 +81,29 @@ int stop(Context& context, const Options& options) {
 }
 
 Action declare(CLI::App& app, Context& context) {
-  auto options = std::make_shared<Options>();
-  add_node_option(app, context);
-  add_time_option(app, "--timeout", options->timeout_ns, "How long to wait (default 10 s)");
-  return [options](Context& c) { return stop(c, *options); };
+  auto options = std::make_shared<OrderOptions>();
+  add_order_options(app, context, *options);
+  return [options](Context& c) {
+    return options->targets.empty() ? stop_node(c, *options) : carry_out(c, scheduler::ModuleOrder::Stop, *options);
+  };
 }
 
 }  // namespace
 
 const Verb kStopVerb{
-    "stop", "Start and stop", "Stop a node and wait until it has ended",
+    "stop", "Start and stop", "Stop a node and wait until it has ended; or modules of it",
     "Modules get their stop() and retained values are written. Exit code 6 if the node has not ended in time;\n"
-    "0 if it did not run anyway.\n",
+    "0 if it did not run anyway.\n"
+    "With MODULE the node goes on without it: the module's place in the schedule stays empty, its stop() is called\n"
+    "beside the schedule, then its fail-safe values are written. It stays stopped until indurop start, or until the\n"
+    "node is started again. MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed\n"
+    "with --keys where it has keys; a board stopped so starts again by order, with the next deployment, or when it is\n"
+    "switched on again. Exit code 1 if the order was refused, 6 if board or node are not there in time.\n"
+    "Examples:\n"
+    "  indurop stop\n"
+    "  indurop stop gripper\n"
+    "  indurop stop gripper@control --interface eth1\n"
+    "  indurop stop @control\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -98,8 +98,9 @@ int list(Context& context, const Options& options) {
   std::vector<Item> items;
   const std::vector<std::string> everything{"*"};
   if (options.globs.empty() && store->schema().variables.empty()) {
-    context.out.note(fmt::format("node '{}' has no shared variables", context.node));
-  } else if (!select_items(context, *store, options.globs.empty() ? everything : options.globs, items)) {
+    context.out.note(fmt::format("{} has no shared variables", values_of(context)));
+  } else if (!select_items(context, *store, options.globs.empty() ? everything : options.globs, items,
+                           options.names ? Values::NotNeeded : Values::Needed)) {
     return kFailed;
   }
   std::erase_if(items, [&](const Item& item) {
@@ -112,7 +113,7 @@ int list(Context& context, const Options& options) {
     }
     return kOk;
   }
-  const Uses uses = known_uses(context.node);
+  const Uses uses = context.far_values != nullptr ? Uses{} : known_uses(context.node);
   Table table({{"NAME", "name"},
                {"TYPE", "type"},
                {"VALUE", "value", Align::Right, 0, kAlignedValue},
@@ -135,11 +136,11 @@ int list(Context& context, const Options& options) {
     const auto use = uses.find(item.place.variable->name);
     table.add(row(item, bytes, use == uses.end() ? deploy::VariableUse{} : use->second, !uses.empty()));
   }
-  const std::string absence = store_absence(store->header());
-  if (!absence.empty()) {
+  const std::string absence = values_absence(context, *store);
+  if (!absence.empty() && context.far_values == nullptr) {
     context.out.note(fmt::format("node '{}' is {}: these are the last values", context.node, absence));
   }
-  print_table(context, table, {{"node", context.node}, {"running", absence.empty()}}, "variables");
+  print_table(context, table, {{"node", name_of_source(context)}, {"running", absence.empty()}}, "variables");
   return code;
 }
 
@@ -150,6 +151,7 @@ Action declare(CLI::App& app, Context& context) {
   app.add_option("-t,--type", options->type, "Only variables of this type (glob)")->type_name("TYPE");
   app.add_flag("--names", options->names, "Print nothing but the names");
   add_node_option(app, context);
+  add_far_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return list(c, *options); };
 }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ctime>
 
 #include "rt/clock.h"
 #include "tools/gentle.h"
 #include "tools/interrupt.h"
 #include "tools/node_choice.h"
+#include "tools/rounds.h"
 #include "tools/screen.h"
 #include "tools/units.h"
 #include "tools/verbs.h"
@@ -34,51 +34,6 @@ std::string text_of(const WatchedValue& value) {
   return value.gone ? "gone" : schema::format_value(value.item.place.type, value.bytes);
 }
 
-std::int64_t wall_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * rt::kNanosPerSecond + now.tv_nsec;
-}
-
-// When to look next; counts rounds and watches the limits.
-class Rounds {
- public:
-  explicit Rounds(const Options& options)
-      : count_(options.once ? 1 : options.count),
-        interval_ns_(static_cast<std::int64_t>(1e9 / options.hz)),
-        begin_ns_(rt::now_ns()),
-        next_ns_(begin_ns_),
-        end_ns_(options.timeout_ns > 0 ? begin_ns_ + options.timeout_ns : INT64_MAX) {}
-  // True if another round follows: waits for it, on `key_file` too (then *key says so).
-  bool wait(int key_file, bool& key) {
-    key = false;
-    if (count_ > 0 && done_ >= count_) {
-      return false;
-    }
-    const Woken why = wait_until(std::min(next_ns_, end_ns_), key_file);
-    key = why == Woken::Readable;
-    if (interrupted() || (rt::now_ns() >= end_ns_ && next_ns_ > end_ns_)) {
-      return false;
-    }
-    return true;
-  }
-  [[nodiscard]] bool due() const { return rt::now_ns() >= next_ns_; }
-  void done() {
-    ++done_;
-    // On a grid, but rounds that a slow terminal made us miss are not made up for.
-    next_ns_ = std::max(next_ns_ + interval_ns_, rt::now_ns());
-  }
-  [[nodiscard]] std::int64_t elapsed_ns() const { return rt::now_ns() - begin_ns_; }
-
- private:
-  std::uint64_t count_;
-  std::int64_t interval_ns_;
-  std::int64_t begin_ns_;
-  std::int64_t next_ns_;
-  std::int64_t end_ns_;
-  std::uint64_t done_ = 0;
-};
-
 // ---- lines for a pipe
 
 void print_changes(Context& context, const WatchSource& source, const Rounds& rounds) {
@@ -100,7 +55,7 @@ void print_csv_heading(Context& context, const WatchSource& source) {
 }
 
 void print_csv(Context& context, const WatchSource& source) {
-  std::string line = std::to_string(wall_ns());
+  std::string line = std::to_string(rt::wall_ns());
   for (const auto& value : source.values()) {
     line += "," + (value.gone ? "" : csv_value(raw_value(value.item.place.type, value.bytes)));
   }
@@ -115,13 +70,13 @@ void print_json(Context& context, const WatchSource& source) {
   JsonValue whole = document();
   whole["node"] = source.node();
   whole["running"] = source.alive();
-  whole["time_ns"] = wall_ns();
+  whole["time_ns"] = rt::wall_ns();
   whole["values"] = std::move(values);
   context.out.line(dump(whole));
 }
 
 int stream(Context& context, WatchSource& source, const Options& options) {
-  Rounds rounds(options);
+  Rounds rounds(options.hz, options.once ? 1 : options.count, options.timeout_ns);
   if (context.format == Format::Csv) {
     print_csv_heading(context, source);
   }
@@ -133,7 +88,9 @@ int stream(Context& context, WatchSource& source, const Options& options) {
     const bool was_gone = !said.empty();
     if (source.alive() == was_gone) {
       said = source.absence();
-      context.out.note(fmt::format("node '{}' {}", source.node(), source.alive() ? "runs again" : "is " + said));
+      const bool far = context.far_values != nullptr;
+      context.out.note(values_of(context) + (source.alive() ? (far ? ": all boards are heard again" : " runs again")
+                                                            : (far ? ": " : " is ") + said));
     }
     switch (context.format) {
       case Format::Json:
@@ -164,7 +121,7 @@ class View {
       : context_(context), source_(source), options_(options), screen_(context.out) {}
 
   int run() {
-    Rounds rounds(options_);
+    Rounds rounds(options_.hz, options_.once ? 1 : options_.count, options_.timeout_ns);
     bool key = false;
     while (rounds.wait(screen_.key_file(), key)) {
       if (key && !handle_keys()) {
@@ -245,7 +202,7 @@ class View {
     }
     std::vector<std::string> out_lines;
     out_lines.push_back(
-        out.paint(Style::Bold, "node " + source_.node()) + "  " +
+        out.paint(Style::Bold, (context_.far_values != nullptr ? "" : "node ") + source_.node()) + "  " +
         (source_.alive() ? out.paint(Style::Good, "running") : out.paint(Style::Bad, source_.absence())) +
         (paused_ ? "  " + out.paint(Style::Warn, "paused") : ""));
     out_lines.push_back(
@@ -280,7 +237,7 @@ class View {
 void print_once(Context& context, WatchSource& source) {
   source.sample(context, 0, kAll);
   if (!source.alive()) {
-    context.out.note(fmt::format("node '{}' is {}: these are the last values", source.node(), source.absence()));
+    context.out.note(fmt::format("{} is {}: these are the last values", values_of(context), source.absence()));
   }
   Table table({{"NAME", ""}, {"VALUE", "", Align::Right, 0, kAlignUpTo}, {"UNIT", ""}});
   for (const auto& value : source.values()) {
@@ -305,7 +262,9 @@ int watch(Context& context, const Options& options) {
   if (!source.open(context, code)) {
     return code;
   }
-  be_gentle(source.node());
+  if (context.far_values == nullptr) {
+    be_gentle(source.node());
+  }
   if (context.format == Format::Table && options.once) {
     print_once(context, source);
     return kOk;
@@ -330,6 +289,7 @@ Action declare(CLI::App& app, Context& context) {
   app.add_flag("--once", options->once, "One round");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
   add_node_option(app, context);
+  add_far_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return watch(c, *options); };
 }

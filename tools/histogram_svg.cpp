@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/histogram_bins.h"
+#include "tools/svg_parts.h"
 #include "tools/units.h"
 
 namespace indurop::tools {
@@ -64,16 +65,6 @@ std::vector<double> tick_values(double from, double to, bool dense) {
   return out;
 }
 
-std::string text(double x, double y, const char* anchor, const char* kind, std::string_view content) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x, y, anchor, kind,
-                     xml_text(content));
-}
-
-std::string line(double x1, double y1, double x2, double y2, const char* kind) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                     kind);
-}
-
 std::string count_text(double count) {
   return count >= 1e6   ? fmt::format("{:g}M", count / 1e6)
          : count >= 1e3 ? fmt::format("{:g}k", count / 1e3)
@@ -102,21 +93,22 @@ std::string markers(const scheduler::Summary& summary, const LogScale& x, double
     }
     busy_until[row] = center + kLabelWidth / 2;
     const double y = top - 6 - 13 * static_cast<double>(row);
-    out += line(at, y + 3, at, top + kPlotHeight, "mark");
-    out += text(center, y, "middle", "label", fmt::format("{} {}", marker.name, human_ns(marker.value)));
+    out += svg_line(at, y + 3, at, top + kPlotHeight, "mark");
+    out += svg_text(center, y, "middle", "label", fmt::format("{} {}", marker.name, human_ns(marker.value)));
   }
   return out;
 }
 
 std::string panel_svg(const HistogramPanel& panel, double y0) {
-  std::string out = text(kLeft, y0 + 18, "start", "title", panel.title);
-  out += text(kWidth - kRight, y0 + 18, "end", "label",
-              fmt::format("{}, {} runs, mean {}", panel.subtitle, panel.summary.count, human_ns(panel.summary.mean)));
+  std::string out = svg_text(kLeft, y0 + 18, "start", "title", panel.title);
+  out +=
+      svg_text(kWidth - kRight, y0 + 18, "end", "label",
+               fmt::format("{}, {} runs, mean {}", panel.subtitle, panel.summary.count, human_ns(panel.summary.mean)));
   const double top = y0 + kTop;
   const double base = top + kPlotHeight;
   const auto bins = gather(panel.counts, kMostBars);
   if (bins.empty()) {
-    return out + text(kWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
+    return out + svg_text(kWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
   }
   const double from = positive(bins.front().from_ns);
   const double to = std::max(from * 1.5, positive(bins.back().to_ns));
@@ -127,16 +119,16 @@ std::string panel_svg(const HistogramPanel& panel, double y0) {
   }
   const LogScale height(0.7, highest * 1.3, 0, kPlotHeight);
   for (const double count : tick_values(1, highest, height.decades() < 2)) {
-    out += line(kLeft, base - height.at(count), kWidth - kRight, base - height.at(count), "grid");
-    out += text(kLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
+    out += svg_line(kLeft, base - height.at(count), kWidth - kRight, base - height.at(count), "grid");
+    out += svg_text(kLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
   }
   for (const double ns : tick_values(from, to, x.decades() < 2.5)) {
-    out += line(x.at(ns), top, x.at(ns), base + 4, "grid");
+    out += svg_line(x.at(ns), top, x.at(ns), base + 4, "grid");
     const std::string name = ns >= 1e9   ? fmt::format("{:g} s", ns / 1e9)
                              : ns >= 1e6 ? fmt::format("{:g} ms", ns / 1e6)
                              : ns >= 1e3 ? fmt::format("{:g} us", ns / 1e3)
                                          : fmt::format("{:g} ns", ns);
-    out += text(x.at(ns), base + 18, "middle", "label", name);
+    out += svg_text(x.at(ns), base + 18, "middle", "label", name);
   }
   for (const Bin& bin : bins) {
     if (bin.count > 0) {
@@ -150,34 +142,11 @@ std::string panel_svg(const HistogramPanel& panel, double y0) {
           human_ns(static_cast<std::int64_t>(bin.to_ns)), bin.count);
     }
   }
-  out += line(kLeft, base, kWidth - kRight, base, "axis");
+  out += svg_line(kLeft, base, kWidth - kRight, base, "axis");
   return out + markers(panel.summary, x, top);
 }
 
 }  // namespace
-
-std::string xml_text(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string histogram_svg(const std::string& heading, std::span<const HistogramPanel> panels) {
   const double height = kHead + kPanel * static_cast<double>(std::max<std::size_t>(1, panels.size())) + 12;
@@ -190,9 +159,9 @@ std::string histogram_svg(const std::string& heading, std::span<const HistogramP
       "3}}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
       kWidth, height);
-  out += text(kLeft, 34, "start", "head", heading);
+  out += svg_text(kLeft, 34, "start", "head", heading);
   if (panels.empty()) {
-    out += text(kLeft, kHead + 30, "start", "label", "nothing measured");
+    out += svg_text(kLeft, kHead + 30, "start", "label", "nothing measured");
   }
   double y = kHead;
   for (const auto& panel : panels) {

@@ -20,7 +20,4 @@ struct HistogramPanel {
 // A complete SVG document, readable by browsers and by documents that take pictures.
 std::string histogram_svg(const std::string& heading, std::span<const HistogramPanel> panels);
 
-// &, <, > and quotes as entities.
-std::string xml_text(std::string_view text);
-
 }  // namespace indurop::tools

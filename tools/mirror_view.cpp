@@ -18,19 +18,6 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-// The block if the file is as long as its counts say.
-const mirror::MirrorBlock* checked(const vars::ShmFile& file) {
-  if (file.size() < sizeof(mirror::MirrorBlock)) {
-    return nullptr;
-  }
-  const auto* block = reinterpret_cast<const mirror::MirrorBlock*>(file.data());
-  if (block->magic.load(std::memory_order_acquire) != mirror::kMirrorMagic || block->abi != mirror::kMirrorAbi ||
-      file.size() < mirror::mirror_block_size(block->peer_count, block->incoming)) {
-    return nullptr;
-  }
-  return block;
-}
-
 PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
   const std::int64_t heard = record.heard_ns.load(kRelaxed);
   return {.name = fixed_text(record.name),
@@ -80,7 +67,8 @@ Style style_of(const std::string& state) {
 
 std::optional<MirrorView> view_mirror(const std::string& node) {
   const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
-  const mirror::MirrorBlock* block = file ? checked(file.value()) : nullptr;
+  const mirror::MirrorBlock* block =
+      file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
   if (block == nullptr) {
     return std::nullopt;
   }

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "rt/clock.h"
+#include "tools/far_values.h"
 #include "tools/suggest.h"
 #include "tools/units.h"
 #include "vars/process.h"
@@ -61,7 +62,7 @@ std::optional<std::string> choose_node(Context& context, int& code) {
     return names.front();
   }
   if (names.empty()) {
-    context.out.error("no node on this machine. Start one: indurop run module.xml");
+    context.out.error("no node on this machine. Start one: indurop run module.xml; boards in the network: --remote");
     code = kUnreachable;
   } else {
     context.out.error(fmt::format("there are several nodes; say which with --node: {}", fmt::join(names, ", ")));
@@ -109,6 +110,20 @@ int exit_code_of(const Error& error) {
 }
 
 std::optional<vars::Store> open_store(Context& context, vars::Mode mode, int& code) {
+  if (context.far.wanted) {
+    if (!context.node.empty()) {
+      context.out.error("--node names a node of this machine; boards in the network are chosen by NAME@BOARD");
+      code = kUsage;
+      return {};
+    }
+    context.far_values = FarValues::open(context, code);
+    auto store = context.far_values == nullptr ? Result<vars::Store>(Error{}) : context.far_values->attach();
+    if (context.far_values != nullptr && !store.ok()) {
+      context.out.error(fmt::format("no memory for the values: {}", store.error().where));
+      code = kFailed;
+    }
+    return store.ok() ? std::optional(std::move(store).value()) : std::nullopt;
+  }
   const auto node = choose_node(context, code);
   if (!node) {
     return {};
@@ -143,6 +158,18 @@ std::optional<RunView> open_run(Context& context, std::string& node, int& code) 
 bool store_alive(const vars::BlockHeader& header) {
   return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
                              header.node_start_time.load(std::memory_order_relaxed));
+}
+
+std::string values_absence(const Context& context, const vars::Store& store) {
+  return context.far_values != nullptr ? context.far_values->absence() : store_absence(store.header());
+}
+
+std::string values_of(const Context& context) {
+  return context.far_values != nullptr ? context.far_values->title() : fmt::format("node '{}'", context.node);
+}
+
+std::string name_of_source(const Context& context) {
+  return context.far_values != nullptr ? context.far_values->title() : context.node;
 }
 
 std::string store_absence(const vars::BlockHeader& header) {

@@ -18,6 +18,12 @@ std::optional<std::string> choose_node(Context& context, int& code);
 
 // The chosen node's store. Empty after an error message.
 std::optional<vars::Store> open_store(Context& context, vars::Mode mode, int& code);
+// "not running, ..." of its node, or the boards that are not heard; empty if all is well.
+std::string values_absence(const Context& context, const vars::Store& store);
+// Whose values they are, for messages: "node 'local'", "plant cell".
+std::string values_of(const Context& context);
+std::string name_of_source(const Context& context);  // for JSON: "local", "plant cell"
+
 // The chosen node's run block. Empty after an error message.
 std::optional<RunView> open_run(Context& context, std::string& node, int& code);
 

@@ -64,8 +64,8 @@ bool RunView::check(const scheduler::RunBlock& block, std::uint64_t file_size, C
   return out.modules != nullptr && out.slots != nullptr && out.overruns != nullptr;
 }
 
-Result<RunView> RunView::open(const std::string& node) {
-  auto opened = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+Result<RunView> RunView::open(const std::string& node, vars::Mode mode) {
+  auto opened = vars::RunFile::open(node, mode, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   if (!opened.ok()) {
     return opened.error();
   }
@@ -79,6 +79,12 @@ Result<RunView> RunView::open(const std::string& node) {
     return Error{Errc::Corrupt, 0, "run block damaged"};
   }
   return RunView(mapping, block, checked);
+}
+
+scheduler::ModuleRecord& RunView::module_to_order(std::uint32_t index) noexcept {
+  auto* block = static_cast<scheduler::RunBlock*>(mapping_->data());
+  return *block->at<scheduler::ModuleRecord>(static_cast<std::uint64_t>(
+      reinterpret_cast<const std::byte*>(checked_.modules + index) - reinterpret_cast<const std::byte*>(block_)));
 }
 
 const scheduler::ModuleRecord& RunView::module(std::uint32_t index) const noexcept {

@@ -45,11 +45,13 @@ class RunView {
  public:
   // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
   // VersionMismatch (another version of InduRoP), Busy (the node is still building it).
-  static Result<RunView> open(const std::string& node);
+  static Result<RunView> open(const std::string& node, vars::Mode mode = vars::Mode::ReadOnly);
 
   [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
   [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
   [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
+  // Opened read-write: to place orders in (scheduler/module_order.h), nothing else.
+  [[nodiscard]] scheduler::ModuleRecord& module_to_order(std::uint32_t index) noexcept;
   // Name for an index found in a log; "?" if it leads nowhere.
   [[nodiscard]] std::string module_name(std::int64_t index) const;
   [[nodiscard]] bool node_alive() const noexcept;

@@ -3,8 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
+
+#include "tools/far_values.h"
+#include "tools/node_choice.h"
+#include "tools/units.h"
 
 namespace indurop::tools {
 namespace {
@@ -45,6 +52,27 @@ std::string full_name(const std::string& text, const schema::Place& place) {
   return variable;
 }
 
+// "NAME@BOARD" is taken apart. False after an error message.
+bool take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
+  const auto at = name.rfind('@');
+  if (context.far_values == nullptr || at == std::string::npos) {
+    return true;
+  }
+  board = name.substr(at + 1);
+  name.resize(at);
+  std::string pattern = name;
+  if (!is_glob(name)) {
+    std::string message;
+    const auto place = schema::find_place(store.schema(), name, message);
+    pattern = place.ok() ? place.value().variable->name : name;
+  }
+  const std::string problem = context.far_values->prefer(pattern, board);
+  if (!problem.empty()) {
+    context.out.error(problem);
+  }
+  return problem.empty();
+}
+
 }  // namespace
 
 bool is_glob(std::string_view text) {
@@ -66,10 +94,15 @@ bool is_glob(std::string_view text) {
 }
 
 bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
-                  std::vector<Item>& items) {
+                  std::vector<Item>& items, Values values) {
   bool all_found = true;
   for (const std::string& marked : names) {
-    const std::string name = value_of(marked);
+    std::string name = value_of(marked);
+    std::string board;
+    if (!take_board(context, store, name, board)) {
+      all_found = false;
+      continue;
+    }
     if (!is_glob(name)) {
       std::string message;
       const auto place = schema::find_place(store.schema(), name, message);
@@ -81,14 +114,25 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
     }
     bool any = false;
     for (const auto& variable : store.schema().variables) {
-      if (schema::glob_match(name, variable.name)) {
+      const bool meant = board.empty() || context.far_values->owner(variable.name) == board;
+      if (meant && schema::glob_match(name, variable.name)) {
         any = add_item(store, variable.name, whole(variable), items) || any;
       }
     }
     if (!any) {
       context.out.error(
-          fmt::format("no variable of node '{}' matches '{}' (indurop vars lists all)", context.node, name));
+          fmt::format("no variable of {} matches '{}' (indurop vars lists all)", values_of(context), name));
       all_found = false;
+    }
+  }
+  if (all_found && context.far_values != nullptr && values == Values::Needed) {
+    std::set<std::string> variables;
+    for (const Item& item : items) {
+      variables.insert(item.place.variable->name);
+    }
+    if (const auto missing = context.far_values->follow(variables); !missing.empty()) {
+      context.out.note(
+          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.far.wait_ns)));
     }
   }
   return all_found;

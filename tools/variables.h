@@ -22,8 +22,10 @@ struct Item {
 
 // Items for names (exact parts) and globs, in the order given, no item twice. False after an error message for each
 // name that is nothing.
+// Those of boards in the network have a value then, if it comes in time, or are named in a message.
+enum class Values { Needed, NotNeeded };
 bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
-                  std::vector<Item>& items);
+                  std::vector<Item>& items, Values values = Values::Needed);
 bool is_glob(std::string_view text);
 
 // One consistent version of the item's bytes. `problem` is set if there is none.

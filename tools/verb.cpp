@@ -32,6 +32,33 @@ void add_node_option(CLI::App& app, Context& context) {
       ->type_name("NAME");
 }
 
+void add_far_options(CLI::App& app, Context& context) {
+  FarOptions& far = context.far;
+  const auto wanted = [&far](const auto& /*value*/) { far.wanted = true; };
+  app.add_flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
+  app.add_option("--domain", far.network.domain,
+                 "DDS domain in which boards show variables (default 0); implies --remote")
+      ->check(CLI::Range(0, 230))
+      ->each(wanted)
+      ->type_name("N");
+  app.add_option("--interface", far.network.interface_name, "Network interface to the boards; implies --remote")
+      ->each(wanted)
+      ->type_name("IF");
+  app.add_option("--peer", far.network.peers, "Address of a board, for networks without multicast; implies --remote")
+      ->each(wanted)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("ADDRESS");
+  app.add_flag_function(
+      "--one-host",
+      [&far](std::int64_t count) {
+        far.network.one_host = count > 0;
+        far.wanted = far.wanted || count > 0;
+      },
+      "Boards on this host, by loopback; implies --remote");
+  add_time_option(app, "--wait", far.wait_ns, "With --remote: how long to wait for boards and values (default 3 s)");
+}
+
 void add_format_option(CLI::App& app, Context& context, std::initializer_list<Format> formats) {
   std::vector<Format> allowed(formats);
   std::string choices;

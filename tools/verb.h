@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mirror/far_plane.h"
 #include "tools/output.h"
 #include "tools/table.h"
 
@@ -28,11 +29,21 @@ inline constexpr int kSchemaMismatch = 8;
 
 enum class Format { Table, Json, Csv, Svg };
 
+// Variables of boards in the network instead of a node here.
+struct FarOptions {
+  bool wanted = false;
+  mirror::FarSettings network;
+  std::int64_t wait_ns = 3'000'000'000;  // for boards and values to be heard
+};
+class FarValues;
+
 // What every verb gets besides its own options.
 struct Context {
   Output out;
   Format format = Format::Table;
   std::string node;  // as given by --node, else empty
+  FarOptions far;
+  std::shared_ptr<FarValues> far_values;  // once they are open
 };
 
 using Action = std::function<int(Context&)>;
@@ -56,6 +67,8 @@ std::span<const Verb> all_verbs();
 
 // Options several verbs share. The first format is the default.
 void add_node_option(CLI::App& app, Context& context);
+// --remote and what belongs to it.
+void add_far_options(CLI::App& app, Context& context);
 void add_format_option(CLI::App& app, Context& context, std::initializer_list<Format> formats);
 
 // A time given in seconds or with a unit, into nanoseconds; wrong text is a usage error.

@@ -8,6 +8,7 @@
 namespace indurop::tools {
 
 extern const Verb kBoardsVerb;
+extern const Verb kChartVerb;
 extern const Verb kCheckVerb;
 extern const Verb kCleanVerb;
 extern const Verb kDeployVerb;
@@ -22,12 +23,16 @@ extern const Verb kNewVerb;
 extern const Verb kNodesVerb;
 extern const Verb kOverrunsVerb;
 extern const Verb kPlanVerb;
+extern const Verb kPlcVerb;
 extern const Verb kResetVerb;
+extern const Verb kRestartVerb;
 extern const Verb kRollbackVerb;
 extern const Verb kRunVerb;
 extern const Verb kSetVerb;
+extern const Verb kStartVerb;
 extern const Verb kStatusVerb;
 extern const Verb kStopVerb;
+extern const Verb kTypeofVerb;
 extern const Verb kVarsVerb;
 extern const Verb kWatchVerb;
 

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "rt/clock.h"
+#include "tools/far_values.h"
 #include "tools/node_choice.h"
 #include "tools/units.h"
 #include "vars/shm_file.h"
@@ -32,8 +33,12 @@ bool WatchSource::open(Context& context, int& code) {
   if (!store_) {
     return false;
   }
-  node_ = context.node;
-  inode_ = current_inode(node_);
+  node_ = name_of_source(context);
+  if (context.far_values != nullptr) {
+    generation_ = context.far_values->generation();
+  } else {
+    inode_ = current_inode(node_);
+  }
   std::vector<Item> items;
   if (!select_items(context, *store_, names_, items)) {
     code = kFailed;
@@ -43,11 +48,20 @@ bool WatchSource::open(Context& context, int& code) {
     std::vector<std::uint8_t> bytes(item.place.type.size());
     values_.push_back({std::move(item), std::move(bytes)});
   }
-  note_absence();
+  note_absence(context);
   return true;
 }
 
-void WatchSource::note_absence() {
+bool WatchSource::replaced(const Context& context) const {
+  return context.far_values != nullptr ? context.far_values->generation() != generation_
+                                       : store_->retired() || current_inode(node_) != inode_;
+}
+
+void WatchSource::note_absence(const Context& context) {
+  if (context.far_values != nullptr) {
+    absence_ = context.far_values->absence();
+    return;
+  }
   const auto& header = store_->header();
   const std::int64_t beat = header.heartbeat_ns.load(std::memory_order_relaxed);
   if (beat != 0) {
@@ -57,14 +71,22 @@ void WatchSource::note_absence() {
 }
 
 void WatchSource::attach_again(Context& context) {
-  auto fresh = vars::Store::attach(node_, vars::Mode::ReadOnly);
+  auto fresh =
+      context.far_values != nullptr ? context.far_values->attach() : vars::Store::attach(node_, vars::Mode::ReadOnly);
+  if (!fresh.ok() && context.far_values != nullptr) {
+    return;
+  }
   if (!fresh.ok()) {
     const std::int64_t age = rt::now_ns() - last_beat_ns_;
     absence_ =
         last_beat_ns_ > 0 && age >= 0 ? fmt::format("not running, last seen {} ago", human_age(age)) : "not running";
     return;
   }
-  inode_ = current_inode(node_);
+  if (context.far_values != nullptr) {
+    generation_ = context.far_values->generation();
+  } else {
+    inode_ = current_inode(node_);
+  }
   ++reconnects_;
   store_ = std::move(fresh).value();
   for (WatchedValue& value : values_) {
@@ -73,6 +95,7 @@ void WatchSource::attach_again(Context& context) {
     const auto* entry = place.ok() ? store_->find(place.value().variable->name_hash()) : nullptr;
     value.gone = entry == nullptr;
     value.changed = true;
+    value.known = false;
     if (!value.gone) {
       value.item.place = place.value();
       value.item.entry = entry;
@@ -81,14 +104,14 @@ void WatchSource::attach_again(Context& context) {
       context.out.note(fmt::format("node '{}' came back without {}", node_, value.item.name));
     }
   }
-  note_absence();
+  note_absence(context);
 }
 
 void WatchSource::sample(Context& context, std::size_t first, std::size_t count) {
-  if (store_->retired() || current_inode(node_) != inode_) {
+  if (replaced(context)) {
     attach_again(context);
   } else {
-    note_absence();
+    note_absence(context);
   }
   const std::size_t end = std::min(values_.size(), first + count);
   std::vector<std::uint8_t> now;
@@ -100,7 +123,11 @@ void WatchSource::sample(Context& context, std::size_t first, std::size_t count)
     }
     now.resize(value.bytes.size());
     // A value that cannot be read consistently right now is shown in the next round.
-    if (store_->read(*value.item.entry, value.item.place.offset, now).ok() && now != value.bytes) {
+    if (!store_->read(*value.item.entry, value.item.place.offset, now).ok()) {
+      continue;
+    }
+    value.known = true;
+    if (now != value.bytes) {
       value.bytes.swap(now);
       value.changed = true;
     }

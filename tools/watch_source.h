@@ -20,6 +20,7 @@ struct WatchedValue {
   Item item;
   std::vector<std::uint8_t> bytes;
   bool changed = true;  // in the last round
+  bool known = false;   // read at least once from the store that is attached
   bool gone = false;    // the node that came back does not have it
 };
 
@@ -42,13 +43,15 @@ class WatchSource {
   [[nodiscard]] std::uint64_t reconnects() const noexcept { return reconnects_; }
 
  private:
+  [[nodiscard]] bool replaced(const Context& context) const;
   void attach_again(Context& context);
-  void note_absence();
+  void note_absence(const Context& context);
 
   std::string node_;
   std::vector<std::string> names_;
   std::optional<vars::Store> store_;
   ino_t inode_ = 0;
+  std::uint64_t generation_ = 0;  // of values from the network
   std::vector<WatchedValue> values_;
   std::string absence_;
   std::int64_t last_beat_ns_ = 0;

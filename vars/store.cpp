@@ -135,7 +135,9 @@ void carry_over(const Previous& previous, const BlockPlan& plan, std::byte* memo
 // What an earlier run mirrored from another board is this one's own until a mirror says otherwise.
 void own_everything(const Previous& previous) noexcept {
   for (const DirectoryEntry& entry : previous.index->directory) {
-    abi::confirmed_of(previous.file->data() + entry.offset, entry.kind).store(0, std::memory_order_release);
+    std::byte* const at = previous.file->data() + entry.offset;
+    abi::confirmed_of(at, entry.kind).store(0, std::memory_order_release);
+    abi::update_offset_of(at, entry.kind).store(0, std::memory_order_release);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <indurop/module.h>
 #include <indurop/print.h>
 #include <indurop/result.h>
+#include <indurop/snapshot.h>
 #include <indurop/string.h>
 #include <indurop/var.h>
 

@@ -13,7 +13,7 @@ namespace indurop {
 
 // Trivially copyable, no allocation, always terminated. Longer text is cut. Real-time safe.
 template <std::size_t N>
-struct string {
+struct string {  // NOLINT(readability-identifier-naming): used like std::string
   static_assert(N >= 1, "a char array needs room for its terminating NUL");
   char data[N] = {};  // NOLINT: the layout of a C char array is the contract
 

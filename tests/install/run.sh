@@ -51,6 +51,12 @@ node=install-test-$$
 export INDUROP_STATE_DIR="$work/state"
 trap '"$programs/indurop" clean --node "$node" >/dev/null 2>&1 || true' EXIT
 "$programs/indurop" check module.xml
+# The I/O module is beside the library and finds what it links.
+io=$(find "$(dirname "$programs")" -path '*/lib*/libiodispat.so' -print -quit)
+if [ -z "$io" ] || ldd "$io" | grep 'not found'; then
+  echo "libiodispat.so is missing, or something it needs: '$io'" >&2
+  exit 1
+fi
 "$programs/indurop" run module.xml --node "$node" --duration 1s --report report.json >run.log 2>&1 || { cat run.log; exit 1; }
 grep -q '"name": "observer"' report.json
 grep -q 'joints\[0\] = {' run.log

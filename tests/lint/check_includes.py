@@ -16,6 +16,10 @@ THIRD_PARTY = {
     "fastdds": ("fastdds/", "fastrtps/", "fastcdr/"),
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
     "openssl": ("openssl/",),
+    "modbus": ("modbus/",),
+    "eigen": ("Eigen/",),
+    "urdf": ("urdf_parser/", "urdf_model/", "console_bridge/"),
+    "kdl": ("kdl/",),
     "gtest": ("gtest/", "gmock/"),
     "benchmark": ("benchmark/",),
 }

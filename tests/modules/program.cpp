@@ -24,17 +24,6 @@ bool write_file(const char* path, const std::string& text) {
   return file.good();
 }
 
-bool own_mounts() {
-  if (::geteuid() == 0) {
-    return ::unshare(CLONE_NEWNS) == 0;
-  }
-  const std::string user = std::to_string(::getuid());
-  const std::string group = std::to_string(::getgid());
-  return ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0 && write_file("/proc/self/setgroups", "deny") &&
-         write_file("/proc/self/uid_map", user + " " + user + " 1") &&
-         write_file("/proc/self/gid_map", group + " " + group + " 1");
-}
-
 [[noreturn]] void become(const std::vector<std::string>& command, const Environment& environment) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   sigset_t none;
@@ -154,6 +143,17 @@ bool alive(pid_t pid) {
   const std::string stat = text.str();
   const auto end = stat.rfind(')');
   return end != std::string::npos && end + 2 < stat.size() && stat[end + 2] != 'Z' && stat[end + 2] != 'X';
+}
+
+bool own_mounts() {
+  if (::geteuid() == 0) {
+    return ::unshare(CLONE_NEWNS) == 0;
+  }
+  const std::string user = std::to_string(::getuid());
+  const std::string group = std::to_string(::getgid());
+  return ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0 && write_file("/proc/self/setgroups", "deny") &&
+         write_file("/proc/self/uid_map", user + " " + user + " 1") &&
+         write_file("/proc/self/gid_map", group + " " + group + " 1");
 }
 
 bool mount_small(const std::string& folder, const std::string& size) {

@@ -71,6 +71,9 @@ class Program {
 // False also for a process that has ended and that its parent has not asked about yet.
 bool alive(pid_t pid);
 
+// Makes mounts of the calling process, which has one thread, its own. False if it may not.
+bool own_mounts();
+
 // For Environment::prepare: a private view of the file system with an empty one of this size at `folder`.
 bool mount_small(const std::string& folder, const std::string& size);
 

@@ -26,8 +26,27 @@ XML = """<root>
     <period>5ms</period><priority>4</priority></module>
   <module><filename>{modules}/event1.so</filename><moduletype>thread</moduletype><operationtype>sporadic</operationtype>
     <deadline>1ms</deadline><priority>1</priority></module>
+  <module><filename>{io}</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>1ms</period><priority>5</priority>
+    <property><value name="config">ioconfig.xml</value></property></module>
+  <module><filename>{io_user}</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+    <period>1ms</period><priority>6</priority></module>
 </root>
 """
+# Nobody listens at the address: the device's own thread has all the trouble, the tick none.
+IO_CONFIG = """<ioconfig>
+  <device name="gone" driver="modbus_tcp" address="127.0.0.1:1" retry="1ms" retry_most="5ms" quality="link_good"
+          errors="link_errors">
+    <input variable="pressure" at="input:0" bad="7"/><input variable="speeds[1]" at="input:1"/>
+    <output variable="O0" at="coil:0"/><output variable="speeds[0]" at="holding:0" type="int32"/>
+  </device>
+  <device name="axis" driver="cia402" in="AXIS1_IN" out="AXIS1_OUT" noise="2"/>
+  <device name="recorded" driver="csv" file="values.csv" end="loop">
+    <input variable="I0" quality="I0_quality"/><input variable="level"/>
+  </device>
+</ioconfig>
+"""
+VALUES = "time_ms,I0,level\n0,1,0.5\n3,2,\n5,3,1.5\n"
 ALLOWED = {"clock_nanosleep", "futex"}
 # A thread that begins may or may not get a heap of its own, depending on who began before it: once, not per tick.
 ONCE = {"mmap": 2, "munmap": 2, "mprotect": 2, "madvise": 1}
@@ -84,6 +103,8 @@ def main():
     parser.add_argument("--bin", required=True)
     parser.add_argument("--modules", required=True)
     parser.add_argument("--counter", required=True)
+    parser.add_argument("--io", required=True, help="libiodispat.so")
+    parser.add_argument("--io-user", required=True, help="a module that uses the variables of I/O")
     arguments = parser.parse_args()
     with open(os.path.join(arguments.bin, "indurop-node"), "rb") as program:
         if b"__asan_init" in program.read() or b"__tsan_init" in open(program.name, "rb").read():
@@ -93,7 +114,10 @@ def main():
     try:
         xml = os.path.join(folder, "module.xml")
         with open(xml, "w", encoding="utf-8") as file:
-            file.write(XML.format(modules=arguments.modules))
+            file.write(XML.format(modules=arguments.modules, io=arguments.io, io_user=arguments.io_user))
+        for name, text in ("ioconfig.xml", IO_CONFIG), ("values.csv", VALUES):
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
         short, long = (allocations(arguments, xml, folder, ms) for ms in (SHORT, LONG))
         threads = {name for name in list(short) + list(long) if re.match(r"irp-(tick|band|events)", name)}
         for name in sorted(threads):

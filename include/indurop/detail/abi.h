@@ -13,7 +13,7 @@
 
 namespace indurop::abi {
 
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 
 enum class Kind : std::uint32_t {
   Scalar = 0,  // one value of 1, 2, 4 or 8 bytes, an atomic at the entry's first byte
@@ -39,8 +39,9 @@ struct RingHeader {
   DirtyRange dirty[kSlots];                // what the commit that made this slot's version changed
   std::uint32_t value_size;
   std::uint32_t slot_stride;
-  std::atomic<std::int64_t> confirmed_ns;  // see confirmed_of()
-  std::uint64_t reserved1[2];
+  std::atomic<std::int64_t> confirmed_ns;   // see confirmed_of()
+  std::atomic<std::int64_t> update_offset;  // see update_offset_of()
+  std::atomic<std::uint64_t> update_word;   // see update_word_of()
 };
 static_assert(sizeof(pthread_mutex_t) <= 40, "store layout assumes glibc's 64-bit mutex or smaller");
 static_assert(sizeof(RingHeader) == 128 && std::is_standard_layout_v<RingHeader>);
@@ -61,6 +62,38 @@ inline std::atomic<std::int64_t>& confirmed_of(void* entry, Kind kind) noexcept 
   }
   return static_cast<std::atomic<std::int64_t>*>(entry)[1];  // behind the value, on its cache line
 }
+
+// Values of one sending board are taken over an update at a time; a word tells readers when. Bytes from the entry to
+// that word; 0: this board owns the variable, kAlone: it travels by itself. Written by the mirror only.
+inline constexpr std::int64_t kAlone = INT64_MIN;
+inline std::atomic<std::int64_t>& update_offset_of(void* entry, Kind kind) noexcept {
+  if (kind == Kind::Ring) {
+    return static_cast<RingHeader*>(entry)->update_offset;
+  }
+  return static_cast<std::atomic<std::int64_t>*>(entry)[2];
+}
+// Room for such a word in an entry: that of a sending board lies with one of its variables. It counts updates in steps
+// of kUpdateStep; its low bits say whether one is being taken over and whether the values are of different updates.
+inline constexpr std::uint64_t kUpdating = 1;
+inline constexpr std::uint64_t kPartial = 2;
+inline constexpr std::uint64_t kUpdateStep = 4;
+inline std::atomic<std::uint64_t>& update_word_of(void* entry, Kind kind) noexcept {
+  if (kind == Kind::Ring) {
+    return static_cast<RingHeader*>(entry)->update_word;
+  }
+  return static_cast<std::atomic<std::uint64_t>*>(entry)[3];
+}
+
+// One variable of several that are read together.
+struct Piece {
+  void* entry;
+  void* to;  // size bytes
+  Kind kind;
+  std::uint32_t size;
+  std::uint64_t version;  // the rest is the reader's own
+  std::int64_t update_offset;
+  std::uint64_t update;
+};
 
 // One row per declared variable in every .so or executable that includes a generated header. `entry` is
 // filled in when the module is loaded and again when the store is replaced; it is never null after that.
@@ -103,6 +136,11 @@ void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept;
 // Copies part of the current version when the lock-free way failed 16 times. Real-time safe.
 void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
                        std::uint32_t length) noexcept;
+
+// Copies whole variables as they were together: at one moment on the board that owns them, after one update of the
+// board that sends them. False if that could not be had: then each value is whole, but they need not belong together.
+// Real-time safe.
+bool indurop_read_together(indurop::abi::Piece* pieces, std::uint32_t count) noexcept;
 
 // Throws std::out_of_range naming variable, index and bound.
 [[noreturn]] void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound);

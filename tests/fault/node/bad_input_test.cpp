@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <indurop/detail/abi.h>
+
 #include <csignal>
 #include <fstream>
 
@@ -31,7 +33,8 @@ TEST_F(BadInput, Missing_module_file) {
 }
 
 TEST_F(BadInput, Module_of_another_abi) {
-  expect_refused(run_to_end({{.file = "other_abi.so"}}), "4:15", "is built for InduRoP ABI 4711, this is ABI 1");
+  expect_refused(run_to_end({{.file = "other_abi.so"}}), "4:15",
+                 "is built for InduRoP ABI 4711, this is ABI " + std::to_string(abi::kVersion));
 }
 
 TEST_F(BadInput, Module_with_an_undefined_symbol) {

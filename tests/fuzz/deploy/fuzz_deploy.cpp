@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as module.xml and as manifest of a plant: read, checked, adjusted, planned in every form. Besides not
-// crashing: what is wrong has a place inside the text, a diagnostic is one line, and an adjusted schedule keeps the
-// minimum period.
+// Any bytes as module.xml, as manifest of a plant and as ioconfig.xml: read, checked, adjusted, planned in every form.
+// Besides not crashing: what is wrong has a place inside the text, a diagnostic is one line, and an adjusted schedule
+// keeps the minimum period.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "deploy/io_config.h"
 #include "deploy/plan.h"
 #include "deploy/plant.h"
 #include "deploy/reader.h"
@@ -83,11 +84,20 @@ void fuzz_plant(std::string_view text) {
   }
 }
 
+// There are no variables, so every name is a wrong one.
+void fuzz_io(std::string_view text) {
+  ReadIo read = read_io_config_text(text, "in.xml");
+  const auto bound = bind_io(read.config, {}, read.diagnostics);
+  check_diagnostics(read.diagnostics, text);
+  require(bound.size() == read.config.devices.size());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   fuzz_config(text);
   fuzz_plant(text);
+  fuzz_io(text);
   return 0;
 }

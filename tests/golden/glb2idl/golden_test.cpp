@@ -38,6 +38,15 @@ void expect_file(const fs::path& path, const std::string& text) {
   EXPECT_EQ(slurp(path), text) << path;
 }
 
+// All packages in one file.
+void expect_ros2(const fs::path& folder, const RosPackages& sut) {
+  std::string all = sut.problems;
+  for (const Output& output : sut.outputs) {
+    all += "---- " + output.path + "\n" + output.text;
+  }
+  expect_file(folder / "expected.ros2", all);
+}
+
 class Golden : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, Output_is_as_expected) {
@@ -56,6 +65,9 @@ TEST_P(Golden, Output_is_as_expected) {
   std::string header;
   std::string layout;
   if (sut.ok) {
+    if (GetParam().starts_with("ros2")) {
+      expect_ros2(folder, emit_ros2(sut.program));
+    }
     ASSERT_FALSE(sut.program.units.empty());
     const std::size_t last = sut.program.units.size() - 1;
     idl = emit_idl(sut.program, sut.program.units[last]);

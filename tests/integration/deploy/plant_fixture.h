@@ -135,6 +135,12 @@ class PlantTest : public ::testing::Test {
   Outcome indurop(const std::vector<std::string>& arguments, const std::vector<std::string>& before = {}) {
     return finish(start_indurop(arguments, "indurop.out", before), "indurop.out");
   }
+  // Without the words that lead to agents.
+  Outcome indurop_here(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{INDUROP_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return finish(launch(words, path("here.out"), path("here.out.err"), ""), "here.out");
+  }
   Outcome deploy(const std::string& file, const std::vector<std::string>& more = {},
                  const std::vector<std::string>& before = {}) {
     std::vector<std::string> words{"deploy", file, "--health", "500ms", "--timeout", "10s", "-o", "json"};

@@ -2,16 +2,21 @@
 // A board without modules: a store with some variables, and its mirror. Runs until SIGTERM.
 //   mirror_board NODE BOARD DOMAIN one-host|network LEASE_MS VARIANT OTHER,OTHER... OUT,OUT... VARIABLE@OWNER,...
 //   [KEYS]
-// A "-" stands for an empty list. VARIANT: which of two schemas (see make_schema). KEYS: folder of the board's keys.
+// A "-" stands for an empty list. VARIANT: which schema (see make_schema); "ticking": all outgoing variables are
+// written in every millisecond, as a module does, with the number of the tick. KEYS: folder of the board's keys.
 
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
 #include "board_schema.h"
 #include "mirror/mirror.h"
+#include "rt/clock.h"
 
 namespace {
 
@@ -27,6 +32,32 @@ std::vector<std::string> split(const std::string& text) {
   }
   return parts;
 }
+
+// What a band with one module looks like to the mirror.
+class Ticking {
+ public:
+  Ticking(indurop::vars::Store& store, const std::vector<indurop::mirror::Outgoing>& variables) : store_(store) {
+    for (const auto& out : variables) {
+      entries_.push_back(store.find(indurop::abi::fnv1a64(out.variable.data(), out.variable.size())));
+    }
+  }
+  [[nodiscard]] std::uint64_t runs() const { return runs_.load(std::memory_order_acquire); }
+  void run(std::uint64_t tick) {
+    runs_.fetch_add(1);
+    const std::array<std::uint64_t, 2> value{tick, tick};
+    std::array<std::uint8_t, sizeof value> bytes{};
+    std::memcpy(bytes.data(), value.data(), sizeof value);
+    for (const auto* entry : entries_) {
+      (void)store_.write(*entry, 0, bytes);
+    }
+    runs_.fetch_add(1);
+  }
+
+ private:
+  indurop::vars::Store& store_;
+  std::vector<const indurop::vars::DirectoryEntry*> entries_;
+  std::atomic<std::uint64_t> runs_{0};
+};
 
 }  // namespace
 
@@ -64,13 +95,31 @@ int main(int argc, char** argv) {
     settings.security = {keys + "/ca.pem",         keys + "/identity.pem",    keys + "/identity.key",
                          keys + "/governance.p7s", keys + "/permissions.p7s", keys + "/revoked.pem"};
   }
-  const std::atomic<std::uint64_t> tick{7};
+  std::atomic<std::uint64_t> tick{7};
+  Ticking module(store.value(), settings.outgoing);
+  const bool ticking = std::string(argv[6]) == "ticking" && !settings.outgoing.empty();
+  if (ticking) {
+    settings.writers.push_back({[&] { return module.runs(); }, true});
+    for (auto& out : settings.outgoing) {
+      out.writers = 0;
+    }
+    module.run(tick);
+  }
   auto mirror = indurop::mirror::Mirror::start(settings, argv[1], store.value(), tick);
   if (!mirror) {
     std::fprintf(stderr, "mirror: %s\n", mirror.error().where);
     return 1;
   }
-  int got = 0;
-  sigwait(&stop, &got);
-  return 0;
+  constexpr std::int64_t kPeriodNs = 1'000'000;
+  for (std::int64_t next = indurop::rt::now_ns();; next += kPeriodNs) {
+    const timespec wait{0, ticking ? 0 : 100 * kPeriodNs};
+    if (sigtimedwait(&stop, nullptr, &wait) > 0) {
+      return 0;
+    }
+    if (ticking) {
+      indurop::rt::sleep_until(next);
+      module.run(++tick);
+      mirror.value().notify();
+    }
+  }
 }

@@ -25,9 +25,19 @@ inline schema::Variable array(const std::string& name, schema::Base base, std::u
   return v;
 }
 
-// "other": the same names, but t::pair has another element type.
+inline constexpr int kTicking = 400;
+
+// "other": the same names, but t::pair has another element type. "ticking": t::s0, t::s1, ... instead, pairs of
+// numbers.
 inline schema::Schema make_schema(const std::string& variant) {
   schema::Schema schema;
+  for (int i = 0; variant == "ticking" && i < kTicking; ++i) {
+    schema.variables.push_back(array("t::s" + std::to_string(i), schema::Base::UInt64, 2));
+    schema.variables.back().type_hash = schema::hash_of(schema.variables.back().type);
+  }
+  if (variant == "ticking") {
+    return schema;
+  }
   schema.variables.push_back(scalar("t::count", schema::Base::Int64));
   schema.variables.push_back(array("t::pair", variant == "other" ? schema::Base::Float : schema::Base::UInt64, 2));
   schema.variables.push_back(array("t::large", schema::Base::UInt64, 12'500));

@@ -21,6 +21,7 @@
 #include "mirror/mirror_block.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
+#include "vars/together.h"
 
 namespace indurop::test {
 
@@ -46,6 +47,10 @@ struct BoardPlan {
 };
 
 class Boards : public ::testing::Test {
+ public:
+  // Tests that run at the same time do not hear each other.
+  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+
  protected:
   ~Boards() override {
     for (auto& [name, pid] : running_) {
@@ -144,13 +149,20 @@ class Boards : public ::testing::Test {
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }
+  // True if the values belong together.
+  template <class T>
+  bool get_together(const std::string& board, const std::vector<std::string>& variables, std::vector<T>& values) {
+    std::vector<abi::Piece> pieces;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const auto* entry = stores_.at(board)->find(abi::fnv1a64(variables[i].data(), variables[i].size()));
+      pieces.push_back({stores_.at(board)->entry(entry->name_hash, 0), &values[i], entry->kind, sizeof(T), 0, 0, 0});
+    }
+    return vars::read_together(pieces);
+  }
   std::int64_t confirmed(const std::string& board, const std::string& variable) {
     const auto* entry = stores_.at(board)->find(abi::fnv1a64(variable.data(), variable.size()));
     return abi::confirmed_of(stores_.at(board)->entry(entry->name_hash, 0), entry->kind).load();
   }
-
-  // Tests that run at the same time do not hear each other.
-  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
 
  private:
   static constexpr int kLeaseMs = 200;

@@ -72,19 +72,20 @@ class PlantTest : public ::testing::Test {
   }
 
   // A number of a variable as one board has it; 0 while the board does not run.
-  double value(const std::string& board, const std::string& variable, std::uint32_t offset = 0) {
+  template <class Number = std::uint64_t>
+  static Number number(const std::string& board, const std::string& variable, std::uint32_t offset = 0) {
     const auto store = vars::Store::attach(node(board), vars::Mode::ReadOnly);
     const auto* entry = store ? store.value().find(abi::fnv1a64(variable.data(), variable.size())) : nullptr;
     std::uint8_t bytes[8] = {};
     if (entry == nullptr || !store.value().read(*entry, offset, bytes)) {
       return 0;
     }
-    double result = 0;
+    Number result = 0;
     std::memcpy(&result, bytes, sizeof result);
     return result;
   }
-  double speed(const std::string& board) { return value(board, "cell::encoder", 8); }
-  double torque(const std::string& board) { return value(board, "cell::torque"); }
+  double speed(const std::string& board) { return number<double>(board, "cell::encoder", 8); }
+  double torque(const std::string& board) { return number<double>(board, "cell::torque"); }
   // The controller keeps the table at 2 rad/s, for which it needs 0.04 Nm.
   bool controlled() {
     return std::abs(speed("sensor") - 2) < 0.01 && std::abs(speed("control") - 2) < 0.01 && torque("sensor") > 0.03;

@@ -121,8 +121,8 @@ TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
   const mirror::Participant viewer = mirror::join_plant(settings, problem);
   ASSERT_TRUE(viewer.participant.ok()) << problem;
   const auto topic = mirror::catalogue_topic("testplant");
-  const auto reader = mirror::make_reader(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, settings,
-                                          mirror::Stream::Prompt, nullptr);
+  const auto qos = mirror::plane_qos(settings, mirror::Stream::Prompt);
+  const auto reader = mirror::make_reader(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, qos);
   ASSERT_TRUE(reader.ok()) << reader.why();
   EXPECT_TRUE(wait_until([&] {
     void* sample = nullptr;
@@ -133,8 +133,7 @@ TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
     }
     return count > 0;
   })) << "the viewer hears nothing";
-  const auto writer = mirror::make_writer(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, settings,
-                                          mirror::Stream::Prompt);
+  const auto writer = mirror::make_writer(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, qos);
   EXPECT_FALSE(writer.ok());
 }
 
@@ -146,8 +145,8 @@ TEST_F(Secured, A_board_cannot_speak_for_another_one) {
   ASSERT_TRUE(b.participant.ok()) << problem;
   const auto writer = [&](const char* board) {
     return mirror::make_writer(b.participant.get(), indurop_wire_Frame_desc,
-                               mirror::frames_topic("testplant", board, mirror::Stream::Prompt), settings,
-                               mirror::Stream::Prompt);
+                               mirror::frames_topic("testplant", board, mirror::Stream::Prompt),
+                               mirror::plane_qos(settings, mirror::Stream::Prompt));
   };
   EXPECT_TRUE(writer("b").ok());
   EXPECT_FALSE(writer("a").ok());

@@ -152,8 +152,8 @@ TEST_F(CheckFiles, Facts_are_in_the_order_of_the_modules) {
   const Checked sut = check(root(periodic("missing.so", "1ms", 1) + periodic("b.so", "1ms", 2)), CheckOptions{},
                             folder_ / "module.xml");
   ASSERT_EQ(sut.result.facts.size(), 2U);
-  EXPECT_THAT(sut.result.facts[0].schema.variables, IsEmpty());
-  EXPECT_EQ(sut.result.facts[1].schema.variables.size(), 1U);
+  EXPECT_THAT(sut.result.facts[0].schema->variables, IsEmpty());
+  EXPECT_EQ(sut.result.facts[1].schema->variables.size(), 1U);
   EXPECT_EQ(sut.result.schema.variables.size(), 1U);
   EXPECT_FALSE(sut.result.ok());
 }

@@ -70,6 +70,16 @@ TEST(External, Mistakes_in_a_module_xml_are_told) {
   EXPECT_THAT(said(read_root("<variable name=\"a\"/>")), ElementsAre(HasSubstr("give it every or external")));
 }
 
+TEST(External, Names_of_ROS_2_are_asked_for) {
+  EXPECT_FALSE(read_root("<external>2</external><types>./t.so</types>").config.external.ros2);
+  EXPECT_TRUE(read_root("<external ros2=\"on\">2</external><types>./t.so</types>").config.external.ros2);
+  EXPECT_THAT(said(read_root("<external ros2=\"yes\">2</external><types>./t.so</types>")),
+              ElementsAre(HasSubstr("'yes' is not a value of ros2; write on or off")));
+  const std::string board = "<board name=\"a\"></board>";
+  EXPECT_TRUE(read_plant_text("<plant name=\"p\"><external ros2=\"on\">2</external>" + board + "</plant>", "p.xml")
+                  .plant.external_ros2);
+}
+
 TEST(External, Of_a_board_is_said_by_its_plant) {
   const ReadPlant sut =
       read_plant_text("<plant name=\"p\"><board name=\"a\"><types>./t.so</types></board></plant>", "/cell/p.xml");

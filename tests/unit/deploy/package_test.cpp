@@ -13,6 +13,7 @@
 namespace indurop::deploy {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 Package sample() {
@@ -133,6 +134,44 @@ TEST_F(Packing, Files_of_the_board_itself_do_not_travel) {
   const auto sut = pack_plant(plant("/usr/bin/env"), problem);
   ASSERT_TRUE(sut) << problem;
   EXPECT_EQ(sut->package.files.size(), 1U);
+}
+
+TEST_F(Packing, The_files_of_an_io_module_travel_too) {
+  put("cell/io.xml",
+      "<ioconfig><device name='a' driver='csv' file='../mods/values.csv'><input variable='x'/></device>"
+      "<device name='b' driver='csv' file='/etc/own.csv'><input variable='y'/></device></ioconfig>");
+  put("mods/values.csv", "time,x\n0,1\n");
+  Plant with = plant("/usr/local/lib/libiodispat.so");
+  Module& module = with.boards[0].config.modules[0];
+  module.file = module.file_as_written;
+  module.properties = {{"config", "io.xml"}};
+  std::string problem;
+  const auto sut = pack_plant(with, problem);
+  ASSERT_TRUE(sut) << problem;
+  ASSERT_EQ(sut->package.files.size(), 3U);
+  EXPECT_EQ(sut->package.files[0].path, "cell/io.xml");
+  EXPECT_EQ(sut->package.files[2].path, "mods/values.csv");
+  module.properties = {{"config", "/etc/io.xml"}};
+  EXPECT_EQ(pack_plant(with, problem)->package.files.size(), 1U) << "the board's own";
+  module.properties = {{"config", "gone.xml"}};
+  EXPECT_FALSE(pack_plant(with, problem));
+  EXPECT_THAT(problem, HasSubstr("gone.xml"));
+}
+
+TEST_F(Packing, Files_that_properties_name_travel_too) {
+  put("cell/pick.job", "MOVJ P1\n");
+  put("mods/arm.urdf", "<robot/>");
+  Plant with = plant("../mods/x.so");
+  with.boards[0].config.modules[0].properties = {
+      {"jobs", "pick.job  gone.job"}, {"urdf", "../mods/arm.urdf"}, {"own", "/etc/hostname"}, {"folder", "../mods"}};
+  std::string problem;
+  const auto sut = pack_plant(with, problem);
+  ASSERT_TRUE(sut) << problem;
+  std::vector<std::string> paths;
+  for (const PackageFile& file : sut->package.files) {
+    paths.push_back(file.path);
+  }
+  EXPECT_THAT(paths, ElementsAre("cell/pick.job", "cell/plant.xml", "mods/arm.urdf", "mods/x.so"));
 }
 
 TEST_F(Packing, A_file_that_cannot_be_read_is_named) {

@@ -81,10 +81,10 @@ TEST(Security, An_open_plant_needs_nothing) {
 }
 
 TEST(Topics, Boards_and_streams_have_their_own) {
-  EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/1/cell/a/prompt");
-  EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/1/cell/a/bulk");
-  EXPECT_EQ(frames_topic("c_1", "a-b", Stream::Prompt), "indurop/1/c__1/a_mb/prompt");
-  EXPECT_EQ(catalogue_topic("cell"), "indurop/1/cell/catalogue");
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Prompt), "indurop/2/cell/a/prompt");
+  EXPECT_EQ(frames_topic("cell", "a", Stream::Bulk), "indurop/2/cell/a/bulk");
+  EXPECT_EQ(frames_topic("c_1", "a-b", Stream::Prompt), "indurop/2/c__1/a_mb/prompt");
+  EXPECT_EQ(catalogue_topic("cell"), "indurop/2/cell/catalogue");
 }
 
 TEST(Joining, A_network_interface_that_is_not_there_is_named) {

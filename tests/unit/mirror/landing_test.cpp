@@ -46,7 +46,7 @@ class LandingOf : public ::testing::Test {
   void deliver(std::size_t source, std::uint64_t session, std::int32_t value, std::int64_t now) {
     std::uint8_t bytes[4];
     std::memcpy(bytes, &value, 4);
-    sut_->deliver(source, session, bytes, now, *record_);
+    sut_->deliver({source, session, nullptr, now}, bytes, *record_);
   }
   std::int32_t value() {
     std::uint8_t bytes[4];

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <thread>
+#include <vector>
 
 namespace indurop::mirror {
 namespace {
@@ -41,6 +43,38 @@ TEST(Shared_text, Readers_never_see_a_mixture) {
   }
   stop = true;
   writer.join();
+}
+
+class BlockInMemory : public ::testing::Test {
+ protected:
+  BlockInMemory() : memory_(mirror_block_size(2, 3) / sizeof(std::uint64_t)) {
+    block().magic.store(kMirrorMagic);
+    block().abi = kMirrorAbi;
+    block().peer_count = 2;
+    block().incoming = 3;
+  }
+  MirrorBlock& block() { return *reinterpret_cast<MirrorBlock*>(memory_.data()); }
+  std::span<const std::byte> bytes() { return std::as_bytes(std::span(memory_)); }
+
+ private:
+  std::vector<std::uint64_t> memory_;
+};
+
+TEST_F(BlockInMemory, Is_found_when_it_is_complete) {
+  EXPECT_EQ(mirror_block_in(bytes()), &block());
+}
+
+TEST_F(BlockInMemory, Is_not_one_of_another_version_or_unfinished) {
+  block().abi = kMirrorAbi + 1;
+  EXPECT_EQ(mirror_block_in(bytes()), nullptr);
+  block().abi = kMirrorAbi;
+  block().magic.store(0);
+  EXPECT_EQ(mirror_block_in(bytes()), nullptr);
+}
+
+TEST_F(BlockInMemory, Is_not_one_that_is_cut_off) {
+  EXPECT_EQ(mirror_block_in(bytes().first(bytes().size() - sizeof(IncomingRecord))), nullptr);
+  EXPECT_EQ(mirror_block_in(bytes().first(sizeof(MirrorBlock) - 1)), nullptr);
 }
 
 TEST(Peer_state, Every_state_has_a_word) {

@@ -88,8 +88,9 @@ TEST_F(Allocations, Do_not_happen_in_access_to_variables) {
               joints[0] = v;
               joints[1].y = 2;
               label = "arm";
+              const auto together = snapshot(tick, joints, label);
               auto all = lock(joints);
-              all[3].z = 1;
+              all[3].z = together.get<1>()[3].x;
             }),
             0U);
 }

@@ -70,6 +70,29 @@ TEST_P(EngineOrder, ALowerPriorityWaitsForTheHigherOneOfItsTick) {
     EXPECT_EQ(g_violations, 0);
   }
 }
+// The mirror sends what modules have written as soon as it is told.
+TEST(EngineCores, WorkOnACoreThatIsNotThePrimaryOneIsTold) {
+  const auto cores = rt::allowed_cores();
+  if (cores.size() < 2) {
+    GTEST_SKIP() << "needs two cores";
+  }
+  std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] {})};
+  tasks[0].core = cores.back();
+  auto block = make_block(tasks, 2'000'000, 2'000'000);
+  EngineSettings settings;
+  settings.basic_period_ns = 2'000'000;
+  settings.primary_core = cores.front();
+  settings.realtime = false;
+  std::uint64_t told = 0;
+  Hooks hooks;
+  hooks.context = &told;
+  hooks.worked = [](void* context) noexcept { ++*static_cast<std::uint64_t*>(context); };
+  SystemClock clock;
+  Engine sut(*block, tasks, settings, hooks, clock);
+  sut.step(0, 0);
+  EXPECT_EQ(told, 2U);  // once by the primary core, once by the one of the module
+}
+
 INSTANTIATE_TEST_SUITE_P(OneAndTwoCores, EngineOrder, testing::Bool());
 
 }  // namespace

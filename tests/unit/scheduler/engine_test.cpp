@@ -118,6 +118,24 @@ TEST_F(EngineInVirtualTime, NamesTheCulpritOfAnInlineOverrunAndWhoRanBeforeIt) {
   EXPECT_EQ(entry.previous_ns, 20'000);
 }
 
+TEST_F(EngineInVirtualTime, ADisabledModuleLeavesItsPlaceEmptyUntilItIsEnabled) {
+  const std::vector<Task> tasks = {periodic(0, 100'000, 1, note<1>), periodic(1, 100'000, 2, note<2>),
+                                   periodic(2, 200'000, 3, note<3>)};
+  auto sut = make(tasks, 100'000, 200'000);
+  steps(*sut, 0, 2, 100'000);
+  EXPECT_TRUE(sut->disable(0));
+  EXPECT_TRUE(sut->disable(2));
+  EXPECT_FALSE(sut->disable(7)) << "nobody";
+  EXPECT_TRUE(sut->at_rest(0) && sut->at_rest(2));
+  steps(*sut, 2, 4, 100'000);
+  sut->enable(0);
+  sut->enable(2);
+  steps(*sut, 4, 5, 100'000);
+  EXPECT_THAT(g_order, ElementsAre(1, 2, 3, 1, 2, 2, 2, 1, 2, 3));
+  EXPECT_EQ(block->modules()[0].skipped.load(), 0U);
+  EXPECT_EQ(block->modules()[2].skipped.load(), 0U);
+}
+
 TEST_F(EngineInVirtualTime, StopsOnlyTheModuleWhosePolicySaysSo) {
   std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { g_clock->advance(150'000); }),
                              periodic(1, 200'000, 2, note<2>)};
@@ -191,6 +209,29 @@ TEST_F(EngineThreads, ContainsACrashingModuleOfTheInlineBand) {
   run_until(*sut, [] { return g_calls > 5; });
   EXPECT_EQ(block->modules()[0].fault_kind.load(), static_cast<std::uint32_t>(FaultKind::Signal));
   EXPECT_EQ(block->modules()[0].runs.load(), 1U);
+}
+
+TEST_F(EngineThreads, AModuleIsAtRestOnlyWhenItsRunIsOver) {
+  static std::atomic<bool> inside{false};
+  static std::atomic<bool> leave{false};
+  inside = leave = false;
+  const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { ++g_calls; }), periodic(1, 2'000'000, 2, [] {
+                                     inside = true;
+                                     while (!leave) {
+                                     }
+                                     inside = false;
+                                   })};
+  auto sut = make(tasks, 1'000'000, 2'000'000, &system);
+  ASSERT_TRUE(sut->start(0).ok());
+  const std::int64_t deadline = rt::now_ns() + 20'000'000'000;
+  while (!inside && rt::now_ns() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_TRUE(sut->disable(1));
+  EXPECT_FALSE(sut->at_rest(1));
+  leave = true;
+  run_until(*sut, [&] { return sut->at_rest(1); });
+  EXPECT_FALSE(inside);
 }
 
 TEST_F(EngineThreads, EndsAModuleThatNeverReturnsByItsBudget) {

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot task (chapter, Figure 13): reads the axes, serves what the PLC program asks for, moves, and writes the
+// axes. Kinematics, trajectories and jobs are those of <indurop/robot/controller.h>; properties: urdf, jobs.
+#include <indurop/indurop.h>
+
+#include <indurop/files.h>
+#include <indurop/generated.h>
+#include <indurop/robot/controller.h>
+
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "job_signals.h"
+
+using namespace PLC_ROBOT;
+namespace robot = indurop::robot;
+
+namespace {
+
+std::unique_ptr<robot::Controller> plcRobot;
+std::unique_ptr<JobSignals> signals;
+robot::Inputs in;
+robot::Outputs out;
+
+std::vector<std::string> files(const std::string& names) {
+  std::istringstream stream(names);
+  std::vector<std::string> list;
+  for (std::string name; stream >> name;) {
+    list.push_back(irp::file_beside_config(name));
+  }
+  return list;
+}
+
+robot::DriveIn from(const AXIS1_IN_t& axis) {
+  return {axis.error, axis.status, axis.mode, axis.position};
+}
+AXIS1_OUT_t to(const robot::DriveOut& drive) {
+  return {drive.control, drive.mode, drive.position};
+}
+
+void read_axes() {
+  in.drives = {from(AXIS1_IN), from(AXIS2_IN), from(AXIS3_IN), from(AXIS4_IN), from(AXIS5_IN), from(AXIS6_IN)};
+}
+
+void write_axes() {
+  AXIS1_OUT = to(out.drives[0]);
+  AXIS2_OUT = to(out.drives[1]);
+  AXIS3_OUT = to(out.drives[2]);
+  AXIS4_OUT = to(out.drives[3]);
+  AXIS5_OUT = to(out.drives[4]);
+  AXIS6_OUT = to(out.drives[5]);
+}
+
+void read_requests() {
+  const ROBOT_MODULE_SERVICE_t service = ROBOT_MODULE_SERVICE;
+  in.service = {service.eOpCode,  service.nRequest, service.t_pl, static_cast<double>(service.t_speed),
+                service.p_Target, service.p_Mid,    service.nJob, service.dTarget,
+                service.dVelocity};
+  in.edit = msgRobotServiceEditNum != 0;
+  in.requests_known = valid(ROBOT_MODULE_SERVICE) && valid(AXIS_SERVICE);
+  const auto axes = AXIS_SERVICE.get();
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const AXIS_SERVICE_t& a = axes[k];
+    in.axes[k] = {a.nRequest, a.eOpCode, a.dPosition, a.dVelocity, a.dAcceleration, a.dJerk};
+  }
+  in.speed_override = ROBOT_OVERRIDE;
+  in.hold = ROBOT_HOLD != 0;
+  // Who cannot hear the emergency stop stops.
+  in.emergency = EMERGENCY_STOP.bActive != 0 || !valid(EMERGENCY_STOP);
+}
+
+// Figure 11's fields have no sign: what is negative is stored as its bits.
+unsigned long bits(double thousandths) {
+  return static_cast<unsigned long>(static_cast<long>(thousandths));
+}
+
+void write_state() {
+  auto state = lock(ROBOT_MODULE_STATE);
+  state->nAXESGROUP = MAX_JOINTS;
+  state->MotionDone = out.motion_done;
+  state->Busy = out.busy;
+  state->eState = static_cast<short>(out.state);
+  state->bRuntimeService = out.acknowledged != out.done;
+  state->bJob_RobotMoving = out.moving_by_job;
+  for (std::size_t k = 0; k < MAX_JOINTS; ++k) {
+    state->dCurJoint[k] = bits(1000 * out.joints[k]);
+    state->dCmdJoint[k] = bits(1000 * out.command[k]);
+    state->dJointSpeed[k] = bits(1000 * out.speed[k]);
+    const double place = k < 3 ? out.position[k] : out.orientation[k - 3];
+    const double speed = k < 3 ? out.velocity[k] : out.turning[k - 3];
+    state->dWorldPos[k] = state->dUserPos[k] = state->dBasePos[k] = bits(1000 * place);
+    state->dWorldSpeed[k] = state->dBaseSpeed[k] = bits(1000 * speed);
+  }
+  state->nAcknowledge = out.acknowledged;
+  state->nDone = out.done;
+  state->nError = static_cast<uint32_t>(out.error);
+  state->nErrorAxis = out.error_axis;
+}
+
+void write_arm() {
+  auto arm = lock(ROBOT_ARM);
+  arm->joint = out.joints;
+  arm->command = out.command;
+  arm->speed = out.speed;
+  arm->position = out.position;
+  arm->orientation = out.orientation;
+  arm->tool_speed = out.tool_speed;
+  arm->override_now = out.path_speed;
+  arm->to_go = out.to_go;
+}
+
+void write_job() {
+  auto job = lock(ROBOT_JOB);
+  job->eState = static_cast<short>(out.job.state);
+  job->nJob = static_cast<uint16_t>(out.job.job);
+  job->nLine = out.job.line;
+  job->nCycles = out.job.cycles;
+  job->name = out.job.name;
+  job->cMessage = out.job.message;
+}
+
+void write_axis_states() {
+  auto axes = lock(AXIS_STATE);
+  for (std::size_t k = 0; k < MAX_JOINTS; ++k) {
+    const robot::AxisReport& a = out.axes[k];
+    axes[k] = {static_cast<int32_t>(a.state), a.acknowledged, a.done,        a.aborted,  static_cast<uint32_t>(a.error),
+               static_cast<short>(a.power),   a.homed,        a.in_velocity, a.position, a.velocity};
+  }
+}
+
+}  // namespace
+
+void start() {
+  robot::Settings settings;
+  settings.urdf = irp::file_beside_config(irp::property("urdf", "robot.urdf"));
+  settings.jobs = files(irp::property("jobs", ""));
+  settings.period = irp::period();
+  settings.gear = irp::property("gear", settings.gear);
+  settings.absolute = irp::property("absolute", settings.absolute);
+  settings.time_to_speed = irp::property("time_to_speed", settings.time_to_speed);
+  settings.time_to_acceleration = irp::property("time_to_acceleration", settings.time_to_acceleration);
+  settings.tool_speed = irp::property("tool_speed", settings.tool_speed);
+  settings.tool_turn_speed = irp::property("tool_turn_speed", settings.tool_turn_speed);
+  settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);
+  settings.following_limit = irp::property("following_limit", settings.following_limit);
+
+  std::vector<std::string> errors;
+  plcRobot = robot::Controller::load(settings, errors);
+  for (const std::string& error : errors) {
+    irp::printf("%s\n", error.c_str());
+  }
+  if (!plcRobot) {
+    throw std::runtime_error("the robot cannot be started, see the messages above");
+  }
+  signals = std::make_unique<JobSignals>(plcRobot->signals());
+  ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;
+  for (std::size_t k = 0; k < 6; k++) {
+    ROBOT_MODULE_STATE.dCurJoint[k] = 0.0;
+  }
+}
+
+void run() {
+  read_axes();
+  read_requests();
+  plcRobot->step(in, *signals, out);
+  if (out.edit_done) {
+    msgRobotServiceEditNum = 0;
+  }
+  write_axes();
+  write_state();
+  write_arm();
+  write_job();
+  write_axis_states();
+}
+
+INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "six-axis robot task")

@@ -1,0 +1,87 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# The robot cell (chapter, section 4) at work for twenty seconds, on one board and then on two, with nobody's hand on it.
+# Needs the programs of build/bin in PATH; `make demo` sees to it.
+set -e
+here=$(cd "$(dirname "$0")" && pwd)
+folder=${INDUROP_DEMO_DIR:-$here/../../build/examples/robot_cell}
+cd "$folder"
+
+say() { printf '\n\033[1m%s\033[0m\n' "$*"; }
+show() { say "\$ $*"; "$@"; }
+forget() { for node in cell plc motion; do indurop clean --node $node >/dev/null 2>&1 || true; done; }
+cleanup() {
+  for pid in $recorder $runner; do kill "$pid" 2>/dev/null || true; done
+  for pid in $recorder $runner; do wait "$pid" 2>/dev/null || true; done
+  forget
+}
+recorder=
+runner=
+trap cleanup EXIT
+trap 'exit 130' INT TERM
+
+# wait_for NODE VARIABLE VALUE
+wait_for() {
+  tries=0
+  until [ "$(indurop get --node "$1" "$2" 2>/dev/null)" = "$3" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 100 ] || { echo "$2 of node $1 did not become $3"; exit 1; }
+    sleep 0.1
+  done
+}
+
+# tour ROBOT_NODE STATION_NODE RECORDING: twenty seconds, a line every two
+tour() {
+  wait_for "$2" I14 1
+  wait_for "$1" EMERGENCY_STOP.bActive 0
+  indurop watch --node "$1" ROBOT_ARM.joint ROBOT_ARM.tool_speed ROBOT_MODULE_STATE.eState ROBOT_JOB.name \
+    EMERGENCY_STOP.bActive I4 I5 O8 O9 --hz 50 --timeout 21s -o csv >"$3" &
+  recorder=$!
+  indurop set --node "$2" CELL::tour true
+  second=0
+  while [ $second -lt 20 ]; do
+    sleep 2
+    second=$((second + 2))
+    printf '%3d s  job %-6s state %s, %s on the pallet, visitor %s\n' $second "$(indurop get --node "$1" ROBOT_JOB.name)" \
+      "$(indurop get --node "$1" ROBOT_MODULE_STATE.eState)" "$(indurop get --node "$2" CELL::world.placed)" \
+      "$(indurop get --node "$2" CELL::world.doing)"
+  done
+  wait $recorder || true
+  recorder=
+}
+
+finish() {
+  indurop stop --node "$1" >/dev/null
+  wait $runner || true
+  runner=
+}
+
+forget
+say "The PLC program of the cell, two of its rungs; all of them are drawn in main.svg"
+indurop plc print main.xml | awk '/^rung (8|12)[: ]/ { on = 1 } /^$/ { if (on) print; on = 0 } on'
+indurop plc print main.xml --svg main.svg >/dev/null
+show indurop check module.xml
+say "\$ indurop run module.xml --node cell &"
+indurop run module.xml --node cell -q &
+runner=$!
+say "A visitor starts the cell, walks through the light curtain and hits the emergency stop (state 2 moves, 5 was stopped)"
+tour cell cell cell.csv
+show indurop jitter --node cell --no-histogram
+show indurop get --node cell EMERGENCY_STOP CELL::world
+show indurop chart cell.csv
+indurop chart cell.csv --svg cell.svg --title "Robot cell: joints, states and signals of twenty seconds" -q
+indurop plan module.xml --svg schedule.svg -q
+finish cell
+
+say "The same cell on two boards: the PLC program and its points on one, the robot and its drives on the other"
+say "\$ indurop run plant.xml --local &"
+indurop run plant.xml --local -q &
+runner=$!
+tour motion plc cell_two_boards.csv
+show indurop status --node motion
+show indurop get --node plc CELL::world
+indurop chart cell_two_boards.csv --svg cell_two_boards.svg --title "Robot cell on two boards" -q
+kill $runner 2>/dev/null || true
+wait $runner || true
+runner=
+say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The remote I/O station of the cell and all that is wired to it: a program of its own beside the schedule, reached by
+// the I/O module over Modbus TCP. Coils 0 to 15 are O0 to O15, discrete inputs 0 to 15 are I0 to I15.
+#include <indurop/indurop.h>
+
+#include <indurop/generated.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+
+#include "modbus_server.h"
+#include "surroundings.h"
+#include "tour.h"
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+using Steady = std::chrono::steady_clock;
+
+// What is pressed by hand, and by the visitor of the tour `time` seconds after its beginning; less than 0: there is
+// none.
+Panel pressed(double time, std::string_view& doing) {
+  const auto by_hand = INDUROP_TYPEOF(CELL::panel)(CELL::panel);
+  Panel panel{by_hand.start, by_hand.stop, by_hand.reset, by_hand.emergency_stop, by_hand.curtain};
+  doing = "";
+  for (const TourStep& step : kTour) {
+    if (time >= step.from && time < step.to) {
+      panel.*step.what = true;
+      doing = step.text;
+    }
+  }
+  return panel;
+}
+
+void wire(ModbusServer& station, const Panel& panel, const Surroundings& cell) {
+  station.set_input(0, panel.start);
+  station.set_input(1, !panel.stop);
+  station.set_input(2, panel.reset);
+  station.set_input(3, cell.part_at_end());
+  station.set_input(4, cell.holds());
+  station.set_input(5, cell.open());
+  station.set_input(6, cell.pallet_has_room());
+  station.set_input(7, true);
+  station.set_input(14, !panel.emergency_stop);
+  station.set_input(15, !panel.curtain);
+}
+
+void show(const Surroundings& cell, std::string_view doing, std::uint32_t requests) {
+  INDUROP_TYPEOF(CELL::world) now = CELL::world;
+  now.belt = cell.belt();
+  now.opening = 100 * cell.opening();
+  now.holds = cell.holds();
+  now.on_pallet = cell.on_pallet();
+  now.placed = cell.placed();
+  now.lost = cell.lost();
+  now.requests = requests;
+  now.doing = doing;
+  CELL::world = now;
+}
+
+}  // namespace
+
+int main() {
+  const int port = irp::property<int>("port", 1502);
+  ModbusServer station("127.0.0.1", port, 16, 16);
+  Surroundings cell;
+  auto last = Steady::now();
+  auto tour_began = last;
+  bool on_tour = false;
+  std::string_view doing;
+  for (;;) {
+    const auto now = Steady::now();
+    if (CELL::tour != on_tour) {
+      on_tour = CELL::tour;
+      tour_began = now;
+    }
+    const Panel panel = pressed(on_tour ? Seconds(now - tour_began).count() : -1, doing);
+    const auto arm = INDUROP_TYPEOF(PLC_ROBOT::ROBOT_ARM)(PLC_ROBOT::ROBOT_ARM);
+    cell.step(Seconds(now - last).count(), {station.coil(0), station.coil(1), station.coil(5)},
+              {arm.position[0], arm.position[1], arm.position[2]});
+    last = now;
+    wire(station, panel, cell);
+    show(cell, doing, station.requests());
+    const auto next = now + std::chrono::milliseconds(5);
+    while (Steady::now() < next) {
+      if (!station.serve(1)) {
+        std::fprintf(stderr, "world: port %d of 127.0.0.1 is in use; give another one in module.xml and ioconfig.xml\n",
+                     port);
+        return 1;
+      }
+    }
+  }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SHL SHR ROL ROR AND OR XOR NOT, and single bits (`w.3`). Real-time safe.
+
+#pragma once
+
+#include <indurop/plc/types.h>
+
+#include <limits>
+#include <utility>
+
+namespace indurop::iec {
+
+namespace detail {
+// Bits of the type; 1 for bool.
+template <BitString T>
+inline constexpr int kWidth = std::numeric_limits<T>::digits;
+}  // namespace detail
+
+// Zeros follow; all bits are gone if n is the width or more, none moves if n is negative.
+template <BitString T, Integer N>
+constexpr T shl(T in, N n) noexcept {
+  if (n <= N{}) {
+    return in;
+  }
+  if (std::cmp_greater_equal(n, detail::kWidth<T>)) {
+    return T{};
+  }
+  return static_cast<T>(std::uint64_t{in} << n);
+}
+
+template <BitString T, Integer N>
+constexpr T shr(T in, N n) noexcept {
+  if (n <= N{}) {
+    return in;
+  }
+  if (std::cmp_greater_equal(n, detail::kWidth<T>)) {
+    return T{};
+  }
+  return static_cast<T>(std::uint64_t{in} >> n);
+}
+
+// Any n: whole turns change nothing, a negative n turns the other way.
+template <BitString T, Integer N>
+constexpr T rol(T in, N n) noexcept {
+  constexpr auto kWidth = static_cast<unsigned>(detail::kWidth<T>);
+  const unsigned left = static_cast<unsigned>(n) % kWidth;  // widths are powers of two, so wrapped numbers serve too
+  if (left == 0) {
+    return in;
+  }
+  return static_cast<T>((std::uint64_t{in} << left) | (std::uint64_t{in} >> (kWidth - left)));
+}
+
+template <BitString T, Integer N>
+constexpr T ror(T in, N n) noexcept {
+  return rol(in, 0U - static_cast<unsigned>(n));
+}
+
+template <std::integral T, std::same_as<T>... More>
+constexpr T bit_and(T a, More... more) noexcept {
+  return static_cast<T>((a & ... & more));
+}
+template <std::integral T, std::same_as<T>... More>
+constexpr T bit_or(T a, More... more) noexcept {
+  return static_cast<T>((a | ... | more));
+}
+template <std::integral T, std::same_as<T>... More>
+constexpr T bit_xor(T a, More... more) noexcept {
+  return static_cast<T>((a ^ ... ^ more));
+}
+template <std::integral T>
+constexpr T bit_not(T a) noexcept {
+  if constexpr (std::same_as<T, bool>) {
+    return !a;
+  } else {
+    return static_cast<T>(~a);
+  }
+}
+
+// Bit `number` of a value, 0 the lowest. Requires number < width: the compiler of PLC programs has checked it.
+template <Integer T>
+constexpr bool bit(T value, unsigned number) noexcept {
+  return ((std::uint64_t{static_cast<std::make_unsigned_t<T>>(value)} >> number) & 1U) != 0;
+}
+template <Integer T>
+constexpr void set_bit(T& value, unsigned number, bool to) noexcept {
+  const std::uint64_t mask = std::uint64_t{1} << number;
+  const std::uint64_t old{static_cast<std::make_unsigned_t<T>>(value)};
+  value = static_cast<T>(to ? old | mask : old & ~mask);
+}
+
+}  // namespace indurop::iec

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the C++ that PLC programs become needs besides the library of the standard: values between the program and the
+// shared variables, loops. Real-time safe.
+
+#pragma once
+
+#include <indurop/plc/types.h>
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+namespace indurop::iec {
+
+// Copies between the types of a PLC program and those of shared variables: numbers, BOOL and enumerations into each
+// other, times as nanoseconds, arrays by element, structs with copy_fields() of the generated code.
+template <class To, class From>
+constexpr void copy_value(To& to, const From& from) {
+  if constexpr (std::is_same_v<To, From>) {
+    to = from;
+  } else if constexpr (Timelike<To>) {
+    to.ns = static_cast<std::int64_t>(from);
+  } else if constexpr (Timelike<From>) {
+    to = static_cast<To>(from.ns);
+  } else if constexpr (Text<To> && Text<From>) {
+    to = To(from.view());
+  } else if constexpr (std::is_scalar_v<To>) {
+    to = static_cast<To>(from);
+  } else {
+    copy_fields(to, from);
+  }
+}
+
+template <class To, class From, std::size_t N>
+constexpr void copy_value(std::array<To, N>& to, const std::array<From, N>& from) {
+  if constexpr (std::is_same_v<To, From>) {
+    to = from;
+  } else {
+    for (std::size_t i = 0; i < N; ++i) {
+      copy_value(to[i], from[i]);
+    }
+  }
+}
+
+// Writes a shared variable, or a part of it, if the program changed it: what others wrote meanwhile stays.
+template <class Shared, class T>
+void write_changed(const Shared& to, const T& now, const T& before) {
+  if (!(now == before)) {
+    typename Shared::whole_type value{};
+    copy_value(value, now);
+    to = value;
+  }
+}
+
+// FOR whose end, step or variable only the running program knows. It ends where the variable would overflow.
+template <Integer T>
+class Loop {
+ public:
+  constexpr Loop(T end, T step) noexcept : end_(end), step_(step) {}
+
+  [[nodiscard]] constexpr bool runs(T value) const noexcept {
+    return !over_ && (step_ >= T{} ? value <= end_ : value >= end_);
+  }
+  constexpr void next(T& value) noexcept { over_ = __builtin_add_overflow(value, step_, &value); }
+
+ private:
+  T end_;
+  T step_;
+  bool over_ = false;
+};
+
+// For an output that the caller does not want.
+template <class T>
+constexpr T& scratch(T&& value = T{}) noexcept {
+  return value;
+}
+
+// An array of equal elements.
+template <class Array>
+constexpr Array filled(const typename Array::value_type& value) noexcept {
+  Array out{};
+  for (auto& one : out) {
+    one = value;
+  }
+  return out;
+}
+
+}  // namespace indurop::iec

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Function blocks TP TON TOF and RTC. `pt` may change while a timer runs and counts at once; negative it is zero. A
+// timer ends in the first scan whose time reaches `pt`; `et` then stands at `pt`. Real-time safe.
+
+#pragma once
+
+#include <indurop/plc/calendar.h>
+#include <indurop/plc/scan.h>
+
+#include <algorithm>
+
+namespace indurop::iec {
+
+// A pulse of length `pt` at the rising edge of `in`, which does nothing more until the pulse has ended.
+struct Tp {
+  bool in = false;
+  Time pt;
+  bool q = false;
+  Time et;
+
+  void operator()(const Scan& scan) noexcept {
+    if (in && !before_ && !q) {
+      watch_.start(scan);
+      q = true;
+    }
+    before_ = in;
+    if (q) {
+      const Time end = std::max(pt, Time{});
+      const Time elapsed = watch_.elapsed(scan);
+      q = elapsed < end;
+      et = std::min(elapsed, end);
+    }
+    if (!q && !in) {
+      et = {};
+    }
+  }
+
+ private:
+  detail::Stopwatch watch_;
+  bool before_ = false;
+};
+
+// `q` follows when `in` was true for `pt`; it falls with `in`.
+struct Ton {
+  bool in = false;
+  Time pt;
+  bool q = false;
+  Time et;
+
+  void operator()(const Scan& scan) noexcept {
+    if (!in) {
+      q = false;
+      et = {};
+      running_ = false;
+      return;
+    }
+    if (!running_) {
+      watch_.start(scan);
+      running_ = true;
+    }
+    if (!q) {
+      const Time end = std::max(pt, Time{});
+      const Time elapsed = watch_.elapsed(scan);
+      q = elapsed >= end;
+      et = std::min(elapsed, end);
+    }
+  }
+
+ private:
+  detail::Stopwatch watch_;
+  bool running_ = false;
+};
+
+// `q` rises with `in` and falls when `in` was false for `pt`.
+struct Tof {
+  bool in = false;
+  Time pt;
+  bool q = false;
+  Time et;
+
+  void operator()(const Scan& scan) noexcept {
+    if (in) {
+      q = true;
+      et = {};
+      running_ = false;
+      return;
+    }
+    if (q && !running_) {
+      watch_.start(scan);
+      running_ = true;
+    }
+    if (q) {
+      const Time end = std::max(pt, Time{});
+      const Time elapsed = watch_.elapsed(scan);
+      q = elapsed < end;
+      et = std::min(elapsed, end);
+    }
+  }
+
+ private:
+  detail::Stopwatch watch_;
+  bool running_ = false;
+};
+
+// The clock `cdt` is set to `pdt` at the rising edge of `in` and runs with the schedule while `in` is true.
+struct Rtc {
+  bool in = false;
+  DateTime pdt;
+  bool q = false;
+  DateTime cdt;
+
+  void operator()(const Scan& scan) noexcept {
+    if (in && !q) {
+      watch_.start(scan);
+      preset_ = pdt;
+    }
+    q = in;
+    if (in) {
+      cdt = add(preset_, watch_.elapsed(scan));
+    }
+  }
+
+ private:
+  detail::Stopwatch watch_;
+  DateTime preset_;
+};
+
+}  // namespace indurop::iec

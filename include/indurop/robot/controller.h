@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot task as a module sees it: one object that is loaded in start() and stepped in every run(). What goes in and
+// out are plain numbers, which the module takes from and puts into its shared variables; see examples/robot_cell.
+
+#pragma once
+
+#include <indurop/robot/words.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace indurop::robot {
+
+inline constexpr std::size_t kJoints = 6;
+using SixNumbers = std::array<double, kJoints>;
+
+// A CiA 402 drive: what it says and what it is told. Positions are counts.
+struct DriveIn {
+  std::uint16_t error = 0;
+  std::uint16_t status = 0;
+  std::int8_t mode = 0;
+  std::int32_t position = 0;
+};
+struct DriveOut {
+  std::uint16_t control = 0;
+  std::int8_t mode = 0;
+  std::int32_t position = 0;
+};
+
+// What a service is asked for with, as ROBOT_MODULE_SERVICE.
+struct ServiceRequest {
+  std::int32_t code = 0;     // Service
+  std::uint32_t number = 0;  // another one than last time: a new request
+  std::uint32_t level = 0;   // position level: 0 stops at the target, above that the path is rounded `level` cm before
+  double speed = 0;          // %; 0: as fast as possible
+  std::uint32_t point = 0;
+  std::uint32_t mid = 0;
+  std::uint32_t job = 0;
+  SixNumbers target{};  // deg; or mm and deg
+  double velocity = 0;  // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
+};
+
+// As AXIS_SERVICE[n]. Zeros in velocity, acceleration and jerk stand for the most the axis can.
+struct AxisRequest {
+  std::uint32_t number = 0;
+  std::int32_t code = 0;    // AxisService
+  double position = 0;      // deg
+  double velocity = 0;      // deg/s
+  double acceleration = 0;  // deg/s^2
+  double jerk = 0;          // deg/s^3
+};
+
+// Shared variables that jobs set and wait for (SET O8 ON, WAIT I4), by the names the jobs use. Called only in step().
+class Signals {
+ public:
+  Signals() = default;
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+  virtual ~Signals() = default;
+  // `index` counts in Controller::signals().
+  virtual double read(std::size_t index) noexcept = 0;
+  virtual void write(std::size_t index, double value) noexcept = 0;
+};
+
+struct Inputs {
+  std::array<DriveIn, kJoints> drives{};
+  ServiceRequest service;
+  bool edit = false;  // msgRobotServiceEditNum: a request without a number
+  std::array<AxisRequest, kJoints> axes{};
+  // False while the board that asks has not been heard: a request of the time before is not taken for a new one.
+  bool requests_known = true;
+  double speed_override = 100;  // %
+  bool hold = false;
+  bool emergency = false;
+};
+
+struct AxisReport {
+  AxisState state = AxisState::Disabled;
+  std::uint32_t acknowledged = 0;
+  std::uint32_t done = 0;
+  std::uint32_t aborted = 0;
+  ErrorCode error = ErrorCode::Ok;
+  bool power = false;
+  bool homed = false;
+  bool in_velocity = false;
+  double position = 0;  // deg, measured
+  double velocity = 0;  // deg/s, commanded
+};
+
+struct JobReport {
+  JobState state = JobState::Idle;
+  std::uint32_t job = 0;
+  std::uint32_t line = 0;
+  std::uint32_t cycles = 0;
+  const char* name = "";     // lives as long as the controller
+  const char* message = "";  // the same
+};
+
+struct Outputs {
+  std::array<DriveOut, kJoints> drives{};
+  GroupState state = GroupState::Disabled;
+  bool motion_done = false;
+  bool busy = false;
+  bool edit_done = false;  // msgRobotServiceEditNum may become 0
+  bool moving_by_job = false;
+  std::uint32_t acknowledged = 0;
+  std::uint32_t done = 0;
+  ErrorCode error = ErrorCode::Ok;
+  std::uint32_t error_axis = 0;
+  SixNumbers joints{};                  // deg, measured
+  SixNumbers command{};                 // deg
+  SixNumbers speed{};                   // deg/s, commanded
+  std::array<double, 3> position{};     // mm, of the tool, commanded
+  std::array<double, 3> orientation{};  // deg, roll pitch yaw
+  std::array<double, 3> velocity{};     // mm/s, of the tool, commanded
+  std::array<double, 3> turning{};      // deg/s, about the fixed axes
+  double tool_speed = 0;                // mm/s
+  double path_speed = 0;                // % of full speed
+  double to_go = 0;                     // s
+  std::array<AxisReport, kJoints> axes{};
+  JobReport job;
+};
+
+// What the task is made of; the module reads it from its properties.
+struct Settings {
+  std::string urdf;               // file
+  std::vector<std::string> jobs;  // files; a job's number is its place here, from 1
+  std::chrono::nanoseconds period{10'000'000};
+  double counts_per_turn = 1'320'000;  // of a joint, in DriveIn and DriveOut
+  double gear = 1;                     // DriveOut counts this many times more
+  bool absolute = true;                // the drives know where they are without homing
+  double time_to_speed = 0.25;         // s, from rest to full speed of an axis with full acceleration
+  double time_to_acceleration = 0.1;   // s, from none to full acceleration
+  double tool_speed = 1000;            // mm/s, full speed on lines and circles
+  double tool_turn_speed = 180;        // deg/s, the same for orientation
+  double emergency_factor = 1.5;       // of the accelerations, in an emergency stop
+  double following_limit = 10;         // deg an axis may be behind
+};
+
+class Controller {
+ public:
+  // Reads robot and jobs. Returns null with everything that is wrong in `errors`, "file:line:col: error: text". Not
+  // real-time safe.
+  [[gnu::visibility("default")]] static std::unique_ptr<Controller> load(const Settings& settings,
+                                                                         std::vector<std::string>& errors);
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+  virtual ~Controller() = default;
+
+  // One period. Real-time safe if `signals` is.
+  virtual void step(const Inputs& in, Signals& signals, Outputs& out) noexcept = 0;
+  // What jobs set or wait for.
+  [[nodiscard]] virtual const std::vector<std::string>& signals() const noexcept = 0;
+
+ protected:
+  Controller() = default;
+};
+
+}  // namespace indurop::robot

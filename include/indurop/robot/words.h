@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers by which a PLC program and the robot task speak with each other. Append-only; a .glb declares the same
+// names for PLC programs (examples/robot_cell/plc_robot.glb).
+
+#pragma once
+
+#include <cstdint>
+
+namespace indurop::robot {
+
+// State of the group of axes, as in PLCopen Motion Control part 4.
+enum class GroupState : std::int16_t { Disabled, Standby, Moving, Homing, Stopping, ErrorStop };
+
+// State of one axis, as in PLCopen Motion Control part 1.
+enum class AxisState : std::int32_t {
+  Disabled,
+  Standstill,
+  Homing,
+  DiscreteMotion,
+  ContinuousMotion,
+  SynchronizedMotion,
+  Stopping,
+  ErrorStop
+};
+
+// Services of the group.
+enum class Service : std::int32_t {
+  None,
+  GroupEnable,
+  GroupDisable,
+  GroupReset,
+  GroupHome,
+  MoveJoints,
+  MoveLine,
+  MoveCircle,
+  DirectAbsolute,
+  LinearAbsolute,
+  Stop,
+  JobStart,
+  JobStop
+};
+
+// Services of one axis.
+enum class AxisService : std::int32_t {
+  None,
+  PowerOn,
+  PowerOff,
+  Home,
+  MoveAbsolute,
+  MoveRelative,
+  MoveVelocity,
+  Stop,
+  Reset
+};
+
+enum class ErrorCode : std::uint32_t {
+  Ok,
+  Opcode,       // no such service
+  State,        // not possible in this state
+  Point,        // no such point
+  Job,          // no such job
+  Value,        // a value that is no number or out of its range
+  Unreachable,  // the target is out of reach
+  JointLimit,   // the target or the way there is beyond a joint's limit
+  Singular,     // the way comes too near a singular position
+  Speed,        // the way would need a joint to be faster than it can
+  Circle,       // the points of a circle lie on a line
+  Drive,        // a drive reports a fault
+  Following,    // an axis does not follow
+  Power,        // a drive does not take power, or lost it
+  Emergency,    // emergency stop
+  Line,         // a line of a job failed
+  NotHomed,     // the axis does not know where it is
+  Aborted       // a later command took over
+};
+
+enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed };
+
+// "the target is out of reach", for messages.
+[[gnu::visibility("default")]] const char* to_string(ErrorCode code) noexcept;
+
+}  // namespace indurop::robot

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motor with its load, the drive's position and velocity loop around it, and the encoder on its shaft: a second-order
+// system with limits, advanced in steps of fixed length so that equal commands give equal motion. Radians, seconds, N
+// m. Real-time safe.
+
+#pragma once
+
+#include <cstdint>
+
+#include "deploy/io_config.h"
+
+namespace indurop::io {
+
+// What the loops are to follow at the end of one step.
+struct AxisReference {
+  double position = 0;
+  double velocity = 0;
+  bool follow_position = true;  // false: the velocity alone counts
+};
+
+class AxisModel {
+ public:
+  static constexpr std::int64_t kStepNs = 125'000;
+  static constexpr double kStep = 125e-6;  // the same in seconds
+
+  explicit AxisModel(const deploy::IoAxis& axis) noexcept;
+
+  // One step with the loops closed.
+  void drive(const AxisReference& reference) noexcept;
+  // One step without power: the brake holds with the motor's largest torque.
+  void brake() noexcept;
+
+  [[nodiscard]] double position() const noexcept { return position_; }
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }
+  [[nodiscard]] double torque() const noexcept { return torque_; }
+  [[nodiscard]] bool limited() const noexcept { return limited_; }  // torque or velocity, in the last step
+  [[nodiscard]] double most_velocity() const noexcept { return most_velocity_; }
+  // What the motor can brake with.
+  [[nodiscard]] double most_deceleration() const noexcept { return most_torque_ / inertia_; }
+
+  // Encoder counts from power on at `start`, not yet wrapped to a register's size. Each call may see other noise.
+  [[nodiscard]] std::int64_t read_encoder() noexcept;
+  [[nodiscard]] double counts_per_radian() const noexcept { return counts_per_radian_; }
+
+ private:
+  void accelerate(double torque) noexcept;
+  double noise() noexcept;
+
+  double inertia_;
+  double damping_;
+  double most_torque_;
+  double most_velocity_;
+  double position_gain_;  // 1/s
+  double velocity_gain_;  // 1/s
+  double counts_per_radian_;
+  double noise_counts_;
+  std::uint64_t random_;
+  double position_;
+  double velocity_ = 0;
+  double torque_ = 0;
+  bool limited_ = false;
+};
+
+}  // namespace indurop::io

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/cia402_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace indurop::io {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+constexpr double kStandingDegrees = 0.05;  // per second
+constexpr double kArrivedDegrees = 0.01;
+constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops keep some
+
+bool is_velocity(DriveMode mode) noexcept {
+  return mode == DriveMode::ProfileVelocity || mode == DriveMode::CyclicVelocity;
+}
+
+template <class T>
+T saturated(double value) noexcept {
+  constexpr auto kLow = static_cast<double>(std::numeric_limits<T>::min());
+  constexpr auto kHigh = static_cast<double>(std::numeric_limits<T>::max());
+  return static_cast<T>(std::clamp(std::nearbyint(value), kLow, kHigh));
+}
+
+// As a register of 32 bits counts: beyond its end it goes on at its beginning.
+std::int32_t wrapped(std::int64_t counts) noexcept {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::uint64_t>(counts)));
+}
+
+}  // namespace
+
+Cia402Drive::Cia402Drive(const deploy::IoAxis& axis) noexcept
+    : axis_(axis), model_(axis), last_counts_(model_.read_encoder()) {
+  start_over();
+}
+
+double Cia402Drive::radians_of(std::int32_t counts) const noexcept {
+  // The turn that is nearest to where the axis is.
+  const std::int64_t shown = last_counts_ - zero_counts_;
+  const auto difference =
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) - static_cast<std::uint32_t>(wrapped(shown)));
+  return static_cast<double>(last_counts_ + difference) / model_.counts_per_radian();
+}
+
+bool Cia402Drive::standing() const noexcept {
+  return profile_.velocity == 0 && std::fabs(model_.velocity()) < kStandingDegrees * kRadiansPerDegree;
+}
+
+void Cia402Drive::follow_actual() noexcept {
+  profile_ = {model_.position(), model_.velocity()};
+}
+
+void Cia402Drive::start_over() noexcept {
+  follow_actual();
+  target_ = model_.position();
+  next_target_.reset();
+  reached_ = false;
+  home_ = Home::Idle;
+  too_far_s_ = 0;
+}
+
+void Cia402Drive::take_mode(std::int8_t mode) noexcept {
+  const auto wanted = static_cast<DriveMode>(mode);
+  switch (wanted) {
+    case DriveMode::None:
+    case DriveMode::ProfilePosition:
+    case DriveMode::ProfileVelocity:
+    case DriveMode::Homing:
+    case DriveMode::CyclicPosition:
+    case DriveMode::CyclicVelocity:
+      if (mode_ != wanted) {
+        mode_ = wanted;
+        start_over();
+      }
+      return;
+  }
+}
+
+void Cia402Drive::take_set_point(const DriveCommand& command) noexcept {
+  const bool rising = (command.control & kNewSetPoint) != 0 && (last_control_ & kNewSetPoint) == 0;
+  const bool falling = (command.control & kNewSetPoint) == 0 && (last_control_ & kNewSetPoint) != 0;
+  if (mode_ == DriveMode::Homing) {
+    if (rising) {
+      home_ = Home::Moving;
+      reached_ = false;
+    } else if (falling && home_ == Home::Moving) {
+      home_ = Home::Idle;
+    }
+    return;
+  }
+  if (mode_ != DriveMode::ProfilePosition || !rising) {
+    return;
+  }
+  const bool relative = (command.control & kRelative) != 0;
+  const double wanted = relative ? next_target_.value_or(target_) + command.position / model_.counts_per_radian()
+                                 : radians_of(command.position);
+  if (reached_ || (command.control & kChangeAtOnce) != 0 || standing()) {
+    target_ = wanted;
+    next_target_.reset();
+    reached_ = false;
+  } else {
+    next_target_ = wanted;
+  }
+}
+
+void Cia402Drive::advance_profile_position(const DriveCommand& command, double dt) noexcept {
+  const double acceleration = axis_.acceleration * kRadiansPerDegree;
+  if ((command.control & kHalt) != 0) {
+    reached_ = profile_.change_velocity(0, acceleration, dt);
+    return;
+  }
+  const bool there = profile_.go_to(target_, model_.most_velocity(), acceleration, dt);
+  reached_ = there && std::fabs(model_.position() - target_) < kArrivedDegrees * kRadiansPerDegree;
+  if (reached_ && next_target_) {
+    target_ = *next_target_;
+    next_target_.reset();
+    reached_ = false;
+  }
+}
+
+void Cia402Drive::advance_homing(const DriveCommand& command, double dt) noexcept {
+  const double acceleration = axis_.acceleration * kRadiansPerDegree;
+  if (home_ != Home::Moving || (command.control & kHalt) != 0) {
+    reached_ = profile_.change_velocity(0, acceleration, dt);
+    return;
+  }
+  const double mark = axis_.mark * kRadiansPerDegree;
+  const double speed = std::min(axis_.home_speed * kRadiansPerDegree, model_.most_velocity());
+  const bool there = profile_.go_to(mark, speed, acceleration, dt);
+  if (there && std::fabs(model_.position() - mark) < kArrivedDegrees * kRadiansPerDegree) {
+    home_ = Home::Done;
+    reached_ = true;
+    zero_counts_ = std::llround(mark * model_.counts_per_radian());
+  }
+}
+
+void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexcept {
+  const double acceleration = axis_.acceleration * kRadiansPerDegree;
+  const bool halt = (command.control & kHalt) != 0;
+  const double limit = model_.most_velocity();
+  const double velocity = std::clamp(command.velocity / model_.counts_per_radian(), -limit, limit);
+  switch (mode_) {
+    case DriveMode::None:
+      profile_.change_velocity(0, acceleration, dt);
+      break;
+    case DriveMode::ProfilePosition:
+      advance_profile_position(command, dt);
+      break;
+    case DriveMode::ProfileVelocity:
+      reached_ = profile_.change_velocity(halt ? 0 : velocity, acceleration, dt);
+      break;
+    case DriveMode::Homing:
+      advance_homing(command, dt);
+      break;
+    case DriveMode::CyclicPosition:
+      profile_.velocity = cyclic_velocity_;
+      profile_.position += cyclic_velocity_ * dt;
+      break;
+    case DriveMode::CyclicVelocity:
+      profile_ = {model_.position(), halt ? 0 : velocity};
+      break;
+  }
+}
+
+void Cia402Drive::watch_following() noexcept {
+  const double error = std::fabs(profile_.position - model_.position());
+  if (!follows_position_ || error <= axis_.following * kRadiansPerDegree) {
+    too_far_s_ = 0;
+    return;
+  }
+  too_far_s_ += AxisModel::kStep;
+  if (too_far_s_ > std::chrono::duration<double>(axis_.following_time).count()) {
+    machine_.fail(kFollowingError);
+    follow_actual();
+  }
+}
+
+void Cia402Drive::advance(const DriveCommand& command, double dt) noexcept {
+  switch (machine_.state()) {
+    case DriveState::OperationEnabled:
+      advance_enabled(command, dt);
+      follows_position_ = !is_velocity(mode_);
+      model_.drive({profile_.position, profile_.velocity, follows_position_});
+      watch_following();
+      break;
+    case DriveState::QuickStopActive:
+    case DriveState::FaultReaction:
+      profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
+      model_.drive({profile_.position, profile_.velocity, false});
+      break;
+    case DriveState::NotReady:
+    case DriveState::SwitchOnDisabled:
+    case DriveState::ReadyToSwitchOn:
+    case DriveState::SwitchedOn:
+    case DriveState::Fault:
+      model_.brake();
+      profile_ = {model_.position(), 0};
+      break;
+  }
+}
+
+std::uint16_t Cia402Drive::mode_bits(const DriveCommand& command) const noexcept {
+  unsigned bits = reached_ ? kTargetReached : 0U;
+  switch (mode_) {
+    case DriveMode::None:
+      return 0;
+    case DriveMode::ProfilePosition:
+      bits |= (command.control & kNewSetPoint) != 0 || next_target_ ? kModeBit12 : 0U;
+      bits |= too_far_s_ > 0 ? kModeBit13 : 0U;
+      break;
+    case DriveMode::ProfileVelocity:
+      bits |= standing() ? kModeBit12 : 0U;
+      break;
+    case DriveMode::Homing:
+      bits |= home_ == Home::Done ? kModeBit12 : 0U;
+      break;
+    case DriveMode::CyclicPosition:
+      bits = kModeBit12 | (too_far_s_ > 0 ? kModeBit13 : 0U);
+      break;
+    case DriveMode::CyclicVelocity:
+      bits = kModeBit12;
+      break;
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
+DriveFeedback Cia402Drive::feedback(const DriveCommand& command) noexcept {
+  last_counts_ = model_.read_encoder();
+  DriveFeedback result;
+  unsigned status = machine_.status() | kVoltage | kRemote;
+  if (machine_.state() == DriveState::OperationEnabled) {
+    status |= mode_bits(command) | (model_.limited() ? kLimitActive : 0U);
+  }
+  constexpr double kPerMille = 1000;
+  result.status = static_cast<std::uint16_t>(status);
+  result.error = machine_.error();
+  result.mode = static_cast<std::int8_t>(mode_);
+  result.position = wrapped(last_counts_ - zero_counts_);
+  result.velocity = saturated<std::int32_t>(model_.velocity() * model_.counts_per_radian());
+  result.torque = saturated<std::int16_t>(model_.torque() / axis_.torque * kPerMille);
+  return result;
+}
+
+DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept {
+  const double period = std::chrono::duration<double>(elapsed).count();
+  machine_.step(command.control, standing());
+  if (was_enabled_ && machine_.state() == DriveState::QuickStopActive) {
+    follow_actual();
+  }
+  take_mode(command.mode);
+  const bool enabled = machine_.state() == DriveState::OperationEnabled;
+  if (enabled && !was_enabled_) {
+    start_over();
+  }
+  was_enabled_ = enabled;
+  if (enabled) {
+    take_set_point(command);
+  }
+  last_control_ = command.control;
+  if (mode_ == DriveMode::CyclicPosition && period > 0) {
+    cyclic_velocity_ = enabled ? (radians_of(command.position) - profile_.position) / period : 0;
+  }
+  // A period need not be a multiple of the step; what is left comes with the next one.
+  for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
+    advance(command, AxisModel::kStep);
+  }
+  return feedback(command);
+}
+
+}  // namespace indurop::io

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated CiA 402 drive: the objects of a servo drive, with its state machine, its modes of operation and an axis
+// behind it. Advanced by the tick, so the same commands give the same motion to the last bit. Real-time safe.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "deploy/io_config.h"
+#include "io/axis_model.h"
+#include "io/axis_profile.h"
+#include "io/cia402_state.h"
+
+namespace indurop::io {
+
+enum class DriveMode : std::int8_t {
+  None = 0,
+  ProfilePosition = 1,
+  ProfileVelocity = 3,
+  Homing = 6,
+  CyclicPosition = 8,
+  CyclicVelocity = 9
+};
+
+struct DriveCommand {
+  std::uint16_t control = 0;
+  std::int8_t mode = 0;
+  std::int32_t position = 0;  // target, counts
+  std::int32_t velocity = 0;  // target, counts / s
+};
+
+struct DriveFeedback {
+  std::uint16_t error = 0;
+  std::uint16_t status = 0;
+  std::int8_t mode = 0;
+  std::int32_t position = 0;  // counts, wraps around like the register of a real drive
+  std::int32_t velocity = 0;  // counts / s
+  std::int16_t torque = 0;    // of what the motor can give, 1/1000
+};
+
+class Cia402Drive {
+ public:
+  explicit Cia402Drive(const deploy::IoAxis& axis) noexcept;
+
+  // The next period: takes the command at its beginning, returns what the drive sends at its end.
+  DriveFeedback step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept;
+
+  [[nodiscard]] DriveState state() const noexcept { return machine_.state(); }
+
+ private:
+  void take_mode(std::int8_t mode) noexcept;
+  void take_set_point(const DriveCommand& command) noexcept;
+  void follow_actual() noexcept;  // set points continue from where the axis is
+  void start_over() noexcept;     // and whatever was commanded before is forgotten
+  void advance(const DriveCommand& command, double dt) noexcept;
+  void advance_enabled(const DriveCommand& command, double dt) noexcept;
+  void advance_homing(const DriveCommand& command, double dt) noexcept;
+  void advance_profile_position(const DriveCommand& command, double dt) noexcept;
+  void watch_following() noexcept;
+  [[nodiscard]] double radians_of(std::int32_t counts) const noexcept;
+  [[nodiscard]] bool standing() const noexcept;
+  [[nodiscard]] std::uint16_t mode_bits(const DriveCommand& command) const noexcept;
+  [[nodiscard]] DriveFeedback feedback(const DriveCommand& command) noexcept;
+
+  deploy::IoAxis axis_;
+  AxisModel model_;
+  DriveStateMachine machine_;
+  AxisProfile profile_;  // the reference, its positions as the model has them
+  DriveMode mode_ = DriveMode::None;
+  std::uint16_t last_control_ = 0;
+  bool was_enabled_ = false;
+  bool follows_position_ = true;
+  bool reached_ = false;
+  double target_ = 0;
+  std::optional<double> next_target_;
+  enum class Home { Idle, Moving, Done } home_ = Home::Idle;
+  std::int64_t zero_counts_ = 0;  // encoder counts that are shown as position 0
+  double cyclic_velocity_ = 0;    // of the way to the target of this period
+  double too_far_s_ = 0;          // time beyond the largest following error
+  std::int64_t last_counts_;
+  std::int64_t rest_ns_ = 0;  // of the period, shorter than a step
+};
+
+}  // namespace indurop::io

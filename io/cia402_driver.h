@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The simulated drive as a device of I/O dispatch: points named after its objects.
+
+#pragma once
+
+#include <vector>
+
+#include "io/cia402_drive.h"
+#include "io/driver.h"
+
+namespace indurop::io {
+
+class Cia402Driver final : public Driver {
+ public:
+  Cia402Driver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
+               std::span<const deploy::IoPoint> inputs);
+
+  [[nodiscard]] bool in_tick() const noexcept override { return true; }
+  bool open() override { return true; }
+  Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  void close() noexcept override {}
+  [[nodiscard]] std::string problem() const override { return {}; }
+
+ private:
+  enum class Object { Error, Status, Control, Mode, Position, Velocity, Torque };
+  static Object object_of(const deploy::IoPoint& point);
+
+  std::vector<Object> outputs_;
+  std::vector<Object> inputs_;
+  DriveCommand command_;
+  Cia402Drive drive_;
+};
+
+}  // namespace indurop::io

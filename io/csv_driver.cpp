@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/csv_driver.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace indurop::io {
+
+std::unique_ptr<CsvDriver> CsvDriver::make(const deploy::IoDevice& device, std::span<const deploy::IoPoint> inputs,
+                                           std::string& problem) {
+  const std::string file = device.csv.file.string();
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) {
+    problem = fmt::format("{}: error: cannot be read: {}", file, std::strerror(errno));
+    return nullptr;
+  }
+  std::vector<std::string> problems;
+  CsvTable table = read_csv(text.str(), file, problems);
+  std::vector<std::size_t> columns;
+  for (const deploy::IoPoint& point : inputs) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), point.at);
+    if (found == table.columns.end() && problems.empty()) {
+      problems.push_back(fmt::format("{}:1:1: error: there is no column '{}'; there are {}", file, point.at,
+                                     fmt::join(table.columns, ", ")));
+      break;
+    }
+    columns.push_back(static_cast<std::size_t>(found - table.columns.begin()));
+  }
+  if (!problems.empty()) {
+    problem = fmt::format("{}", fmt::join(problems, "\n"));
+    return nullptr;
+  }
+  return std::make_unique<CsvDriver>(std::move(table), std::move(columns), device.csv.loop);
+}
+
+CsvDriver::CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop)
+    : table_(std::move(table)), columns_(std::move(columns)), loop_(loop && table_.rows.size() > 1) {
+  // The last row lasts as long as the one before it.
+  const auto& rows = table_.rows;
+  length_ns_ = loop_ ? 2 * rows.back().time_ns - rows[rows.size() - 2].time_ns : 0;
+}
+
+Driver::Outcome CsvDriver::exchange(std::span<Sample> /*outputs*/, std::span<Sample> inputs,
+                                    std::chrono::nanoseconds elapsed) {
+  time_ns_ += std::exchange(begun_, true) ? elapsed.count() : 0;
+  const auto& rows = table_.rows;
+  if (loop_ && time_ns_ >= length_ns_) {
+    time_ns_ %= length_ns_;
+    row_ = 0;
+  }
+  while (row_ + 1 < rows.size() && rows[row_ + 1].time_ns <= time_ns_) {
+    ++row_;
+  }
+  const bool before_first = time_ns_ < rows.front().time_ns;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double value = rows[row_].values[columns_[i]];
+    if (before_first || std::isnan(value)) {
+      inputs[i].quality = before_first ? Quality::None : Quality::Lost;
+      continue;
+    }
+    inputs[i].value = static_cast<Number>(value);
+    inputs[i].quality = Quality::Good;
+  }
+  return Outcome::Good;
+}
+
+}  // namespace indurop::io

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recorded values instead of a device: each row of a CSV file counts from its time until the next one's.
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "io/csv_table.h"
+#include "io/driver.h"
+
+namespace indurop::io {
+
+class CsvDriver final : public Driver {
+ public:
+  // Null if the file cannot be read or lacks a column; `problem` says what, one line each.
+  static std::unique_ptr<CsvDriver> make(const deploy::IoDevice& device, std::span<const deploy::IoPoint> inputs,
+                                         std::string& problem);
+  // `columns`: that of each point.
+  CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop);
+
+  [[nodiscard]] bool in_tick() const noexcept override { return true; }
+  bool open() override { return true; }
+  Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  void close() noexcept override {}
+  [[nodiscard]] std::string problem() const override { return {}; }
+
+ private:
+  CsvTable table_;
+  std::vector<std::size_t> columns_;
+  bool loop_;
+  std::int64_t length_ns_;  // of one turn of the loop
+  std::int64_t time_ns_ = 0;
+  std::size_t row_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace indurop::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A CSV file of recorded values: a first row with names, a first column with times, numbers or nothing in between.
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::io {
+
+struct CsvRow {
+  std::int64_t time_ns = 0;    // from the first row on, strictly rising
+  std::vector<double> values;  // as CsvTable::columns; NaN: the cell is empty
+};
+
+struct CsvTable {
+  std::vector<std::string> columns;  // without that of the time
+  std::vector<CsvRow> rows;
+};
+
+// Cells are separated by ',' or ';', whichever the first row has; a quoted cell may contain it. The first column is
+// called time, time_s, time_ms or time_us. Lines that are empty or begin with '#' are skipped. What is wrong is
+// appended to `problems`, "file:line:col: error: ...", at most 20 lines.
+CsvTable read_csv(std::string_view text, const std::string& file, std::vector<std::string>& problems);
+
+}  // namespace indurop::io

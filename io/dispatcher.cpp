@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/dispatcher.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace indurop::io {
+
+std::unique_ptr<Dispatcher> Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema,
+                                             Phase phase, std::vector<std::string>& problems) {
+  deploy::ReadIo read = deploy::read_io_config(file);
+  const auto bound = deploy::bind_io(read.config, schema, read.diagnostics);
+  for (const deploy::Diagnostic& diagnostic : read.diagnostics) {
+    problems.push_back(deploy::to_string(diagnostic));
+  }
+  if (!read.ok()) {
+    return nullptr;
+  }
+  std::unique_ptr<Dispatcher> made(new Dispatcher);  // NOLINT: the constructor is private
+  for (const deploy::BoundDevice& device : bound) {
+    made->add(device, phase, file, problems);
+  }
+  return problems.empty() ? std::move(made) : nullptr;
+}
+
+Dispatcher::~Dispatcher() {
+  stop();
+}
+
+std::optional<Dispatcher::Report> Dispatcher::report_to(const std::optional<schema::Place>& variable) {
+  if (!variable) {
+    return std::nullopt;
+  }
+  return Report{variables_.add_write(*variable), variable->type.base};
+}
+
+void Dispatcher::add(const deploy::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
+                     std::vector<std::string>& problems) {
+  std::vector<deploy::BoundPoint> inputs;
+  std::vector<deploy::BoundPoint> outputs;
+  std::vector<deploy::IoPoint> input_points;
+  std::vector<deploy::IoPoint> output_points;
+  for (const deploy::BoundPoint& b : bound.points) {
+    if (phase == (b.point.output ? Phase::Inputs : Phase::Outputs)) {
+      continue;  // the other module's
+    }
+    (b.point.output ? outputs : inputs).push_back(b);
+    (b.point.output ? output_points : input_points).push_back(b.point);
+  }
+  if (inputs.empty() && outputs.empty()) {
+    return;
+  }
+  const bool shareable = bound.device.driver == deploy::IoDriver::ModbusTcp;
+  if (!shareable && outputs.size() + inputs.size() != bound.points.size()) {
+    problems.push_back(
+        fmt::format("{}:{}:{}: error: the inputs and outputs of {} device {} cannot be split among two "
+                    "modules; give the module that runs it a file of its own, without phase",
+                    file.string(), bound.device.place.line, bound.device.place.column,
+                    deploy::name_of(bound.device.driver), bound.device.name));
+    return;
+  }
+  std::string problem;
+  auto driver = make_driver(bound.device, output_points, input_points, problem);
+  if (driver == nullptr) {
+    problems.push_back(std::move(problem));
+    return;
+  }
+  Line& line = lines_.emplace_back();
+  line.device = bound.device;
+  line.driver = std::move(driver);
+  for (const deploy::BoundPoint& b : inputs) {
+    line.to.push_back(variables_.add_write(b.variable));
+    line.input_qualities.push_back(report_to(b.quality));
+  }
+  for (const deploy::BoundPoint& b : outputs) {
+    line.from.push_back(variables_.add_read(b.variable));
+    line.output_qualities.push_back(report_to(b.quality));
+  }
+  // Of two modules that share a device the one with the inputs speaks for it.
+  if (phase != Phase::Outputs || output_points.size() == bound.points.size()) {
+    line.quality = report_to(bound.quality);
+    line.errors = report_to(bound.errors);
+  }
+  if (line.driver->in_tick()) {
+    line.in_tick.emplace(inputs, outputs);
+    line.outputs.resize(outputs.size());
+  } else {
+    line.thread = std::make_unique<ExchangeThread>(line.device, *line.driver, DeviceImage(inputs, outputs));
+  }
+}
+
+Status Dispatcher::start(std::uint32_t module) {
+  variables_.bind();
+  for (const Line& line : lines_) {
+    if (line.thread == nullptr) {
+      continue;
+    }
+    if (const Status status = line.thread->start(module); !status) {
+      stop();
+      return status;
+    }
+  }
+  return {};
+}
+
+void Dispatcher::stop() {
+  for (const Line& line : lines_) {
+    if (line.thread != nullptr) {
+      line.thread->stop();
+    }
+  }
+  variables_.unbind();
+}
+
+void Dispatcher::take(Line& line, OutputImage& into) noexcept {
+  for (std::size_t i = 0; i < line.from.size(); ++i) {
+    into[i] = variables_.read(line.from[i]);
+  }
+}
+
+void Dispatcher::tell(const std::optional<Report>& to, Quality quality) noexcept {
+  if (!to) {
+    return;
+  }
+  const bool is_bool = to->base == schema::Base::Bool;
+  std::uint64_t bits = 0;
+  (void)to_variable(to->base, is_bool ? quality == Quality::Good : static_cast<int>(quality), bits);
+  variables_.set(to->part, bits);
+}
+
+void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
+  for (std::size_t i = 0; i < line.to.size(); ++i) {
+    if (image.inputs[i].is_set) {
+      variables_.set(line.to[i], image.inputs[i].bits);
+    }
+    tell(line.input_qualities[i], image.inputs[i].quality);
+  }
+  for (std::size_t i = 0; i < line.from.size(); ++i) {
+    tell(line.output_qualities[i], image.outputs[i]);
+  }
+  tell(line.quality, image.device);
+  if (line.errors) {
+    std::uint64_t bits = 0;
+    (void)to_variable(line.errors->base, static_cast<Number>(image.errors), bits);
+    variables_.set(line.errors->part, bits);
+  }
+}
+
+void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {
+  for (Line& line : lines_) {
+    if (line.thread != nullptr) {
+      take(line, line.thread->next_outputs());
+      line.thread->send();
+      give(line, line.thread->receive());
+    } else {
+      take(line, line.outputs);
+      (void)line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
+      give(line, line.in_tick->current());
+    }
+  }
+  variables_.commit();
+}
+
+}  // namespace indurop::io

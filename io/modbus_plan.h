@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points of a Modbus device gathered into as few requests as the protocol allows: neighbours travel together. Pure.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "deploy/io_config.h"
+
+namespace indurop::io {
+
+struct ModbusRequest {
+  int unit = 1;
+  deploy::IoTable table = deploy::IoTable::Holding;
+  std::uint16_t first = 0;
+  std::uint16_t count = 0;
+  std::vector<std::size_t> points;  // indices, by address
+};
+
+// Limits of one request as the protocol has them.
+inline constexpr std::uint32_t kMostReadRegisters = 125;
+inline constexpr std::uint32_t kMostWrittenRegisters = 123;
+inline constexpr std::uint32_t kMostReadBits = 2000;
+inline constexpr std::uint32_t kMostWrittenBits = 1968;
+
+// Up to `gap` places between two points may be read along. Nothing is ever written that is no point.
+std::vector<ModbusRequest> plan_reads(std::span<const deploy::IoPoint> points, int gap);
+std::vector<ModbusRequest> plan_writes(std::span<const deploy::IoPoint> points);
+
+}  // namespace indurop::io

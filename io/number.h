@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A number into a type that may be too small for it: the nearest value, and whether it was the number itself. Real-time
+// safe.
+
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+#include "io/sample.h"
+
+namespace indurop::io {
+
+// Rounds to the nearest, halves to the even one. False: beyond the type, `into` is its nearest limit; NaN leaves it.
+template <std::integral T>
+bool to_whole(Number value, T& into) noexcept {
+  if (std::isnan(value)) {
+    return false;
+  }
+  const Number rounded = std::nearbyint(value);
+  if (rounded < static_cast<Number>(std::numeric_limits<T>::min())) {
+    into = std::numeric_limits<T>::min();
+    return false;
+  }
+  if (rounded > static_cast<Number>(std::numeric_limits<T>::max())) {
+    into = std::numeric_limits<T>::max();
+    return false;
+  }
+  into = static_cast<T>(rounded);
+  return true;
+}
+
+// False: a finite number beyond the type, `into` is its largest one.
+template <std::floating_point T>
+bool to_real(Number value, T& into) noexcept {
+  constexpr Number kMost = std::numeric_limits<T>::max();
+  if (std::isfinite(value) && std::fabs(value) > kMost) {
+    into = static_cast<T>(std::copysign(kMost, value));
+    return false;
+  }
+  into = static_cast<T>(value);
+  return true;
+}
+
+}  // namespace indurop::io

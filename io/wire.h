@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers in registers of 16 bits: types, order of words and bytes. Pure functions, real-time safe.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "deploy/io_config.h"
+#include "io/sample.h"
+
+namespace indurop::io {
+
+using deploy::WireType;
+
+// "abcd" is the order of Modbus: high word first, high byte of each word first.
+struct WireForm {
+  WireType type = WireType::UInt16;
+  bool swap_words = false;
+  bool swap_bytes = false;
+};
+
+// `registers` has deploy::registers_of(form.type) words.
+Number decode(const WireForm& form, std::span<const std::uint16_t> registers) noexcept;
+// False, and the nearest possible value was written, if the number does not fit; nothing is written of a NaN that the
+// wire's type cannot say.
+bool encode(const WireForm& form, Number value, std::span<std::uint16_t> registers) noexcept;
+
+}  // namespace indurop::io

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/call_checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace indurop::plc {
+namespace {
+
+using ast::Argument;
+using ast::Expression;
+
+bool is_enable(const Argument& argument) {
+  return same_name(argument.name, "EN") && !argument.output;
+}
+bool is_enable_out(const Argument& argument) {
+  return same_name(argument.name, "ENO") && argument.output;
+}
+
+std::vector<std::string> names_of(const std::vector<LibraryParameter>& list) {
+  std::vector<std::string> names;
+  for (const LibraryParameter& one : list) {
+    names.push_back(one.name);
+  }
+  return names;
+}
+
+bool is_parameter(const Variable& variable, bool output) noexcept {
+  return output ? variable.section == ast::Section::Output
+                : variable.section == ast::Section::Input || variable.section == ast::Section::InOut;
+}
+
+}  // namespace
+
+// Notes EN and ENO; false with an error if they cannot stand here.
+bool CallChecker::take_enable(Expression& call, bool allowed) {
+  Resolved& out = ExpressionChecker::resolved(call);
+  bool fine = true;
+  for (Argument& argument : call.arguments) {
+    if (!is_enable(argument) && !is_enable_out(argument)) {
+      continue;
+    }
+    if (!allowed) {
+      context_.error(argument.at, "EN and ENO need the call for themselves: as a statement, or x := F(EN := ...);");
+      return false;
+    }
+    if (is_enable(argument)) {
+      out.enable = argument.value ? &argument : nullptr;
+      fine =
+          (!argument.value || expressions_.assigned(*argument.value, *context_.elementary(Elementary::Bool))) && fine;
+    } else if (argument.value) {
+      out.enable_out = &argument;
+      output_to(argument, *context_.elementary(Elementary::Bool));
+    }
+  }
+  return fine;
+}
+
+const Type* CallChecker::function(Expression& call, const Type* wanted, bool whole_side) {
+  Expression& callee = call.operands[0];
+  if (callee.kind != Expression::Kind::Name) {
+    context_.error(call.at,
+                   "a function block gives its results in its outputs: call it first, then use instance.output");
+    return nullptr;
+  }
+  if (!take_enable(call, whole_side)) {
+    return nullptr;
+  }
+  if (const auto pou = context_.program.pou_names.find(upper(callee.name)); pou != context_.program.pou_names.end()) {
+    if (pou->second->tree->kind != ast::Pou::Kind::Function) {
+      context_.error(call.at, fmt::format("{} is no function, declare an instance of it and call that", callee.name));
+      return nullptr;
+    }
+    return user_function(call, *pou->second);
+  }
+  const auto overloads = find_functions(callee.name);
+  if (!overloads.empty()) {
+    return library_function(call, overloads, wanted);
+  }
+  if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
+    context_.error(call.at, fmt::format("'{}' is no function; the call of a function block stands alone, its result is "
+                                        "in an output",
+                                        callee.name));
+    return nullptr;
+  }
+  std::vector<std::string> known;
+  for (const LibraryFunction& one : library_functions()) {
+    known.push_back(one.name);
+  }
+  for (const Pou& one : context_.program.pous) {
+    known.push_back(one.name);
+  }
+  const std::string hint = did_you_mean(callee.name, known);
+  context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name,
+                                      hint.empty() ? ", declare it as FUNCTION" : hint));
+  return nullptr;
+}
+
+void CallChecker::statement(Expression& call) {
+  Expression& callee = call.operands[0];
+  const bool is_instance = callee.kind != Expression::Kind::Name ||
+                           (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) ||
+                           context_.program.global_names.contains(upper(callee.name));
+  if (!is_instance) {
+    call.type = function(call, nullptr, true);
+    return;
+  }
+  const Type* type = expressions_.typed(callee, nullptr);
+  if (type == nullptr) {
+    return;
+  }
+  if (type->kind != Type::Kind::Block) {
+    context_.error(call.at,
+                   fmt::format("{} cannot be called, only functions and function blocks can", with_article(*type)));
+    return;
+  }
+  if (!take_enable(call, true)) {
+    return;
+  }
+  call.type = type;
+  if (type->block != nullptr) {
+    library_block(call, *type->block);
+  } else {
+    user_block(call, *type->pou);
+  }
+}
+
+void CallChecker::output_to(Argument& argument, const Type& type) {
+  const Type* to = expressions_.target(*argument.value);
+  if (to == nullptr) {
+    return;
+  }
+  if (argument.negated && !type.is(Elementary::Bool)) {
+    context_.error(argument.at, fmt::format("NOT needs a BOOL, and {} is {}", argument.name, with_article(type)));
+  } else if (!assignable(type, *to)) {
+    context_.error(argument.value->at, fmt::format("the output {} is {}, which does not become {}", argument.name,
+                                                   with_article(type), with_article(*to)));
+  }
+}
+
+void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
+  Resolved& out = ExpressionChecker::resolved(call);
+  std::size_t position = 0;
+  for (Argument& argument : call.arguments) {
+    // EN of a block that has an input of this name is that input.
+    const LibraryParameter* parameter = argument.name.empty() && position < block.inputs.size()
+                                            ? &block.inputs[position++]
+                                        : argument.output ? block.output(argument.name)
+                                                          : block.input(argument.name);
+    if (parameter == nullptr && (is_enable(argument) || is_enable_out(argument))) {
+      continue;
+    }
+    if (parameter == nullptr) {
+      context_.error(
+          argument.at,
+          argument.name.empty()
+              ? fmt::format("{} has only {} inputs", block.name, block.inputs.size())
+              : fmt::format("{} has no {} '{}'{}", block.name, argument.output ? "output" : "input", argument.name,
+                            did_you_mean(argument.name, names_of(argument.output ? block.outputs : block.inputs))));
+      continue;
+    }
+    if (!argument.value) {
+      continue;
+    }
+    const Type* type = context_.elementary(std::get<Elementary>(parameter->type));
+    if (argument.output) {
+      output_to(argument, *type);
+    } else {
+      expressions_.assigned(*argument.value, *type);
+    }
+    out.actuals.push_back({&argument, type, nullptr, parameter->cpp});
+  }
+}
+
+void CallChecker::user_block(Expression& call, const Pou& pou) {
+  Resolved& out = ExpressionChecker::resolved(call);
+  out.pou = &pou;
+  std::vector<const Variable*> inputs;
+  std::set<const Variable*> given;
+  for (const Variable& one : pou.variables) {
+    if (is_parameter(one, false)) {
+      inputs.push_back(&one);
+    }
+  }
+  std::size_t position = 0;
+  for (Argument& argument : call.arguments) {
+    if (is_enable(argument) || is_enable_out(argument)) {
+      continue;
+    }
+    const Variable* parameter = argument.name.empty() ? (position < inputs.size() ? inputs[position++] : nullptr)
+                                                      : pou.find(upper(argument.name));
+    if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {
+      std::vector<std::string> known;
+      for (const Variable& one : pou.variables) {
+        if (is_parameter(one, argument.output)) {
+          known.push_back(one.name);
+        }
+      }
+      context_.error(argument.at,
+                     argument.name.empty()
+                         ? fmt::format("{} has only {} inputs", pou.name, inputs.size())
+                         : fmt::format("{} has no {} '{}'{}", pou.name, argument.output ? "output" : "input",
+                                       argument.name, did_you_mean(argument.name, known)));
+      continue;
+    }
+    if (!given.insert(parameter).second) {
+      context_.error(argument.at, fmt::format("{} is given twice, remove one of them", parameter->name));
+    }
+    if (!argument.value || parameter->type == nullptr) {
+      continue;
+    }
+    if (argument.output) {
+      output_to(argument, *parameter->type);
+    } else if (parameter->section == ast::Section::InOut) {
+      const Type* type = expressions_.reference(*argument.value);
+      if (type != nullptr && !same_type(*type, *parameter->type)) {
+        context_.error(argument.value->at,
+                       fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter->name,
+                                   to_string(*parameter->type), with_article(*type)));
+      }
+    } else {
+      expressions_.assigned(*argument.value, *parameter->type);
+    }
+    out.actuals.push_back({&argument, parameter->type, parameter, parameter->name});
+  }
+  for (const Variable* one : inputs) {
+    if (one->section == ast::Section::InOut && !given.contains(one)) {
+      context_.error(call.at, fmt::format("{} is VAR_IN_OUT and must be given in every call", one->name));
+    }
+  }
+}
+
+const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
+  if (context_.pou != nullptr) {
+    context_.pou->uses.insert(&pou);
+  }
+  const std::size_t before = context_.diagnostics.errors();
+  user_block(call, pou);
+  if (context_.diagnostics.errors() != before) {
+    return nullptr;
+  }
+  // In the order of the declaration, with those that are not given.
+  Resolved& out = ExpressionChecker::resolved(call);
+  std::vector<Resolved::Actual> ordered;
+  for (const Variable& parameter : pou.variables) {
+    if (!is_parameter(parameter, false) && !is_parameter(parameter, true)) {
+      continue;
+    }
+    const auto found = std::find_if(out.actuals.begin(), out.actuals.end(),
+                                    [&](const Resolved::Actual& one) { return one.parameter == &parameter; });
+    ordered.push_back(
+        found != out.actuals.end() ? *found : Resolved::Actual{nullptr, parameter.type, &parameter, parameter.name});
+  }
+  out.actuals = std::move(ordered);
+  return pou.result;
+}
+
+}  // namespace indurop::plc

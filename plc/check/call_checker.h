@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls: which function is meant, which argument belongs to which parameter, and the types all that leads to.
+
+#pragma once
+
+#include <vector>
+
+#include "plc/check/expression_checker.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+
+class CallChecker {
+ public:
+  explicit CallChecker(ExpressionChecker& expressions) : expressions_(expressions), context_(expressions.context_) {}
+
+  // A call with a result. EN and ENO are allowed if it is the whole right side of an assignment.
+  const Type* function(ast::Expression& call, const Type* wanted, bool whole_side);
+  // A call as a statement: a function, or an instance of a function block.
+  void statement(ast::Expression& call);
+  // + - * / MOD **: the library's function of the same meaning.
+  const Type* operation(ast::Expression& expression, const Type* wanted);
+
+ private:
+  struct Choice {
+    const LibraryFunction* function = nullptr;
+    std::vector<const Type*> types;  // of the inputs, by position
+    const Type* result = nullptr;
+    int cost = 0;
+  };
+  using Inputs = std::vector<ast::Expression*>;
+
+  const Type* library_function(ast::Expression& call, const std::vector<const LibraryFunction*>& overloads,
+                               const Type* wanted);
+  const Type* user_function(ast::Expression& call, const Pou& pou);
+  void library_block(ast::Expression& call, const LibraryBlock& block);
+  void user_block(ast::Expression& call, const Pou& pou);
+  void output_to(ast::Argument& argument, const Type& type);
+  bool take_enable(ast::Expression& call, bool allowed);
+
+  const Type* choose(ast::Expression& at, const std::vector<const LibraryFunction*>& overloads, const Inputs& inputs,
+                     const Type* wanted);
+  std::optional<Choice> match(const LibraryFunction& function, const Inputs& inputs, const Type* wanted);
+  const Type* group_type(const LibraryFunction& function, Generic generic, const Inputs& inputs, const Type* wanted);
+  const Type* join_untyped(Generic generic, const Type* group, const ast::Expression& input, const Type* wanted);
+  std::optional<int> cost_of(const ast::Expression& input, const Type& type);
+  void apply(ast::Expression& at, const Choice& choice, const Inputs& inputs);
+
+  ExpressionChecker& expressions_;
+  Context& context_;
+};
+
+}  // namespace indurop::plc

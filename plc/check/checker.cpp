@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/checker.h"
+
+#include <utility>
+
+#include "plc/check/global_table.h"
+#include "plc/check/pou_checker.h"
+#include "plc/check/task_checker.h"
+#include "plc/check/type_builder.h"
+
+namespace indurop::plc {
+namespace {
+
+// Constants that the bounds of types may need come before the types, all others after them.
+void declare_globals(Context& context, bool before_types) {
+  const auto declare = [&](std::vector<ast::Variable>& variables) {
+    for (ast::Variable& one : variables) {
+      const bool early = one.constant && one.type.kind == ast::TypeSpec::Kind::Elementary;
+      if (early == before_types) {
+        declare_global(context, one);
+      }
+    }
+  };
+  Project& project = context.program.project;
+  declare(project.globals);
+  for (Configuration& configuration : project.configurations) {
+    declare(configuration.globals);
+    for (Resource& resource : configuration.resources) {
+      declare(resource.globals);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostics& diagnostics) {
+  auto program = std::make_unique<Program>();
+  program->project = std::move(project);
+  program->foreign = std::move(options.foreign);
+  program->space = std::move(options.space);
+  Context context{*program, diagnostics};
+  declare_pous(context);
+  declare_globals(context, true);
+  declare_types(context);
+  declare_globals(context, false);
+  declare_variables(context);
+  check_bodies(context);
+  order_pous(context);
+  plan_tasks(context);
+  return program;
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks a whole PLC project.
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plc/check/program.h"
+#include "plc/model/diagnostics.h"
+
+namespace indurop::plc {
+
+struct CheckOptions {
+  std::string space = "plc";              // namespace of the shared variables it declares
+  std::vector<schema::Variable> foreign;  // shared variables of other .glb files
+};
+
+// Everything that is wrong goes to `diagnostics`; the result is complete if that did not fail.
+[[nodiscard]] std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc

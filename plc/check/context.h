@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of the checker share while they go through a project.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "plc/check/program.h"
+#include "plc/model/diagnostics.h"
+
+namespace indurop::plc {
+
+struct Context {
+  Program& program;
+  Diagnostics& diagnostics;
+  Pou* pou = nullptr;  // the one being checked
+
+  void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
+  void warning(const Place& at, std::string text) { diagnostics.warning(at, located(std::move(text))); }
+
+  [[nodiscard]] const Type* elementary(Elementary type) const { return program.types.elementary(type); }
+
+ private:
+  // Errors of texts name the POU too.
+  [[nodiscard]] std::string located(std::string text) const {
+    return pou != nullptr ? pou->name + ": " + text : std::move(text);
+  }
+};
+
+// ", did you mean 'x'?" for the nearest of `known`, or "".
+[[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace indurop::plc

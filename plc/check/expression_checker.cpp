@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/expression_checker.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "plc/check/call_checker.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using ast::Operator;
+using Meaning = Resolved::Meaning;
+
+Constant constant_of_literal(const ast::LiteralValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) {
+    return *flag;
+  }
+  if (const auto* number = std::get_if<std::uint64_t>(&value)) {
+    return Integer{*number};
+  }
+  if (const auto* real = std::get_if<double>(&value)) {
+    return *real;
+  }
+  if (const auto* ns = std::get_if<std::int64_t>(&value)) {
+    return Integer{*ns};
+  }
+  return std::get<std::string>(value);
+}
+
+bool is_elementary_bit(const Type& type) noexcept {
+  return type.kind == Type::Kind::Elementary && is_bit(type.elementary);
+}
+
+}  // namespace
+
+bool adapt(Expression& expression, const Type& to) {
+  if (!expression.resolved || !expression.resolved->untyped || !fits(*expression.resolved->constant, to)) {
+    return false;
+  }
+  expression.resolved->constant = stored(*expression.resolved->constant, to);
+  expression.resolved->untyped = false;
+  expression.type = &to;
+  return true;
+}
+
+const Constant* constant_of(const Expression& expression) noexcept {
+  return expression.resolved && expression.resolved->constant ? &*expression.resolved->constant : nullptr;
+}
+
+Resolved& ExpressionChecker::resolved(Expression& expression) {
+  if (!expression.resolved) {
+    expression.resolved = std::make_shared<Resolved>();
+  }
+  return *expression.resolved;
+}
+
+const Type* ExpressionChecker::value(Expression& expression, const Type* wanted) {
+  const Type* type = typed(expression, wanted);
+  if (type == nullptr) {
+    const Meaning meaning = expression.resolved->meaning;
+    if (meaning == Meaning::Type || meaning == Meaning::Namespace) {
+      context_.error(expression.at, fmt::format("'{}' is a {}, but a value is needed", expression.name,
+                                                meaning == Meaning::Type ? "type" : "namespace"));
+    }
+    return nullptr;
+  }
+  if (type->kind == Type::Kind::Block) {
+    context_.error(expression.at, fmt::format("{} is no value, name one of its outputs", with_article(*type)));
+    return nullptr;
+  }
+  return type;
+}
+
+const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted) {
+  static_cast<void>(resolved(expression));
+  const Type* type = nullptr;
+  switch (expression.kind) {
+    case Expression::Kind::Literal:
+      type = literal(expression, wanted);
+      break;
+    case Expression::Kind::Name:
+      type = name(expression);
+      break;
+    case Expression::Kind::Direct:
+      type = direct(expression);
+      break;
+    case Expression::Kind::Member:
+      type = member(expression);
+      break;
+    case Expression::Kind::Bit:
+      type = bit(expression);
+      break;
+    case Expression::Kind::Index:
+      type = index(expression);
+      break;
+    case Expression::Kind::Call:
+      type = CallChecker(*this).function(expression, wanted, false);
+      break;
+    case Expression::Kind::Unary:
+      type = unary(expression, wanted);
+      break;
+    case Expression::Kind::Binary:
+      type = binary(expression, wanted);
+      break;
+  }
+  if (expression.resolved->meaning != Meaning::Type) {  // a type stays noted for the member behind it
+    expression.type = type;
+  }
+  return type;
+}
+
+bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
+  const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
+  if (type == nullptr) {
+    return false;
+  }
+  const bool fine = adapt(expression, to) || assignable(*expression.type, to);
+  if (!fine) {
+    const Constant* known = constant_of(expression);
+    if (known != nullptr && expression.resolved->untyped) {
+      context_.error(expression.at,
+                     fmt::format("{} does not fit {}, use another value or type", to_string(*known), to_string(to)));
+    } else if (type->kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
+      context_.error(expression.at,
+                     fmt::format("{0} does not become {1} by itself, convert it with {2}_TO_{3}()", with_article(*type),
+                                 with_article(to), name_of(type->elementary), name_of(to.elementary)));
+    } else {
+      context_.error(expression.at,
+                     fmt::format("{} is no {}, use a value of the same type", with_article(*type), to_string(to)));
+    }
+    return false;
+  }
+  const Constant* known = constant_of(expression);
+  const auto number = known != nullptr ? as_int64(*known) : std::nullopt;
+  if (number && to.range && (*number < to.range->low || *number > to.range->high)) {
+    context_.error(expression.at, fmt::format("{} is outside of {}, use a value inside", *number, to_string(to)));
+    return false;
+  }
+  return true;
+}
+
+const Type* ExpressionChecker::top_call(Expression& expression, const Type* wanted) {
+  static_cast<void>(resolved(expression));
+  expression.type = CallChecker(*this).function(expression, wanted, true);
+  return expression.type;
+}
+
+void ExpressionChecker::call_statement(Expression& expression) {
+  static_cast<void>(resolved(expression));
+  CallChecker(*this).statement(expression);
+}
+
+const Type* ExpressionChecker::literal(Expression& expression, const Type* /*wanted*/) {
+  Resolved& out = resolved(expression);
+  out.constant = constant_of_literal(expression.value);
+  if (const auto* text = std::get_if<std::string>(&expression.value)) {
+    return context_.program.types.string(text->size());
+  }
+  if (expression.value_type) {
+    const Type* type = context_.elementary(*expression.value_type);
+    if (!fits(*out.constant, *type)) {
+      context_.error(expression.at,
+                     fmt::format("{} does not fit {}, use a larger type", to_string(*out.constant), to_string(*type)));
+      return nullptr;
+    }
+    out.constant = stored(*out.constant, *type);
+    return type;
+  }
+  out.untyped = true;
+  return context_.elementary(default_type(*out.constant));
+}
+
+Elementary default_type(const Constant& constant) noexcept {
+  const auto* number = std::get_if<Integer>(&constant);
+  if (number == nullptr) {
+    return std::holds_alternative<double>(constant) ? Elementary::Lreal : Elementary::Bool;
+  }
+  for (const Elementary type : {Elementary::Int, Elementary::Dint, Elementary::Lint}) {
+    const IntegerLimits limits = limits_of(type);
+    if (*number >= Integer{limits.low} && *number <= Integer{limits.high}) {
+      return type;
+    }
+  }
+  return Elementary::Ulint;
+}
+
+const Type* ExpressionChecker::bit(Expression& expression) {
+  const Type* base = value(expression.operands[0]);
+  if (base == nullptr) {
+    return nullptr;
+  }
+  const bool has_bits = base->kind == Type::Kind::Elementary && !base->is(Elementary::Bool) &&
+                        (is_bit(base->elementary) || is_int(base->elementary));
+  if (!has_bits || expression.bit >= bits_of(base->elementary)) {
+    context_.error(expression.at, fmt::format("{} has no bit {}", with_article(*base), expression.bit));
+    return nullptr;
+  }
+  return context_.elementary(Elementary::Bool);
+}
+
+const Type* ExpressionChecker::index(Expression& expression) {
+  const Type* base = value(expression.operands[0]);
+  const bool reading = std::exchange(reading_, true);
+  bool fine = base != nullptr;
+  if (base != nullptr && base->kind != Type::Kind::Array) {
+    context_.error(expression.at, fmt::format("{} has no elements, remove the index", with_article(*base)));
+    fine = false;
+  } else if (base != nullptr && base->dimensions.size() != expression.operands.size() - 1) {
+    context_.error(expression.at, fmt::format("{} needs {} indices, not {}", to_string(*base), base->dimensions.size(),
+                                              expression.operands.size() - 1));
+    fine = false;
+  }
+  for (std::size_t i = 1; i < expression.operands.size(); ++i) {
+    Expression& one = expression.operands[i];
+    const Type* type = value(one);
+    if (type == nullptr || !fine) {
+      fine = false;
+      continue;
+    }
+    if (type->kind != Type::Kind::Elementary || !is_int(type->elementary)) {
+      context_.error(one.at, fmt::format("an index is a whole number, not {}", with_article(*type)));
+      fine = false;
+      continue;
+    }
+    const Bounds bounds = base->dimensions[i - 1];
+    const Constant* known = constant_of(one);
+    if (known != nullptr &&
+        (std::get<Integer>(*known) < Integer{bounds.low} || std::get<Integer>(*known) > Integer{bounds.high})) {
+      context_.error(
+          one.at, fmt::format("index {} is outside of {}..{}, correct it", to_string(*known), bounds.low, bounds.high));
+      fine = false;
+    }
+  }
+  reading_ = reading;
+  return fine ? base->element : nullptr;
+}
+
+const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted) {
+  Expression& operand = expression.operands[0];
+  Resolved& out = resolved(expression);
+  const bool negated_literal =
+      expression.op == Operator::Negate && operand.kind == Expression::Kind::Literal && operand.value_type;
+  if (negated_literal && std::holds_alternative<std::uint64_t>(operand.value)) {
+    const Type* type = context_.elementary(*operand.value_type);
+    out.constant = -Integer{std::get<std::uint64_t>(operand.value)};
+    if (!fits(*out.constant, *type)) {
+      context_.error(expression.at,
+                     fmt::format("{} does not fit {}, use a larger type", to_string(*out.constant), to_string(*type)));
+      return nullptr;
+    }
+    return type;
+  }
+  const Type* type = value(operand, wanted);
+  if (type == nullptr) {
+    return nullptr;
+  }
+  const bool number =
+      type->kind == Type::Kind::Elementary && (is_signed_int(type->elementary) || is_real(type->elementary) ||
+                                               type->is(Elementary::Time) || operand.resolved->untyped);
+  if (expression.op == Operator::Not
+          ? !is_elementary_bit(*type) && !adapt(operand, *context_.elementary(Elementary::Bool))
+          : !number) {
+    context_.error(expression.at, expression.op == Operator::Not
+                                      ? fmt::format("NOT needs a BOOL or a bit string, not {}", with_article(*type))
+                                      : fmt::format("{} has no sign", with_article(*type)));
+    return nullptr;
+  }
+  out.untyped = operand.resolved->untyped;
+  if (const Constant* known = constant_of(operand)) {
+    std::string why;
+    out.constant = apply(expression.op, *known, why);
+    if (out.constant && !out.untyped) {
+      out.constant = stored(*out.constant, *operand.type);
+    }
+  }
+  return out.untyped ? context_.elementary(default_type(*out.constant)) : context_.elementary(operand.type->elementary);
+}
+
+const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted) {
+  const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
+  const bool combines = expression.op >= Operator::And;
+  const Type* hint = compares ? nullptr : wanted;
+  const Type* a = value(expression.operands[0], hint);
+  const Type* b = value(expression.operands[1], hint);
+  if (a == nullptr || b == nullptr) {
+    return nullptr;
+  }
+  const bool untyped = expression.operands[0].resolved->untyped && expression.operands[1].resolved->untyped;
+  if (untyped) {
+    std::string why;
+    Resolved& out = resolved(expression);
+    out.constant =
+        apply(expression.op, *constant_of(expression.operands[0]), *constant_of(expression.operands[1]), why);
+    if (!out.constant) {
+      context_.error(expression.at, why.empty() ? "these numbers cannot be combined so" : why);
+      return nullptr;
+    }
+    out.untyped = !compares;
+    return context_.elementary(default_type(*out.constant));
+  }
+  return compares ? comparison(expression) : combines ? logic(expression, wanted) : arithmetic(expression, wanted);
+}
+
+// Brings both to one type; false if there is none.
+bool ExpressionChecker::meet(Expression& a, Expression& b) {
+  if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_string()) {
+    adapt(a, *a.type);
+  }
+  if (b.resolved->untyped && !adapt(b, *context_.elementary(a.type->elementary)) && !a.type->is_string()) {
+    adapt(b, *b.type);
+  }
+  return common_type(*a.type, *b.type) != nullptr;
+}
+
+const Type* ExpressionChecker::comparison(Expression& expression) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  const bool scalar = a.type->kind <= Type::Kind::Enum && b.type->kind <= Type::Kind::Enum;
+  const bool is_enum = a.type->kind == Type::Kind::Enum;
+  const bool orders = expression.op < Operator::Equal;
+  if (!scalar || !meet(a, b) || (is_enum && orders)) {
+    context_.error(expression.at,
+                   fmt::format("{} and {} cannot be compared{}", with_article(*a.type), with_article(*b.type),
+                               scalar && !is_enum ? ", convert one of them" : ""));
+    return nullptr;
+  }
+  resolved(expression).operand = common_type(*a.type, *b.type);
+  if (!is_enum) {
+    fold(expression, *resolved(expression).operand);
+  }
+  return context_.elementary(Elementary::Bool);
+}
+
+const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wanted*/) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  if (!meet(a, b) || !is_elementary_bit(*a.type) || !is_elementary_bit(*b.type)) {
+    context_.error(expression.at, fmt::format("AND, OR and XOR combine two BOOL or two bit strings, not {} and {}",
+                                              with_article(*a.type), with_article(*b.type)));
+    return nullptr;
+  }
+  const Type* type = common_type(*a.type, *b.type);
+  resolved(expression).operand = type;
+  fold(expression, *type);
+  return type;
+}
+
+const Type* ExpressionChecker::arithmetic(Expression& expression, const Type* wanted) {
+  const Type* type = CallChecker(*this).operation(expression, wanted);
+  if (type == nullptr) {
+    return nullptr;
+  }
+  const Constant* divisor = constant_of(expression.operands[1]);
+  const bool divides = expression.op == Operator::Divide || expression.op == Operator::Modulo;
+  if (divides && divisor != nullptr && (*divisor == Constant(Integer{0}) || *divisor == Constant(0.0))) {
+    context_.error(expression.operands[1].at, "division by zero, correct the divisor");
+    return nullptr;
+  }
+  if (is_num(type->elementary)) {
+    fold(expression, *type);
+  }
+  return type;
+}
+
+void ExpressionChecker::fold(Expression& expression, const Type& operand) {
+  const Constant* a = constant_of(expression.operands[0]);
+  const Constant* b = constant_of(expression.operands[1]);
+  if (a == nullptr || b == nullptr) {
+    return;
+  }
+  std::string why;
+  auto known = apply(expression.op, operand.is_string() ? *a : stored(*a, operand),
+                     operand.is_string() ? *b : stored(*b, operand), why);
+  const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
+  if (known) {
+    resolved(expression).constant = compares ? *known : stored(*known, operand);
+  }
+}
+
+std::optional<std::int64_t> ExpressionChecker::constant(Expression& expression, std::string_view what) {
+  if (value(expression) == nullptr) {
+    return std::nullopt;
+  }
+  const Constant* known = constant_of(expression);
+  const auto number = known != nullptr ? as_int64(*known) : std::nullopt;
+  if (!number) {
+    context_.error(expression.at, fmt::format("{} must be a whole number known now, use a number or a CONSTANT", what));
+  }
+  return number;
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds what the names in an expression mean and which type it has, and computes what is known already.
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plc/check/context.h"
+
+namespace indurop::plc {
+
+class ExpressionChecker {
+ public:
+  explicit ExpressionChecker(Context& context) : context_(context) {}
+
+  // The type of the value; null after an error. `wanted` helps only where the expression itself leaves it open: in
+  // SQRT(2.0) a REAL or an LREAL.
+  const Type* value(ast::Expression& expression, const Type* wanted = nullptr);
+  // A value that is assigned to a `to`; false after an error. `what` begins the message: "x is a BOOL".
+  bool assigned(ast::Expression& expression, const Type& to);
+  // A variable that is written; its type, null after an error.
+  const Type* target(ast::Expression& expression);
+  // A variable that is passed by reference, read and written.
+  const Type* reference(ast::Expression& expression);
+  // A call as a statement: functions and instances of function blocks.
+  void call_statement(ast::Expression& expression);
+  // Assigns the result of a call that may have EN and ENO.
+  const Type* top_call(ast::Expression& expression, const Type* wanted);
+  // A whole number known now.
+  std::optional<std::int64_t> constant(ast::Expression& expression, std::string_view what);
+  // An initial value; false after an error.
+  bool initial(ast::Initial& initial, const Type& type);
+
+ private:
+  friend class CallChecker;
+  [[nodiscard]] static Resolved& resolved(ast::Expression& expression);
+
+  const Type* typed(ast::Expression& expression, const Type* wanted);
+  const Type* literal(ast::Expression& expression, const Type* wanted);
+  const Type* name(ast::Expression& expression);
+  const Type* enum_value(ast::Expression& expression, const Type& type, std::string_view item);
+  const Type* direct(ast::Expression& expression);
+  const Type* global(ast::Expression& expression, Global& global);
+  const Type* member(ast::Expression& expression);
+  const Type* block_member(ast::Expression& expression, const Type& block);
+  const Type* namespace_member(ast::Expression& expression, const std::string& path);
+  const Type* index(ast::Expression& expression);
+  const Type* bit(ast::Expression& expression);
+  const Type* unary(ast::Expression& expression, const Type* wanted);
+  const Type* binary(ast::Expression& expression, const Type* wanted);
+  const Type* comparison(ast::Expression& expression);
+  const Type* logic(ast::Expression& expression, const Type* wanted);
+  const Type* arithmetic(ast::Expression& expression, const Type* wanted);
+  void fold(ast::Expression& expression, const Type& operand);
+  bool meet(ast::Expression& a, ast::Expression& b);
+  const Type* unknown(const ast::Expression& expression);
+  void note_write(const ast::Expression& expression);
+  bool writable(const ast::Expression& expression);
+  bool array_initial(ast::Initial& initial, const Type& type);
+  bool struct_initial(ast::Initial& initial, const Type& type);
+
+  Context& context_;
+  bool reading_ = true;  // whether names count as read
+};
+
+// Gives an untyped constant the type if it fits. True if the value can be used as a `to` afterwards.
+bool adapt(ast::Expression& expression, const Type& to);
+// INT, DINT, LINT or ULINT, the first that holds the number; LREAL; BOOL.
+[[nodiscard]] Elementary default_type(const Constant& constant) noexcept;
+// Known value of a checked expression, or null.
+[[nodiscard]] const Constant* constant_of(const ast::Expression& expression) noexcept;
+
+}  // namespace indurop::plc

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/global_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plc/check/expression_checker.h"
+#include "plc/check/foreign_types.h"
+#include "plc/check/type_builder.h"
+
+namespace indurop::plc {
+namespace {
+
+std::string_view last_name(std::string_view full) noexcept {
+  const std::size_t at = full.rfind("::");
+  return at == std::string_view::npos ? full : full.substr(at + 2);
+}
+
+// "IX0_3" of %IX0.3
+std::string name_of(const ast::DirectAddress& address) {
+  std::string name = ast::to_string(address);
+  name.erase(0, 1);
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+Elementary type_of(const ast::DirectAddress& address) noexcept {
+  switch (address.size) {
+    case 'B':
+      return Elementary::Byte;
+    case 'W':
+      return Elementary::Word;
+    case 'D':
+      return Elementary::Dword;
+    case 'L':
+      return Elementary::Lword;
+    default:
+      return Elementary::Bool;
+  }
+}
+
+unsigned bits_of_size(char size) noexcept {
+  return bits_of(type_of({'I', size, {}}));
+}
+
+bool contains_block(const Type& type) noexcept {
+  if (type.kind == Type::Kind::Array) {
+    return contains_block(*type.element);
+  }
+  return type.kind == Type::Kind::Block || std::any_of(type.fields.begin(), type.fields.end(),
+                                                       [](const Field& field) { return contains_block(*field.type); });
+}
+
+Global& add(Program& program, Global global) {
+  Global& added = program.globals.emplace_back(std::move(global));
+  program.global_names.emplace(upper(added.name), &added);
+  return added;
+}
+
+Global* at_address(Program& program, const std::string& address) {
+  const auto found = std::find_if(program.globals.begin(), program.globals.end(),
+                                  [&](const Global& global) { return global.address == address; });
+  return found == program.globals.end() ? nullptr : &*found;
+}
+
+// Not shared, because the other one has the name.
+std::string free_name(const Program& program, std::string name) {
+  while (program.global_names.contains(upper(name))) {
+    name += "_1";
+  }
+  return name;
+}
+
+void declare_one(Context& context, ast::Variable& variable, const Type& type) {
+  Program& program = context.program;
+  if (variable.name.empty()) {
+    variable.name = name_of(*variable.address);
+  }
+  if (const auto known = program.global_names.find(upper(variable.name)); known != program.global_names.end()) {
+    context.error(variable.at, fmt::format("'{}' is already declared at {}, rename one of them", variable.name,
+                                           to_string(known->second->at)));
+    return;
+  }
+  Global global;
+  global.at = variable.at;
+  global.name = variable.name;
+  global.type = &type;
+  global.retain = variable.retain;
+  global.comment = variable.comment;
+  global.initial = variable.initial ? &*variable.initial : nullptr;
+  global.address = variable.address ? ast::to_string(*variable.address) : "";
+  if (variable.initial && !ExpressionChecker(context).initial(*variable.initial, type)) {
+    return;
+  }
+  if (variable.constant && !variable.initial) {
+    context.error(variable.at, "a CONSTANT needs a value: name : INT := 5;");
+  }
+  if (variable.constant) {
+    global.kind = Global::Kind::Fixed;
+    const bool scalar = variable.initial && variable.initial->value && type.kind == Type::Kind::Elementary;
+    const Constant* known = scalar ? constant_of(*variable.initial->value) : nullptr;
+    global.constant = known != nullptr && !type.is_string() ? std::optional(stored(*known, type)) : std::nullopt;
+  } else if (contains_block(type)) {
+    global.kind = Global::Kind::Private;
+  }
+  global.shared_name = fmt::format("{}::{}", program.space, global.name);
+  add(program, std::move(global));
+}
+
+// The declared type of an external may show a shared variable as another number of the same size, or as BOOL.
+bool can_show(const Type& as, const Type& of) noexcept {
+  if (as.kind != Type::Kind::Elementary || of.kind > Type::Kind::Enum) {
+    return same_type(as, of);
+  }
+  const auto countable = [](Elementary type) {
+    return is_int(type) || is_bit(type) || type == Elementary::Time || is_date(type);
+  };
+  const Elementary other = of.kind == Type::Kind::Enum ? Elementary::Dint : of.elementary;
+  return as.elementary == other || (countable(as.elementary) && countable(other) &&
+                                    (bits_of(as.elementary) == bits_of(other) || as.is(Elementary::Bool)));
+}
+
+}  // namespace
+
+void declare_global(Context& context, ast::Variable& variable) {
+  const Type* type = build_type(context, variable.type);
+  if (type == nullptr) {
+    return;
+  }
+  if (variable.address) {
+    declare_located(context, variable, *type);
+  } else {
+    declare_one(context, variable, *type);
+  }
+}
+
+Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
+  const bool fits = type.kind <= Type::Kind::Enum && !type.is_string() &&
+                    bits_of(type.elementary) == bits_of_size(variable.address->size);
+  if (!fits) {
+    context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
+                                           with_article(type), ast::to_string(*variable.address)));
+  }
+  if (Global* known = at_address(context.program, ast::to_string(*variable.address))) {
+    if (!same_type(*known->type, type)) {
+      context.error(variable.at, fmt::format("{} is {} at {}, use one type", known->address, with_article(*known->type),
+                                             to_string(known->at)));
+    }
+    return *known;
+  }
+  const std::string wanted = variable.name.empty() ? name_of(*variable.address) : variable.name;
+  const std::string before = variable.name;
+  variable.name = context.pou != nullptr ? free_name(context.program, wanted) : wanted;
+  declare_one(context, variable, type);
+  variable.name = before.empty() ? variable.name : before;
+  Global* made = at_address(context.program, ast::to_string(*variable.address));
+  return made != nullptr ? *made : located_global(context, *variable.address, variable.at);
+}
+
+Global& located_global(Context& context, const ast::DirectAddress& address, const Place& at) {
+  const std::string text = ast::to_string(address);
+  if (Global* known = at_address(context.program, text)) {
+    return *known;
+  }
+  Global global;
+  global.at = at;
+  global.name = free_name(context.program, name_of(address));
+  global.type = context.elementary(type_of(address));
+  global.address = text;
+  global.shared_name = fmt::format("{}::{}", context.program.space, global.name);
+  return add(context.program, std::move(global));
+}
+
+Global* foreign_global(Context& context, std::string_view full_name) {
+  Program& program = context.program;
+  for (Global& global : program.globals) {
+    if (global.kind == Global::Kind::Foreign && same_name(global.shared_name, full_name)) {
+      return &global;
+    }
+  }
+  const auto found = std::find_if(program.foreign.begin(), program.foreign.end(),
+                                  [&](const schema::Variable& one) { return same_name(one.name, full_name); });
+  if (found == program.foreign.end()) {
+    return nullptr;
+  }
+  Global global;
+  global.kind = Global::Kind::Foreign;
+  global.name = found->name;
+  global.shared_name = found->name;
+  global.foreign = &*found;
+  global.type = foreign_type(context, found->type);
+  return &add(program, std::move(global));
+}
+
+Global* external_global(Context& context, const ast::Variable& variable, const Type& type) {
+  Program& program = context.program;
+  if (const auto known = program.global_names.find(upper(variable.name)); known != program.global_names.end()) {
+    if (!same_type(*known->second->type, type)) {
+      context.error(variable.at,
+                    fmt::format("'{}' is {}, declare it as that", variable.name, with_article(*known->second->type)));
+    }
+    return known->second;
+  }
+  std::vector<const schema::Variable*> found;
+  for (const schema::Variable& one : program.foreign) {
+    if (same_name(last_name(one.name), variable.name)) {
+      found.push_back(&one);
+    }
+  }
+  if (found.size() != 1) {
+    context.error(variable.at,
+                  found.empty()
+                      ? fmt::format("there is no VAR_GLOBAL '{0}' and no shared variable of this name; declare "
+                                    "it, or name its .glb file with --glb",
+                                    variable.name)
+                      : fmt::format("'{}' may be {} or {}, write the name with its namespace in the program",
+                                    variable.name, found[0]->name, found[1]->name));
+    return nullptr;
+  }
+  Global& global = *foreign_global(context, found[0]->name);
+  if (!can_show(type, *global.type)) {
+    context.error(variable.at, fmt::format("{} is {}, declare '{}' as that", global.shared_name,
+                                           with_article(*global.type), variable.name));
+  }
+  global.type = &type;
+  global.name = variable.name;
+  program.global_names.emplace(upper(variable.name), &global);
+  return &global;
+}
+
+bool is_namespace(const Program& program, std::string_view path) {
+  return std::any_of(program.foreign.begin(), program.foreign.end(), [&](const schema::Variable& one) {
+    return one.name.size() > path.size() + 2 && same_name(std::string_view(one.name).substr(0, path.size()), path) &&
+           one.name.compare(path.size(), 2, "::") == 0;
+  });
+}
+
+std::string suggest_shared(const Program& program, std::string_view name) {
+  std::string found;
+  for (const schema::Variable& one : program.foreign) {
+    if (same_name(last_name(one.name), name)) {
+      if (!found.empty()) {
+        return "";
+      }
+      found = one.name;
+    }
+  }
+  for (std::size_t at = found.find("::"); at != std::string::npos; at = found.find("::")) {
+    found.erase(at, 1);
+    found[at] = '.';
+  }
+  return found;
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Initial values: one value, [..] of arrays, (..) of structures and instances of function blocks.
+
+#include <fmt/format.h>
+
+#include "plc/check/expression_checker.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+using Kind = ast::Initial::Kind;
+
+// Elements in all dimensions: [1, 2, 3, 4] fills ARRAY[1..2, 1..2] row by row.
+std::uint64_t elements_of(const Type& array) noexcept {
+  std::uint64_t count = 1;
+  for (const Bounds& one : array.dimensions) {
+    count *= one.count();
+  }
+  return count;
+}
+
+}  // namespace
+
+bool ExpressionChecker::initial(ast::Initial& initial, const Type& type) {
+  if (initial.kind == Kind::Array) {
+    return array_initial(initial, type);
+  }
+  if (initial.kind == Kind::Struct) {
+    return struct_initial(initial, type);
+  }
+  if (type.kind == Type::Kind::Block || !assigned(*initial.value, type)) {
+    if (type.kind == Type::Kind::Block) {
+      context_.error(initial.at, "an instance begins with values of its inputs: (PT := T#1s)");
+    }
+    return false;
+  }
+  if (constant_of(*initial.value) == nullptr) {
+    context_.error(initial.at, "an initial value must be known now, use numbers and CONSTANTs");
+    return false;
+  }
+  return true;
+}
+
+bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
+  if (type.kind != Type::Kind::Array) {
+    context_.error(initial.at, fmt::format("[...] is for arrays, not for {}", with_article(type)));
+    return false;
+  }
+  std::uint64_t count = 0;
+  bool fine = true;
+  for (ast::InitialElement& element : initial.elements) {
+    std::int64_t repeat = 1;
+    if (element.count) {
+      repeat = constant(*element.count, "the number of repetitions").value_or(0);
+    }
+    fine = repeat >= 0 && this->initial(element.value, *type.element) && fine;
+    count += static_cast<std::uint64_t>(repeat);
+  }
+  if (fine && count > elements_of(type)) {
+    context_.error(initial.at, fmt::format("{} values for {} elements, remove some", count, elements_of(type)));
+    return false;
+  }
+  return fine;
+}
+
+bool ExpressionChecker::struct_initial(ast::Initial& initial, const Type& type) {
+  bool fine = true;
+  for (ast::InitialElement& element : initial.elements) {
+    const Type* field_type = nullptr;
+    for (const Field& field : type.fields) {
+      if (same_name(field.name, element.field)) {
+        field_type = field.type;
+        element.field = field.name;
+      }
+    }
+    if (type.kind == Type::Kind::Block && type.block != nullptr) {
+      if (const LibraryParameter* input = type.block->input(element.field)) {
+        field_type = context_.elementary(std::get<Elementary>(input->type));
+        element.field = input->cpp;
+      }
+    } else if (type.kind == Type::Kind::Block) {
+      const Variable* input = type.pou->find(upper(element.field));
+      if (input != nullptr && (input->section == ast::Section::Input || input->section == ast::Section::Output)) {
+        field_type = input->type;
+        element.field = input->name;
+      }
+    }
+    if (field_type == nullptr) {
+      context_.error(element.value.at,
+                     fmt::format("{} has no field '{}' to begin with", to_string(type), element.field));
+      fine = false;
+      continue;
+    }
+    fine = this->initial(element.value, *field_type) && fine;
+  }
+  return fine;
+}
+
+}  // namespace indurop::plc

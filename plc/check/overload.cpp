@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which form of a library function the types of the inputs mean, and what the generic types become.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "plc/check/call_checker.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using ast::Operator;
+
+std::string_view function_of(Operator op) noexcept {
+  switch (op) {
+    case Operator::Add:
+      return "ADD";
+    case Operator::Subtract:
+      return "SUB";
+    case Operator::Multiply:
+      return "MUL";
+    case Operator::Divide:
+      return "DIV";
+    case Operator::Modulo:
+      return "MOD";
+    default:
+      return "EXPT";
+  }
+}
+
+bool untyped(const Expression& expression) noexcept {
+  return expression.resolved->untyped;
+}
+
+bool generic_accepts(Generic generic, const Type& type) noexcept {
+  return generic == Generic::Any || (type.kind == Type::Kind::Elementary && accepts(generic, type.elementary));
+}
+
+std::string types_of(const std::vector<Expression*>& inputs) {
+  std::string text;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    text += i == 0 ? "" : i + 1 == inputs.size() ? " and " : ", ";
+    text += to_string(*inputs[i]->type);
+  }
+  return text;
+}
+
+}  // namespace
+
+const Type* CallChecker::library_function(Expression& call, const std::vector<const LibraryFunction*>& overloads,
+                                          const Type* wanted) {
+  const LibraryFunction& first = *overloads.front();
+  Inputs inputs;
+  std::size_t next = 0;
+  bool fine = true;
+  for (ast::Argument& argument : call.arguments) {
+    if (same_name(argument.name, "EN") || same_name(argument.name, "ENO")) {
+      continue;
+    }
+    const auto position = argument.name.empty() ? std::optional(next) : first.position(argument.name);
+    ++next;
+    constexpr std::size_t kMostInputs = 64;
+    if (!position || argument.output || *position >= kMostInputs) {
+      std::vector<std::string> known;
+      for (const LibraryParameter& one : first.inputs) {
+        known.push_back(one.name);
+      }
+      context_.error(argument.at, fmt::format("{} has no {} '{}'{}", first.name, argument.output ? "output" : "input",
+                                              argument.name, did_you_mean(argument.name, known)));
+      return nullptr;
+    }
+    inputs.resize(std::max(inputs.size(), *position + 1));
+    if (inputs[*position] != nullptr || !argument.value) {
+      context_.error(argument.at, fmt::format("the input {} needs exactly one value", first.input(*position).name));
+      return nullptr;
+    }
+    inputs[*position] = &*argument.value;
+    const bool same_as_result = first.input(*position).type == first.result;
+    fine = expressions_.value(*argument.value, same_as_result ? wanted : nullptr) != nullptr && fine;
+  }
+  if (!fine) {
+    return nullptr;
+  }
+  if (std::find(inputs.begin(), inputs.end(), nullptr) != inputs.end()) {
+    context_.error(call.at, fmt::format("{} has inputs without a value, give all of them", first.name));
+    return nullptr;
+  }
+  const Type* result = choose(call, overloads, inputs, wanted);
+  if (result == nullptr) {
+    return nullptr;
+  }
+  Resolved& out = ExpressionChecker::resolved(call);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (const ast::Argument& argument : call.arguments) {
+      if (argument.value && &*argument.value == inputs[i]) {
+        out.actuals[i].argument = &argument;
+      }
+    }
+  }
+  return result;
+}
+
+const Type* CallChecker::operation(Expression& expression, const Type* wanted) {
+  return choose(expression, find_functions(function_of(expression.op)),
+                {&expression.operands[0], &expression.operands[1]}, wanted);
+}
+
+const Type* CallChecker::choose(Expression& at, const std::vector<const LibraryFunction*>& overloads,
+                                const Inputs& inputs, const Type* wanted) {
+  std::optional<Choice> best;
+  for (const LibraryFunction* one : overloads) {
+    auto choice = match(*one, inputs, wanted);
+    if (choice && (!best || choice->cost < best->cost)) {
+      best = std::move(choice);
+    }
+  }
+  if (best) {
+    apply(at, *best, inputs);
+    return best->result;
+  }
+  const LibraryFunction& first = *overloads.front();
+  const bool right_count =
+      first.extensible ? inputs.size() >= first.inputs.size() : inputs.size() == first.inputs.size();
+  if (!right_count) {
+    context_.error(at.at, fmt::format("{} takes {}{} values, not {}", first.name, first.extensible ? "at least " : "",
+                                      first.inputs.size(), inputs.size()));
+  } else {
+    context_.error(at.at, fmt::format("{} does not take {}, convert them", first.name, types_of(inputs)));
+  }
+  return nullptr;
+}
+
+std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& function, const Inputs& inputs,
+                                                      const Type* wanted) {
+  const bool right_count =
+      function.extensible ? inputs.size() >= function.inputs.size() : inputs.size() == function.inputs.size();
+  if (!right_count) {
+    return std::nullopt;
+  }
+  Choice out;
+  out.function = &function;
+  std::map<Generic, const Type*> groups;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const LibraryType wished = function.input(i).type;
+    const Type* type = nullptr;
+    if (const auto* fixed = std::get_if<Elementary>(&wished)) {
+      type = context_.elementary(*fixed);
+    } else {
+      const Generic generic = std::get<Generic>(wished);
+      if (!groups.contains(generic)) {
+        // What is wanted of the result says something about the inputs only if they have its type.
+        const bool same_as_result = function.result == LibraryType(generic);
+        groups[generic] = group_type(function, generic, inputs, same_as_result ? wanted : nullptr);
+      }
+      type = groups[generic];
+    }
+    const auto cost = type != nullptr ? cost_of(*inputs[i], *type) : std::nullopt;
+    if (!cost) {
+      return std::nullopt;
+    }
+    out.cost += *cost;
+    out.types.push_back(type);
+  }
+  if (const auto* fixed = std::get_if<Elementary>(&function.result)) {
+    out.result = context_.elementary(*fixed);
+  } else {
+    out.result = groups[std::get<Generic>(function.result)];
+  }
+  return out.result != nullptr ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// 0: the type itself, 1: widened; none: cannot be used.
+std::optional<int> CallChecker::cost_of(const Expression& input, const Type& type) {
+  if (untyped(input)) {
+    return fits(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
+  }
+  if (!assignable(*input.type, type)) {
+    return std::nullopt;
+  }
+  return same_type(*input.type, type) || type.is_string() ? 0 : 1;
+}
+
+// The one type of all inputs of a generic type; null if there is none.
+const Type* CallChecker::group_type(const LibraryFunction& function, Generic generic, const Inputs& inputs,
+                                    const Type* wanted) {
+  const Type* group = nullptr;
+  bool first = true;
+  for (const bool numbers : {false, true}) {  // those without a type join the others
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (function.input(i).type != LibraryType(generic) || untyped(*inputs[i]) != numbers) {
+        continue;
+      }
+      if (numbers) {
+        group = join_untyped(generic, group, *inputs[i], wanted);
+      } else {
+        group = first ? inputs[i]->type : common_type(*group, *inputs[i]->type);
+      }
+      first = false;
+      if (group == nullptr) {
+        return nullptr;
+      }
+    }
+  }
+  if (group != nullptr && group->kind == Type::Kind::Elementary && group->range) {
+    group = context_.elementary(group->elementary);
+  }
+  if (group != nullptr && !generic_accepts(generic, *group)) {
+    for (const Elementary real : {Elementary::Real, Elementary::Lreal}) {
+      if (generic == Generic::AnyReal && assignable(*group, *context_.elementary(real))) {
+        return context_.elementary(real);
+      }
+    }
+    return nullptr;
+  }
+  return group;
+}
+
+// The group's type after a number without a type has joined it.
+const Type* CallChecker::join_untyped(Generic generic, const Type* group, const Expression& input, const Type* wanted) {
+  const Constant& number = *input.resolved->constant;
+  if (group != nullptr && fits(number, *group)) {
+    return group;
+  }
+  const bool helps = wanted != nullptr && wanted->kind == Type::Kind::Elementary && generic_accepts(generic, *wanted) &&
+                     fits(number, *wanted);
+  if (group == nullptr && helps) {
+    return context_.elementary(wanted->elementary);
+  }
+  Elementary own = default_type(number);
+  if (generic == Generic::AnyReal) {
+    own = Elementary::Lreal;
+  } else if (generic == Generic::AnyBit) {
+    own = fits(number, *context_.elementary(Elementary::Word))    ? Elementary::Word
+          : fits(number, *context_.elementary(Elementary::Dword)) ? Elementary::Dword
+                                                                  : Elementary::Lword;
+  }
+  const Type* type = context_.elementary(own);
+  return group == nullptr ? type : common_type(*group, *type);
+}
+
+void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inputs) {
+  Resolved& out = ExpressionChecker::resolved(at);
+  out.function = choice.function;
+  out.actuals.clear();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    adapt(*inputs[i], *choice.types[i]);
+    out.actuals.push_back({nullptr, choice.types[i], nullptr, ""});
+  }
+}
+
+}  // namespace indurop::plc

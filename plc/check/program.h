@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// The checked meaning of a PLC project: what every name stands for, what is shared, which task runs what. Input of the
+// emitters.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plc/check/constant.h"
+#include "plc/check/type.h"
+#include "plc/model/project.h"
+#include "schema/schema.h"
+
+namespace indurop::plc {
+
+struct LibraryFunction;
+
+// A variable that outlives its POU's call and is not the POU's own: VAR_GLOBAL, located, or declared in a .glb file.
+struct Global {
+  enum class Kind : std::uint8_t {
+    Fixed,    // CONSTANT
+    Own,      // becomes a shared variable in the .glb that the compiler writes
+    Foreign,  // a shared variable of another .glb
+    Private,  // cannot be shared (function blocks): belongs to the one task that uses it
+  };
+  Kind kind = Kind::Own;
+  Place at;
+  std::string name;
+  std::string shared_name;  // Own, Foreign: "main::I0"
+  const Type* type = nullptr;
+  const schema::Variable* foreign = nullptr;
+  const ast::Initial* initial = nullptr;
+  std::optional<Constant> constant;
+  std::string address;  // "%IX0.0"
+  bool retain = false;
+  std::string comment;
+};
+
+// A variable of a POU. Externals stand for their global.
+struct Variable {
+  const ast::Variable* declared = nullptr;
+  ast::Section section = ast::Section::Local;
+  std::string name;
+  const Type* type = nullptr;
+  const Global* global = nullptr;    // VAR_EXTERNAL, located variables
+  std::optional<Constant> constant;  // CONSTANT of an elementary type
+  bool is_constant = false;
+  bool retain = false;
+  bool used = false;
+};
+
+// Which parts of a global a POU touches: "" is the whole, ".eOpCode" a field.
+struct GlobalUse {
+  bool read = false;
+  std::set<std::string> writes;
+};
+
+struct Pou {
+  ast::Pou* tree = nullptr;
+  std::string name;
+  const Type* result = nullptr;  // of a function that has one
+  const Type* type = nullptr;    // of a function block, the type of its instances
+  std::deque<Variable> variables;
+  std::map<std::string, Variable*> names;  // in capitals
+  std::set<const Pou*> uses;
+  std::map<const Global*, GlobalUse> globals;
+  std::set<std::string> labels;
+  bool result_assigned = false;
+
+  [[nodiscard]] Variable* find(const std::string& capitals) const {
+    const auto found = names.find(capitals);
+    return found == names.end() ? nullptr : found->second;
+  }
+};
+
+// What the checker found out about an expression.
+struct Resolved {
+  enum class Meaning : std::uint8_t { Value, Variable, Global, FunctionResult, Type, Namespace };
+  Meaning meaning = Meaning::Value;
+  const Variable* variable = nullptr;
+  const Global* global = nullptr;
+  std::string path;                  // Namespace: "knu::Robot"
+  std::optional<Constant> constant;  // the value is known
+  bool untyped = false;              // a number without a type takes the one its context wants
+  const Type* operand = nullptr;     // Binary: what both sides become
+  bool is_output = false;            // Member of an instance: one of its outputs
+
+  // Call
+  const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
+  const Pou* pou = nullptr;
+  struct Actual {
+    const ast::Argument* argument = nullptr;  // null: not given
+    const Type* type = nullptr;               // of the parameter
+    const Variable* parameter = nullptr;      // of a POU
+    std::string member;                       // of a function block's struct
+  };
+  std::vector<Actual> actuals;            // library functions: inputs by position; others: those of the declaration
+  const ast::Argument* enable = nullptr;  // EN
+  const ast::Argument* enable_out = nullptr;
+};
+
+struct TaskProgram {
+  std::string instance;
+  const Pou* pou = nullptr;
+};
+
+// One module.
+struct TaskPlan {
+  Place at;
+  std::string name;
+  std::int64_t interval_ns = 0;
+  std::int32_t priority = 1;
+  std::vector<TaskProgram> programs;
+};
+
+struct Program {
+  Project project;  // the trees that everything below refers to
+  TypeTable types;
+  std::vector<schema::Variable> foreign;
+  std::deque<Type*> named_types;  // of the project, each behind those it contains
+  std::map<std::string, const Type*> type_names;
+  std::deque<Global> globals;
+  std::map<std::string, Global*> global_names;
+  std::deque<Pou> pous;
+  std::map<std::string, Pou*> pou_names;
+  std::vector<const Pou*> order;  // each behind those it uses
+  std::vector<TaskPlan> tasks;
+  std::string space;  // namespace of the shared variables
+};
+
+}  // namespace indurop::plc

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which POUs a task runs, directly or through calls.
+
+#pragma once
+
+#include <set>
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+[[nodiscard]] std::set<const Pou*> reached_by(const TaskPlan& task);
+
+}  // namespace indurop::plc

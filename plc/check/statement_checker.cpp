@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/statement_checker.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace indurop::plc {
+
+using ast::Statement;
+
+void StatementChecker::body(ast::Body& body) {
+  collect_labels(body, true);
+  list(body);
+}
+
+void StatementChecker::collect_labels(ast::Body& body, bool outermost) {
+  for (Statement& one : body) {
+    if (one.kind == Statement::Kind::Label) {
+      if (!outermost) {
+        context_.error(one.at, "a label cannot stand inside of another statement, move it out");
+      } else if (!context_.pou->labels.insert(upper(one.label)).second) {
+        context_.error(one.at, fmt::format("the label '{}' is there twice, rename one of them", one.label));
+      }
+    }
+    for (ast::Branch& branch : one.branches) {
+      collect_labels(branch.body, false);
+    }
+    collect_labels(one.body, false);
+  }
+}
+
+void StatementChecker::list(ast::Body& body) {
+  bool left = false;
+  for (Statement& one : body) {
+    if (left && one.kind != Statement::Kind::Label && one.kind != Statement::Kind::Empty) {
+      context_.warning(one.at, "this statement is never reached");
+      left = false;
+    }
+    statement(one);
+    const bool leaves = one.kind == Statement::Kind::Exit || one.kind == Statement::Kind::Continue ||
+                        one.kind == Statement::Kind::Return || one.kind == Statement::Kind::Jump;
+    left = leaves && !one.value;
+  }
+}
+
+void StatementChecker::statement(Statement& one) {
+  switch (one.kind) {
+    case Statement::Kind::Empty:
+    case Statement::Kind::Label:
+      break;
+    case Statement::Kind::Assign:
+      assign(one);
+      break;
+    case Statement::Kind::Call:
+      expressions_.call_statement(*one.value);
+      break;
+    case Statement::Kind::If:
+      if_statement(one);
+      break;
+    case Statement::Kind::Case:
+      case_statement(one);
+      break;
+    case Statement::Kind::For:
+      for_statement(one);
+      break;
+    case Statement::Kind::While:
+    case Statement::Kind::Repeat:
+      condition(*one.value);
+      ++loops_;
+      list(one.body);
+      --loops_;
+      break;
+    case Statement::Kind::Exit:
+    case Statement::Kind::Continue:
+      if (loops_ == 0) {
+        context_.error(one.at, fmt::format("{} stands outside of a loop, remove it",
+                                           one.kind == Statement::Kind::Exit ? "EXIT" : "CONTINUE"));
+      }
+      break;
+    case Statement::Kind::Jump:
+      if (!context_.pou->labels.contains(upper(one.label))) {
+        context_.error(one.at, fmt::format("there is no label '{}' in this body", one.label));
+      }
+      [[fallthrough]];
+    case Statement::Kind::Return:
+      if (one.value) {
+        condition(*one.value);
+      }
+      break;
+  }
+}
+
+void StatementChecker::condition(ast::Expression& expression) {
+  const Type* type = expressions_.value(expression, context_.elementary(Elementary::Bool));
+  if (type != nullptr && !type->is(Elementary::Bool) && !adapt(expression, *context_.elementary(Elementary::Bool))) {
+    context_.error(expression.at,
+                   fmt::format("a condition is a BOOL, not {}, compare it with something", with_article(*type)));
+  }
+}
+
+// A temporary of a translated network gets its type from the first value.
+bool StatementChecker::infer(Statement& one) {
+  Variable* variable =
+      one.target->kind == ast::Expression::Kind::Name ? context_.pou->find(upper(one.target->name)) : nullptr;
+  if (variable == nullptr || variable->type != nullptr ||
+      variable->declared->type.kind != ast::TypeSpec::Kind::Inferred) {
+    return true;
+  }
+  const Type* type = one.value->kind == ast::Expression::Kind::Call ? expressions_.top_call(*one.value, nullptr)
+                                                                    : expressions_.value(*one.value);
+  variable->type = type != nullptr && type->range ? context_.elementary(type->elementary) : type;
+  return type != nullptr;
+}
+
+void StatementChecker::assign(Statement& one) {
+  if (!infer(one)) {
+    return;
+  }
+  const Type* to = expressions_.target(*one.target);
+  if (to == nullptr) {
+    expressions_.value(*one.value);
+    return;
+  }
+  if (to->kind == Type::Kind::Block) {
+    context_.error(one.at, "instances of function blocks cannot be assigned");
+    return;
+  }
+  expressions_.assigned(*one.value, *to);
+}
+
+void StatementChecker::if_statement(Statement& one) {
+  for (ast::Branch& branch : one.branches) {
+    if (branch.condition) {
+      condition(*branch.condition);
+    }
+    list(branch.body);
+  }
+}
+
+void StatementChecker::case_statement(Statement& one) {
+  const Type* type = expressions_.value(*one.value);
+  const bool whole = type != nullptr && (type->kind == Type::Kind::Enum ||
+                                         (type->kind == Type::Kind::Elementary && !type->is(Elementary::Bool) &&
+                                          (is_int(type->elementary) || is_bit(type->elementary))));
+  if (type != nullptr && !whole) {
+    context_.error(one.value->at,
+                   fmt::format("CASE decides by a whole number or an enumeration, not by {}", with_article(*type)));
+  }
+  if (whole && one.value->resolved->untyped) {
+    adapt(*one.value, *type);
+  }
+  std::vector<Used> outer = std::exchange(used_, {});
+  for (ast::Branch& branch : one.branches) {
+    for (ast::CaseLabel& label : branch.labels) {
+      if (whole) {
+        case_label(label, *type);
+      }
+    }
+    std::vector<Used> here = std::move(used_);
+    list(branch.body);
+    used_ = std::move(here);
+  }
+  used_ = std::move(outer);
+}
+
+void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
+  bool fine = expressions_.assigned(label.low, type);
+  fine = (!label.high || expressions_.assigned(*label.high, type)) && fine;
+  if (!fine) {
+    return;
+  }
+  const Constant* low = constant_of(label.low);
+  const Constant* high = label.high ? constant_of(*label.high) : low;
+  if (low == nullptr || high == nullptr || !as_int64(*low) || !as_int64(*high)) {
+    context_.error(label.low.at, "a value of a CASE must be known now, use a number or a CONSTANT");
+    return;
+  }
+  const Used used{as_int64(*low).value_or(0), as_int64(*high).value_or(0), label.low.at};
+  if (used.low > used.high) {
+    context_.error(used.at, fmt::format("{}..{} is no range, write the smaller value first", used.low, used.high));
+    return;
+  }
+  for (const Used& other : used_) {
+    if (used.low <= other.high && used.high >= other.low) {
+      context_.error(used.at,
+                     fmt::format("this value was already handled at {}, remove one of them", to_string(other.at)));
+      return;
+    }
+  }
+  used_.push_back(used);
+}
+
+void StatementChecker::for_statement(Statement& one) {
+  const Type* type = expressions_.target(*one.target);
+  const bool whole = type != nullptr && type->kind == Type::Kind::Elementary && is_int(type->elementary);
+  if (type != nullptr && (!whole || one.target->kind != ast::Expression::Kind::Name)) {
+    context_.error(one.target->at, "the variable of a FOR is a plain variable of a whole number type");
+  }
+  for (auto* part : {&one.value, &one.to, &one.by}) {
+    if (*part && whole) {
+      expressions_.assigned(**part, *type);
+    } else if (*part) {
+      expressions_.value(**part);
+    }
+  }
+  const Constant* step = one.by ? constant_of(*one.by) : nullptr;
+  if (step != nullptr && *step == Constant(Integer{0})) {
+    context_.error(one.by->at, "a step of 0 never ends, use another one");
+  }
+  ++loops_;
+  list(one.body);
+  --loops_;
+}
+
+}  // namespace indurop::plc

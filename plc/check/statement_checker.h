@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statements of a POU's body.
+
+#pragma once
+
+#include <vector>
+
+#include "plc/check/expression_checker.h"
+
+namespace indurop::plc {
+
+class StatementChecker {
+ public:
+  explicit StatementChecker(Context& context) : context_(context), expressions_(context) {}
+
+  // The whole body: labels and jumps too.
+  void body(ast::Body& body);
+
+ private:
+  void list(ast::Body& body);
+  void statement(ast::Statement& statement);
+  void assign(ast::Statement& statement);
+  bool infer(ast::Statement& statement);
+  void condition(ast::Expression& expression);
+  void if_statement(ast::Statement& statement);
+  void case_statement(ast::Statement& statement);
+  void case_label(ast::CaseLabel& label, const Type& type);
+  void for_statement(ast::Statement& statement);
+  void collect_labels(ast::Body& body, bool outermost);
+
+  struct Used {
+    std::int64_t low = 0;
+    std::int64_t high = 0;
+    Place at;
+  };
+  Context& context_;
+  ExpressionChecker expressions_;
+  std::vector<Used> used_;  // values of the CASE being checked
+  int loops_ = 0;
+};
+
+}  // namespace indurop::plc

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/task_checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plc/check/reach.h"
+
+namespace indurop::plc {
+namespace {
+
+class TaskPlanner {
+ public:
+  explicit TaskPlanner(Context& context) : context_(context) {}
+
+  void configuration(const Configuration& configuration) {
+    for (const Resource& resource : configuration.resources) {
+      for (const Task& task : resource.tasks) {
+        declare(task);
+      }
+      for (const ProgramInstance& one : resource.programs) {
+        instance(one);
+      }
+    }
+  }
+
+  // Programs no configuration mentions.
+  void rest(bool configured) {
+    TaskPlan* plan = nullptr;
+    for (const Pou& pou : context_.program.pous) {
+      if (pou.tree->kind != ast::Pou::Kind::Program || mentioned_.contains(&pou)) {
+        continue;
+      }
+      if (configured) {
+        context_.warning(pou.tree->at, fmt::format("the program {} is in no task and never runs", pou.name));
+        continue;
+      }
+      plan = plan != nullptr ? plan : &default_task();
+      plan->programs.push_back({pou.name, &pou});
+    }
+  }
+
+ private:
+  TaskPlan& default_task() {
+    const auto known =
+        std::find_if(tasks().begin(), tasks().end(), [](const TaskPlan& one) { return one.name.empty(); });
+    if (known != tasks().end()) {
+      return *known;
+    }
+    TaskPlan& made = tasks().emplace_back();
+    made.interval_ns = kDefaultIntervalNs;
+    return made;
+  }
+
+  void declare(const Task& task) {
+    if (std::any_of(tasks().begin(), tasks().end(), [&](const auto& one) { return same_name(one.name, task.name); })) {
+      context_.error(task.at, fmt::format("the task '{}' is declared twice, rename one of them", task.name));
+      return;
+    }
+    if (!task.single.empty()) {
+      context_.error(task.at, "SINGLE is not supported, use INTERVAL and R_TRIG in the program");
+      return;
+    }
+    TaskPlan& made = tasks().emplace_back();
+    made.at = task.at;
+    made.name = task.name;
+    made.interval_ns = task.interval_ns.value_or(kDefaultIntervalNs);
+    made.priority = task.priority.value_or(static_cast<std::int32_t>(tasks().size()));
+  }
+
+  void instance(const ProgramInstance& one) {
+    const auto pou = context_.program.pou_names.find(upper(one.type));
+    if (pou == context_.program.pou_names.end() || pou->second->tree->kind != ast::Pou::Kind::Program) {
+      context_.error(one.at, fmt::format("there is no PROGRAM '{}'", one.type));
+      return;
+    }
+    if (!names_.insert(upper(one.name)).second) {
+      context_.error(one.at, fmt::format("the instance '{}' is declared twice, rename one of them", one.name));
+      return;
+    }
+    mentioned_.insert(pou->second);
+    const auto task = std::find_if(tasks().begin(), tasks().end(), [&](const TaskPlan& plan) {
+      return !one.task.empty() && same_name(plan.name, one.task);
+    });
+    if (!one.task.empty() && task == tasks().end()) {
+      context_.error(one.at, fmt::format("there is no TASK '{}'", one.task));
+      return;
+    }
+    TaskPlan& plan = one.task.empty() ? default_task() : *task;
+    plan.programs.push_back({one.name, pou->second});
+  }
+
+  std::vector<TaskPlan>& tasks() { return context_.program.tasks; }
+
+  Context& context_;
+  std::set<const Pou*> mentioned_;
+  std::set<std::string> names_;
+};
+
+// What cannot be a shared variable lives in one module.
+void check_private_globals(Context& context) {
+  for (const Global& global : context.program.globals) {
+    if (global.kind != Global::Kind::Private) {
+      continue;
+    }
+    std::vector<std::string> users;
+    for (const TaskPlan& task : context.program.tasks) {
+      const auto pous = reached_by(task);
+      if (std::any_of(pous.begin(), pous.end(), [&](const Pou* pou) { return pou->globals.contains(&global); })) {
+        users.push_back(task.name);
+      }
+    }
+    if (users.size() > 1) {
+      context.error(global.at,
+                    fmt::format("'{}' is an instance of a function block and used by the tasks {} and {}, which are "
+                                "modules of their own; declare one instance for each",
+                                global.name, users[0], users[1]));
+    }
+  }
+}
+
+}  // namespace
+
+void plan_tasks(Context& context) {
+  TaskPlanner planner(context);
+  const auto& configurations = context.program.project.configurations;
+  for (const Configuration& one : configurations) {
+    planner.configuration(one);
+  }
+  const bool configured = std::any_of(configurations.begin(), configurations.end(), [](const Configuration& one) {
+    return std::any_of(one.resources.begin(), one.resources.end(),
+                       [](const Resource& resource) { return !resource.programs.empty(); });
+  });
+  planner.rest(configured);
+  std::erase_if(context.program.tasks, [](const TaskPlan& one) { return one.programs.empty(); });
+  check_private_globals(context);
+  if (context.program.tasks.empty() && !context.diagnostics.failed()) {
+    context.error({}, "there is no PROGRAM that could run, write one: PROGRAM main ... END_PROGRAM");
+  }
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which program runs in which task.
+
+#pragma once
+
+#include "plc/check/context.h"
+
+namespace indurop::plc {
+
+inline constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
+
+// Fills Program::tasks. Without a configuration all programs run in one task of the default interval.
+void plan_tasks(Context& context);
+
+}  // namespace indurop::plc

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace indurop::plc {
+namespace {
+
+bool same_bounds(const Type& a, const Type& b) noexcept {
+  return std::equal(a.dimensions.begin(), a.dimensions.end(), b.dimensions.begin(), b.dimensions.end(),
+                    [](const Bounds& x, const Bounds& y) { return x.low == y.low && x.high == y.high; });
+}
+
+}  // namespace
+
+std::string to_string(const Type& type) {
+  if (type.kind == Type::Kind::Array) {
+    std::string bounds;
+    for (const Bounds& one : type.dimensions) {
+      bounds += fmt::format("{}{}..{}", bounds.empty() ? "" : ",", one.low, one.high);
+    }
+    return fmt::format("ARRAY[{}] OF {}", bounds, to_string(*type.element));
+  }
+  if (!type.name.empty()) {
+    return type.name;
+  }
+  if (type.is_string()) {
+    return fmt::format("STRING[{}]", type.length);
+  }
+  const std::string name(name_of(type.elementary));
+  return type.range ? fmt::format("{} ({}..{})", name, type.range->low, type.range->high) : name;
+}
+
+std::string with_article(const Type& type) {
+  const std::string name = to_string(type);
+  const bool vowel = std::string_view("AEIOaeio").find(name[0]) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + name;
+}
+
+bool same_type(const Type& a, const Type& b) noexcept {
+  if (&a == &b) {
+    return true;
+  }
+  if (a.kind != b.kind) {
+    return false;
+  }
+  switch (a.kind) {
+    case Type::Kind::Elementary:
+      return a.elementary == b.elementary && a.length == b.length;
+    case Type::Kind::Array:
+      return same_bounds(a, b) && same_type(*a.element, *b.element);
+    case Type::Kind::Block:
+      return a.pou == b.pou && a.block == b.block;
+    case Type::Kind::Enum:
+    case Type::Kind::Struct:
+      return false;  // each declaration is a type of its own
+  }
+  return false;
+}
+
+bool assignable(const Type& from, const Type& to) noexcept {
+  if (from.kind == Type::Kind::Block) {
+    return false;
+  }
+  if (from.kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
+    return widens(from.elementary, to.elementary);
+  }
+  return same_type(from, to);
+}
+
+const Type* common_type(const Type& a, const Type& b) noexcept {
+  if (a.is_string() && b.is_string()) {
+    return a.length >= b.length ? &a : &b;
+  }
+  if (assignable(a, b)) {
+    return &b;
+  }
+  return assignable(b, a) ? &a : nullptr;
+}
+
+std::uint64_t parts_of(const Type& type) noexcept {
+  std::uint64_t sum = 0;
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  switch (type.kind) {
+    case Type::Kind::Elementary:
+      return type.is_string() ? (type.length + 8) / 8 : 1;
+    case Type::Kind::Enum:
+    case Type::Kind::Block:
+      return 1;
+    case Type::Kind::Struct:
+      for (const Field& field : type.fields) {
+        if (__builtin_add_overflow(sum, parts_of(*field.type), &sum)) {
+          return kMost;
+        }
+      }
+      return sum;
+    case Type::Kind::Array:
+      sum = parts_of(*type.element);
+      for (const Bounds& one : type.dimensions) {
+        if (__builtin_mul_overflow(sum, one.count(), &sum)) {
+          return kMost;
+        }
+      }
+      return sum;
+  }
+  return sum;
+}
+
+IntegerLimits limits_of(Elementary type) noexcept {
+  const unsigned bits = bits_of(type);
+  const std::uint64_t all = bits == 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
+  if (is_signed_int(type)) {
+    return {-static_cast<std::int64_t>(all / 2) - 1, all / 2};
+  }
+  return {0, all};
+}
+
+TypeTable::TypeTable() {
+  for (std::size_t i = 0; i < kElementaryCount; ++i) {
+    Type type;
+    type.elementary = static_cast<Elementary>(i);
+    type.length = type.is_string() ? kDefaultStringLength : 0;
+    elementary_.push_back(add(std::move(type)));
+  }
+  strings_[kDefaultStringLength] = elementary(Elementary::String);
+}
+
+const Type* TypeTable::string(std::size_t length) {
+  const Type*& known = strings_[length];
+  if (known == nullptr) {
+    Type type;
+    type.elementary = Elementary::String;
+    type.length = length;
+    known = add(std::move(type));
+  }
+  return known;
+}
+
+Type* TypeTable::add(Type type) {
+  return &types_.emplace_back(std::move(type));
+}
+
+}  // namespace indurop::plc

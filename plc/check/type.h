@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Resolved types of a PLC program and the table that owns them.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plc/model/ast.h"
+
+namespace indurop::plc {
+
+struct Pou;
+struct LibraryBlock;
+
+inline constexpr std::size_t kDefaultStringLength = 80;
+
+struct Field {
+  std::string name;
+  const Type* type = nullptr;
+  const ast::Initial* initial = nullptr;  // null: the type's own
+  std::string comment;
+};
+
+struct EnumItem {
+  std::string name;
+  std::int64_t value = 0;
+};
+
+struct Bounds {
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  [[nodiscard]] std::uint64_t count() const noexcept {
+    return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) + 1;
+  }
+};
+
+struct Type {
+  enum class Kind : std::uint8_t { Elementary, Enum, Struct, Array, Block };
+  Kind kind = Kind::Elementary;
+  Elementary elementary = Elementary::Int;  // Elementary; Enum: what it is stored in
+  std::string name;                         // Enum, Struct, Block and subranges: as declared
+  std::size_t length = 0;                   // STRING: most characters
+  std::optional<Bounds> range;              // subrange
+  std::vector<Field> fields;                // Struct
+  std::vector<EnumItem> items;              // Enum
+  std::vector<Bounds> dimensions;           // Array
+  const Type* element = nullptr;            // Array
+  const Pou* pou = nullptr;                 // Block of the user
+  const LibraryBlock* block = nullptr;      // Block of the library
+  const ast::Initial* initial = nullptr;    // of the declaration; null: zero, or the first value of an enumeration
+  std::string shared_name;                  // Struct, Enum of a .glb file: "knu::Robot::Point"
+
+  [[nodiscard]] bool is(Elementary type) const noexcept { return kind == Kind::Elementary && elementary == type; }
+  [[nodiscard]] bool is_string() const noexcept { return is(Elementary::String); }
+};
+
+// "INT", "STRING[20]", "ARRAY[1..3] OF Motor"
+[[nodiscard]] std::string to_string(const Type& type);
+// "an INT", "a STRING[20]"
+[[nodiscard]] std::string with_article(const Type& type);
+// The same type, for VAR_IN_OUT and whole arrays; a subrange is the same as its base.
+[[nodiscard]] bool same_type(const Type& a, const Type& b) noexcept;
+// Whether a value of `from` can be assigned to a `to` without a conversion function.
+[[nodiscard]] bool assignable(const Type& from, const Type& to) noexcept;
+// The smallest elementary type both widen to; null if there is none. Texts: the longer one.
+[[nodiscard]] const Type* common_type(const Type& a, const Type& b) noexcept;
+// Number of elementary values, those of arrays counted; saturates.
+[[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;
+
+// Smallest and largest value of an integer or bit string type.
+struct IntegerLimits {
+  std::int64_t low = 0;
+  std::uint64_t high = 0;
+};
+[[nodiscard]] IntegerLimits limits_of(Elementary type) noexcept;
+
+class TypeTable {
+ public:
+  TypeTable();
+  TypeTable(const TypeTable&) = delete;
+  TypeTable& operator=(const TypeTable&) = delete;
+
+  [[nodiscard]] const Type* elementary(Elementary type) const noexcept {
+    return elementary_[static_cast<std::size_t>(type)];
+  }
+  [[nodiscard]] const Type* string(std::size_t length);
+  // A new type; the address stays.
+  Type* add(Type type);
+
+ private:
+  std::deque<Type> types_;
+  std::vector<const Type*> elementary_;
+  std::map<std::size_t, const Type*> strings_;
+};
+
+}  // namespace indurop::plc

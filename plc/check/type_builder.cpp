@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/type_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "plc/check/expression_checker.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+constexpr std::uint64_t kMaxParts = std::uint64_t{16} << 20U;  // elements of one type
+constexpr std::int64_t kMaxStringLength = 65'000;
+
+bool is_whole(Elementary type) noexcept {
+  return is_int(type) || (is_bit(type) && type != Elementary::Bool);
+}
+
+class TypeBuilder {
+ public:
+  explicit TypeBuilder(Context& context) : context_(context), expressions_(context) {}
+
+  const Type* build(ast::TypeSpec& spec, const std::string& name) {
+    switch (spec.kind) {
+      case ast::TypeSpec::Kind::Elementary:
+        return context_.elementary(spec.elementary);
+      case ast::TypeSpec::Kind::String:
+        return string(spec);
+      case ast::TypeSpec::Kind::Named:
+        return named(spec);
+      case ast::TypeSpec::Kind::Array:
+        return array(spec);
+      case ast::TypeSpec::Kind::Subrange:
+        return subrange(spec, name);
+      case ast::TypeSpec::Kind::Struct:
+        return structure(spec, name);
+      case ast::TypeSpec::Kind::Enum:
+        return enumeration(spec, name);
+      case ast::TypeSpec::Kind::Inferred:
+        break;  // by the first assignment
+    }
+    return nullptr;
+  }
+
+ private:
+  const Type* string(ast::TypeSpec& spec) {
+    if (!spec.length) {
+      return context_.elementary(Elementary::String);
+    }
+    const auto length = expressions_.constant(*spec.length, "the length of a STRING");
+    if (!length) {
+      return nullptr;
+    }
+    if (*length < 1 || *length > kMaxStringLength) {
+      context_.error(spec.length->at, fmt::format("a STRING has 1 to {} characters", kMaxStringLength));
+      return nullptr;
+    }
+    return context_.program.types.string(static_cast<std::size_t>(*length));
+  }
+
+  const Type* named(ast::TypeSpec& spec) {
+    const auto found = context_.program.type_names.find(upper(spec.name));
+    if (found != context_.program.type_names.end()) {
+      return found->second;
+    }
+    if (const LibraryBlock* block = find_block(spec.name)) {
+      Type type;
+      type.kind = Type::Kind::Block;
+      type.name = block->name;
+      type.block = block;
+      const Type* added = context_.program.types.add(std::move(type));
+      context_.program.type_names.emplace(upper(spec.name), added);
+      return added;
+    }
+    std::vector<std::string> known;
+    for (const auto& [one, type] : context_.program.type_names) {
+      known.push_back(type->name);
+    }
+    for (const LibraryBlock& block : library_blocks()) {
+      known.push_back(block.name);
+    }
+    for (std::size_t i = 0; i < kElementaryCount; ++i) {
+      known.emplace_back(name_of(static_cast<Elementary>(i)));
+    }
+    const std::string hint = did_you_mean(spec.name, known);
+    context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
+                                        hint.empty() ? ", declare it" : hint));
+    return nullptr;
+  }
+
+  const Type* array(ast::TypeSpec& spec) {
+    Type type;
+    type.kind = Type::Kind::Array;
+    type.element = build(*spec.element, "");
+    for (ast::Dimension& one : spec.dimensions) {
+      const auto bounds = range(one, "a bound of an array");
+      if (!bounds || type.element == nullptr) {
+        return nullptr;
+      }
+      type.dimensions.push_back(*bounds);
+    }
+    if (type.element->kind == Type::Kind::Array) {  // ARRAY OF ARRAY is indexed a[i][j]; that is what it stays
+      const bool deep =
+          type.element->element->kind == Type::Kind::Array && type.element->element->element->kind == Type::Kind::Array;
+      if (deep) {
+        context_.error(spec.at, "arrays more than 3 levels deep, use ARRAY[a..b, c..d] or a STRUCT");
+        return nullptr;
+      }
+    }
+    if (parts_of(type) > kMaxParts) {
+      context_.error(spec.at, fmt::format("more than {} elements, use a smaller array", kMaxParts));
+      return nullptr;
+    }
+    return context_.program.types.add(std::move(type));
+  }
+
+  std::optional<Bounds> range(ast::Dimension& dimension, std::string_view what) {
+    const auto low = expressions_.constant(dimension.low, what);
+    const auto high = expressions_.constant(dimension.high, what);
+    if (!low || !high) {
+      return std::nullopt;
+    }
+    constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
+    if (*low > *high || *low < -kMost || *high > kMost) {
+      context_.error(dimension.low.at, fmt::format("{}..{} is no range, write the smaller bound first", *low, *high));
+      return std::nullopt;
+    }
+    return Bounds{*low, *high};
+  }
+
+  const Type* subrange(ast::TypeSpec& spec, const std::string& name) {
+    if (!is_whole(spec.elementary)) {
+      context_.error(spec.at, fmt::format("{} has no ranges, use a type of whole numbers", name_of(spec.elementary)));
+      return nullptr;
+    }
+    const auto bounds = range(*spec.range, "a bound of a range");
+    if (!bounds) {
+      return nullptr;
+    }
+    Type type = *context_.elementary(spec.elementary);
+    if (!fits(Integer{bounds->low}, type) || !fits(Integer{bounds->high}, type)) {
+      context_.error(spec.at,
+                     fmt::format("{} does not hold {}..{}", name_of(spec.elementary), bounds->low, bounds->high));
+      return nullptr;
+    }
+    type.range = *bounds;
+    type.name = name;
+    return context_.program.types.add(std::move(type));
+  }
+
+  const Type* structure(ast::TypeSpec& spec, const std::string& name) {
+    if (name.empty()) {
+      context_.error(spec.at, "a STRUCT needs a name, declare it between TYPE and END_TYPE");
+      return nullptr;
+    }
+    Type type;
+    type.kind = Type::Kind::Struct;
+    type.name = name;
+    bool fine = true;
+    for (ast::Variable& field : spec.fields) {
+      const auto same = [&](const Field& other) { return same_name(other.name, field.name); };
+      if (std::any_of(type.fields.begin(), type.fields.end(), same)) {
+        context_.error(field.at, fmt::format("the field '{}' is declared twice, rename one of them", field.name));
+      }
+      const Type* one = build(field.type, "");
+      fine = fine && one != nullptr;
+      if (one == nullptr) {
+        continue;
+      }
+      if (one->kind == Type::Kind::Block) {
+        context_.error(field.at, "a STRUCT cannot contain function blocks, use a FUNCTION_BLOCK instead of the STRUCT");
+        fine = false;
+      }
+      const bool valid = !field.initial || expressions_.initial(*field.initial, *one);
+      type.fields.push_back({field.name, one, valid && field.initial ? &*field.initial : nullptr, field.comment});
+    }
+    if (type.fields.empty() && fine) {
+      context_.error(spec.at, "a STRUCT needs at least one field");
+      fine = false;
+    }
+    if (!fine) {
+      return nullptr;
+    }
+    Type* added = context_.program.types.add(std::move(type));
+    context_.program.named_types.push_back(added);
+    return added;
+  }
+
+  const Type* enumeration(ast::TypeSpec& spec, const std::string& name) {
+    Type type;
+    type.kind = Type::Kind::Enum;
+    type.elementary = is_whole(spec.elementary) ? spec.elementary : Elementary::Int;
+    type.name = name;
+    std::int64_t next = 0;
+    bool fine = !name.empty();
+    if (!fine) {
+      context_.error(spec.at, "an enumeration needs a name, declare it between TYPE and END_TYPE");
+    }
+    for (ast::EnumValue& one : spec.values) {
+      if (one.value) {
+        const auto number = expressions_.constant(*one.value, "the value of an enumeration");
+        fine = fine && number.has_value();
+        next = number.value_or(next);
+      }
+      const auto same = [&](const EnumItem& other) { return same_name(other.name, one.name); };
+      if (std::any_of(type.items.begin(), type.items.end(), same)) {
+        context_.error(one.at, fmt::format("the value '{}' is declared twice, rename one of them", one.name));
+      }
+      if (!fits(Integer{next}, *context_.elementary(type.elementary))) {
+        context_.error(one.at, fmt::format("{} does not fit {}", next, name_of(type.elementary)));
+        fine = false;
+      }
+      type.items.push_back({one.name, next++});
+    }
+    if (!fine) {
+      return nullptr;
+    }
+    Type* added = context_.program.types.add(std::move(type));
+    context_.program.named_types.push_back(added);
+    return added;
+  }
+
+  Context& context_;
+  ExpressionChecker expressions_;
+};
+
+// Names of the project's types that the declaration needs to be known before.
+void collect_names(const ast::TypeSpec& spec, std::vector<std::string>& to) {
+  if (spec.kind == ast::TypeSpec::Kind::Named) {
+    to.push_back(upper(spec.name));
+  }
+  if (spec.element) {
+    collect_names(*spec.element, to);
+  }
+  for (const ast::Variable& field : spec.fields) {
+    collect_names(field.type, to);
+  }
+}
+
+class TypeOrder {
+ public:
+  explicit TypeOrder(Context& context) : context_(context) {
+    for (ast::TypeDeclaration& one : context.program.project.types) {
+      const auto [known, is_new] = declared_.emplace(upper(one.name), &one);
+      if (!is_new) {
+        context.error(one.at, fmt::format("the type '{}' is already declared at {}, rename one of them", one.name,
+                                          to_string(known->second->at)));
+      } else if (elementary_named(one.name) || find_block(one.name) != nullptr) {
+        context.error(one.at, fmt::format("'{}' is a type of the standard, use another name", one.name));
+        done_.insert(&one);
+      }
+    }
+  }
+
+  void run() {
+    for (ast::TypeDeclaration& one : context_.program.project.types) {
+      declare(one);
+    }
+  }
+
+ private:
+  void declare(ast::TypeDeclaration& one) {
+    if (!done_.insert(&one).second) {
+      return;
+    }
+    open_.push_back(&one);
+    std::vector<std::string> needed;
+    collect_names(one.type, needed);
+    for (const std::string& name : needed) {
+      const auto found = declared_.find(name);
+      if (found == declared_.end()) {
+        continue;
+      }
+      if (std::find(open_.begin(), open_.end(), found->second) != open_.end()) {
+        context_.error(one.at,
+                       fmt::format("the type '{}' contains itself, use an array with indices instead", one.name));
+        open_.pop_back();
+        return;
+      }
+      declare(*found->second);
+    }
+    open_.pop_back();
+    const Type* type = build_named(one);
+    if (type != nullptr) {
+      context_.program.type_names.emplace(upper(one.name), type);
+    }
+  }
+
+  const Type* build_named(ast::TypeDeclaration& one) {
+    const Type* type = TypeBuilder(context_).build(one.type, one.name);
+    if (type == nullptr || !one.initial || !ExpressionChecker(context_).initial(*one.initial, *type)) {
+      return type;
+    }
+    // TYPE Speed : INT := 5; is a type of its own, because INT begins with 0.
+    auto& named = context_.program.named_types;
+    const auto found = std::find(named.begin(), named.end(), type);
+    Type* own = found != named.end() && type->name == one.name ? *found : context_.program.types.add(*type);
+    own->initial = &*one.initial;
+    return own;
+  }
+
+  Context& context_;
+  std::map<std::string, ast::TypeDeclaration*> declared_;
+  std::set<const ast::TypeDeclaration*> done_;
+  std::vector<const ast::TypeDeclaration*> open_;
+};
+
+}  // namespace
+
+void declare_types(Context& context) {
+  for (Pou& pou : context.program.pous) {
+    if (pou.tree->kind != ast::Pou::Kind::FunctionBlock) {
+      continue;
+    }
+    Type type;
+    type.kind = Type::Kind::Block;
+    type.name = pou.name;
+    type.pou = &pou;
+    pou.type = context.program.types.add(std::move(type));
+    context.program.type_names.emplace(upper(pou.name), pou.type);
+  }
+  TypeOrder(context).run();
+}
+
+const Type* build_type(Context& context, ast::TypeSpec& spec) {
+  return TypeBuilder(context).build(spec, "");
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types from their declarations.
+
+#pragma once
+
+#include "plc/check/context.h"
+
+namespace indurop::plc {
+
+// Declares all types of the project, in any order of the text, and the function blocks as types.
+void declare_types(Context& context);
+// The type of a declaration; null after an error.
+const Type* build_type(Context& context, ast::TypeSpec& spec);
+
+}  // namespace indurop::plc

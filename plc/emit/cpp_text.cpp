@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/cpp_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "glb2idl/names.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+// Words of C++, macros of the C library; then, from std on, names that the generated code uses itself.
+constexpr std::array<std::string_view, 116> kTaken{
+    "alignas",     "alignof",   "and",        "and_eq",     "asm",      "auto",         "bitand",
+    "bitor",       "bool",      "break",      "case",       "catch",    "char",         "char8_t",
+    "char16_t",    "char32_t",  "class",      "compl",      "concept",  "const",        "consteval",
+    "constexpr",   "constinit", "const_cast", "continue",   "co_await", "co_return",    "co_yield",
+    "decltype",    "default",   "delete",     "do",         "double",   "dynamic_cast", "else",
+    "enum",        "explicit",  "export",     "extern",     "false",    "float",        "for",
+    "friend",      "goto",      "if",         "inline",     "int",      "long",         "mutable",
+    "namespace",   "new",       "noexcept",   "not",        "not_eq",   "nullptr",      "operator",
+    "or",          "or_eq",     "private",    "protected",  "public",   "register",     "reinterpret_cast",
+    "requires",    "return",    "short",      "signed",     "sizeof",   "static",       "static_assert",
+    "static_cast", "struct",    "switch",     "template",   "this",     "thread_local", "throw",
+    "true",        "try",       "typedef",    "typeid",     "typename", "union",        "unsigned",
+    "using",       "virtual",   "void",       "volatile",   "wchar_t",  "while",        "xor",
+    "xor_eq",      "assert",    "errno",      "NULL",       "EOF",      "INFINITY",     "NAN",
+    "unix",        "linux",     "stdin",      "stdout",     "stderr",   "std",          "iec",
+    "irp",         "indurop",   "plc",        "scan",       "shared",   "before",       "kept",
+    "BUFSIZ",      "main",      "run",        "POU_PROGRAM"};
+
+std::string number(Integer value, const Type& type) {
+  if (value == Integer{std::numeric_limits<std::int64_t>::min()}) {
+    return "std::numeric_limits<std::int64_t>::min()";
+  }
+  const bool large = value > Integer{std::numeric_limits<std::int32_t>::max()};
+  std::string text = to_string(Constant(value));
+  if (bits_of(type.elementary) == 64 || large) {
+    text += is_unsigned_int(type.elementary) || is_bit(type.elementary) ? "U" : "";
+  }
+  return text;
+}
+
+std::string real(double value, const Type& type) {
+  std::string text =
+      type.is(Elementary::Real) ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) {
+    text += ".0";
+  }
+  return text + (type.is(Elementary::Real) ? "F" : "");
+}
+
+std::string enumerator(Integer value, const Type& type) {
+  for (const EnumItem& one : type.items) {
+    if (Integer{one.value} == value) {
+      return cpp_type(type) + "::" + (type.shared_name.empty() ? cpp_name(one.name) : one.name);
+    }
+  }
+  return fmt::format("static_cast<{}>({})", cpp_type(type), to_string(Constant(value)));
+}
+
+std::string of_tree(const Type& type, const ValueTree& tree, std::size_t level) {
+  if (tree.zero && type.kind != Type::Kind::Enum) {
+    return "{}";
+  }
+  if (type.kind == Type::Kind::Elementary || type.kind == Type::Kind::Enum) {
+    return cpp_constant(tree.value, type, true);
+  }
+  if (type.kind == Type::Kind::Struct) {
+    std::string parts;
+    for (std::size_t i = 0; i < tree.parts.size(); ++i) {
+      parts += (i > 0 ? ", " : "") + of_tree(*type.fields[i].type, tree.parts[i], 0);
+    }
+    return cpp_type(type) + "{" + parts + "}";
+  }
+  const bool innermost = level + 1 == type.dimensions.size();
+  const auto part = [&](const ValueTree& one) {
+    return innermost ? of_tree(*type.element, one, 0) : of_tree(type, one, level + 1);
+  };
+  Type rest = type;  // of this level and those inside
+  rest.dimensions.erase(rest.dimensions.begin(), rest.dimensions.begin() + static_cast<std::ptrdiff_t>(level));
+  if (tree.equal_parts) {
+    return fmt::format("iec::filled<{}>({})", cpp_type(rest), part(tree.parts[0]));
+  }
+  std::string parts;
+  for (const ValueTree& one : tree.parts) {
+    parts += (parts.empty() ? "" : ", ") + part(one);
+  }
+  return cpp_type(rest) + "{" + parts + "}";
+}
+
+// Values of inputs that an instance begins with.
+std::string of_block(const Type& type, const ast::Initial& initial) {
+  std::string text = fmt::format("[] {{ {} block; ", cpp_type(type));
+  for (const ast::InitialElement& one : initial.elements) {
+    const Type* field = nullptr;
+    std::string name = one.field;
+    Type elementary;
+    if (type.block != nullptr) {
+      elementary.elementary = std::get<Elementary>(type.block->input(one.field)->type);
+      field = &elementary;
+    } else {
+      field = type.pou->find(upper(one.field))->type;
+      name = cpp_name(name);
+    }
+    text += fmt::format("block.{} = {}; ", name, cpp_initial(*field, &one.value));
+  }
+  return text + "return block; }()";
+}
+
+}  // namespace
+
+std::string cpp_name(std::string_view name) {
+  const bool taken = std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end() || glb2idl::is_system_macro(name);
+  return std::string(name) + (taken ? "_" : "");
+}
+
+std::string cpp_field(std::string_view name) {
+  const auto* own = std::find(kTaken.begin(), kTaken.end(), std::string_view("std"));
+  return std::string(name) + (std::find(kTaken.begin(), own, name) != own ? "_" : "");
+}
+
+std::string cpp_name(const Global& global) {
+  std::string name = global.name;
+  for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::")) {
+    name.replace(at, 2, "_");
+  }
+  return cpp_name(std::string_view(name));
+}
+
+std::string proxy_of(const Global& global) {
+  return "::" + global.shared_name;
+}
+
+std::string cpp_type(const Type& type) {
+  switch (type.kind) {
+    case Type::Kind::Elementary:
+      return type.is_string() ? fmt::format("iec::String<{}>", type.length) : std::string(cpp_type(type.elementary));
+    case Type::Kind::Enum:
+    case Type::Kind::Struct:
+      return type.shared_name.empty() ? "plc::" + cpp_name(std::string_view(type.name)) : "::" + type.shared_name;
+    case Type::Kind::Block:
+      return type.block != nullptr ? type.block->cpp : "plc::" + cpp_name(std::string_view(type.pou->name));
+    case Type::Kind::Array: {
+      std::string text = cpp_type(*type.element);
+      for (auto one = type.dimensions.rbegin(); one != type.dimensions.rend(); ++one) {
+        text = fmt::format("std::array<{}, {}>", text, one->count());
+      }
+      return text;
+    }
+  }
+  return "";
+}
+
+std::string cpp_constant(const Constant& value, const Type& type, bool exact) {
+  if (const auto* flag = std::get_if<bool>(&value)) {
+    return *flag ? "true" : "false";
+  }
+  if (const auto* one = std::get_if<double>(&value)) {
+    return real(*one, type);
+  }
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    return fmt::format("{}({})", cpp_type(type), quoted(*text));
+  }
+  const Integer whole = std::get<Integer>(value);
+  if (type.kind == Type::Kind::Enum) {
+    return enumerator(whole, type);
+  }
+  const std::string text = number(whole, type);
+  const bool plain = is_int(type.elementary) || is_bit(type.elementary);
+  if (is_real(type.elementary)) {
+    return real(static_cast<double>(whole), type);
+  }
+  return plain && (!exact || type.is(Elementary::Dint)) ? text : cpp_type(type) + "{" + text + "}";
+}
+
+std::string cpp_initial(const Type& type, const ast::Initial* initial) {
+  if (type.kind == Type::Kind::Block) {
+    return initial != nullptr ? of_block(type, *initial) : "{}";
+  }
+  if (type.kind == Type::Kind::Array && type.element->kind == Type::Kind::Block) {
+    return "{}";
+  }
+  return of_tree(type, initial_value(type, initial), 0);
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte >= 0x7F || c == '?') {
+      out += fmt::format("\\{:03o}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+std::string cpp_place(const Place& place, std::string_view pou) {
+  Place shown = place;
+  if (place.file) {  // the folder would make the module depend on where it was built
+    shown.file = std::make_shared<const std::string>(place.file->substr(place.file->rfind('/') + 1));
+  }
+  std::string text = to_string(shown);
+  if (place.within) {
+    text += (text.empty() ? "" : ": ") + *place.within;
+  }
+  return fmt::format("{{{}, {}}}", quoted(text), quoted(pou));
+}
+
+std::string wrapped(const std::string& expression) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    const char c = expression[i];
+    if (c == '"' && (i == 0 || expression[i - 1] != '\\')) {
+      in_text = !in_text;
+    } else if (!in_text && (c == '(' || c == '[' || c == '{')) {
+      ++depth;
+    } else if (!in_text && (c == ')' || c == ']' || c == '}')) {
+      --depth;
+    } else if (!in_text && depth == 0 && c == ' ') {
+      return "(" + expression + ")";
+    }
+  }
+  return expression;
+}
+
+}  // namespace indurop::plc

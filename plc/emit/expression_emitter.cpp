@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/expression_emitter.h"
+
+#include <fmt/format.h>
+
+#include "plc/check/expression_checker.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using ast::Operator;
+using Meaning = Resolved::Meaning;
+
+std::string_view symbol_of(Operator op) noexcept {
+  switch (op) {
+    case Operator::Add:
+      return "+";
+    case Operator::Subtract:
+      return "-";
+    case Operator::Multiply:
+      return "*";
+    case Operator::Less:
+      return "<";
+    case Operator::Greater:
+      return ">";
+    case Operator::LessEqual:
+      return "<=";
+    case Operator::GreaterEqual:
+      return ">=";
+    case Operator::Equal:
+      return "==";
+    default:
+      return "!=";
+  }
+}
+
+std::string_view text_comparison(Operator op) noexcept {
+  switch (op) {
+    case Operator::Less:
+      return "lt";
+    case Operator::Greater:
+      return "gt";
+    case Operator::LessEqual:
+      return "le";
+    case Operator::GreaterEqual:
+      return "ge";
+    case Operator::Equal:
+      return "eq";
+    default:
+      return "ne";
+  }
+}
+
+// Whether the name of a constant says more than its value.
+bool is_named(const Expression& expression) noexcept {
+  return expression.kind == Expression::Kind::Name && expression.resolved->meaning != Meaning::Value;
+}
+
+std::string converted(const std::string& text, const Expression& expression, const Type& to) {
+  const Type& from = *expression.type;
+  if (to.is_string()) {
+    const bool exactly = expression.kind != Expression::Kind::Call && from.length == to.length;
+    return exactly ? text : fmt::format("{}({})", cpp_type(to), text);
+  }
+  const bool same = to.kind != Type::Kind::Elementary || from.elementary == to.elementary;
+  return same ? text : fmt::format("static_cast<{}>({})", cpp_type(to), text);
+}
+
+}  // namespace
+
+std::string ExpressionEmitter::result_name(const Pou& pou) {
+  return pou.name + "_result";
+}
+
+std::string ExpressionEmitter::value(const Expression& expression, const Type& to, bool exact) const {
+  const Constant* known = constant_of(expression);
+  const bool scalar = to.kind == Type::Kind::Elementary || to.kind == Type::Kind::Enum;
+  if (known != nullptr && scalar && !is_named(expression)) {
+    if (to.is_string()) {
+      Type own = to;
+      own.length = exact ? std::get<std::string>(*known).size() : to.length;
+      return cpp_constant(*known, own, exact);
+    }
+    return cpp_constant(to.kind == Type::Kind::Enum ? *known : stored(*known, to), to, exact);
+  }
+  const std::string text = exact && to.is_string() ? raw(expression) : converted(raw(expression), expression, to);
+  const Type& from = *expression.type;
+  const bool inside =
+      !to.range || exact || (from.range && from.range->low >= to.range->low && from.range->high <= to.range->high);
+  if (inside) {
+    return text;
+  }
+  return fmt::format("iec::in_range({}, {}, {}, {})", place(expression.at), text, to.range->low, to.range->high);
+}
+
+std::string ExpressionEmitter::raw(const Expression& expression) const {
+  switch (expression.kind) {
+    case Expression::Kind::Literal:
+      return cpp_constant(*constant_of(expression), *expression.type, true);
+    case Expression::Kind::Name:
+      return name(expression);
+    case Expression::Kind::Direct:
+      return global(*expression.resolved->global);
+    case Expression::Kind::Member:
+      return member(expression);
+    case Expression::Kind::Bit:
+      return fmt::format("iec::bit({}, {}U)", raw(expression.operands[0]), expression.bit);
+    case Expression::Kind::Index:
+      return index(expression);
+    case Expression::Kind::Call:
+      return expression.resolved->function != nullptr ? library_call(expression) : user_call(expression);
+    case Expression::Kind::Unary:
+      return unary(expression);
+    case Expression::Kind::Binary:
+      return binary(expression);
+  }
+  return "";
+}
+
+std::string ExpressionEmitter::name(const Expression& expression) const {
+  const Resolved& resolved = *expression.resolved;
+  if (resolved.meaning == Meaning::FunctionResult) {
+    return result_name(pou_);
+  }
+  if (resolved.meaning == Meaning::Global) {
+    return global(*resolved.global);
+  }
+  if (resolved.variable == nullptr) {
+    return cpp_constant(*constant_of(expression), *expression.type, true);
+  }
+  const Variable& variable = *resolved.variable;
+  const std::string text = cpp_name(std::string_view(variable.name));
+  if (variable.section == ast::Section::InOut && pou_.tree->kind != ast::Pou::Kind::Function) {
+    return "(*" + text + ")";
+  }
+  return variable.declared->edge == ast::Edge::None ? text : text + "_edge";
+}
+
+std::string ExpressionEmitter::global(const Global& global) const {
+  const bool in_image = global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
+  return (in_image ? "shared." : "plc::") + cpp_name(global);
+}
+
+std::string ExpressionEmitter::member(const Expression& expression) const {
+  const Resolved& resolved = *expression.resolved;
+  if (resolved.meaning == Meaning::Global) {
+    return global(*resolved.global);
+  }
+  if (expression.operands[0].resolved->meaning == Meaning::Type) {
+    return cpp_constant(*constant_of(expression), *expression.type, true);
+  }
+  const Type& base = *expression.operands[0].type;
+  const bool as_is = !base.shared_name.empty() || base.block != nullptr;
+  const std::string own =
+      base.kind == Type::Kind::Struct ? cpp_field(expression.name) : cpp_name(std::string_view(expression.name));
+  return raw(expression.operands[0]) + "." + (as_is ? expression.name : own);
+}
+
+std::string ExpressionEmitter::index(const Expression& expression) const {
+  const Type& array = *expression.operands[0].type;
+  std::string text = raw(expression.operands[0]);
+  for (std::size_t i = 1; i < expression.operands.size(); ++i) {
+    text += "[" + one_index(expression.operands[i], array.dimensions[i - 1]) + "]";
+  }
+  return text;
+}
+
+std::string ExpressionEmitter::one_index(const Expression& expression, Bounds bounds) const {
+  if (const Constant* known = constant_of(expression)) {
+    return to_string(Constant(std::get<Integer>(*known) - Integer{bounds.low}));
+  }
+  const std::string text = value(expression);
+  if (!stays_within(expression, bounds)) {
+    return fmt::format("iec::index({}, {}, {}, {})", place(expression.at), text, bounds.low, bounds.high);
+  }
+  return bounds.low == 0
+             ? text
+             : fmt::format("{} - {}", text,
+                           bounds.low < 0 ? fmt::format("({})", bounds.low) : fmt::format("{}", bounds.low));
+}
+
+// The variable of a FOR around it, plus or minus a constant: its values are known.
+bool ExpressionEmitter::stays_within(const Expression& expression, Bounds bounds) const {
+  if (expression.kind == Expression::Kind::Name) {
+    const auto loop = loops_.find(expression.resolved->variable);
+    return loop != loops_.end() && loop->second.low >= bounds.low && loop->second.high <= bounds.high;
+  }
+  const bool sum = expression.kind == Expression::Kind::Binary &&
+                   (expression.op == Operator::Add || expression.op == Operator::Subtract);
+  const Constant* offset = sum ? constant_of(expression.operands[1]) : nullptr;
+  const auto number = offset != nullptr ? as_int64(*offset) : std::nullopt;
+  constexpr std::int64_t kMost = 1'000'000'000;
+  if (!number || *number > kMost || *number < -kMost) {
+    return false;
+  }
+  const std::int64_t by = expression.op == Operator::Add ? *number : -*number;
+  return stays_within(expression.operands[0], {bounds.low - by, bounds.high - by});
+}
+
+std::string ExpressionEmitter::unary(const Expression& expression) const {
+  const Expression& operand = expression.operands[0];
+  const std::string text = value(operand, *operand.type, true);
+  if (expression.op == Operator::Plus) {
+    return text;
+  }
+  if (expression.op == Operator::Not) {
+    return operand.type->is(Elementary::Bool) ? "!" + wrapped(text) : fmt::format("iec::bit_not({})", text);
+  }
+  return is_real(operand.type->elementary) ? "-" + wrapped(text) : fmt::format("iec::neg({})", text);
+}
+
+std::string ExpressionEmitter::binary(const Expression& expression) const {
+  if (expression.op >= Operator::Less && expression.op <= Operator::NotEqual) {
+    return comparison(expression);
+  }
+  if (expression.op >= Operator::And) {
+    return logic(expression);
+  }
+  const bool native =
+      expression.op == Operator::Add || expression.op == Operator::Subtract || expression.op == Operator::Multiply;
+  if (!native || !is_real(expression.type->elementary)) {
+    return library_call(expression);
+  }
+  return fmt::format("{} {} {}", wrapped(value(expression.operands[0], *expression.type, true)),
+                     symbol_of(expression.op), wrapped(value(expression.operands[1], *expression.type, true)));
+}
+
+std::string ExpressionEmitter::comparison(const Expression& expression) const {
+  const Type& type = *expression.resolved->operand;
+  const bool texts = type.is_string();
+  const std::string a = value(expression.operands[0], type, texts);
+  const std::string b = value(expression.operands[1], type, texts);
+  if (texts) {
+    return fmt::format("iec::{}({}, {})", text_comparison(expression.op), a, b);
+  }
+  return fmt::format("{} {} {}", wrapped(a), symbol_of(expression.op), wrapped(b));
+}
+
+std::string ExpressionEmitter::logic(const Expression& expression) const {
+  const Type& type = *expression.resolved->operand;
+  const std::string a = value(expression.operands[0], type, true);
+  const std::string b = value(expression.operands[1], type, true);
+  const bool flags = type.is(Elementary::Bool);
+  switch (expression.op) {
+    case Operator::And:
+      return flags ? fmt::format("{} && {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_and({}, {})", a, b);
+    case Operator::Or:
+      return flags ? fmt::format("{} || {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_or({}, {})", a, b);
+    default:
+      return flags ? fmt::format("{} != {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_xor({}, {})", a, b);
+  }
+}
+
+std::string ExpressionEmitter::library_call(const Expression& expression) const {
+  const Resolved& resolved = *expression.resolved;
+  std::string arguments = resolved.function->faults ? place(expression.at) : "";
+  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
+    const Resolved::Actual& one = resolved.actuals[i];
+    const Expression& input = one.argument != nullptr ? *one.argument->value : expression.operands[i];
+    arguments += (arguments.empty() ? "" : ", ") + value(input, *one.type, true);
+  }
+  return fmt::format("{}({})", resolved.function->cpp, arguments);
+}
+
+std::string ExpressionEmitter::user_call(const Expression& expression) const {
+  std::string arguments;
+  std::string before;
+  std::string after;
+  for (const Resolved::Actual& one : expression.resolved->actuals) {
+    const bool given = one.argument != nullptr && one.argument->value;
+    std::string text;
+    if (one.parameter->section == ast::Section::Input) {
+      const auto& initial = one.parameter->declared->initial;
+      text = given ? value(*one.argument->value, *one.type)
+                   : fmt::format("{}({})", cpp_type(*one.type), cpp_initial(*one.type, initial ? &*initial : nullptr));
+    } else if (one.parameter->section == ast::Section::InOut) {
+      text = raw(*one.argument->value);
+    } else if (!given) {
+      text = fmt::format("iec::scratch<{}>()", cpp_type(*one.type));
+    } else {
+      const std::string local = fmt::format("out_{}", one.parameter->name);
+      before += fmt::format("{} {}{{}}; ", cpp_type(*one.type), local);
+      after += assign_output(*one.argument, local, *one.type) + "; ";
+      text = local;
+    }
+    arguments += (arguments.empty() ? "" : ", ") + text;
+  }
+  const std::string call =
+      fmt::format("plc::{}({})", cpp_name(std::string_view(expression.resolved->pou->name)), arguments);
+  if (before.empty()) {
+    return call;
+  }
+  if (expression.resolved->pou->result == nullptr) {
+    return fmt::format("[&] {{ {}{}; {}}}()", before, call, after);
+  }
+  return fmt::format("[&] {{ {}auto result = {}; {}return result; }}()", before, call, after);
+}
+
+std::string ExpressionEmitter::assign_output(const ast::Argument& argument, const std::string& text,
+                                             const Type& from) const {
+  const Expression& target = *argument.value;
+  Expression output;
+  output.kind = Expression::Kind::Member;  // not a call: its type is exactly `from`
+  output.type = &from;
+  return assign(target, argument.negated ? "!" + text : converted(text, output, *target.type));
+}
+
+std::string ExpressionEmitter::assign(const Expression& target, const std::string& text) const {
+  if (target.kind == Expression::Kind::Bit) {
+    return fmt::format("iec::set_bit({}, {}U, {})", raw(target.operands[0]), target.bit, text);
+  }
+  return fmt::format("{} = {}", raw(target), text);
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checked expressions in C++.
+
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "plc/emit/cpp_text.h"
+
+namespace indurop::plc {
+
+class ExpressionEmitter {
+ public:
+  explicit ExpressionEmitter(const Pou& pou) : pou_(pou) {}
+
+  // The value as a `to`. `exact`: of exactly that C++ type, for arguments of templates.
+  [[nodiscard]] std::string value(const ast::Expression& expression, const Type& to, bool exact = false) const;
+  // The value of its own type.
+  [[nodiscard]] std::string value(const ast::Expression& expression) const {
+    return value(expression, *expression.type);
+  }
+  // A variable that can be assigned or referred to.
+  [[nodiscard]] std::string variable(const ast::Expression& expression) const { return raw(expression); }
+  // "x = value" for an output of a call, converted; `text` is the output.
+  [[nodiscard]] std::string assign_output(const ast::Argument& argument, const std::string& text,
+                                          const Type& from) const;
+  // target = text, for bits too. Without ';'.
+  [[nodiscard]] std::string assign(const ast::Expression& target, const std::string& text) const;
+
+  // While a loop runs, its variable stays within these values.
+  void enter_loop(const Variable& variable, Bounds values) { loops_[&variable] = values; }
+  void leave_loop(const Variable& variable) { loops_.erase(&variable); }
+
+  [[nodiscard]] static std::string result_name(const Pou& pou);
+  [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.name); }
+
+ private:
+  [[nodiscard]] std::string raw(const ast::Expression& expression) const;
+  [[nodiscard]] std::string name(const ast::Expression& expression) const;
+  [[nodiscard]] std::string global(const Global& global) const;
+  [[nodiscard]] std::string member(const ast::Expression& expression) const;
+  [[nodiscard]] std::string index(const ast::Expression& expression) const;
+  [[nodiscard]] std::string one_index(const ast::Expression& expression, Bounds bounds) const;
+  [[nodiscard]] bool stays_within(const ast::Expression& expression, Bounds bounds) const;
+  [[nodiscard]] std::string unary(const ast::Expression& expression) const;
+  [[nodiscard]] std::string binary(const ast::Expression& expression) const;
+  [[nodiscard]] std::string comparison(const ast::Expression& expression) const;
+  [[nodiscard]] std::string logic(const ast::Expression& expression) const;
+  [[nodiscard]] std::string library_call(const ast::Expression& expression) const;
+  [[nodiscard]] std::string user_call(const ast::Expression& expression) const;
+
+  const Pou& pou_;
+  std::map<const Variable*, Bounds> loops_;
+};
+
+}  // namespace indurop::plc

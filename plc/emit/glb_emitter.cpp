@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/glb_emitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "glb2idl/source.h"
+#include "plc/check/value_tree.h"
+#include "plc/emit/task_use.h"
+
+namespace indurop::plc {
+namespace {
+
+constexpr std::array<std::string_view, kElementaryCount> kGlbTypes{
+    "bool",     "uint8_t",  "uint16_t", "uint32_t", "uint64_t", "int8_t",  "int16_t", "int32_t", "int64_t", "uint8_t",
+    "uint16_t", "uint32_t", "uint64_t", "float",    "double",   "int64_t", "int64_t", "int64_t", "int64_t", "char"};
+
+std::string glb_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else {
+      out += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+    }
+  }
+  return out + '"';
+}
+
+std::string glb_constant(const Constant& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) {
+    return *flag ? "true" : "false";
+  }
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? glb_text(*text) : to_string(value);
+}
+
+std::uint64_t count_of(const Type& array, std::size_t level) noexcept {
+  return array.dimensions[level].count();
+}
+
+// Counted from 0 without gaps, as .glb has them.
+bool is_glb_enum(const Type& type) noexcept {
+  std::int64_t next = 0;
+  return std::all_of(type.items.begin(), type.items.end(), [&](const EnumItem& one) { return one.value == next++; });
+}
+
+class GlbEmitter {
+ public:
+  GlbEmitter(const Program& program, std::string sources) : program_(program) {
+    line("// Written by indurop plc from " + sources + ": change that, not this.");
+    line(fmt::format("namespace {};", program.space));
+    for (const Global& global : program.globals) {
+      if (global.kind == Global::Kind::Own) {
+        taken_.insert(upper(global.name));
+      }
+    }
+  }
+
+  GlbFile run(bool show_locals) {
+    for (const Global& global : program_.globals) {
+      if (global.kind == Global::Kind::Own) {
+        need(*global.type);
+        std::string comment = global.address;
+        comment += comment.empty() || global.comment.empty() ? "" : " ";
+        variable(global.name, *global.type, global.initial, global.retain, comment + global.comment, global.at);
+      }
+    }
+    for (const TaskPlan& task : program_.tasks) {
+      for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
+        const ast::Variable& declared = *one.variable->declared;
+        need(*one.variable->type);
+        variable(one.instance + "_" + one.variable->name, *one.variable->type,
+                 declared.initial ? &*declared.initial : nullptr, declared.retain, declared.comment, declared.at);
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void line(const std::string& text, const Place& at = {}) {
+    out_.text += text + "\n";
+    out_.places.push_back(at);
+  }
+
+  // Declares types before their first use.
+  void need(const Type& type) {
+    if (type.kind == Type::Kind::Array) {
+      need(*type.element);
+      return;
+    }
+    const bool own = type.shared_name.empty() && !type.name.empty();
+    if (!own || (type.kind != Type::Kind::Struct && type.kind != Type::Kind::Enum) || !declared_.insert(&type).second) {
+      return;
+    }
+    if (type.kind == Type::Kind::Enum) {
+      enumeration(type);
+      return;
+    }
+    for (const Field& field : type.fields) {
+      need(*field.type);
+    }
+    line(fmt::format("struct {} {{", type.name));
+    for (const Field& field : type.fields) {
+      line("  " + declarator(*field.type, field.name) + ";" + description(field.comment));
+    }
+    line("};");
+  }
+
+  void enumeration(const Type& type) {
+    const bool free = std::none_of(type.items.begin(), type.items.end(),
+                                   [&](const EnumItem& one) { return taken_.contains(upper(one.name)); });
+    if (!is_glb_enum(type) || !free) {
+      return;  // shown as a number
+    }
+    enums_.insert(&type);
+    std::string items;
+    for (const EnumItem& one : type.items) {
+      taken_.insert(upper(one.name));
+      items += (items.empty() ? "" : ", ") + one.name;
+    }
+    line(fmt::format("enum {} {{ {} }};", type.name, items));
+  }
+
+  std::string declarator(const Type& type, const std::string& name) {
+    std::string dims;
+    const Type* inner = &type;
+    for (; inner->kind == Type::Kind::Array; inner = inner->element) {
+      for (const Bounds& one : inner->dimensions) {
+        dims += fmt::format("[{}]", one.count());
+      }
+    }
+    if (inner->is_string()) {
+      dims += fmt::format("[{}]", inner->length + 1);
+    }
+    const std::string unit = inner->is(Elementary::Time) ? " @unit(\"ns\")" : "";
+    return fmt::format("{} {}{}{}", type_name(*inner), name, dims, unit);
+  }
+
+  std::string type_name(const Type& type) {
+    if (!type.shared_name.empty()) {
+      return type.shared_name;
+    }
+    if (type.kind == Type::Kind::Struct || enums_.contains(&type)) {
+      return type.name;
+    }
+    return std::string(kGlbTypes[static_cast<std::size_t>(type.elementary)]);
+  }
+
+  void variable(const std::string& name, const Type& type, const ast::Initial* initial, bool retain,
+                const std::string& comment, const Place& at) {
+    const ValueTree tree = initial_value(type, initial);
+    std::string text = declarator(type, name) + (retain ? " @retain" : "");
+    if (!tree.zero) {
+      text += " = " + value(type, tree, 0);
+    }
+    line(text + ";" + description(comment), at);
+  }
+
+  std::string value(const Type& type, const ValueTree& tree, std::size_t level) {
+    if (type.kind == Type::Kind::Enum && enums_.contains(&type)) {
+      return type.items[static_cast<std::size_t>(*as_int64(tree.value))].name;
+    }
+    if (type.kind == Type::Kind::Elementary || type.kind == Type::Kind::Enum) {
+      return tree.zero && type.is_string() ? "\"\"" : tree.zero ? "0" : glb_constant(tree.value);
+    }
+    std::string parts;
+    const std::size_t count = tree.equal_parts ? count_of(type, level) : tree.parts.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const ValueTree& part = tree.parts[tree.equal_parts ? 0 : i];
+      const bool deeper = type.kind == Type::Kind::Array && level + 1 < type.dimensions.size();
+      const Type& inner = type.kind == Type::Kind::Struct ? *type.fields[i].type : deeper ? type : *type.element;
+      parts += (i > 0 ? ", " : "") +
+               (part.zero && inner.kind > Type::Kind::Enum ? "{}" : value(inner, part, deeper ? level + 1 : 0));
+    }
+    return "{" + parts + "}";
+  }
+
+  static std::string description(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::erase(text, '\\');
+    if (glb2idl::first_invalid_utf8(text)) {
+      return "";  // in another code, as some editors write it
+    }
+    return text.empty() ? "" : "  // " + text;
+  }
+
+  const Program& program_;
+  GlbFile out_;
+  std::set<const Type*> declared_;
+  std::set<const Type*> enums_;
+  std::set<std::string> taken_;  // names in the namespace, in capitals
+};
+
+}  // namespace
+
+GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals) {
+  return GlbEmitter(program, sources).run(show_locals);
+}
+
+}  // namespace indurop::plc

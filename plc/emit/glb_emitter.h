@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The .glb file of a PLC program: its globals, located variables and shared locals, with the types they need.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+struct GlbFile {
+  std::string text;
+  std::vector<Place> places;  // of each line, from line 1; not known for lines of its own
+};
+
+[[nodiscard]] GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals);
+
+}  // namespace indurop::plc

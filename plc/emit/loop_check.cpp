@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/loop_check.h"
+
+#include <algorithm>
+
+namespace indurop::plc {
+namespace {
+
+using ast::Statement;
+
+bool names(const ast::Expression& expression, const Variable& variable) noexcept {
+  return expression.kind == ast::Expression::Kind::Name && expression.resolved &&
+         expression.resolved->variable == &variable;
+}
+
+// w.3 := TRUE writes w.
+bool writes(const ast::Expression& target, const Variable& variable) noexcept {
+  return names(target, variable) || (target.kind == ast::Expression::Kind::Bit && names(target.operands[0], variable));
+}
+
+// Whether a call in it has the variable as an output or passes it by reference.
+bool gives_away(const ast::Expression& expression, const Variable& variable) {
+  for (const ast::Argument& one : expression.arguments) {
+    if (one.value && ((one.output && writes(*one.value, variable)) || gives_away(*one.value, variable))) {
+      return true;
+    }
+  }
+  if (expression.resolved) {
+    for (const Resolved::Actual& one : expression.resolved->actuals) {
+      const bool by_reference = one.parameter != nullptr && one.parameter->section == ast::Section::InOut;
+      if (by_reference && one.argument != nullptr && one.argument->value && writes(*one.argument->value, variable)) {
+        return true;
+      }
+    }
+  }
+  return std::any_of(expression.operands.begin(), expression.operands.end(),
+                     [&](const ast::Expression& one) { return gives_away(one, variable); });
+}
+
+bool statement_only_reads(const Statement& one, const Variable& variable) {
+  if (one.kind == Statement::Kind::Return || one.kind == Statement::Kind::Jump) {
+    return false;
+  }
+  const bool sets = one.kind == Statement::Kind::Assign || one.kind == Statement::Kind::For;
+  if (sets && writes(*one.target, variable)) {
+    return false;
+  }
+  for (const auto* part : {&one.target, &one.value, &one.to, &one.by}) {
+    if (*part && gives_away(**part, variable)) {
+      return false;
+    }
+  }
+  return only_reads(one.body, variable) &&
+         std::all_of(one.branches.begin(), one.branches.end(), [&](const auto& branch) {
+           return only_reads(branch.body, variable) && (!branch.condition || !gives_away(*branch.condition, variable));
+         });
+}
+
+}  // namespace
+
+bool only_reads(const ast::Body& body, const Variable& variable) {
+  return std::all_of(body.begin(), body.end(),
+                     [&](const Statement& one) { return statement_only_reads(one, variable); });
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the body of a FOR does with the loop's variable.
+
+#pragma once
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+// Whether the body only reads the variable and ends the loop, if at all, with EXIT: then it can be a constant inside.
+[[nodiscard]] bool only_reads(const ast::Body& body, const Variable& variable);
+
+}  // namespace indurop::plc

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/module_emitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "plc/emit/cpp_text.h"
+#include "plc/emit/pou_emitter.h"
+#include "plc/emit/task_use.h"
+#include "plc/emit/text_writer.h"
+
+namespace indurop::plc {
+namespace {
+
+bool in_image(const Global& global) noexcept {
+  return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
+}
+
+std::string instance_name(const TaskProgram& one) {
+  return "instance_" + one.instance;
+}
+
+class ModuleEmitter {
+ public:
+  ModuleEmitter(const Program& program, const TaskPlan& task, const ModuleOptions& options)
+      : program_(program), task_(task), options_(options), use_(use_of(program, task, options.show_locals)) {
+    for (const Global& global : program.globals) {  // in the order of the text
+      if (use_.globals.contains(&global)) {
+        globals_.push_back(&global);
+      }
+    }
+  }
+
+  std::string run() {
+    out_.line("// Written by indurop plc from " + options_.sources + ": change that, not this.");
+    out_.line("#include <indurop/indurop.h>");
+    out_.line("#include <indurop/plc/library.h>");
+    out_.line("#include <indurop/plc/program.h>");
+    out_.line("#include <indurop/generated.h>");
+    out_.line();
+    out_.line("#include <array>");
+    out_.line("#include <cstdint>");
+    out_.line("#include <limits>");
+    out_.line();
+    out_.line("namespace {");
+    out_.line("namespace iec = indurop::iec;");
+    out_.line();
+    types();
+    image();
+    out_.line("namespace plc {");
+    private_globals();
+    for (const Pou* pou : use_.pous) {
+      out_.line();
+      emit_pou(*pou, out_);
+    }
+    out_.line("}  // namespace plc");
+    out_.line();
+    instances();
+    exchange();
+    out_.line("}  // namespace");
+    out_.line();
+    entry();
+    return out_.text();
+  }
+
+ private:
+  void types() {
+    out_.line("namespace plc {");
+    for (const Type* type : program_.named_types) {
+      if (!type->shared_name.empty()) {
+        continue;
+      }
+      const std::string name = cpp_name(std::string_view(type->name));
+      if (type->kind == Type::Kind::Enum) {
+        out_.open(fmt::format("enum class {} : {}", name, cpp_type(of(type->elementary))));
+        for (const EnumItem& item : type->items) {
+          out_.line(fmt::format("{} = {},", cpp_name(std::string_view(item.name)), item.value));
+        }
+        out_.close(";");
+      } else if (type->kind == Type::Kind::Struct) {
+        structure(*type, name);
+      }
+    }
+    out_.line("}  // namespace plc");
+    out_.line();
+  }
+
+  const Type& of(Elementary type) const { return *program_.types.elementary(type); }
+
+  // copy_fields() knows every struct that has the same field names.
+  void structure(const Type& type, const std::string& name) {
+    out_.open("struct " + name);
+    std::string fields;
+    for (const Field& field : type.fields) {
+      const std::string member = cpp_field(field.name);
+      out_.line(fmt::format("{} {}{{}};", cpp_type(*field.type), member));
+      fields += fmt::format(" iec::copy_value(to.{0}, from.{0});", member);
+    }
+    out_.line(fmt::format("friend bool operator==(const {0}&, const {0}&) = default;", name));
+    out_.close(";");
+    out_.line(fmt::format("template <class From> void copy_fields({}& to, const From& from) {{{} }}", name, fields));
+    out_.line(fmt::format("template <class To> void copy_fields(To& to, const {}& from) {{{} }}", name, fields));
+  }
+
+  void image() {
+    const bool any = std::any_of(globals_.begin(), globals_.end(), [](const Global* one) { return in_image(*one); });
+    if (any) {
+      out_.line("// What the program sees of the shared variables during a scan.");
+      out_.open("struct Image");
+      for (const Global* global : globals_) {
+        if (in_image(*global)) {
+          out_.line(fmt::format("{} {}{{}};", cpp_type(*global->type), cpp_name(*global)));
+        }
+      }
+      out_.close(";");
+      out_.line("Image shared;");
+      out_.line("Image before;");
+      out_.line();
+    }
+  }
+
+  void private_globals() {
+    for (const Global* global : globals_) {
+      if (!in_image(*global)) {
+        out_.line(fmt::format("{}{} {} = {};", global->kind == Global::Kind::Fixed ? "[[maybe_unused]] const " : "",
+                              cpp_type(*global->type), cpp_name(*global), cpp_initial(*global->type, global->initial)));
+      }
+    }
+  }
+
+  void instances() {
+    for (const TaskProgram& one : task_.programs) {
+      out_.line(fmt::format("plc::{} {};", cpp_name(std::string_view(one.pou->name)), instance_name(one)));
+    }
+    for (const SharedLocal& one : use_.locals) {
+      out_.line(fmt::format("{} before_{}_{}{{}};", cpp_type(*one.variable->type), one.instance, one.variable->name));
+    }
+    out_.line();
+  }
+
+  void exchange() {
+    out_.open("void read_shared()");
+    for (const Global* global : globals_) {
+      if (in_image(*global)) {
+        out_.line(fmt::format("iec::copy_value(shared.{}, {}.get());", cpp_name(*global), proxy_of(*global)));
+      }
+    }
+    for (const SharedLocal& one : use_.locals) {
+      const std::string local = member_of(one);
+      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", local, one.shared_name));
+      out_.line(fmt::format("before_{}_{} = {};", one.instance, one.variable->name, local));
+    }
+    if (std::any_of(globals_.begin(), globals_.end(), [](const Global* one) { return in_image(*one); })) {
+      out_.line("before = shared;");
+    }
+    out_.close();
+    out_.line();
+    out_.open("void write_shared()");
+    for (const Global* global : globals_) {
+      if (in_image(*global)) {
+        write_back(*global);
+      }
+    }
+    for (const SharedLocal& one : use_.locals) {
+      out_.line(fmt::format("iec::write_changed(::{}, {}, before_{}_{});", one.shared_name, member_of(one),
+                            one.instance, one.variable->name));
+    }
+    out_.close();
+  }
+
+  // Only what the program can have changed: other fields may have other writers.
+  void write_back(const Global& global) {
+    const GlobalUse& use = use_.globals.at(&global);
+    const bool whole = use.writes.contains("");
+    for (const std::string& path : use.writes) {
+      const bool covered = std::any_of(use.writes.begin(), use.writes.end(), [&](const std::string& other) {
+        return other != path && path.starts_with(other + ".");
+      });
+      if (covered || (whole && !path.empty())) {
+        continue;
+      }
+      const std::string name = cpp_name(global);
+      out_.line(fmt::format("iec::write_changed({0}{1}, shared.{2}{1}, before.{2}{1});", proxy_of(global), path, name));
+    }
+  }
+
+  std::string member_of(const SharedLocal& one) const {
+    return fmt::format("instance_{}.{}", one.instance, cpp_name(std::string_view(one.variable->name)));
+  }
+
+  void entry() {
+    out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
+    out_.open("void POU_PROGRAM()");
+    out_.line("const iec::Scan scan{irp::release_ns()};");
+    out_.line("read_shared();");
+    for (const TaskProgram& one : task_.programs) {
+      out_.line(instance_name(one) + "(scan);");
+    }
+    out_.line("write_shared();");
+    out_.close();
+    out_.line();
+    out_.line("void run() { POU_PROGRAM(); }");
+    out_.line();
+    out_.line(fmt::format("INDUROP_MODULE(run = &::run, name = {})", quoted(options_.name)));
+  }
+
+  const Program& program_;
+  const TaskPlan& task_;
+  const ModuleOptions& options_;
+  TaskUse use_;
+  std::vector<const Global*> globals_;
+  TextWriter out_;
+};
+
+}  // namespace
+
+std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options) {
+  return ModuleEmitter(program, task, options).run();
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C++ module of one task.
+
+#pragma once
+
+#include <string>
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+struct ModuleOptions {
+  std::string name;          // of the module
+  std::string sources;       // "prog.st, more.st", for the comment
+  bool show_locals = false;  // variables of programs are shared variables too
+};
+
+[[nodiscard]] std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options);
+
+}  // namespace indurop::plc

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A POU in C++: a struct with a call operator for programs and function blocks, a function for functions.
+
+#pragma once
+
+#include "plc/check/program.h"
+#include "plc/emit/text_writer.h"
+
+namespace indurop::plc {
+
+void emit_pou(const Pou& pou, TextWriter& out);
+
+}  // namespace indurop::plc

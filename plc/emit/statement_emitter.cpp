@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/emit/statement_emitter.h"
+
+#include <fmt/format.h>
+
+#include "plc/check/expression_checker.h"
+#include "plc/emit/loop_check.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using ast::Statement;
+
+const Type& boolean() {
+  static const Type type = [] {
+    Type made;
+    made.elementary = Elementary::Bool;
+    return made;
+  }();
+  return type;
+}
+
+}  // namespace
+
+void StatementEmitter::list(const ast::Body& body) {
+  for (const Statement& one : body) {
+    comment(one.comment);
+    statement(one);
+  }
+}
+
+void StatementEmitter::comment(const std::string& text) {
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t end = std::min(text.find('\n', from), text.size());
+    std::string line = text.substr(from, end - from);
+    while (!line.empty() && (line.back() == '\\' || line.back() == '\r' || line.back() == ' ')) {
+      line.pop_back();  // a backslash at the end would make the next line a comment
+    }
+    out_.line("// " + line);
+    from = end + 1;
+  }
+}
+
+std::string StatementEmitter::condition(const Expression& expression) const {
+  return expressions_.value(expression, boolean());
+}
+
+void StatementEmitter::statement(const Statement& one) {
+  switch (one.kind) {
+    case Statement::Kind::Empty:
+      break;
+    case Statement::Kind::Assign:
+      assign(one);
+      break;
+    case Statement::Kind::Call:
+      call(*one.value);
+      break;
+    case Statement::Kind::If:
+      if_statement(one);
+      break;
+    case Statement::Kind::Case:
+      case_statement(one);
+      break;
+    case Statement::Kind::For:
+      for_statement(one);
+      break;
+    case Statement::Kind::While:
+      out_.open(fmt::format("while ({})", condition(*one.value)));
+      list(one.body);
+      out_.close();
+      break;
+    case Statement::Kind::Repeat:
+      out_.open("do");
+      list(one.body);
+      out_.close(fmt::format(" while (!{});", wrapped(condition(*one.value))));
+      break;
+    case Statement::Kind::Exit:
+      out_.line("break;");
+      break;
+    case Statement::Kind::Continue:
+      out_.line("continue;");
+      break;
+    case Statement::Kind::Return:
+      leave(one, pou_.result != nullptr ? fmt::format("return {};", ExpressionEmitter::result_name(pou_)) : "return;");
+      break;
+    case Statement::Kind::Label:
+      out_.line(fmt::format("label_{}:;", upper(one.label)));
+      break;
+    case Statement::Kind::Jump:
+      leave(one, fmt::format("goto label_{};", upper(one.label)));
+      break;
+  }
+}
+
+void StatementEmitter::leave(const Statement& one, const std::string& how) {
+  if (!one.value) {
+    out_.line(how);
+    return;
+  }
+  out_.open(fmt::format("if ({})", condition(*one.value)));
+  out_.line(how);
+  out_.close();
+}
+
+template <class Body>
+void StatementEmitter::enabled(const Expression& call, Body body) {
+  const Resolved& resolved = *call.resolved;
+  if (resolved.enable == nullptr && resolved.enable_out == nullptr) {
+    body();
+    return;
+  }
+  const std::string flag = resolved.enable != nullptr ? condition(*resolved.enable->value) : "true";
+  const std::string name = fmt::format("enabled_{}", ++loops_);
+  out_.open("");
+  out_.line(fmt::format("const bool {} = {};", name, flag));
+  out_.open(fmt::format("if ({})", name));
+  body();
+  out_.close();
+  if (resolved.enable_out != nullptr) {
+    out_.line(expressions_.assign_output(*resolved.enable_out, name, boolean()) + ";");
+  }
+  out_.close();
+}
+
+void StatementEmitter::assign(const Statement& one) {
+  const Type& to = *one.target->type;
+  const auto store = [&] { out_.line(expressions_.assign(*one.target, expressions_.value(*one.value, to)) + ";"); };
+  if (one.value->kind == Expression::Kind::Call) {
+    enabled(*one.value, store);
+  } else {
+    store();
+  }
+}
+
+void StatementEmitter::call(const Expression& call) {
+  enabled(call, [&] {
+    const Expression& callee = call.operands[0];
+    if (callee.type != nullptr && callee.type->kind == Type::Kind::Block) {
+      block_call(call);
+    } else if (call.type == nullptr) {
+      out_.line(expressions_.variable(call) + ";");
+    } else {
+      out_.line(fmt::format("static_cast<void>({});", expressions_.variable(call)));
+    }
+  });
+}
+
+void StatementEmitter::block_call(const Expression& call) {
+  const std::string instance = expressions_.variable(call.operands[0]);
+  for (const Resolved::Actual& one : call.resolved->actuals) {
+    if (one.argument->output) {
+      continue;
+    }
+    const std::string member = one.parameter != nullptr ? cpp_name(std::string_view(one.member)) : one.member;
+    const bool by_reference = one.parameter != nullptr && one.parameter->section == ast::Section::InOut;
+    out_.line(by_reference
+                  ? fmt::format("{}.{} = &{};", instance, member, expressions_.variable(*one.argument->value))
+                  : fmt::format("{}.{} = {};", instance, member, expressions_.value(*one.argument->value, *one.type)));
+  }
+  out_.line(fmt::format("{}(scan);", instance));
+  for (const Resolved::Actual& one : call.resolved->actuals) {
+    if (one.argument->output) {
+      const std::string member = one.parameter != nullptr ? cpp_name(std::string_view(one.member)) : one.member;
+      out_.line(expressions_.assign_output(*one.argument, instance + "." + member, *one.type) + ";");
+    }
+  }
+}
+
+void StatementEmitter::if_statement(const Statement& one) {
+  bool first = true;
+  for (const ast::Branch& branch : one.branches) {
+    if (first) {
+      out_.open(fmt::format("if ({})", condition(*branch.condition)));
+    } else {
+      out_.reopen(branch.condition ? fmt::format("else if ({})", condition(*branch.condition)) : "else");
+    }
+    first = false;
+    list(branch.body);
+  }
+  out_.close();
+}
+
+// No switch: EXIT inside of it has to end the loop around it.
+void StatementEmitter::case_statement(const Statement& one) {
+  const Type& type = *one.value->type;
+  const std::string name = fmt::format("case_{}", ++loops_);
+  out_.open("");
+  out_.line(fmt::format("const {} {} = {};", cpp_type(type), name, expressions_.value(*one.value)));
+  bool first = true;
+  for (const ast::Branch& branch : one.branches) {
+    std::string text;
+    for (const ast::CaseLabel& label : branch.labels) {
+      const std::string low = expressions_.value(label.low, type);
+      text += text.empty() ? "" : " || ";
+      text += label.high ? fmt::format("({0} >= {1} && {0} <= {2})", name, low, expressions_.value(*label.high, type))
+                         : fmt::format("{} == {}", name, low);
+    }
+    const std::string test = branch.labels.empty() ? "else" : fmt::format("{}if ({})", first ? "" : "else ", text);
+    if (first) {
+      out_.open(branch.labels.empty() ? "" : test);
+    } else {
+      out_.reopen(test);
+    }
+    first = false;
+    list(branch.body);
+  }
+  if (!first) {
+    out_.close();
+  }
+  out_.close();
+}
+
+void StatementEmitter::for_statement(const Statement& one) {
+  const Resolved& resolved = *one.target->resolved;
+  const Constant* known = one.by ? constant_of(*one.by) : nullptr;
+  const std::int64_t step = !one.by ? 1 : known != nullptr ? as_int64(*known).value_or(0) : 0;
+  const bool narrow = bits_of(one.target->type->elementary) < 64;
+  const bool plain = resolved.meaning == Resolved::Meaning::Variable && !one.target->type->range &&
+                     resolved.variable->section != ast::Section::InOut;
+  if (step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
+    counted_loop(one, step);
+  } else {
+    general_loop(one);
+  }
+}
+
+// The variable is a constant inside: the compiler sees that it stays within the bounds, and so do we.
+void StatementEmitter::counted_loop(const Statement& one, std::int64_t step) {
+  const Variable& variable = *one.target->resolved->variable;
+  const Type& type = *one.target->type;
+  const std::string name = expressions_.variable(*one.target);
+  const std::string counter = fmt::format("counter_{}", ++loops_);
+  const std::string end = fmt::format("end_{}", loops_);
+  const Constant* first = constant_of(*one.value);
+  const Constant* last = constant_of(*one.to);
+  out_.open("");
+  out_.line(fmt::format("std::int64_t {} = {};", counter, expressions_.value(*one.value, type)));
+  out_.line(fmt::format("const std::int64_t {} = {};", end, expressions_.value(*one.to, type)));
+  const std::string advance = step == 1 ? "++" + counter : fmt::format("{} += {}", counter, step);
+  out_.open(fmt::format("for (; {} {} {}; {})", counter, step > 0 ? "<=" : ">=", end, advance));
+  out_.line(fmt::format("const auto {} = static_cast<{}>({});", name, cpp_type(type), counter));
+  if (first != nullptr && last != nullptr) {
+    const std::int64_t a = *as_int64(*first);
+    const std::int64_t b = *as_int64(*last);
+    expressions_.enter_loop(variable, {std::min(a, b), std::max(a, b)});
+  }
+  list(one.body);
+  expressions_.leave_loop(variable);
+  out_.close();
+  out_.line(fmt::format("{} = static_cast<{}>({});", name, cpp_type(type), counter));
+  out_.close();
+}
+
+void StatementEmitter::general_loop(const Statement& one) {
+  const Type& type = *one.target->type;
+  const std::string name = expressions_.variable(*one.target);
+  const std::string loop = fmt::format("loop_{}", ++loops_);
+  const std::string step = one.by ? expressions_.value(*one.by, type) : "1";
+  out_.open("");
+  out_.line(fmt::format("{} = {};", name, expressions_.value(*one.value, type)));
+  out_.line(fmt::format("iec::Loop<{}> {}{{{}, {}}};", cpp_type(type), loop, expressions_.value(*one.to, type), step));
+  out_.open(fmt::format("for (; {0}.runs({1}); {0}.next({1}))", loop, name));
+  list(one.body);
+  out_.close();
+  out_.close();
+}
+
+}  // namespace indurop::plc

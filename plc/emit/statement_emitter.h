@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checked statements in C++.
+
+#pragma once
+
+#include <string>
+
+#include "plc/emit/expression_emitter.h"
+#include "plc/emit/text_writer.h"
+
+namespace indurop::plc {
+
+class StatementEmitter {
+ public:
+  StatementEmitter(const Pou& pou, TextWriter& out) : pou_(pou), out_(out), expressions_(pou) {}
+
+  void list(const ast::Body& body);
+
+ private:
+  void statement(const ast::Statement& statement);
+  void assign(const ast::Statement& statement);
+  void call(const ast::Expression& call);
+  void block_call(const ast::Expression& call);
+  void if_statement(const ast::Statement& statement);
+  void case_statement(const ast::Statement& statement);
+  void for_statement(const ast::Statement& statement);
+  void counted_loop(const ast::Statement& statement, std::int64_t step);
+  void general_loop(const ast::Statement& statement);
+  void leave(const ast::Statement& statement, const std::string& how);
+  void comment(const std::string& text);
+  [[nodiscard]] std::string condition(const ast::Expression& expression) const;
+  // Runs `body` only if the call's EN is true, and gives ENO.
+  template <class Body>
+  void enabled(const ast::Expression& call, Body body);
+
+  const Pou& pou_;
+  TextWriter& out_;
+  ExpressionEmitter expressions_;
+  int loops_ = 0;  // numbers their helpers
+};
+
+}  // namespace indurop::plc

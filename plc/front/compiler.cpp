@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/front/compiler.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "glb2idl/compiler.h"
+#include "plc/check/checker.h"
+#include "plc/emit/glb_emitter.h"
+#include "plc/emit/module_emitter.h"
+#include "plc/front/reader.h"
+
+namespace indurop::plc {
+namespace {
+
+bool is_name(std::string_view name) noexcept {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && is_letter(name[0]) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
+}
+
+// "prog" of ".../prog.st"; what C++ cannot have in a name becomes '_'.
+std::string name_from(const std::string& file) {
+  std::string name = std::filesystem::path(file).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !is_name(std::string("a") + c); }, '_');
+  return is_name(name) ? name : "plc_" + name;
+}
+
+std::vector<schema::Variable> variables_of(const glb2idl::Program& program) {
+  std::vector<schema::Variable> out;
+  for (const glb2idl::Unit& unit : program.units) {
+    for (const glb2idl::Item& item : unit.items) {
+      if (const auto* variable = std::get_if<schema::Variable>(&item)) {
+        out.push_back(*variable);
+      }
+    }
+  }
+  return out;
+}
+
+std::string file_names(const std::vector<std::string>& files) {
+  std::string out;
+  for (const std::string& one : files) {
+    out += (out.empty() ? "" : ", ") + std::filesystem::path(one).filename().string();
+  }
+  return out;
+}
+
+// Checks the .glb we wrote as its users will; its errors are about the variables of the program.
+void check_glb(const std::string& name, const GlbFile& glb, const std::vector<std::string>& others,
+               const glb2idl::FileReader& read_other, Diagnostics& diagnostics) {
+  const std::string own = name + ".glb";
+  const glb2idl::FileReader read = [&](const std::string& path) {
+    return path == own ? glb2idl::ReadResult{glb.text, own, ""} : read_other(path);
+  };
+  std::vector<std::string> inputs = others;
+  inputs.push_back(own);
+  const auto compiled = glb2idl::compile(inputs, read);
+  std::string_view rest = compiled.ok ? std::string_view() : std::string_view(compiled.messages);
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    const std::size_t text = line.find(": error: ");
+    if (text == std::string_view::npos) {
+      continue;  // the source line and its mark
+    }
+    std::size_t number = 0;
+    if (line.starts_with(own + ":")) {
+      number = static_cast<std::size_t>(std::atoi(std::string(line.substr(own.size() + 1)).c_str()));
+    }
+    const Place at = number > 0 && number <= glb.places.size() ? glb.places[number - 1] : Place{};
+    diagnostics.error(at, fmt::format("as a shared variable: {}", line.substr(text + 9)));
+  }
+}
+
+class Compiler {
+ public:
+  Compiler(const CompileOptions& options, const glb2idl::FileReader& read) : options_(options), read_(read) {
+    out_.name = options.name.empty() && !options.files.empty() ? name_from(options.files[0]) : options.name;
+  }
+
+  Compiled run() {
+    if (!is_name(out_.name)) {
+      diagnostics_.error(
+          {}, fmt::format("'{}' names the module and its variables, use letters, digits and '_'", out_.name));
+    } else {
+      translate();
+    }
+    out_.ok = !diagnostics_.failed();
+    out_.messages = foreign_messages_ + diagnostics_.render();
+    return std::move(out_);
+  }
+
+ private:
+  void translate() {
+    CheckOptions check_options;
+    // C++ keeps the name main for itself.
+    check_options.space = !options_.space.empty() ? options_.space : out_.name == "main" ? "plc" : out_.name;
+    if (!options_.glb_files.empty()) {
+      const auto foreign = glb2idl::compile(options_.glb_files, read_);
+      if (!foreign.ok) {
+        foreign_messages_ = foreign.messages;
+        diagnostics_.error({}, "the .glb files above have errors, correct them first");
+        return;
+      }
+      check_options.foreign = variables_of(foreign.program);
+    }
+    const auto program = check(read_project(options_.files, {options_.watch}, read_, diagnostics_),
+                               std::move(check_options), diagnostics_);
+    if (diagnostics_.failed()) {
+      return;
+    }
+    const std::string sources = file_names(options_.files);
+    const GlbFile glb = emit_glb(*program, sources, options_.show_locals);
+    check_glb(out_.name, glb, options_.glb_files, read_, diagnostics_);
+    out_.glb = glb.text;
+    for (const TaskPlan& task : program->tasks) {
+      const bool only = program->tasks.size() == 1;
+      ModuleText module;
+      module.name = only ? out_.name : out_.name + "_" + (task.name.empty() ? "default" : task.name);
+      module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals});
+      module.period_ns = task.interval_ns;
+      module.priority = task.priority;
+      out_.modules.push_back(std::move(module));
+    }
+  }
+
+  const CompileOptions& options_;
+  const glb2idl::FileReader& read_;
+  Compiled out_;
+  Diagnostics diagnostics_;
+  std::string foreign_messages_;
+};
+
+std::string duration(std::int64_t ns) {
+  for (const auto& [unit, size] : {std::pair("s", std::int64_t{1'000'000'000}),
+                                   std::pair("ms", std::int64_t{1'000'000}), std::pair("us", std::int64_t{1'000})}) {
+    if (ns % size == 0) {
+      return fmt::format("{}{}", ns / size, unit);
+    }
+  }
+  return fmt::format("{}", ns);
+}
+
+}  // namespace
+
+Compiled compile(const CompileOptions& options, const glb2idl::FileReader& read) {
+  return Compiler(options, read).run();
+}
+
+std::string module_xml(const std::vector<ModuleText>& modules) {
+  std::string out;
+  for (const ModuleText& one : modules) {
+    out += fmt::format(
+        "  <module>\n"
+        "    <filename>./{}.so</filename>\n"
+        "    <moduletype>thread</moduletype>\n"
+        "    <operationtype>periodic</operationtype>\n"
+        "    <period>{}</period>\n"
+        "    <priority>{}</priority>\n"
+        "  </module>\n",
+        one.name, duration(one.period_ns), one.priority);
+  }
+  return out;
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// From files of a PLC program to the texts of its modules: .glb, C++, and the lines for module.xml.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "glb2idl/source.h"
+
+namespace indurop::plc {
+
+struct CompileOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> glb_files;  // whose shared variables the program may use
+  std::string name;                    // of the module; empty: the first file's name
+  std::string space;                   // namespace of its shared variables; empty: the module's name, "plc" for main
+  bool show_locals = false;
+  bool watch = false;  // drawn programs tell `indurop plc watch` about their power flow
+};
+
+struct ModuleText {
+  std::string name;  // "main"; with several tasks "main_fast"
+  std::string cpp;
+  std::int64_t period_ns = 0;
+  std::int32_t priority = 1;
+};
+
+struct Compiled {
+  bool ok = false;
+  std::string messages;  // errors and warnings, ready to print
+  std::string name;
+  std::string glb;  // text of <name>.glb, with includes of the other files
+  std::vector<ModuleText> modules;
+};
+
+[[nodiscard]] Compiled compile(const CompileOptions& options,
+                               const glb2idl::FileReader& read = glb2idl::read_source_file);
+
+// <module>...</module> for each of them, as module.xml has it.
+[[nodiscard]] std::string module_xml(const std::vector<ModuleText>& modules);
+
+}  // namespace indurop::plc

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door for all forms of PLC programs: one reader per file type, and all files together are one project.
+
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "glb2idl/source.h"
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+#include "plc/model/read_options.h"
+
+namespace indurop::plc {
+
+// Reads the text of one file; `at` is the place of its first character. What has errors is left out.
+using Reader = Project (*)(std::string_view text, const Place& at, const ReadOptions& options,
+                           Diagnostics& diagnostics);
+
+struct FileType {
+  std::string_view ending;  // ".st"
+  Reader read = nullptr;
+};
+[[nodiscard]] std::span<const FileType> file_types();
+
+// Everything the files contain. Files that cannot be read are errors.
+[[nodiscard]] Project read_project(const std::vector<std::string>& files, const ReadOptions& options,
+                                   const glb2idl::FileReader& read, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc

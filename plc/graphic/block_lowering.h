@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes: calls of functions and instances of function blocks, EN and ENO.
+
+#pragma once
+
+#include "plc/graphic/lowering.h"
+
+namespace indurop::plc::graphic {
+
+// With EN a box is evaluated only while EN is true, and ENO is EN. Outputs of an instance keep their values meanwhile,
+// results of functions are FALSE or 0, and variables connected with them are not written.
+class BlockLowering {
+ public:
+  BlockLowering(Lowering& lowering, const LowerOptions& options) : lowering_(lowering), options_(options) {}
+
+  void block(const Element& element);
+
+ private:
+  void instance(const Element& element, const std::string& enable);
+  void function(const Element& element, const std::string& enable);
+  [[nodiscard]] std::vector<ast::Argument> arguments(const Element& element, bool named);
+  void further_outputs(const Element& element, const Pin* result, std::vector<ast::Argument>& arguments);
+  [[nodiscard]] ast::TypeSpec output_type(const Element& element, const Pin& pin) const;
+  // Where the name of a variable stands at an output.
+  void store_outputs(const Element& element, const std::string& enable);
+  void add(ast::Statement statement, const std::string& enable);
+
+  Lowering& lowering_;
+  const LowerOptions& options_;
+};
+
+}  // namespace indurop::plc::graphic

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the checker of PLC programs knows of the standard functions and function blocks: parameters, types, and the C++
+// name (in namespace indurop::iec, written as iec::) that the generated code calls. include/indurop/plc/ implements it.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "plc/model/elementary.h"
+
+namespace indurop::plc {
+
+// The generic types of the standard. ANY holds types of the user too, the others elementary ones only.
+enum class Generic : std::uint8_t { Any, AnyElementary, AnyNum, AnyInt, AnyReal, AnyBit };
+
+// In one call all parameters of the same generic type have one common type, and so has a generic result.
+using LibraryType = std::variant<Elementary, Generic>;
+
+[[nodiscard]] std::string_view name_of(Generic type) noexcept;
+[[nodiscard]] bool accepts(LibraryType parameter, Elementary type) noexcept;
+
+struct LibraryParameter {
+  std::string name;   // "IN1"
+  std::string alias;  // other name that editors use: RESET for R; else empty
+  LibraryType type = Generic::Any;
+  std::string cpp;  // member of a function block's struct
+};
+
+struct LibraryFunction {
+  std::string name;
+  std::vector<LibraryParameter> inputs;
+  bool extensible = false;  // the last input may be repeated any number of times: IN2, IN3, ...
+  LibraryType result = Generic::Any;
+  std::string cpp;      // "iec::add", "iec::to<std::int16_t>"
+  bool faults = false;  // its first C++ argument is the iec::Place to name in a fault
+
+  // Position of the input of this name, in any case; those of an extensible function have no end.
+  [[nodiscard]] std::optional<std::size_t> position(std::string_view input) const;
+  // The input at the position; requires that there is one.
+  [[nodiscard]] const LibraryParameter& input(std::size_t position) const;
+};
+
+// Its struct has a member for each parameter and is evaluated by block(scan).
+struct LibraryBlock {
+  std::string name;
+  std::vector<LibraryParameter> inputs;
+  std::vector<LibraryParameter> outputs;
+  std::string cpp;  // "iec::Ton", "iec::Ctu<std::int16_t>"
+
+  // By name or alias in any case; null if there is none.
+  [[nodiscard]] const LibraryParameter* input(std::string_view wanted) const;
+  [[nodiscard]] const LibraryParameter* output(std::string_view wanted) const;
+};
+
+// All of them, overloads of one name as neighbours.
+[[nodiscard]] const std::vector<LibraryFunction>& library_functions();
+[[nodiscard]] const std::vector<LibraryBlock>& library_blocks();
+
+// All overloads of the name, in any case; none if it is no standard function. TOD_TO_STRING is TIME_OF_DAY_TO_STRING.
+[[nodiscard]] std::vector<const LibraryFunction*> find_functions(std::string_view name);
+[[nodiscard]] const LibraryBlock* find_block(std::string_view name);
+
+// "std::int16_t", "iec::Time". Requires another type than STRING, whose C++ type depends on its length.
+[[nodiscard]] std::string_view cpp_type(Elementary type) noexcept;
+
+}  // namespace indurop::plc

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The syntax tree that all languages of IEC 61131-3 become: expressions, statements, types, declarations. Names are as
+// written and not yet resolved. Fields marked "checker" are empty until the program was checked.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "plc/model/elementary.h"
+#include "plc/model/place.h"
+
+namespace indurop::plc {
+struct Type;      // resolved type, see plc/check/type.h
+struct Resolved;  // what a name means, see plc/check/program.h
+}  // namespace indurop::plc
+
+namespace indurop::plc::ast {
+
+// Trees are walked recursively: readers build none deeper than this. (A chain a + b + c... has one level per operator.)
+inline constexpr int kMaxDepth = 400;
+
+// %IX0.3, %QW2, %MD4. The size is X where no letter is written.
+struct DirectAddress {
+  char area = 'I';           // I Q M
+  char size = 'X';           // X B W D L
+  std::vector<int> numbers;  // {0, 3}
+};
+// "%IX0.3"
+[[nodiscard]] std::string to_string(const DirectAddress& address);
+
+// bool: BOOL. uint64: integers and bit strings, a sign is a unary minus. int64: nanoseconds of TIME and TIME_OF_DAY,
+// nanoseconds since 1970 of DATE and DATE_AND_TIME. string: decoded, without quotes.
+using LiteralValue = std::variant<bool, std::uint64_t, double, std::int64_t, std::string>;
+
+enum class Operator : std::uint8_t {
+  None,
+  Not,
+  Negate,
+  Plus,  // unary, no effect
+  Power,
+  Multiply,
+  Divide,
+  Modulo,
+  Add,
+  Subtract,
+  Less,
+  Greater,
+  LessEqual,
+  GreaterEqual,
+  Equal,
+  NotEqual,
+  And,
+  Xor,
+  Or,
+};
+
+struct Argument;
+
+struct Expression {
+  enum class Kind : std::uint8_t {
+    Literal,
+    Name,    // name
+    Direct,  // address
+    Member,  // operands[0].name; also Enum#Value, namespace.variable, instance.output, step.X
+    Bit,     // operands[0].bit, w.3
+    Index,   // operands[0][operands[1], operands[2], ...]
+    Call,    // operands[0](arguments): a function, or in a statement an instance of a function block
+    Unary,   // op operands[0]
+    Binary,  // operands[0] op operands[1]
+  };
+  Kind kind = Kind::Literal;
+  Operator op = Operator::None;
+  Place at;
+  std::string name;                      // Name, Member; as written
+  LiteralValue value;                    // Literal
+  std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
+  std::string value_enum;                // Name: the type in Color#Red
+  unsigned bit = 0;
+  DirectAddress address;
+  std::vector<Expression> operands;
+  std::vector<Argument> arguments;  // Call
+
+  // checker
+  const Type* type = nullptr;
+  std::shared_ptr<Resolved> resolved;
+};
+
+// name := value, name => variable, NOT name => variable, or a value alone. EN and ENO are arguments like others.
+struct Argument {
+  Place at;
+  std::string name;  // empty: by position
+  bool output = false;
+  bool negated = false;             // NOT name => variable
+  std::optional<Expression> value;  // none: IN := , (as some editors write it)
+};
+
+struct Statement;
+using Body = std::vector<Statement>;
+
+struct CaseLabel {
+  Expression low;
+  std::optional<Expression> high;  // low..high
+};
+
+// One arm of IF or CASE.
+struct Branch {
+  Place at;
+  std::optional<Expression> condition;  // IF, ELSIF; none: ELSE
+  std::vector<CaseLabel> labels;        // CASE; none: ELSE
+  Body body;
+};
+
+struct Statement {
+  enum class Kind : std::uint8_t {
+    Empty,   // only a comment
+    Assign,  // target := value
+    Call,    // value is Expression::Kind::Call
+    If,      // branches
+    Case,    // value, branches
+    For,     // target := value TO to BY by DO body
+    While,   // value, body
+    Repeat,  // body, UNTIL value
+    Exit,
+    Continue,
+    Return,  // only if value is true, where there is one
+    Label,   // label; only in the outermost list of a body
+    Jump,    // to label; only if value is true, where there is one
+  };
+  Kind kind = Kind::Empty;
+  Place at;
+  std::string comment;  // goes into the generated code
+  std::optional<Expression> target;
+  std::optional<Expression> value;
+  std::optional<Expression> to;
+  std::optional<Expression> by;
+  std::vector<Branch> branches;
+  Body body;
+  std::string label;
+};
+
+struct Initial;
+
+// An element of [1, 2, 3(0)] or a field of (x := 1, y := 2).
+struct InitialElement;
+
+struct Initial {
+  enum class Kind : std::uint8_t { Value, Array, Struct };
+  Kind kind = Kind::Value;
+  Place at;
+  std::optional<Expression> value;  // Value
+  std::vector<InitialElement> elements;
+};
+
+struct InitialElement {
+  std::string field;                // Struct
+  std::optional<Expression> count;  // Array: 3(0)
+  Initial value;
+};
+
+struct Dimension {
+  Expression low;
+  Expression high;
+};
+
+struct Variable;
+
+struct EnumValue {
+  Place at;
+  std::string name;
+  std::optional<Expression> value;
+};
+
+struct TypeSpec {
+  enum class Kind : std::uint8_t {
+    Elementary,
+    String,    // length; none: 80
+    Named,     // name: a type of the user, a function block
+    Array,     // dimensions, element
+    Subrange,  // elementary (range.low..range.high)
+    Struct,    // fields
+    Enum,      // values; of type `elementary` where one is given, else INT
+    Inferred,  // VAR_TEMP of translated networks: that of the first value assigned in the text of the body; also what
+               // a declaration with an error declares
+  };
+  Kind kind = Kind::Elementary;
+  Place at;
+  Elementary elementary = Elementary::Int;
+  std::string name;
+  std::optional<Expression> length;
+  std::vector<Dimension> dimensions;
+  std::shared_ptr<TypeSpec> element;
+  std::optional<Dimension> range;
+  std::vector<Variable> fields;
+  std::vector<EnumValue> values;
+};
+
+enum class Section : std::uint8_t { Local, Input, Output, InOut, Temp, Global, External };
+enum class Edge : std::uint8_t { None, Rising, Falling };  // BOOL R_EDGE, BOOL F_EDGE
+
+struct Variable {
+  Section section = Section::Local;
+  Place at;
+  std::string name;
+  TypeSpec type;
+  std::optional<Initial> initial;
+  std::optional<DirectAddress> address;  // AT %IX0.0; then the name may be empty
+  bool constant = false;
+  bool retain = false;
+  Edge edge = Edge::None;
+  std::string comment;
+};
+
+// TYPE name : type := initial; END_TYPE
+struct TypeDeclaration {
+  Place at;
+  std::string name;
+  TypeSpec type;
+  std::optional<Initial> initial;
+  std::string comment;
+};
+
+struct Pou {
+  enum class Kind : std::uint8_t { Program, Function, FunctionBlock };
+  Kind kind = Kind::Program;
+  Place at;
+  std::string name;
+  std::string comment;
+  std::optional<TypeSpec> result;  // Function
+  std::vector<Variable> variables;
+  Body body;
+};
+
+}  // namespace indurop::plc::ast

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/model/elementary.h"
+
+#include <algorithm>
+#include <array>
+
+namespace indurop::plc {
+namespace {
+
+struct Row {
+  std::string_view name;
+  std::string_view other_name;
+  unsigned bits;
+};
+
+// In the order of the enumeration.
+constexpr std::array<Row, kElementaryCount> kRows{{{"BOOL", "", 1},
+                                                   {"BYTE", "", 8},
+                                                   {"WORD", "", 16},
+                                                   {"DWORD", "", 32},
+                                                   {"LWORD", "", 64},
+                                                   {"SINT", "", 8},
+                                                   {"INT", "", 16},
+                                                   {"DINT", "", 32},
+                                                   {"LINT", "", 64},
+                                                   {"USINT", "", 8},
+                                                   {"UINT", "", 16},
+                                                   {"UDINT", "", 32},
+                                                   {"ULINT", "", 64},
+                                                   {"REAL", "", 32},
+                                                   {"LREAL", "", 64},
+                                                   {"TIME", "LTIME", 64},
+                                                   {"DATE", "", 64},
+                                                   {"TIME_OF_DAY", "TOD", 64},
+                                                   {"DATE_AND_TIME", "DT", 64},
+                                                   {"STRING", "", 0}}};
+
+constexpr const Row& row(Elementary type) noexcept {
+  return kRows[static_cast<std::size_t>(type)];
+}
+
+constexpr char upper(char c) noexcept {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+constexpr bool between(Elementary type, Elementary first, Elementary last) noexcept {
+  return type >= first && type <= last;
+}
+
+}  // namespace
+
+std::string_view name_of(Elementary type) noexcept {
+  return row(type).name;
+}
+
+std::optional<Elementary> elementary_named(std::string_view name) noexcept {
+  for (std::size_t i = 0; i < kRows.size(); ++i) {
+    if (same_name(name, kRows[i].name) || (!kRows[i].other_name.empty() && same_name(name, kRows[i].other_name))) {
+      return static_cast<Elementary>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+unsigned bits_of(Elementary type) noexcept {
+  return row(type).bits;
+}
+
+bool is_signed_int(Elementary type) noexcept {
+  return between(type, Elementary::Sint, Elementary::Lint);
+}
+bool is_unsigned_int(Elementary type) noexcept {
+  return between(type, Elementary::Usint, Elementary::Ulint);
+}
+bool is_int(Elementary type) noexcept {
+  return between(type, Elementary::Sint, Elementary::Ulint);
+}
+bool is_real(Elementary type) noexcept {
+  return between(type, Elementary::Real, Elementary::Lreal);
+}
+bool is_num(Elementary type) noexcept {
+  return between(type, Elementary::Sint, Elementary::Lreal);
+}
+bool is_bit(Elementary type) noexcept {
+  return between(type, Elementary::Bool, Elementary::Lword);
+}
+bool is_date(Elementary type) noexcept {
+  return between(type, Elementary::Date, Elementary::DateAndTime);
+}
+
+bool widens(Elementary from, Elementary to) noexcept {
+  if (from == to) {
+    return true;
+  }
+  if (is_bit(from)) {
+    return from != Elementary::Bool && is_bit(to) && bits_of(to) > bits_of(from);
+  }
+  if (is_int(from) && is_real(to)) {
+    return bits_of(from) <= (to == Elementary::Real ? 16U : 32U);
+  }
+  if (is_int(from) && is_int(to)) {
+    return bits_of(to) > bits_of(from) && (is_unsigned_int(from) || is_signed_int(to));
+  }
+  return from == Elementary::Real && to == Elementary::Lreal;
+}
+
+std::string upper(std::string_view name) {
+  std::string out(name);
+  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return upper(c); });
+  return out;
+}
+
+bool same_name(std::string_view a, std::string_view b) noexcept {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return upper(x) == upper(y); });
+}
+
+}  // namespace indurop::plc

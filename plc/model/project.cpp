@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/model/project.h"
+
+#include <iterator>
+
+namespace indurop::plc {
+namespace {
+
+template <class List>
+void move_all(List& into, List& from) {
+  into.insert(into.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+}  // namespace
+
+void append(Project& into, Project from) {
+  move_all(into.types, from.types);
+  move_all(into.pous, from.pous);
+  move_all(into.globals, from.globals);
+  move_all(into.configurations, from.configurations);
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole PLC project as the readers find it: types, program organisation units, and which program runs when.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plc/model/ast.h"
+
+namespace indurop::plc {
+
+// TASK fast (INTERVAL := T#10ms, PRIORITY := 1)
+struct Task {
+  Place at;
+  std::string name;
+  std::optional<std::int64_t> interval_ns;  // none: the default period
+  std::optional<std::int32_t> priority;
+  std::string single;  // SINGLE := variable: runs at its rising edge
+};
+
+// PROGRAM instance WITH task : type
+struct ProgramInstance {
+  Place at;
+  std::string name;
+  std::string task;  // empty: the default task
+  std::string type;
+};
+
+struct Resource {
+  Place at;
+  std::string name;
+  std::vector<ast::Variable> globals;
+  std::vector<Task> tasks;
+  std::vector<ProgramInstance> programs;
+};
+
+struct Configuration {
+  Place at;
+  std::string name;
+  std::vector<ast::Variable> globals;
+  std::vector<Resource> resources;
+};
+
+struct Project {
+  std::vector<ast::TypeDeclaration> types;
+  std::vector<ast::Pou> pous;
+  std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
+  std::vector<Configuration> configurations;
+};
+
+// Appends everything in `from`, in its order. Doubles are for the checker to find.
+void append(Project& into, Project from);
+
+}  // namespace indurop::plc

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/plcopen/declarations.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "plc/plcopen/body_reader.h"
+#include "plc/plcopen/type_text.h"
+#include "plc/st/parser.h"
+
+namespace indurop::plc::plcopen {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ast::Section>, 7> kLists{{{"localVars", ast::Section::Local},
+                                                                           {"inputVars", ast::Section::Input},
+                                                                           {"outputVars", ast::Section::Output},
+                                                                           {"inOutVars", ast::Section::InOut},
+                                                                           {"tempVars", ast::Section::Temp},
+                                                                           {"externalVars", ast::Section::External},
+                                                                           {"globalVars", ast::Section::Global}}};
+
+bool is_true(const Node& node, std::string_view attribute) {
+  return node.attribute(attribute) == "true" || node.attribute(attribute) == "1";
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::string comment_of(const Node& node) {
+  const Node* documentation = node.child("documentation");
+  return documentation == nullptr ? std::string() : one_line(formatted_text(*documentation));
+}
+
+void read_address(std::string_view text, ast::Variable& variable, Diagnostics& diagnostics) {
+  const auto address = st::parse_expression({text, variable.at}, diagnostics);
+  if (!address) {
+    return;
+  }
+  if (address->kind == ast::Expression::Kind::Direct) {
+    variable.address = address->address;
+  } else {
+    diagnostics.error(variable.at, fmt::format("address=\"{}\" is no address such as %IX0.0 or %QW2", text));
+  }
+}
+
+void read_variable(const Node& node, ast::Variable variable, const std::string& what, std::vector<ast::Variable>& into,
+                   Diagnostics& diagnostics) {
+  variable.name = std::string(node.attribute("name"));
+  variable.at = within(node.at, fmt::format("{}, variable {}", what, variable.name));
+  variable.comment = comment_of(node);
+  const Node* type = node.child("type");
+  if (variable.name.empty() || type == nullptr) {
+    diagnostics.error(variable.at, "a <variable> has a name and a <type>");
+    return;
+  }
+  const std::string text = type_text(*type, diagnostics);
+  auto parsed = text.empty() ? std::nullopt : st::parse_type({text, variable.at}, diagnostics);
+  if (!parsed) {
+    return;
+  }
+  variable.type = std::move(*parsed);
+  if (!node.attribute("address").empty()) {
+    read_address(node.attribute("address"), variable, diagnostics);
+  }
+  const Node* initial = node.child("initialValue");
+  const std::string value = initial == nullptr ? std::string() : value_text(*initial);
+  if (!value.empty()) {
+    variable.initial = st::parse_initial({value, variable.at}, diagnostics);
+  }
+  into.push_back(std::move(variable));
+}
+
+}  // namespace
+
+void read_variables(const Node& list, ast::Section section, const std::string& what, std::vector<ast::Variable>& into,
+                    Diagnostics& diagnostics) {
+  ast::Variable form;
+  form.section = section;
+  form.constant = is_true(list, "constant");
+  form.retain = is_true(list, "retain") || is_true(list, "persistent");
+  for (const Node& node : list.children) {
+    if (node.name == "variable") {
+      read_variable(node, form, what, into, diagnostics);
+    }
+  }
+}
+
+void read_interface(const Node& interface, const std::string& what, ast::Pou& pou, Diagnostics& diagnostics) {
+  for (const Node& node : interface.children) {
+    const auto* list =
+        std::find_if(kLists.begin(), kLists.end(), [&](const auto& known) { return known.first == node.name; });
+    if (list != kLists.end()) {
+      read_variables(node, list->second, what, pou.variables, diagnostics);
+    } else if (node.name == "returnType") {
+      const std::string text = type_text(node, diagnostics);
+      pou.result = text.empty() ? std::nullopt : st::parse_type({text, within(node.at, what)}, diagnostics);
+    } else if (node.name == "accessVars") {
+      diagnostics.error(within(node.at, what), "VAR_ACCESS is not supported; globals are shared variables anyway");
+    } else if (node.name != "addData" && node.name != "documentation") {
+      diagnostics.error(within(node.at, what), fmt::format("<{}> is no part of an interface; remove it", node.name));
+    }
+  }
+}
+
+void read_data_types(const Node& list, std::vector<ast::TypeDeclaration>& into, Diagnostics& diagnostics) {
+  for (const Node& node : list.children) {
+    if (node.name != "dataType") {
+      continue;
+    }
+    ast::TypeDeclaration declared;
+    declared.name = std::string(node.attribute("name"));
+    declared.at = within(node.at, "type " + declared.name);
+    declared.comment = comment_of(node);
+    const Node* base = node.child("baseType");
+    if (declared.name.empty() || base == nullptr) {
+      diagnostics.error(declared.at, "a <dataType> has a name and a <baseType>");
+      continue;
+    }
+    const std::string text = type_text(*base, diagnostics);
+    auto parsed = text.empty() ? std::nullopt : st::parse_type({text, declared.at}, diagnostics);
+    if (!parsed) {
+      continue;
+    }
+    declared.type = std::move(*parsed);
+    const Node* initial = node.child("initialValue");
+    const std::string value = initial == nullptr ? std::string() : value_text(*initial);
+    if (!value.empty()) {
+      declared.initial = st::parse_initial({value, declared.at}, diagnostics);
+    }
+    into.push_back(std::move(declared));
+  }
+}
+
+}  // namespace indurop::plc::plcopen

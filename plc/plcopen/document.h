@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A PLCopen TC6 file (2.0, 2.01) as data: declarations as every language has them, code as it is written or drawn.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plc/graphic/diagram.h"
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+
+namespace indurop::plc::plcopen {
+
+struct NamedBody {
+  Place at;
+  std::string name;
+  graphic::Body body;
+};
+
+struct PouDocument {
+  ast::Pou pou;  // without code
+  graphic::Body body;
+  std::vector<NamedBody> actions;
+  std::vector<NamedBody> transitions;
+};
+
+struct Document {
+  Project project;  // types, globals, configurations; no POUs
+  std::vector<PouDocument> pous;
+};
+
+// `name`: of the file, for messages. What has errors is left out.
+[[nodiscard]] Document read_document(std::string_view bytes, const std::string& name, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::plcopen

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The elements of <LD>, <FBD> and <SFC> as data.
+
+#pragma once
+
+#include "plc/graphic/diagram.h"
+#include "plc/plcopen/xml.h"
+
+namespace indurop::plc::plcopen {
+
+[[nodiscard]] graphic::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::plcopen

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// <instances> of a PLCopen file: configurations, resources, tasks, programs.
+
+#pragma once
+
+#include <vector>
+
+#include "plc/model/project.h"
+#include "plc/plcopen/xml.h"
+
+namespace indurop::plc::plcopen {
+
+void read_instances(const Node& instances, std::vector<Configuration>& into, Diagnostics& diagnostics);
+
+// "T#10ms", "TIME#1s", or ISO 8601 as in "PT0.01S", "P1DT2H": nanoseconds; empty if it is neither.
+[[nodiscard]] std::optional<std::int64_t> interval_ns(std::string_view text);
+
+}  // namespace indurop::plc::plcopen

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/plcopen/pou_lowering.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_set>
+
+#include "plc/graphic/lower.h"
+#include "plc/il/il.h"
+#include "plc/model/make.h"
+#include "plc/plcopen/flow.h"
+#include "plc/sfc/lower.h"
+#include "plc/st/parser.h"
+
+namespace indurop::plc::plcopen {
+namespace {
+
+using graphic::Body;
+using sfc::Code;
+using Language = Body::Language;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+// Of ":= x AND y;", as editors write conditions: x AND y.
+std::string_view condition_text(std::string_view text) {
+  text = trimmed(text);
+  if (text.ends_with(';')) {
+    text = trimmed(text.substr(0, text.size() - 1));
+  }
+  if (text.starts_with(":=")) {
+    text = trimmed(text.substr(2));
+  }
+  return text;
+}
+
+// Statements that leave the body they stand in.
+const ast::Statement* leaving(const ast::Body& body) {
+  for (const ast::Statement& statement : body) {
+    using Kind = ast::Statement::Kind;
+    if (statement.kind == Kind::Label || statement.kind == Kind::Jump || statement.kind == Kind::Return) {
+      return &statement;
+    }
+    for (const ast::Branch& branch : statement.branches) {
+      if (const ast::Statement* found = leaving(branch.body)) {
+        return found;
+      }
+    }
+    if (const ast::Statement* found = leaving(statement.body)) {
+      return found;
+    }
+  }
+  return nullptr;
+}
+
+class Lowering {
+ public:
+  Lowering(PouDocument& document, const ReadOptions& read_options, Project& project, ast::Pou& pou,
+           Diagnostics& diagnostics)
+      : document_(document),
+        read_options_(read_options),
+        project_(project),
+        pou_(pou),
+        diagnostics_(diagnostics),
+        what_("POU " + pou.name) {}
+
+  void run() {
+    Code code = document_.body.language == Language::Sfc ? chart() : lower(document_.body, what_, "");
+    std::move(code.variables.begin(), code.variables.end(), std::back_inserter(pou_.variables));
+    pou_.body = std::move(code.body);
+  }
+
+ private:
+  Code lower(Body& body, const std::string& what, const std::string& prefix) {
+    Code code;
+    switch (body.language) {
+      case Language::None:
+        break;
+      case Language::St:
+        code.body = st::parse_body({body.text, body.text_at}, diagnostics_);
+        break;
+      case Language::Il: {
+        il::Lowered lowered = il::lower({body.text, body.text_at}, prefix, diagnostics_);
+        code = {std::move(lowered.body), std::move(lowered.variables), std::move(lowered.value)};
+        break;
+      }
+      case Language::Ld:
+      case Language::Fbd: {
+        const graphic::Sheet sheet = graphic::make_sheet(body, what, diagnostics_);
+        graphic::LowerOptions options;
+        options.prefix = prefix;
+        options.project = &project_;
+        options.flow = read_options_.watch && &body == &document_.body && pou_.kind == ast::Pou::Kind::Program;
+        graphic::Lowered lowered = graphic::lower(sheet, options, diagnostics_);
+        if (options.flow) {
+          add_flow(lowered, pou_, project_.globals);
+        }
+        code = {std::move(lowered.body), std::move(lowered.variables), std::nullopt};
+        break;
+      }
+      case Language::Sfc:
+        diagnostics_.error(body.at, "a chart inside a chart is not supported; write this action in another language");
+        break;
+    }
+    return code;
+  }
+
+  // Contacts and boxes of a chart are conditions of transitions.
+  Code chart() {
+    Body& body = document_.body;
+    const graphic::Sheet sheet = graphic::make_sheet(body, what_, diagnostics_);
+    const sfc::Chart read = sfc::read_chart(body.diagram, diagnostics_);
+    graphic::LowerOptions options;
+    options.project = &project_;
+    for (const graphic::Element& element : body.diagram.elements) {
+      if (element.condition) {
+        options.wanted.push_back({&element, &*element.condition});
+      }
+    }
+    graphic::Lowered drawn = graphic::lower(sheet, options, diagnostics_);
+    sfc::Surroundings around;
+    around.action = [this](const std::string& name) { return find(document_.actions, name); };
+    around.transition = [this](const std::string& name) { return find(document_.transitions, name); };
+    around.action_code = [this](Body& code, const std::string& prefix) { return action(code, prefix); };
+    around.condition_code = [this](Body& code, const std::string& name, const std::string& prefix) {
+      return condition(code, name, prefix);
+    };
+    around.drawn_condition = [&](const graphic::Element& element) {
+      const auto wanted = std::find_if(options.wanted.begin(), options.wanted.end(),
+                                       [&](const auto& each) { return each.element == &element; });
+      return drawn.wanted[static_cast<std::size_t>(wanted - options.wanted.begin())];
+    };
+    Code code = sfc::lower(read, around, diagnostics_);
+    std::move(drawn.variables.begin(), drawn.variables.end(), std::back_inserter(code.variables));
+    code.body.insert(code.body.begin(), std::make_move_iterator(drawn.body.begin()),
+                     std::make_move_iterator(drawn.body.end()));
+    return code;
+  }
+
+  static Body* find(std::vector<NamedBody>& bodies, const std::string& name) {
+    const auto found =
+        std::find_if(bodies.begin(), bodies.end(), [&](const NamedBody& each) { return same_name(each.name, name); });
+    return found == bodies.end() ? nullptr : &found->body;
+  }
+
+  [[nodiscard]] std::string what_of(const Body& body) const {
+    return body.at.within == nullptr ? what_ : *body.at.within;
+  }
+
+  Code action(Body& body, const std::string& prefix) {
+    Code code = lower(body, what_of(body), prefix);
+    stays_inside(code);
+    return code;
+  }
+
+  void stays_inside(const Code& code) {
+    if (const ast::Statement* found = leaving(code.body)) {
+      diagnostics_.error(found->at, "labels, jumps and RETURN are not possible in actions and transitions; use IF");
+    }
+  }
+
+  // `name`: of the transition; the variable its networks write.
+  Code condition(Body& body, const std::string& name, const std::string& prefix) {
+    if (body.language == Language::St) {
+      Code code;
+      code.value = st::parse_expression({condition_text(body.text), body.text_at}, diagnostics_);
+      return code;
+    }
+    Code code = lower(body, what_of(body), prefix);
+    stays_inside(code);
+    if (code.value) {
+      return code;
+    }
+    if (name.empty()) {
+      diagnostics_.error(body.at, "a drawn condition has a name, which its coil or output writes; give it one");
+      return code;
+    }
+    const bool declared = std::any_of(pou_.variables.begin(), pou_.variables.end(),
+                                      [&](const ast::Variable& variable) { return same_name(variable.name, name); });
+    if (!declared && conditions_.insert(upper(name)).second) {
+      code.variables.push_back(make::variable(ast::Section::Temp, name, make::type(body.at, Elementary::Bool)));
+    }
+    code.value = make::name(body.at, name);
+    return code;
+  }
+
+  PouDocument& document_;
+  const ReadOptions& read_options_;
+  Project& project_;
+  ast::Pou& pou_;
+  Diagnostics& diagnostics_;
+  std::string what_;
+  std::unordered_set<std::string> conditions_;
+};
+
+}  // namespace
+
+void lower_pou(PouDocument& document, const ReadOptions& options, Project& project, ast::Pou& pou,
+               Diagnostics& diagnostics) {
+  Lowering(document, options, project, pou, diagnostics).run();
+}
+
+}  // namespace indurop::plc::plcopen

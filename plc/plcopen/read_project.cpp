@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/plcopen/read_project.h"
+
+#include "plc/plcopen/pou_lowering.h"
+#include "plc/sfc/lower.h"
+
+namespace indurop::plc::plcopen {
+
+Project lower(Document& document, const ReadOptions& options, Diagnostics& diagnostics) {
+  Project project = std::move(document.project);
+  bool charts = false;
+  for (PouDocument& each : document.pous) {
+    project.pous.push_back(std::move(each.pou));  // all are known before the first is translated
+    charts = charts || each.body.language == graphic::Body::Language::Sfc;
+  }
+  if (charts) {
+    project.types.push_back(sfc::step_type());
+  }
+  for (std::size_t i = 0; i < document.pous.size(); ++i) {
+    lower_pou(document.pous[i], options, project, project.pous[i], diagnostics);
+  }
+  return project;
+}
+
+Project read_project(std::string_view bytes, const std::string& name, const ReadOptions& options,
+                     Diagnostics& diagnostics) {
+  Document document = read_document(bytes, name, diagnostics);
+  return lower(document, options, diagnostics);
+}
+
+}  // namespace indurop::plc::plcopen

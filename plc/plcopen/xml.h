@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// An XML document as plain nodes with places. The only part of the room that knows the XML library; knows nothing of
+// what the elements mean.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/place.h"
+
+namespace indurop::plc::plcopen {
+
+inline constexpr std::size_t kMaxXmlSize = std::size_t{64} * 1024 * 1024;
+inline constexpr std::size_t kMaxXmlDepth = 64;
+
+struct Attribute {
+  std::string name;  // without a namespace prefix, as all names here
+  std::string value;
+};
+
+struct Node {
+  std::string name;
+  Place at;          // of '<'
+  std::string text;  // own text with its white space, without that of children
+  Place text_at;     // where the text begins; that of the element if it has none
+  std::vector<Attribute> attributes;
+  std::vector<Node> children;
+
+  // "" where there is none.
+  [[nodiscard]] std::string_view attribute(std::string_view wanted) const noexcept;
+  [[nodiscard]] bool has(std::string_view wanted) const noexcept;
+  // The first child of that name, or null.
+  [[nodiscard]] const Node* child(std::string_view wanted) const noexcept;
+};
+
+// Nothing below null.
+[[nodiscard]] const std::vector<Node>& children_of(const Node* node) noexcept;
+
+// The root element, or empty after errors: too large, not UTF-8 or UTF-16, too deep, not well-formed.
+[[nodiscard]] std::optional<Node> read_xml(std::string_view bytes, const std::shared_ptr<const std::string>& file,
+                                           Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::plcopen

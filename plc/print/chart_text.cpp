@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/print/chart_text.h"
+
+#include <fmt/format.h>
+
+namespace indurop::plc {
+namespace {
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool space = c == '\n' || c == '\r' || c == '\t' || c == ' ';
+    if (!space || (!line.empty() && line.back() != ' ')) {
+      line += space ? ' ' : c;
+    }
+  }
+  while (!line.empty() && line.back() == ' ') {
+    line.pop_back();
+  }
+  return line;
+}
+
+std::string names_of(const sfc::Chart& chart, const std::vector<std::size_t>& steps) {
+  std::string names;
+  for (const std::size_t step : steps) {
+    names += (names.empty() ? "" : ", ") + chart.steps[step].name;
+  }
+  return names;
+}
+
+std::string action_line(const graphic::ActionLine& line) {
+  std::string what = line.name;
+  if (what.empty() && line.inlined != nullptr) {
+    what = one_line(line.inlined->text);
+  }
+  return fmt::format("      {:<3} {:<8} {}\n", line.qualifier, line.duration, what);
+}
+
+std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc::Transition& transition,
+                            bool unicode) {
+  std::string text = fmt::format("    {} {}", unicode ? "┼" : "+", condition_text(*transition.element));
+  std::vector<std::size_t> others;
+  for (const std::size_t from : transition.from) {
+    if (from != step) {
+      others.push_back(from);
+    }
+  }
+  if (!others.empty()) {
+    text += fmt::format("   (together with {})", names_of(chart, others));
+  }
+  return text + fmt::format("  {} {}\n", unicode ? "──>" : "-->", names_of(chart, transition.to));
+}
+
+}  // namespace
+
+std::string condition_text(const graphic::Element& transition) {
+  if (transition.inlined != nullptr && transition.inlined->language == graphic::Body::Language::St) {
+    std::string text = one_line(transition.inlined->text);
+    text = text.starts_with(":= ") ? text.substr(3) : text;
+    return text.ends_with(';') ? text.substr(0, text.size() - 1) : text;
+  }
+  return transition.text.empty() ? "(drawn)" : transition.text;
+}
+
+std::string chart_text(const sfc::Chart& chart, bool unicode) {
+  std::string text;
+  for (std::size_t i = 0; i < chart.steps.size(); ++i) {
+    const sfc::Step& step = chart.steps[i];
+    text += step.initial ? fmt::format("  [[{}]]\n", step.name) : fmt::format("  [{}]\n", step.name);
+    for (const sfc::Association& association : chart.actions) {
+      text += association.step == i ? action_line(*association.line) : "";
+    }
+    for (const sfc::Transition& transition : chart.transitions) {
+      const bool first = !transition.from.empty() && transition.from.front() == i;
+      text += first ? transition_line(chart, i, transition, unicode) : "";
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace indurop::plc

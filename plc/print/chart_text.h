@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sequential function chart as a list: steps with their actions, and the transitions that leave them.
+
+#pragma once
+
+#include <string>
+
+#include "plc/sfc/chart.h"
+
+namespace indurop::plc {
+
+[[nodiscard]] std::string chart_text(const sfc::Chart& chart, bool unicode);
+
+// What is written at a transition: its condition, or its name.
+[[nodiscard]] std::string condition_text(const graphic::Element& transition);
+
+}  // namespace indurop::plc

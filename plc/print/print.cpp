@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/print/print.h"
+
+#include <fmt/format.h>
+
+#include "plc/graphic/svg_picture.h"
+#include "plc/graphic/text_picture.h"
+#include "plc/model/elementary.h"
+#include "plc/print/chart_text.h"
+
+namespace indurop::plc {
+namespace {
+
+using Language = graphic::Body::Language;
+
+const char* name_of(Language language) {
+  switch (language) {
+    case Language::None:
+      return "no language";
+    case Language::St:
+      return "ST";
+    case Language::Il:
+      return "IL";
+    case Language::Ld:
+      return "LD";
+    case Language::Fbd:
+      return "FBD";
+    case Language::Sfc:
+      return "SFC";
+  }
+  return "";
+}
+
+const char* word_of(ast::Pou::Kind kind) {
+  switch (kind) {
+    case ast::Pou::Kind::Program:
+      return "program";
+    case ast::Pou::Kind::Function:
+      return "function";
+    case ast::Pou::Kind::FunctionBlock:
+      return "function block";
+  }
+  return "";
+}
+
+bool is_networks(const graphic::Body& body) {
+  return body.language == Language::Ld || body.language == Language::Fbd;
+}
+
+void append_lines(std::vector<std::string>& lines, const std::string& text) {
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    while (!line.empty() && (line.back() == ' ' || line.back() == '\r' || line.back() == '\t')) {
+      line.pop_back();
+    }
+    if (!line.empty()) {
+      lines.push_back(std::move(line));
+    }
+    begin = end + 1;
+  }
+}
+
+// Code in a file is indented as the editor left it; common white space goes.
+std::string code_text(const std::string& code) {
+  std::vector<std::string> lines;
+  append_lines(lines, code);
+  std::size_t indent = std::string::npos;
+  for (const std::string& line : lines) {
+    indent = std::min(indent, line.find_first_not_of(" \t"));
+  }
+  std::string text;
+  for (const std::string& line : lines) {
+    text += "  " + line.substr(indent) + "\n";
+  }
+  return text;
+}
+
+std::string network_text(const graphic::Network& network, const graphic::Picture& picture, Language language,
+                         bool unicode) {
+  std::string text = fmt::format("{} {}", graphic::word_of(language), network.number);
+  for (const std::string& remark : remarks_of(network)) {
+    text += (text.find('\n') == std::string::npos ? ": " : "        ") + remark + "\n";
+  }
+  text += text.back() == '\n' ? "" : "\n";
+  for (const std::string& label : network.labels) {
+    text += label + ":\n";
+  }
+  for (const graphic::Row& row : graphic::draw_text(picture, unicode)) {
+    const std::string line = graphic::plain(row);
+    text += line.empty() ? "\n" : "  " + line + "\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_of(const graphic::Network& network) {
+  std::vector<std::string> lines;
+  append_lines(lines, network.title);
+  for (const std::string& comment : network.comments) {
+    append_lines(lines, comment);
+  }
+  return lines;
+}
+
+std::vector<PrintedBody> printed_bodies(plcopen::Document& document, const std::string& pou) {
+  std::vector<PrintedBody> bodies;
+  for (plcopen::PouDocument& each : document.pous) {
+    if (!pou.empty() && !same_name(pou, each.pou.name)) {
+      continue;
+    }
+    const std::string what = "POU " + each.pou.name;
+    bodies.push_back({fmt::format("{}, {} in {}", each.pou.name, word_of(each.pou.kind), name_of(each.body.language)),
+                      what, &each.body});
+    for (const auto& [word, list] : {std::pair{"action", &each.actions}, std::pair{"transition", &each.transitions}}) {
+      for (plcopen::NamedBody& named : *list) {
+        bodies.push_back({fmt::format("{}, {} {} in {}", each.pou.name, word, named.name, name_of(named.body.language)),
+                          fmt::format("{}, {} {}", what, word, named.name), &named.body});
+      }
+    }
+  }
+  return bodies;
+}
+
+std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Diagnostics& diagnostics) {
+  std::string text;
+  for (const PrintedBody& each : bodies) {
+    text += each.heading + "\n\n";
+    if (each.body->language == Language::Sfc) {
+      (void)graphic::make_sheet(*each.body, each.what, diagnostics);  // names the places
+      text += chart_text(sfc::read_chart(each.body->diagram, diagnostics), unicode);
+      continue;
+    }
+    if (!is_networks(*each.body)) {
+      text += code_text(each.body->text) + "\n";
+      continue;
+    }
+    const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+    if (diagnostics.failed()) {
+      continue;
+    }
+    const auto pictures = graphic::lay_out(sheet, each.body->language);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      text += network_text(sheet.networks[i], pictures[i], each.body->language, unicode);
+    }
+  }
+  return text;
+}
+
+std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagnostics) {
+  std::vector<graphic::SvgSheet> drawn;
+  for (const PrintedBody& each : bodies) {
+    if (!is_networks(*each.body)) {
+      continue;
+    }
+    const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+    if (diagnostics.failed()) {
+      continue;
+    }
+    graphic::SvgSheet& made = drawn.emplace_back();
+    made.heading = each.heading;
+    auto pictures = graphic::lay_out(sheet, each.body->language);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const graphic::Network& network = sheet.networks[i];
+      made.networks.push_back({network.number, remarks_of(network), network.labels, std::move(pictures[i])});
+    }
+  }
+  return graphic::draw_svg(drawn);
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sequential function chart to statements. Each scan: all transitions are evaluated with the steps as they are, those
+// that are true are cleared together, then the actions run. The first scan runs the actions of the initial step.
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+#include "plc/sfc/chart.h"
+
+namespace indurop::plc::sfc {
+
+// The type of the variable that each step is: X, T.
+inline constexpr const char* kStepType = "SFC_STEP";
+[[nodiscard]] ast::TypeDeclaration step_type();
+
+// Code in any language, translated.
+struct Code {
+  ast::Body body;
+  std::vector<ast::Variable> variables;
+  std::optional<ast::Expression> value;  // of a condition
+};
+
+// What a chart finds in its POU.
+struct Surroundings {
+  // The code of an action of this name; null if there is none: the name is that of a variable.
+  std::function<graphic::Body*(const std::string&)> action;
+  std::function<graphic::Body*(const std::string&)> transition;
+  // `prefix` makes the names of variables different from those of other bodies.
+  std::function<Code(graphic::Body&, const std::string& prefix)> action_code;
+  std::function<Code(graphic::Body&, const std::string& name, const std::string& prefix)> condition_code;
+  // The value at a line drawn to a transition.
+  std::function<ast::Expression(const graphic::Element& transition)> drawn_condition;
+};
+
+[[nodiscard]] Code lower(const Chart& chart, const Surroundings& around, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::sfc

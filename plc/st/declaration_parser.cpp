@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/st/declaration_parser.h"
+
+#include <array>
+
+#include "plc/st/literal.h"
+
+namespace indurop::plc::st {
+namespace {
+
+constexpr int kMaxTypeDepth = 16;
+
+struct SectionWord {
+  std::string_view word;
+  ast::Section section;
+};
+constexpr std::array<SectionWord, 7> kSections{{{"VAR", ast::Section::Local},
+                                                {"VAR_INPUT", ast::Section::Input},
+                                                {"VAR_OUTPUT", ast::Section::Output},
+                                                {"VAR_IN_OUT", ast::Section::InOut},
+                                                {"VAR_TEMP", ast::Section::Temp},
+                                                {"VAR_GLOBAL", ast::Section::Global},
+                                                {"VAR_EXTERNAL", ast::Section::External}}};
+
+}  // namespace
+
+bool DeclarationParser::at_variables() const {
+  const std::string_view word = in_.peek().text;
+  return in_.peek().kind == TokenKind::Word && (same_name(word, "VAR") || same_name(word.substr(0, 4), "VAR_")) &&
+         is_keyword(word);
+}
+
+void DeclarationParser::recover(std::string_view end) {
+  while (!in_.at_end() && !in_.peek().is(end)) {
+    const bool other_end = in_.peek().kind == TokenKind::Word && in_.peek().text.size() > 4 &&
+                           same_name(in_.peek().text.substr(0, 4), "END_") && !in_.peek().is("END_STRUCT");
+    if (other_end || in_.take().is(";")) {
+      return;
+    }
+  }
+}
+
+std::optional<DeclarationParser::Block> DeclarationParser::block() {
+  const Token& word = in_.take();
+  const auto* known =
+      std::find_if(kSections.begin(), kSections.end(), [&](const SectionWord& s) { return word.is(s.word); });
+  if (known == kSections.end()) {
+    in_.error(word, fmt::format("{} is not supported, use VAR_GLOBAL and VAR_EXTERNAL", word.text));
+    return std::nullopt;
+  }
+  Block out;
+  out.section = known->section;
+  while (true) {
+    if (in_.accept("CONSTANT")) {
+      out.constant = true;
+    } else if (in_.accept("RETAIN") || in_.accept("PERSISTENT")) {
+      out.retain = true;
+    } else if (!in_.accept("NON_RETAIN")) {
+      return out;
+    }
+  }
+}
+
+void DeclarationParser::variables(std::vector<ast::Variable>& to) {
+  const Token& first = in_.peek();
+  const auto kind = block();
+  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
+    const std::size_t from = in_.position();
+    if (!kind || !declaration(*kind, to)) {
+      recover("END_VAR");
+    }
+    if (in_.position() == from) {
+      break;  // the end of something else
+    }
+  }
+  if (in_.expect("END_VAR", fmt::format("to close the {} of line {}", first.text, first.line))) {
+    in_.accept(";");
+  }
+}
+
+std::string DeclarationParser::comment(const Token& first, std::uint32_t before) const {
+  if (in_.peek().comment_line > 0 && in_.peek().comment_line == in_.previous().line) {
+    return std::string(in_.peek().comment);
+  }
+  return first.comment_line > before ? std::string(first.comment) : std::string();
+}
+
+// Names that are known, but no more than that: their uses are no further errors.
+bool DeclarationParser::broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to) {
+  for (ast::Variable& one : found) {
+    one.type.kind = ast::TypeSpec::Kind::Inferred;
+    to.push_back(std::move(one));
+  }
+  return false;
+}
+
+// a, b AT %IX0.0 : INT := 5;
+bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variable>& to) {
+  const std::uint32_t before = in_.previous().line;
+  const Token& first = in_.peek();
+  std::vector<ast::Variable> found;
+  do {
+    ast::Variable one;
+    one.section = block.section;
+    one.constant = block.constant;
+    one.retain = block.retain;
+    one.at = in_.here();
+    if (!in_.peek().is("AT")) {
+      if (!in_.expect_name("a variable")) {
+        return false;
+      }
+      one.name = in_.take().text;
+    }
+    if (in_.accept("AT")) {
+      one.address = in_.peek().kind == TokenKind::Address ? address_literal(in_.peek().text) : std::nullopt;
+      if (!one.address) {
+        in_.error(in_.peek(),
+                  fmt::format("expected an address as %IX0.3 behind AT, found {}", TokenReader::spelled(in_.peek())));
+        return false;
+      }
+      in_.take();
+    }
+    found.push_back(std::move(one));
+  } while (in_.accept(","));
+  auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
+  if (!spec) {
+    return broken(found, to);
+  }
+  const auto edge = in_.accept("R_EDGE")   ? ast::Edge::Rising
+                    : in_.accept("F_EDGE") ? ast::Edge::Falling
+                                           : ast::Edge::None;
+  std::optional<ast::Initial> initial;
+  if (in_.accept(":=")) {
+    initial = expressions_.initial();
+    if (!initial) {
+      return broken(found, to);
+    }
+  }
+  if (!in_.expect_end("behind the declaration")) {
+    return broken(found, to);
+  }
+  const std::string text = comment(first, before);
+  for (ast::Variable& one : found) {
+    one.type = *spec;
+    one.initial = initial;
+    one.edge = edge;
+    one.comment = text;
+    to.push_back(std::move(one));
+  }
+  return true;
+}
+
+void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
+  const std::uint32_t line = in_.previous().line;
+  while (!in_.at_end() && !in_.peek().is("END_TYPE")) {
+    const std::size_t from = in_.position();
+    if (!one_type(to)) {
+      recover("END_TYPE");
+    }
+    if (in_.position() == from) {
+      break;
+    }
+  }
+  if (in_.expect("END_TYPE", fmt::format("to close the TYPE of line {}", line))) {
+    in_.accept(";");
+  }
+}
+
+bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
+  ast::TypeDeclaration out;
+  const std::uint32_t before = in_.previous().line;
+  const Token& first = in_.peek();
+  out.at = in_.here();
+  if (!in_.expect_name("a type")) {
+    return false;
+  }
+  out.name = in_.take().text;
+  if (!in_.expect(":", "behind the type's name")) {
+    return false;
+  }
+  auto spec = type();
+  if (!spec) {
+    return false;
+  }
+  if (in_.accept(":=")) {
+    out.initial = expressions_.initial();
+    if (!out.initial) {
+      return false;
+    }
+  }
+  // Behind END_STRUCT many leave the ';' out.
+  const bool closed = in_.accept(";") || spec->kind == ast::TypeSpec::Kind::Struct || in_.expect_end("behind the type");
+  out.type = std::move(*spec);
+  out.comment = comment(first, before);
+  to.push_back(std::move(out));
+  return closed;
+}
+
+std::optional<ast::TypeSpec> DeclarationParser::type() {
+  ast::TypeSpec out;
+  const Token& token = in_.peek();
+  out.at = in_.here();
+  if (depth_ >= kMaxTypeDepth) {
+    in_.error(token, fmt::format("types more than {} levels deep, give the inner ones names", kMaxTypeDepth));
+    return std::nullopt;
+  }
+  ++depth_;
+  bool ok = false;
+  if (in_.accept("ARRAY")) {
+    ok = array(out);
+  } else if (in_.accept("STRUCT")) {
+    ok = structure(out);
+  } else if (token.is("(")) {
+    ok = enumeration(out);
+  } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
+    in_.error(token, fmt::format("{} is not supported, use STRING", token.text));
+  } else if (in_.next_is({"POINTER", "REF_TO", "REFERENCE"})) {
+    in_.error(token, "there are no pointers here, use VAR_IN_OUT or an array");
+  } else if (in_.expect_name("a type")) {
+    ok = named(out);
+  }
+  --depth_;
+  return ok ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// INT, INT (0..5), INT (A, B), STRING[20], Motor
+bool DeclarationParser::named(ast::TypeSpec& out) {
+  const std::string_view word = in_.take().text;
+  const auto elementary = elementary_named(word);
+  if (!elementary) {
+    out.kind = ast::TypeSpec::Kind::Named;
+    out.name = word;
+    while (in_.accept(".")) {
+      if (!in_.expect_name("a type")) {
+        return false;
+      }
+      out.name += "." + std::string(in_.take().text);
+    }
+    return true;
+  }
+  out.elementary = *elementary;
+  if (*elementary == Elementary::String) {
+    return string_length(out);
+  }
+  if (!in_.peek().is("(")) {
+    return true;
+  }
+  const Token& behind = in_.peek(2);
+  if (in_.peek(1).kind == TokenKind::Word && (behind.is(",") || behind.is(")") || behind.is(":="))) {
+    return enumeration(out);
+  }
+  in_.take();
+  out.kind = ast::TypeSpec::Kind::Subrange;
+  out.range.emplace();
+  return dimension(*out.range) && in_.expect(")", "behind the range");
+}
+
+bool DeclarationParser::string_length(ast::TypeSpec& out) {
+  out.kind = ast::TypeSpec::Kind::String;
+  const bool square = in_.peek().is("[");
+  if (!square && !in_.peek().is("(")) {
+    return true;
+  }
+  in_.take();
+  out.length = expressions_.expression();
+  return out.length && in_.expect(square ? "]" : ")", "behind the length");
+}
+
+bool DeclarationParser::dimension(ast::Dimension& out) {
+  auto low = expressions_.expression();
+  if (!low || !in_.expect("..", "between the bounds")) {
+    return false;
+  }
+  auto high = expressions_.expression();
+  if (!high) {
+    return false;
+  }
+  out.low = std::move(*low);
+  out.high = std::move(*high);
+  return true;
+}
+
+bool DeclarationParser::array(ast::TypeSpec& out) {
+  out.kind = ast::TypeSpec::Kind::Array;
+  if (!in_.expect("[", "behind ARRAY")) {
+    return false;
+  }
+  do {
+    if (!dimension(out.dimensions.emplace_back())) {
+      return false;
+    }
+  } while (in_.accept(","));
+  if (!in_.expect("]", "behind the bounds") || !in_.expect("OF", "before the type of the elements")) {
+    return false;
+  }
+  auto element = type();
+  if (!element) {
+    return false;
+  }
+  out.element = std::make_shared<ast::TypeSpec>(std::move(*element));
+  return true;
+}
+
+bool DeclarationParser::structure(ast::TypeSpec& out) {
+  out.kind = ast::TypeSpec::Kind::Struct;
+  while (!in_.at_end() && !in_.peek().is("END_STRUCT")) {
+    const std::size_t from = in_.position();
+    if (!declaration({}, out.fields)) {
+      recover("END_STRUCT");
+    }
+    if (in_.position() == from) {
+      break;
+    }
+  }
+  return in_.expect("END_STRUCT", fmt::format("to close the STRUCT of line {}", out.at.line));
+}
+
+bool DeclarationParser::enumeration(ast::TypeSpec& out) {
+  out.kind = ast::TypeSpec::Kind::Enum;
+  in_.take();
+  do {
+    ast::EnumValue one;
+    one.at = in_.here();
+    if (!in_.expect_name("an enumeration's value")) {
+      return false;
+    }
+    one.name = in_.take().text;
+    if (in_.accept(":=")) {
+      one.value = expressions_.expression();
+      if (!one.value) {
+        return false;
+      }
+    }
+    out.values.push_back(std::move(one));
+  } while (in_.accept(","));
+  if (!in_.expect(")", "behind the last value")) {
+    return false;
+  }
+  // (A, B) INT, as some editors write it
+  const auto base = in_.peek().kind == TokenKind::Word ? elementary_named(in_.peek().text) : std::nullopt;
+  if (base) {
+    out.elementary = *base;
+    in_.take();
+  }
+  return true;
+}
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declarations of variables and types. A declaration with an error is left out and reading goes on behind it.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plc/st/expression_parser.h"
+
+namespace indurop::plc::st {
+
+class DeclarationParser {
+ public:
+  explicit DeclarationParser(TokenReader& in) : in_(in), expressions_(in) {}
+
+  // Whether VAR, VAR_INPUT, ... stands here.
+  [[nodiscard]] bool at_variables() const;
+  // VAR ... END_VAR
+  void variables(std::vector<ast::Variable>& to);
+  // Behind TYPE, up to and with END_TYPE.
+  void types(std::vector<ast::TypeDeclaration>& to);
+  [[nodiscard]] std::optional<ast::TypeSpec> type();
+
+ private:
+  struct Block {
+    ast::Section section = ast::Section::Local;
+    bool constant = false;
+    bool retain = false;
+  };
+  [[nodiscard]] std::optional<Block> block();
+  [[nodiscard]] bool declaration(const Block& block, std::vector<ast::Variable>& to);
+  static bool broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to);
+  [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
+  [[nodiscard]] bool array(ast::TypeSpec& out);
+  [[nodiscard]] bool structure(ast::TypeSpec& out);
+  [[nodiscard]] bool enumeration(ast::TypeSpec& out);
+  [[nodiscard]] bool dimension(ast::Dimension& out);
+  [[nodiscard]] bool string_length(ast::TypeSpec& out);
+  [[nodiscard]] bool named(ast::TypeSpec& out);
+  // The comment behind the ';' on its line, else the one on lines of its own before the declaration, which begins with
+  // `first` and stands behind line `before`.
+  [[nodiscard]] std::string comment(const Token& first, std::uint32_t before) const;
+  // Behind the next ';', or before `end`.
+  void recover(std::string_view end);
+
+  TokenReader& in_;
+  ExpressionParser expressions_;
+  int depth_ = 0;
+};
+
+}  // namespace indurop::plc::st

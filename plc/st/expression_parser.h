@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expressions of Structured Text with the precedence of IEC 61131-3: ( ) and calls, unary - and NOT, **, * / MOD, + -,
+// < > <= >=, = <>, AND &, XOR, OR.
+
+#pragma once
+
+#include <optional>
+
+#include "plc/model/ast.h"
+#include "plc/st/token_reader.h"
+
+namespace indurop::plc::st {
+
+class ExpressionParser {
+ public:
+  explicit ExpressionParser(TokenReader& in) : in_(in) {}
+
+  [[nodiscard]] std::optional<ast::Expression> expression();
+  // What can stand left of := or be called: a name with members, indices, calls.
+  [[nodiscard]] std::optional<ast::Expression> designator();
+  // A value, [1, 2, 3(0)] or (x := 1).
+  [[nodiscard]] std::optional<ast::Initial> initial();
+
+ private:
+  [[nodiscard]] std::optional<ast::Expression> binary(int level);
+  [[nodiscard]] std::optional<ast::Expression> unary();
+  [[nodiscard]] std::optional<ast::Expression> primary();
+  [[nodiscard]] std::optional<ast::Expression> typed();
+  [[nodiscard]] std::optional<ast::Expression> postfix(ast::Expression base);
+  [[nodiscard]] bool member(ast::Expression& base);
+  [[nodiscard]] bool index(ast::Expression& base);
+  [[nodiscard]] bool call(ast::Expression& base);
+  [[nodiscard]] std::optional<ast::Argument> argument();
+  [[nodiscard]] std::optional<ast::Initial> array_initial();
+  [[nodiscard]] std::optional<ast::InitialElement> array_element();
+  [[nodiscard]] std::optional<ast::Initial> struct_initial();
+  // False with a message beyond the limit. A bracket costs more of the stack than an operator.
+  [[nodiscard]] bool deeper(const Token& at, int by = 1);
+
+  TokenReader& in_;
+  int depth_ = 0;
+};
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/st/lexer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace indurop::plc::st {
+namespace {
+
+constexpr std::array<std::string_view, 8> kTwoCharacterSymbols{":=", "=>", "<=", ">=", "<>", "**", "..", "?="};
+constexpr std::string_view kSymbols = "+-*/&=<>()[],;:.^#|";
+
+bool is_letter(char c) noexcept {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_digit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
+bool is_word(char c) noexcept {
+  return is_letter(c) || is_digit(c);
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+  constexpr std::string_view kBlank = " \t\r\n*-=";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t\r\n*") - first + 1);
+}
+
+class Lexer {
+ public:
+  Lexer(std::string_view text, const Place& at, Diagnostics& diagnostics)
+      : text_(text),
+        origin_(at),
+        diagnostics_(diagnostics),
+        line_(std::max(at.line, 1U)),
+        column_(std::max(at.column, 1U)) {}
+
+  std::vector<Token> run() {
+    if (text_.starts_with("\xEF\xBB\xBF")) {
+      at_ = 3;
+    }
+    while (at_ < text_.size()) {
+      next();
+    }
+    begin();
+    push(TokenKind::End);
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] char peek(std::size_t ahead = 0) const noexcept {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+  void step(std::size_t count = 1) noexcept {
+    for (; count > 0 && at_ < text_.size(); --count, ++at_) {
+      if (text_[at_] == '\n') {
+        ++line_;
+        column_ = 1;
+      } else if ((static_cast<unsigned char>(text_[at_]) & 0xC0U) != 0x80U) {
+        ++column_;
+      }
+    }
+  }
+  void begin() noexcept {
+    from_ = at_;
+    from_line_ = line_;
+    from_column_ = column_;
+  }
+  void push(TokenKind kind) {
+    out_.push_back({kind, text_.substr(from_, at_ - from_), from_line_, from_column_, comment_, comment_line_});
+    comment_ = {};
+    comment_line_ = 0;
+  }
+  void error(std::string text) {
+    Place place = origin_;
+    place.line = from_line_;
+    place.column = from_column_;
+    diagnostics_.error(place, std::move(text));
+  }
+
+  void next() {
+    const char c = peek();
+    begin();
+    if (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v') {
+      step();
+    } else if (c == '/' && peek(1) == '/') {
+      line_comment();
+    } else if ((c == '(' || c == '/') && peek(1) == '*') {
+      block_comment(c == '(' ? ')' : '/');
+    } else if (c == '{') {
+      pragma();
+    } else if (is_letter(c)) {
+      word();
+    } else if (is_digit(c)) {
+      number();
+      push(TokenKind::Number);
+    } else if (c == '%' && is_letter(peek(1))) {
+      address();
+    } else if (c == '\'' || c == '"') {
+      quoted(c);
+    } else {
+      symbol();
+    }
+  }
+
+  void line_comment() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    remember(text_.substr(at_ + 2, end - at_ - 2));
+    step(end - at_);
+  }
+
+  // Comments of one kind may lie inside each other.
+  void block_comment(char close) {
+    const char open = peek();
+    int depth = 0;
+    do {
+      if (peek() == open && peek(1) == '*') {
+        ++depth;
+        step(2);
+      } else if (peek() == '*' && peek(1) == close) {
+        --depth;
+        step(2);
+      } else {
+        step();
+      }
+    } while (depth > 0 && at_ < text_.size());
+    if (depth > 0) {
+      error(fmt::format("this comment has no end, close it with *{}", close));
+      return;
+    }
+    remember(text_.substr(from_ + 2, at_ - from_ - 4));
+  }
+
+  void remember(std::string_view text) noexcept {
+    comment_ = trimmed(text);
+    comment_line_ = comment_.empty() ? 0 : from_line_;
+  }
+
+  void pragma() {
+    const std::size_t end = text_.find('}', at_);
+    if (end == std::string_view::npos) {
+      error("this pragma has no end, close it with }");
+    }
+    step(std::min(end, text_.size() - 1) + 1 - at_);
+  }
+
+  void word() {
+    while (is_word(peek())) {
+      step();
+    }
+    if (peek() != '#') {
+      push(TokenKind::Word);
+      return;
+    }
+    const std::string prefix = upper(text_.substr(from_, at_ - from_));
+    step();
+    typed(prefix);
+    push(TokenKind::Typed);
+  }
+
+  // What stands behind "INT#", "T#", "D#", "Color#".
+  void typed(std::string_view prefix) {
+    const auto skip = [this](std::string_view others) {
+      while (is_word(peek()) || (others.find(peek()) != std::string_view::npos && peek() != '\0')) {
+        step();
+      }
+    };
+    if (prefix == "D" || prefix == "DATE") {
+      skip("-");
+    } else if (prefix == "DT" || prefix == "DATE_AND_TIME") {
+      skip("-:.");
+    } else if (prefix == "TOD" || prefix == "TIME_OF_DAY") {
+      skip(":.");
+    } else if (prefix == "T" || prefix == "TIME" || prefix == "LTIME") {
+      step(peek() == '-' || peek() == '+' ? 1 : 0);
+      skip(".");
+    } else {
+      step((peek() == '-' || peek() == '+') && is_digit(peek(1)) ? 1 : 0);
+      if (is_digit(peek())) {
+        number();
+      } else {
+        skip("");
+      }
+    }
+  }
+
+  // 12, 16#FF, 1.5, 1.5E-3; not the dots of 1..5.
+  void number() {
+    const auto digits = [this] {
+      while (is_word(peek())) {
+        step();
+      }
+    };
+    digits();
+    if (peek() == '#') {
+      step();
+      digits();
+      return;
+    }
+    if (peek() == '.' && is_digit(peek(1))) {
+      step();
+      digits();
+    }
+    const char last = text_[at_ - 1];
+    if ((last == 'e' || last == 'E') && (peek() == '+' || peek() == '-') && is_digit(peek(1))) {
+      step();
+      digits();
+    }
+  }
+
+  void address() {
+    step();
+    while (is_word(peek()) || (peek() == '.' && is_digit(peek(1)))) {
+      step();
+    }
+    push(TokenKind::Address);
+  }
+
+  void quoted(char quote) {
+    step();
+    while (peek() != quote) {
+      if (at_ >= text_.size() || peek() == '\n') {
+        error(fmt::format("this text has no end, close it with {} on the same line", quote));
+        return;
+      }
+      step(peek() == '$' && peek(1) != '\n' ? 2 : 1);
+    }
+    step();
+    if (quote == '"') {
+      error("WSTRING and texts in \" are not supported, use STRING and '...' (UTF-8 is kept as it is)");
+    }
+    push(TokenKind::Text);
+  }
+
+  void symbol() {
+    const std::string_view two = text_.substr(at_, 2);
+    if (std::find(kTwoCharacterSymbols.begin(), kTwoCharacterSymbols.end(), two) != kTwoCharacterSymbols.end()) {
+      step(2);
+      push(TokenKind::Symbol);
+      return;
+    }
+    const char c = peek();
+    if (c != '\0' && kSymbols.find(c) != std::string_view::npos) {
+      step();
+      push(TokenKind::Symbol);
+      return;
+    }
+    // One message for a run of such characters: a binary file has thousands.
+    while (at_ < text_.size() && (static_cast<unsigned char>(peek()) >= 0x80 ||
+                                  (static_cast<unsigned char>(peek()) < 0x20 && peek() != '\n') || peek() == c)) {
+      step();
+    }
+    if (c == '\0') {
+      error("a NUL byte, is this a text file?");
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      error("only ASCII letters, digits and '_' outside of comments and texts, replace it");
+    } else {
+      error("this character has no meaning here, remove it");
+    }
+  }
+
+  std::string_view text_;
+  const Place& origin_;
+  Diagnostics& diagnostics_;
+  std::vector<Token> out_;
+  std::size_t at_ = 0;
+  std::uint32_t line_;
+  std::uint32_t column_;
+  std::size_t from_ = 0;
+  std::uint32_t from_line_ = 1;
+  std::uint32_t from_column_ = 1;
+  std::string_view comment_;
+  std::uint32_t comment_line_ = 0;
+};
+
+}  // namespace
+
+std::vector<Token> tokenize(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+  return Lexer(text, at, diagnostics).run();
+}
+
+}  // namespace indurop::plc::st

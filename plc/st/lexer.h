@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Splits Structured Text into tokens. Knows characters and the forms of literals, not grammar.
+
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/elementary.h"
+
+namespace indurop::plc::st {
+
+enum class TokenKind : std::uint8_t {
+  End,
+  Word,     // identifier or keyword
+  Number,   // 12, 1_000, 16#FF, 1.5E3
+  Typed,    // prefix#rest: INT#5, T#1h2m, D#2024-01-01, Color#Red
+  Text,     // 'str$N', quotes included
+  Address,  // %IX0.0
+  Symbol,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::End;
+  std::string_view text;  // spelling
+  std::uint32_t line = 1;
+  std::uint32_t column = 1;
+  std::string_view comment;        // the last one between this token and the one before; without its marks
+  std::uint32_t comment_line = 0;  // where it begins; 0: none
+
+  // Keywords in any case.
+  [[nodiscard]] bool is(std::string_view word) const noexcept {
+    return (kind == TokenKind::Word || kind == TokenKind::Symbol) && same_name(text, word);
+  }
+};
+
+// The list ends with TokenKind::End. Reports what cannot be a token and goes on behind it. The views refer to `text`.
+// `at` is the place of the first character.
+[[nodiscard]] std::vector<Token> tokenize(std::string_view text, const Place& at, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::st

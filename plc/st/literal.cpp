@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/st/literal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "plc/st/time_literal.h"
+
+namespace indurop::plc::st {
+namespace {
+
+bool is_digit(char c) noexcept {
+  return c >= '0' && c <= '9';
+}
+
+int digit_value(char c) noexcept {
+  if (is_digit(c)) {
+    return c - '0';
+  }
+  const char big = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return big >= 'A' && big <= 'F' ? big - 'A' + 10 : 99;
+}
+
+Literal wrong(std::string why) {
+  Literal out;
+  out.why = std::move(why);
+  return out;
+}
+
+// Digits with single '_' between them.
+bool well_formed(std::string_view digits) noexcept {
+  return !digits.empty() && digits.front() != '_' && digits.back() != '_' &&
+         digits.find("__") == std::string_view::npos;
+}
+
+Literal integer(std::string_view digits, unsigned base, std::string_view whole) {
+  if (!well_formed(digits)) {
+    return wrong(fmt::format("'{}' is no number, write digits with at most one '_' between them", whole));
+  }
+  std::uint64_t value = 0;
+  for (const char c : digits) {
+    if (c == '_') {
+      continue;
+    }
+    const auto digit = static_cast<unsigned>(digit_value(c));
+    if (digit >= base) {
+      return wrong(fmt::format("'{}' is no digit of a number of base {}, correct '{}'", c, base, whole));
+    }
+    if (value > (std::numeric_limits<std::uint64_t>::max() - digit) / base) {
+      return wrong(fmt::format("'{}' does not fit 64 bits, use a smaller number", whole));
+    }
+    value = value * base + digit;
+  }
+  Literal out;
+  out.value = value;
+  return out;
+}
+
+Literal real(std::string_view text) {
+  std::string digits(text);
+  std::erase(digits, '_');
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    return wrong(fmt::format("'{}' does not fit LREAL, use a smaller exponent", text));
+  }
+  if (error != std::errc() || end != digits.data() + digits.size()) {
+    return wrong(fmt::format("'{}' is no number, write it as 1.5 or 1.5E-3", text));
+  }
+  Literal out;
+  out.value = value;
+  return out;
+}
+
+Literal boolean(std::string_view text, std::string_view whole) {
+  const bool yes = text == "1" || same_name(text, "TRUE");
+  if (!yes && text != "0" && !same_name(text, "FALSE")) {
+    return wrong(fmt::format("'{}' is no BOOL, write TRUE or FALSE", whole));
+  }
+  Literal out;
+  out.value = yes;
+  return out;
+}
+
+// A number behind INT#, WORD#, REAL#.
+Literal typed_number(Elementary type, std::string_view text, std::string_view whole) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) {
+    text.remove_prefix(1);
+  }
+  if (text.empty() || !is_digit(text.front())) {
+    return wrong(fmt::format("'{}' is no value of {}, write a number behind '#'", whole, name_of(type)));
+  }
+  Literal out = number_literal(text);
+  if (!out.value) {
+    return out;
+  }
+  if (negative && is_bit(type)) {
+    return wrong(fmt::format("'{}' is negative, but {} has no sign, remove the sign", whole, name_of(type)));
+  }
+  if (std::holds_alternative<double>(*out.value) && !is_real(type)) {
+    return wrong(fmt::format("'{}' is no whole number, but {} is none of the reals", whole, name_of(type)));
+  }
+  if (is_real(type) && std::holds_alternative<std::uint64_t>(*out.value)) {
+    out.value = static_cast<double>(std::get<std::uint64_t>(*out.value));
+  }
+  out.negative = negative;
+  return out;
+}
+
+// One character behind '$'; nullopt if it has no meaning.
+std::optional<char> escaped(char c) noexcept {
+  switch (c) {
+    case '$':
+    case '\'':
+    case '"':
+      return c;
+    case 'L':
+    case 'l':
+    case 'N':
+    case 'n':
+      return '\n';
+    case 'P':
+    case 'p':
+      return '\f';
+    case 'R':
+    case 'r':
+      return '\r';
+    case 'T':
+    case 't':
+      return '\t';
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Literal number_literal(std::string_view text) {
+  if (const std::size_t hash = text.find('#'); hash != std::string_view::npos) {
+    const std::string_view base = text.substr(0, hash);
+    if (base != "2" && base != "8" && base != "16") {
+      return wrong(fmt::format("there are no numbers of base {}, use 2#, 8# or 16#", base));
+    }
+    return integer(text.substr(hash + 1), base == "2" ? 2 : base == "8" ? 8 : 16, text);
+  }
+  const bool has_exponent = text.find_first_of("eE") != std::string_view::npos;
+  return text.find('.') != std::string_view::npos || has_exponent ? real(text) : integer(text, 10, text);
+}
+
+Literal typed_literal(std::string_view text) {
+  const std::size_t hash = text.find('#');
+  const std::string_view prefix = text.substr(0, hash);
+  const std::string_view rest = text.substr(hash + 1);
+  auto type = elementary_named(prefix);
+  if (same_name(prefix, "T")) {
+    type = Elementary::Time;
+  } else if (same_name(prefix, "D")) {
+    type = Elementary::Date;
+  }
+  if (!type) {
+    return {};
+  }
+  Literal out;
+  if (*type == Elementary::Time || is_date(*type)) {
+    const TimeValue found = *type == Elementary::Time ? duration(rest) : date_or_time(*type, rest);
+    if (!found.ns) {
+      return wrong(fmt::format("'{}' is no {}: {}", text, name_of(*type), found.why));
+    }
+    out.value = *found.ns;
+  } else if (*type == Elementary::Bool) {
+    out = boolean(rest, text);
+  } else if (*type == Elementary::String) {
+    return wrong("write the text alone: 'text'");
+  } else {
+    out = typed_number(*type, rest, text);
+  }
+  out.type = type;
+  return out;
+}
+
+Literal text_literal(std::string_view quoted) {
+  const std::string_view text = quoted.size() < 2 ? std::string_view() : quoted.substr(1, quoted.size() - 2);
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '$') {
+      decoded += text[i];
+      continue;
+    }
+    if (i + 2 < text.size() && digit_value(text[i + 1]) < 16 && digit_value(text[i + 2]) < 16) {
+      decoded += static_cast<char>(digit_value(text[i + 1]) * 16 + digit_value(text[i + 2]));
+      i += 2;
+    } else if (const auto c = i + 1 < text.size() ? escaped(text[i + 1]) : std::nullopt) {
+      decoded += *c;
+      ++i;
+    } else {
+      return wrong(
+          "'$' begins one of $$ $' $L $N $P $R $T $hh (two hexadecimal digits), write $$ for the character itself");
+    }
+  }
+  if (decoded.find('\0') != std::string::npos) {
+    return wrong("a text cannot contain the character $00, remove it");
+  }
+  Literal out;
+  out.value = std::move(decoded);
+  out.type = Elementary::String;
+  return out;
+}
+
+std::optional<ast::DirectAddress> address_literal(std::string_view text) {
+  ast::DirectAddress out;
+  std::size_t at = 1;
+  const auto letter = [&]() -> char { return at < text.size() ? upper(text.substr(at, 1))[0] : '\0'; };
+  if (std::string_view("IQM").find(letter()) == std::string_view::npos || letter() == '\0') {
+    return std::nullopt;
+  }
+  out.area = letter();
+  ++at;
+  if (letter() != '\0' && std::string_view("XBWDL").find(letter()) != std::string_view::npos) {
+    out.size = letter();
+    ++at;
+  }
+  while (at < text.size()) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    if (error != std::errc() || number < 0) {
+      return std::nullopt;
+    }
+    out.numbers.push_back(number);
+    at = static_cast<std::size_t>(end - text.data());
+    if (at < text.size() && (text[at] != '.' || ++at == text.size())) {
+      return std::nullopt;
+    }
+  }
+  constexpr std::size_t kMostNumbers = 4;
+  return out.numbers.empty() || out.numbers.size() > kMostNumbers ? std::nullopt : std::optional(out);
+}
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/st/parser.h"
+
+#include "plc/st/project_parser.h"
+
+namespace indurop::plc::st {
+namespace {
+
+// Gives what `parse` finds if nothing stands behind it.
+template <class Parse>
+auto alone(const Text& text, Diagnostics& diagnostics, Parse parse) -> decltype(parse(std::declval<TokenReader&>())) {
+  const auto tokens = tokenize(text.text, text.at, diagnostics);
+  TokenReader in(tokens, text.at, diagnostics);
+  auto out = parse(in);
+  if (out && !in.at_end()) {
+    in.error(in.peek(), fmt::format("{} is too much here, remove it", TokenReader::spelled(in.peek())));
+    return std::nullopt;
+  }
+  return out;
+}
+
+}  // namespace
+
+Project parse_project(const Text& text, Diagnostics& diagnostics) {
+  const auto tokens = tokenize(text.text, text.at, diagnostics);
+  TokenReader in(tokens, text.at, diagnostics);
+  return ProjectParser(in).project();
+}
+
+ast::Body parse_body(const Text& text, Diagnostics& diagnostics) {
+  const auto tokens = tokenize(text.text, text.at, diagnostics);
+  TokenReader in(tokens, text.at, diagnostics);
+  return ProjectParser(in).body("");
+}
+
+std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics) {
+  return alone(text, diagnostics, [](TokenReader& in) { return ExpressionParser(in).expression(); });
+}
+
+std::optional<ast::TypeSpec> parse_type(const Text& text, Diagnostics& diagnostics) {
+  return alone(text, diagnostics, [](TokenReader& in) { return DeclarationParser(in).type(); });
+}
+
+std::optional<ast::Initial> parse_initial(const Text& text, Diagnostics& diagnostics) {
+  return alone(text, diagnostics, [](TokenReader& in) { return ExpressionParser(in).initial(); });
+}
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads Structured Text: whole files, and the pieces of it that other languages contain.
+
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+
+namespace indurop::plc::st {
+
+// A text and the place of its first character; all places in it count from there.
+struct Text {
+  std::string_view text;
+  Place at;
+};
+
+// PROGRAM, FUNCTION, FUNCTION_BLOCK, TYPE, VAR_GLOBAL, CONFIGURATION. What has errors is left out.
+[[nodiscard]] Project parse_project(const Text& text, Diagnostics& diagnostics);
+// Statements.
+[[nodiscard]] ast::Body parse_body(const Text& text, Diagnostics& diagnostics);
+// Exactly one; none after an error.
+[[nodiscard]] std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<ast::TypeSpec> parse_type(const Text& text, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<ast::Initial> parse_initial(const Text& text, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::st

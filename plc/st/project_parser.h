@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Program organisation units and configurations of Structured Text.
+
+#pragma once
+
+#include "plc/model/project.h"
+#include "plc/st/declaration_parser.h"
+#include "plc/st/statement_parser.h"
+
+namespace indurop::plc::st {
+
+class ProjectParser {
+ public:
+  explicit ProjectParser(TokenReader& in) : in_(in), expressions_(in), declarations_(in), statements_(in) {}
+
+  [[nodiscard]] Project project();
+  // Statements up to the end of the text, or `end`, which is not taken.
+  [[nodiscard]] ast::Body body(std::string_view end);
+
+ private:
+  void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
+  void configuration(std::vector<Configuration>& to);
+  void resource(std::vector<Resource>& to);
+  [[nodiscard]] bool resource_item(Resource& out);
+  [[nodiscard]] bool task(Resource& out);
+  [[nodiscard]] bool task_property(Task& out);
+  [[nodiscard]] bool program(Resource& out);
+  [[nodiscard]] bool name(std::string& to, std::string_view what);
+  // Behind the next ';', or before a word that begins with END_.
+  void recover();
+
+  TokenReader& in_;
+  ExpressionParser expressions_;
+  DeclarationParser declarations_;
+  StatementParser statements_;
+};
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/st/statement_parser.h"
+
+namespace indurop::plc::st {
+namespace {
+
+constexpr int kMaxNesting = 64;  // statements inside each other
+
+// Words that end the statement before them, so that reading can go on there after an error.
+bool begins_something(const Token& token) {
+  return token.kind == TokenKind::Word && (token.text.size() > 4 && same_name(token.text.substr(0, 4), "END_"));
+}
+
+}  // namespace
+
+ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
+  ast::Body out;
+  while (!in_.at_end() && !in_.next_is(ends)) {
+    if (ends.size() > 0 && *ends.begin() == "END_CASE" && at_case_label()) {
+      break;
+    }
+    const std::size_t from = in_.position();
+    if (in_.accept(";")) {
+      continue;
+    }
+    if (begins_something(in_.peek())) {
+      break;  // the end of something around this list: its reader says what is missing
+    }
+    if (auto one = statement()) {
+      out.push_back(std::move(*one));
+    } else {
+      recover(from);
+    }
+  }
+  return out;
+}
+
+// Behind the next ';', or before a word that ends a statement around this one.
+void StatementParser::recover(std::size_t from) {
+  while (!in_.at_end() && !begins_something(in_.peek())) {
+    if (in_.position() > from && in_.next_is({"ELSE", "ELSIF", "UNTIL", "IF", "FOR", "WHILE", "REPEAT", "CASE"})) {
+      return;
+    }
+    if (in_.take().is(";")) {
+      return;
+    }
+  }
+}
+
+std::optional<ast::Statement> StatementParser::statement() {
+  Statement out;
+  const Token& first = in_.peek();
+  out.at = in_.place(first);
+  if (first.comment_line > 0 && (in_.position() == 0 || first.comment_line > in_.previous().line)) {
+    out.comment = first.comment;
+  }
+  if (++depth_ > kMaxNesting) {
+    in_.error(first, fmt::format("more than {} statements inside each other, use a function block", kMaxNesting));
+    --depth_;
+    return std::nullopt;
+  }
+  const bool ok = fill(out);
+  --depth_;
+  return ok ? std::optional(std::move(out)) : std::nullopt;
+}
+
+bool StatementParser::fill(Statement& out) {
+  if (in_.accept("IF")) {
+    return if_statement(out) && in_.expect_end("behind END_IF");
+  }
+  if (in_.accept("CASE")) {
+    return case_statement(out) && in_.expect_end("behind END_CASE");
+  }
+  if (in_.accept("FOR")) {
+    return for_statement(out) && in_.expect_end("behind END_FOR");
+  }
+  if (in_.accept("WHILE")) {
+    return while_statement(out) && in_.expect_end("behind END_WHILE");
+  }
+  if (in_.accept("REPEAT")) {
+    return repeat_statement(out) && in_.expect_end("behind END_REPEAT");
+  }
+  if (in_.accept("EXIT")) {
+    out.kind = Statement::Kind::Exit;
+    return in_.expect_end("behind EXIT");
+  }
+  if (in_.accept("CONTINUE")) {
+    out.kind = Statement::Kind::Continue;
+    return in_.expect_end("behind CONTINUE");
+  }
+  if (in_.accept("RETURN")) {
+    out.kind = Statement::Kind::Return;
+    return in_.expect_end("behind RETURN");
+  }
+  if (in_.accept("JMP")) {
+    out.kind = Statement::Kind::Jump;
+    if (!in_.expect_name("a label")) {
+      return false;
+    }
+    out.label = in_.take().text;
+    return in_.expect_end("behind the label");
+  }
+  return simple(out);
+}
+
+// label: / name(arguments); / name := value;
+bool StatementParser::simple(Statement& out) {
+  const Token& first = in_.peek();
+  if (first.kind == TokenKind::Word && !is_keyword(first.text) && in_.peek(1).is(":")) {
+    out.kind = Statement::Kind::Label;
+    out.label = in_.take().text;
+    in_.take();
+    return true;
+  }
+  if ((first.kind != TokenKind::Word || is_keyword(first.text)) && first.kind != TokenKind::Address) {
+    in_.error(first, fmt::format("expected a statement, found {}", TokenReader::spelled(first)));
+    return false;
+  }
+  auto target = expressions_.designator();
+  if (!target) {
+    return false;
+  }
+  if (target->kind == ast::Expression::Kind::Call) {
+    out.kind = Statement::Kind::Call;
+    out.value = std::move(target);
+    return in_.expect_end("behind the call");
+  }
+  if (in_.peek().is("=")) {
+    in_.error(in_.peek(), "'=' compares, write ':=' to assign");
+    return false;
+  }
+  if (!in_.accept(":=")) {
+    in_.missing("expected ':=' or '('");
+    return false;
+  }
+  out.kind = Statement::Kind::Assign;
+  out.target = std::move(target);
+  out.value = expressions_.expression();
+  return out.value && in_.expect_end("behind the value");
+}
+
+bool StatementParser::if_statement(Statement& out) {
+  out.kind = Statement::Kind::If;
+  bool more = true;
+  while (more) {
+    ast::Branch branch;
+    branch.at = in_.here();
+    branch.condition = expressions_.expression();
+    if (!branch.condition || !in_.expect("THEN", "behind the condition")) {
+      return false;
+    }
+    branch.body = list({"ELSIF", "ELSE", "END_IF"});
+    out.branches.push_back(std::move(branch));
+    more = in_.accept("ELSIF");
+  }
+  if (in_.peek().is("ELSE")) {
+    ast::Branch branch;
+    branch.at = in_.place(in_.take());
+    branch.body = list({"END_IF"});
+    out.branches.push_back(std::move(branch));
+  }
+  return in_.expect("END_IF", fmt::format("to close the IF of line {}", out.at.line));
+}
+
+bool StatementParser::case_statement(Statement& out) {
+  out.kind = Statement::Kind::Case;
+  out.value = expressions_.expression();
+  if (!out.value || !in_.expect("OF", "behind the value")) {
+    return false;
+  }
+  while (!in_.next_is({"ELSE", "END_CASE"}) && !in_.at_end() && !begins_something(in_.peek())) {
+    if (!case_branch(out)) {
+      return false;
+    }
+  }
+  if (in_.peek().is("ELSE")) {
+    ast::Branch branch;
+    branch.at = in_.place(in_.take());
+    branch.body = list({"END_CASE"});
+    out.branches.push_back(std::move(branch));
+  }
+  return in_.expect("END_CASE", fmt::format("to close the CASE of line {}", out.at.line));
+}
+
+bool StatementParser::case_branch(Statement& out) {
+  ast::Branch branch;
+  branch.at = in_.here();
+  if (!labels(branch)) {
+    return false;
+  }
+  branch.body = list({"END_CASE", "ELSE"});
+  out.branches.push_back(std::move(branch));
+  return true;
+}
+
+bool StatementParser::labels(ast::Branch& out) {
+  do {
+    auto low = expressions_.expression();
+    if (!low) {
+      return false;
+    }
+    ast::CaseLabel label{std::move(*low), std::nullopt};
+    if (in_.accept("..")) {
+      label.high = expressions_.expression();
+      if (!label.high) {
+        return false;
+      }
+    }
+    out.labels.push_back(std::move(label));
+  } while (in_.accept(","));
+  return in_.expect(":", "behind the values of this case");
+}
+
+// Whether values and a ':' stand here, and no statement. Statements begin with a name followed by := ( [ . or with a
+// keyword; values are numbers, or names followed by , : ..
+bool StatementParser::at_case_label() const {
+  const Token& first = in_.peek();
+  if (first.kind == TokenKind::Number || first.kind == TokenKind::Typed || first.is("-") || first.is("+") ||
+      first.is("TRUE") || first.is("FALSE") || first.kind == TokenKind::Text || first.is("(")) {
+    return true;
+  }
+  if (first.kind != TokenKind::Word || is_keyword(first.text)) {
+    return false;
+  }
+  std::size_t ahead = 1;
+  while (in_.peek(ahead).is(".") && in_.peek(ahead + 1).kind == TokenKind::Word) {
+    ahead += 2;
+  }
+  return in_.peek(ahead).is(":") || in_.peek(ahead).is(",") || in_.peek(ahead).is("..");
+}
+
+bool StatementParser::for_statement(Statement& out) {
+  out.kind = Statement::Kind::For;
+  if (!in_.expect_name("the loop's variable")) {
+    return false;
+  }
+  out.target = expressions_.designator();
+  if (!out.target || !in_.expect(":=", "behind the loop's variable")) {
+    return false;
+  }
+  out.value = expressions_.expression();
+  if (!out.value || !in_.expect("TO", "behind the first value")) {
+    return false;
+  }
+  out.to = expressions_.expression();
+  if (!out.to) {
+    return false;
+  }
+  if (in_.accept("BY")) {
+    out.by = expressions_.expression();
+    if (!out.by) {
+      return false;
+    }
+  }
+  if (!in_.expect("DO", "before the statements of the loop")) {
+    return false;
+  }
+  out.body = list({"END_FOR"});
+  return in_.expect("END_FOR", fmt::format("to close the FOR of line {}", out.at.line));
+}
+
+bool StatementParser::while_statement(Statement& out) {
+  out.kind = Statement::Kind::While;
+  out.value = expressions_.expression();
+  if (!out.value || !in_.expect("DO", "behind the condition")) {
+    return false;
+  }
+  out.body = list({"END_WHILE"});
+  return in_.expect("END_WHILE", fmt::format("to close the WHILE of line {}", out.at.line));
+}
+
+bool StatementParser::repeat_statement(Statement& out) {
+  out.kind = Statement::Kind::Repeat;
+  out.body = list({"UNTIL", "END_REPEAT"});
+  if (!in_.expect("UNTIL", fmt::format("to close the REPEAT of line {}", out.at.line))) {
+    return false;
+  }
+  out.value = expressions_.expression();
+  in_.accept(";");
+  return out.value && in_.expect("END_REPEAT", fmt::format("to close the REPEAT of line {}", out.at.line));
+}
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statements of Structured Text. A statement with an error is left out and reading goes on behind it.
+
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "plc/st/expression_parser.h"
+
+namespace indurop::plc::st {
+
+class StatementParser {
+ public:
+  explicit StatementParser(TokenReader& in) : in_(in), expressions_(in) {}
+
+  // Statements up to one of the words, which is not taken, or the end of the text.
+  [[nodiscard]] ast::Body list(std::initializer_list<std::string_view> ends);
+
+ private:
+  using Statement = ast::Statement;
+
+  [[nodiscard]] std::optional<Statement> statement();
+  [[nodiscard]] bool fill(Statement& out);
+  [[nodiscard]] bool simple(Statement& out);
+  [[nodiscard]] bool if_statement(Statement& out);
+  [[nodiscard]] bool case_statement(Statement& out);
+  [[nodiscard]] bool case_branch(Statement& out);
+  [[nodiscard]] bool for_statement(Statement& out);
+  [[nodiscard]] bool while_statement(Statement& out);
+  [[nodiscard]] bool repeat_statement(Statement& out);
+  [[nodiscard]] bool labels(ast::Branch& out);
+  [[nodiscard]] bool at_case_label() const;
+  void recover(std::size_t from);
+
+  TokenReader& in_;
+  ExpressionParser expressions_;
+  int depth_ = 0;
+};
+
+}  // namespace indurop::plc::st

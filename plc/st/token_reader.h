@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks over tokens: looking ahead, accepting, expecting with a message. Shared by the parts of the parser.
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "plc/st/lexer.h"
+
+namespace indurop::plc::st {
+
+// Whether the word means something in the language and so cannot be a name.
+[[nodiscard]] bool is_keyword(std::string_view word) noexcept;
+
+// Parse functions built on it report what they miss and then return nullopt or false.
+class TokenReader {
+ public:
+  TokenReader(const std::vector<Token>& tokens, const Place& origin, Diagnostics& diagnostics)
+      : tokens_(tokens), origin_(origin), diagnostics_(diagnostics) {}
+
+  [[nodiscard]] const Token& peek(std::size_t ahead = 0) const noexcept {
+    return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
+  }
+  [[nodiscard]] const Token& previous() const noexcept { return tokens_[at_ == 0 ? 0 : at_ - 1]; }
+  [[nodiscard]] bool at_end() const noexcept { return peek().kind == TokenKind::End; }
+  [[nodiscard]] std::size_t position() const noexcept { return at_; }
+
+  [[nodiscard]] Place place(const Token& token) const {
+    Place out = origin_;
+    out.line = token.line;
+    out.column = token.column;
+    return out;
+  }
+  [[nodiscard]] Place here() const { return place(peek()); }
+
+  const Token& take() noexcept {
+    const Token& token = peek();
+    at_ += at_end() ? 0U : 1U;
+    return token;
+  }
+  [[nodiscard]] bool next_is(std::initializer_list<std::string_view> words) const noexcept {
+    return std::any_of(words.begin(), words.end(), [this](std::string_view word) { return peek().is(word); });
+  }
+  bool accept(std::string_view word) noexcept {
+    const bool found = peek().is(word);
+    at_ += found ? 1U : 0U;
+    return found;
+  }
+  // Reports "expected '<word>' <where>" if it is not next.
+  bool expect(std::string_view word, std::string_view where) {
+    if (accept(word)) {
+      return true;
+    }
+    missing(fmt::format("expected '{}' {}", word, where));
+    return false;
+  }
+  // The ';' behind a statement or declaration. Where it misses at the end of a line, that is said and reading goes on.
+  bool expect_end(std::string_view where) { return expect(";", where) || (at_ > 0 && peek().line > previous().line); }
+  // A name that is no keyword; reports "expected the name of <what>".
+  [[nodiscard]] bool expect_name(std::string_view what) {
+    if (peek().kind == TokenKind::Word && !is_keyword(peek().text)) {
+      return true;
+    }
+    const bool reserved = peek().kind == TokenKind::Word;
+    error(peek(), fmt::format("expected the name of {}, found {}{}", what, spelled(peek()),
+                              reserved ? ", which is a word of the language" : ""));
+    return false;
+  }
+
+  // What is not there: behind the last token if the line ended, else at the token found instead.
+  void missing(const std::string& text) {
+    const Token& last = previous();
+    if (at_ == 0 || peek().line == last.line) {
+      error(peek(), fmt::format("{}, found {}", text, spelled(peek())));
+      return;
+    }
+    Place at = place(last);
+    at.column += static_cast<std::uint32_t>(last.text.size());
+    diagnostics_.error(at, text);
+  }
+  void error(const Token& at, std::string text) { diagnostics_.error(place(at), std::move(text)); }
+  void error(const Place& at, std::string text) { diagnostics_.error(at, std::move(text)); }
+
+  [[nodiscard]] static std::string spelled(const Token& token) {
+    constexpr std::size_t kShown = 40;
+    if (token.kind == TokenKind::End) {
+      return "the end of the text";
+    }
+    if (token.kind == TokenKind::Text) {
+      return "a text";
+    }
+    return fmt::format("'{}{}'", token.text.substr(0, kShown), token.text.size() > kShown ? "..." : "");
+  }
+
+ private:
+  const std::vector<Token>& tokens_;
+  const Place& origin_;
+  Diagnostics& diagnostics_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace indurop::plc::st

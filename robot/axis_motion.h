@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motion of a single axis by itself: to a position, on and on with a velocity, to rest; each from whatever it is doing.
+
+#pragma once
+
+#include "robot/profile.h"
+
+namespace indurop::robot {
+
+class AxisMotion {
+ public:
+  // Moving on like this, with nothing to do. Real-time safe, as all here.
+  void reset(const LineState& state) noexcept;
+  // Where the way is too short or backwards, it stops first.
+  void move_to(double position, const LineLimits& limits) noexcept;
+  void move_with(double velocity, const LineLimits& limits) noexcept;
+  void stop(const LineLimits& limits) noexcept;
+
+  void step(double seconds) noexcept;
+
+  [[nodiscard]] const LineState& state() const noexcept { return state_; }
+  // Has come to the position, to the velocity, or to rest.
+  [[nodiscard]] bool done() const noexcept { return !and_then_ && time_ >= profile_.duration(); }
+  [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0; }
+
+ private:
+  Profile profile_;
+  double sign_ = 1;  // profiles go forwards
+  double time_ = 0;
+  LineState state_;
+  bool and_then_ = false;  // stops only to turn back
+  double target_ = 0;
+  LineLimits limits_;
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/errors.h"
+
+namespace indurop::robot {
+
+const char* to_string(ErrorCode code) noexcept {
+  switch (code) {
+    case ErrorCode::Ok:
+      return "no error";
+    case ErrorCode::Opcode:
+      return "there is no such service";
+    case ErrorCode::State:
+      return "not possible in this state";
+    case ErrorCode::Point:
+      return "there is no such point";
+    case ErrorCode::Job:
+      return "there is no such job";
+    case ErrorCode::Value:
+      return "a value is no number or out of its range";
+    case ErrorCode::Unreachable:
+      return "the target is out of reach";
+    case ErrorCode::JointLimit:
+      return "the target or the way there is beyond a joint's limit";
+    case ErrorCode::Singular:
+      return "the way comes too near a singular position";
+    case ErrorCode::Speed:
+      return "the way would need a joint to be faster than it can";
+    case ErrorCode::Circle:
+      return "start, middle and end of the circle lie on a line";
+    case ErrorCode::Drive:
+      return "a drive reports a fault";
+    case ErrorCode::Following:
+      return "an axis does not follow";
+    case ErrorCode::Power:
+      return "a drive does not take power, or lost it";
+    case ErrorCode::Emergency:
+      return "emergency stop";
+    case ErrorCode::Line:
+      return "a line of the job failed";
+    case ErrorCode::NotHomed:
+      return "an axis does not know where it is, home it first";
+    case ErrorCode::Aborted:
+      return "a later command took over";
+  }
+  return "unknown error";
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kStill = 1e-3;  // an override below is a hold
+
+LineLimits lower(const LineLimits& a, const LineLimits& b) noexcept {
+  return {std::min(a.velocity, b.velocity), std::min(a.acceleration, b.acceleration), std::min(a.jerk, b.jerk)};
+}
+
+}  // namespace
+
+void Follower::reset(const Joints& q) noexcept {
+  count_ = 0;
+  blend_ = {};
+  in_blend_ = false;
+  mode_ = mode_ == Mode::Hold ? Mode::Hold : Mode::Run;
+  state_ = {};
+  q_ = q;
+}
+
+void Follower::add(const Segment& segment) noexcept {
+  segments_[static_cast<std::size_t>(count_++)] = segment;
+  if (count_ == 1) {
+    state_ = {};
+    replan();
+  } else if (count_ == 2) {
+    try_blend();
+  }
+}
+
+void Follower::set_override(double part) noexcept {
+  part = std::clamp(part, 0.0, 1.0);
+  if (part != override_) {
+    override_ = part;
+    if (mode_ == Mode::Run && !idle()) {
+      replan();
+    }
+  }
+}
+
+void Follower::set_hold(bool hold) noexcept {
+  const Mode wanted = hold ? Mode::Hold : Mode::Run;
+  if (mode_ == Mode::Stop || mode_ == wanted) {
+    return;
+  }
+  mode_ = wanted;
+  hardness_ = 1;
+  if (!idle()) {
+    replan();
+  }
+}
+
+void Follower::stop(double hardness) noexcept {
+  if (mode_ == Mode::Stop && hardness <= hardness_) {
+    return;
+  }
+  mode_ = Mode::Stop;
+  hardness_ = hardness;
+  if (at_rest()) {
+    reset(q_);
+    return;
+  }
+  replan();
+}
+
+double Follower::to_go() const noexcept {
+  return idle() ? 0 : std::max(0.0, profile_.duration() - time_);
+}
+
+double Follower::piece_end() const noexcept {
+  return in_blend_ ? blend_.length() : segment(0).length - blend_.zone;
+}
+
+const LineLimits& Follower::piece_limits() const noexcept {
+  return in_blend_ ? blend_.limits : segment(0).limits;
+}
+
+LineLimits Follower::stop_limits() const noexcept {
+  // What a harder stop adds goes into braking alone, of which a bend leaves only a share.
+  const auto harder = [this](LineLimits limits, double share) {
+    limits.acceleration *= 1 + (hardness_ - 1) / share;
+    limits.jerk *= 1 + (hardness_ * hardness_ - 1) / share;
+    return limits;
+  };
+  const LineLimits bend = harder(blend_.limits, Planner::kShareOfBraking);
+  const LineLimits here = in_blend_ ? bend : harder(segment(0).limits, 1);
+  // A stop that does not end on this piece keeps the limits of those it goes through.
+  if (count_ < 2 || state_.position + ramp(state_, 0, here).distance <= piece_end()) {
+    return here;
+  }
+  const LineLimits next = harder(segment(1).limits, 1);
+  return lower(here, blend_.zone > 0 ? lower(bend, next) : next);
+}
+
+// Whether the first two segments go over into each other is decided once, before the first one is so near its end that
+// it could not be at the blend's speed any more.
+void Follower::try_blend() noexcept {
+  if (in_blend_ || blend_.zone > 0 || mode_ == Mode::Stop) {
+    return;
+  }
+  Blend wanted = planner_.blend(segment(0), segment(1));
+  if (wanted.zone <= 0) {
+    return;
+  }
+  // The second one may be the last: it must be possible to stop on it.
+  const double rest = segment(1).length - wanted.zone;
+  double& speed = wanted.limits.velocity;
+  while (speed > kStill && ramp({0, speed, 0}, 0, segment(1).limits).distance > rest) {
+    speed *= 0.9;
+  }
+  const double left = segment(0).length - wanted.zone - state_.position;
+  const bool in_time = left > 0 && (state_.velocity <= 0 ||
+                                    ramp(state_, std::min(speed, state_.velocity), segment(0).limits).distance <= left);
+  if (speed > kStill && in_time) {
+    blend_ = wanted;
+    replan();
+  }
+}
+
+void Follower::replan() noexcept {
+  time_ = 0;
+  if (mode_ != Mode::Run || override_ < kStill) {
+    profile_ = Profile::to_velocity(state_, 0, stop_limits());
+    return;
+  }
+  LineLimits limits = piece_limits();
+  limits.velocity *= override_;
+  const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
+  profile_ = Profile::to_position(state_, piece_end(), exit, limits);
+}
+
+// When the end of the present piece is passed; it is between these two times.
+double Follower::crossing(double from, double to) const noexcept {
+  const double end = piece_end();
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (from + to) / 2;
+    (profile_.at(middle).position < end ? from : to) = middle;
+  }
+  return to;
+}
+
+void Follower::next_piece() noexcept {
+  if (in_blend_ || blend_.zone <= 0) {
+    // On to the next segment, behind the blend if there was one.
+    state_.position = in_blend_ ? blend_.zone : 0;
+    std::move(segments_.begin() + 1, segments_.begin() + count_, segments_.begin());
+    --count_;
+    in_blend_ = false;
+    blend_ = {};
+    if (count_ >= 2) {
+      try_blend();
+    }
+  } else {
+    state_.position = 0;
+    in_blend_ = true;
+  }
+  if (count_ > 0) {
+    replan();
+  }
+}
+
+void Follower::advance(double seconds) noexcept {
+  // Short paths may begin and end within one period; more of them than this wait for the next one.
+  for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
+    const double until = time_ + seconds;
+    const bool running = mode_ == Mode::Run && override_ >= kStill && !profile_.overshoots();
+    double reached = until;
+    bool crossed = false;
+    if (running) {
+      crossed = until >= profile_.duration();
+      reached = crossed ? profile_.duration() : until;
+    } else if (profile_.at(until).position >= piece_end()) {
+      crossed = true;
+      reached = crossing(time_, until);
+    }
+    state_ = profile_.at(reached);
+    seconds = until - reached;
+    time_ = reached;
+    if (!crossed) {
+      break;
+    }
+    next_piece();
+  }
+}
+
+Fault Follower::place(double seconds) noexcept {
+  Joints q = q_;
+  Reach reach = Reach::Ok;
+  if (in_blend_) {
+    reach = places_.on(segment(0), blend_, segment(1), state_.position, q_, q);
+  } else {
+    reach = places_.on(segment(0), state_.position, q_, q);
+  }
+  if (reach != Reach::Ok) {
+    return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
+  }
+  const Fault fault = planner_.allowed(q_, q, seconds);
+  if (fault.ok()) {
+    q_ = q;
+  }
+  return fault;
+}
+
+Fault Follower::step(double seconds) noexcept {
+  if (idle()) {
+    mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
+    return {};
+  }
+  const Segment last = segment(count_ - 1);
+  advance(seconds);
+  if (count_ == 0) {
+    const Fault fault = planner_.allowed(q_, last.to, seconds);
+    if (fault.ok()) {
+      q_ = last.to;
+    }
+    mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
+    return fault;
+  }
+  const Fault fault = place(seconds);
+  if (mode_ == Mode::Stop && state_.velocity <= 0) {
+    reset(q_);
+  }
+  return fault;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Follows paths in time: one speed along all of them, whatever they are made of. Override, hold, stop and emergency
+// stop change that speed and nothing else, so the robot never leaves its path.
+
+#pragma once
+
+#include <array>
+
+#include "robot/planner.h"
+
+namespace indurop::robot {
+
+class Follower {
+ public:
+  Follower(const Places& places, const Planner& planner) noexcept : places_(places), planner_(planner) {}
+
+  // At rest at these joint angles, with nothing to do.
+  void reset(const Joints& q) noexcept;
+  // Whether another path can be taken; it has to begin at end().
+  [[nodiscard]] bool has_room() const noexcept { return count_ < kMost && !stopping(); }
+  [[nodiscard]] const Joints& end() const noexcept { return count_ > 0 ? segment(count_ - 1).to : q_; }
+  void add(const Segment& segment) noexcept;
+
+  // Part of the planned speed, from 0 to 1.
+  void set_override(double part) noexcept;
+  // Slows down to rest on the path, or goes on.
+  void set_hold(bool hold) noexcept;
+  // Comes to rest on the path and forgets the rest of it. `hardness` multiplies the acceleration.
+  void stop(double hardness) noexcept;
+
+  // One period on. Errors: Unreachable, JointLimit, Singular, Speed: the path cannot be followed at this place;
+  // joints() then stays where it was.
+  Fault step(double seconds) noexcept;
+
+  [[nodiscard]] const Joints& joints() const noexcept { return q_; }
+  // Nothing to do any more.
+  [[nodiscard]] bool idle() const noexcept { return count_ == 0; }
+  [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::Stop; }
+  // No motion at this moment, because of a hold or an override of 0, or because it is idle.
+  [[nodiscard]] bool at_rest() const noexcept { return idle() || state_.velocity <= 0; }
+  // Part of full speed.
+  [[nodiscard]] double speed() const noexcept { return idle() ? 0 : state_.velocity; }
+  [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : state_.acceleration; }
+  // s until the end of the present path, as things are.
+  [[nodiscard]] double to_go() const noexcept;
+  // MoveCommand::source of the present path; 0: none.
+  [[nodiscard]] int source() const noexcept { return idle() ? 0 : segment(0).source; }
+
+ private:
+  static constexpr int kMost = 3;
+  enum class Mode { Run, Hold, Stop };
+
+  [[nodiscard]] const Segment& segment(int i) const noexcept { return segments_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double piece_end() const noexcept;
+  [[nodiscard]] const LineLimits& piece_limits() const noexcept;
+  [[nodiscard]] LineLimits stop_limits() const noexcept;
+  void try_blend() noexcept;
+  void replan() noexcept;
+  void advance(double seconds) noexcept;
+  double crossing(double from, double to) const noexcept;
+  void next_piece() noexcept;
+  Fault place(double seconds) noexcept;
+
+  const Places& places_;
+  const Planner& planner_;
+  std::array<Segment, kMost> segments_;
+  int count_ = 0;
+  Blend blend_;            // between the first two segments; zone 0: none
+  bool in_blend_ = false;  // the present piece is the blend, not the first segment
+  Mode mode_ = Mode::Run;
+  double override_ = 1;
+  double hardness_ = 1;
+  Profile profile_;
+  double time_ = 0;  // in the profile
+  LineState state_;  // position: place on the present piece
+  Joints q_ = Joints::Zero();
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/group.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kPowerTime = 4;  // s all drives may take to get power or to leave a fault
+constexpr std::size_t at(int axis) noexcept {
+  return static_cast<std::size_t>(axis);
+}
+
+}  // namespace
+
+Group::Group(GroupParts parts)
+    : parts_(std::move(parts)),
+      inverse_(parts_.arm),
+      places_(parts_.arm, inverse_),
+      planner_(places_, parts_.joints, parts_.tool),
+      follower_(places_, planner_),
+      job_(parts_.book) {
+  const Settings& settings = parts_.settings;
+  period_ = std::chrono::duration<double>(settings.period).count();
+  // A path of 128 places is looked at within some 16 ms, whatever the period.
+  places_per_period_ = std::clamp(static_cast<int>(period_ * 8000), 8, 128);
+  const AxisControl::Scale scale{settings.counts_per_turn / (2 * kPi), settings.gear};
+  for (int i = 0; i < kAxes; ++i) {
+    const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
+    axes_[at(i)].set_up(parts_.arm.axis(i), limits, scale, settings.absolute);
+  }
+}
+
+bool Group::all_enabled() const noexcept {
+  return std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.drive().enabled(); });
+}
+
+bool Group::powered() const noexcept {
+  return state_ != GroupState::Disabled && state_ != GroupState::ErrorStop;
+}
+
+Joints Group::commanded() const noexcept {
+  Joints q;
+  for (int i = 0; i < kAxes; ++i) {
+    q[i] = axes_[at(i)].commanded().position;
+  }
+  return q;
+}
+
+void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
+  sense(in);
+  watch(in);
+  if (in.requests_known) {
+    serve(in.service, in.edit);
+    for (int i = 0; i < kAxes; ++i) {
+      axes_[at(i)].serve(in.axes[at(i)], powered() && state_ != GroupState::Standby);
+    }
+  }
+  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
+  follower_.set_override(sane ? in.speed_override / 100 : 0);
+  follower_.set_hold(in.hold);
+  run_state(signals);
+  for (int i = 0; i < kAxes; ++i) {
+    out.drives[at(i)] = axes_[at(i)].command(in.drives[at(i)], quick_stop_);
+  }
+  report(out);
+}
+
+void Group::sense(const Inputs& in) noexcept {
+  for (int i = 0; i < kAxes; ++i) {
+    axes_[at(i)].sense(in.drives[at(i)]);
+  }
+  emergency_ = in.emergency;
+}
+
+// What may end a motion from outside: the emergency stop, drives, axes that do not follow.
+void Group::watch(const Inputs& in) noexcept {
+  const bool idle = state_ == GroupState::Disabled && !enabling_ &&
+                    std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.wants_power(); });
+  if (in.emergency && error_ != ErrorCode::Emergency && !idle) {
+    trip(ErrorCode::Emergency, 0, parts_.settings.emergency_factor);
+    return;
+  }
+  if (!powered() || to_error_) {
+    return;
+  }
+  for (int i = 0; i < kAxes; ++i) {
+    const Drive::State drive = Drive::state_of(in.drives[at(i)].status);
+    if (drive != Drive::State::OperationEnabled) {
+      const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
+      trip(fault ? ErrorCode::Drive : ErrorCode::Power, i + 1, 1);
+      return;
+    }
+    const double behind = std::abs(axes_[at(i)].commanded().position - axes_[at(i)].measured());
+    if (state_ != GroupState::Homing && axes_[at(i)].state() != AxisState::Homing &&
+        behind > radians(parts_.settings.following_limit)) {
+      trip(ErrorCode::Following, i + 1, 1);
+      return;
+    }
+  }
+}
+
+// Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
+void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
+  job_.fail({code, axis}, to_string(code), 0);
+  finish_service(code, axis);
+  error_ = code;
+  error_axis_ = axis;
+  planning_ = false;
+  enabling_ = false;
+  const bool path = !follower_.idle() && on_path_ && code == ErrorCode::Emergency;
+  if (path) {
+    follower_.stop(hardness);
+  } else {
+    follower_.reset(commanded());
+    on_path_ = false;
+  }
+  for (AxisControl& a : axes_) {
+    if (a.state() != AxisState::SynchronizedMotion || !path) {
+      a.fail(code, hardness);
+    }
+  }
+  state_ = GroupState::Stopping;
+  to_error_ = true;
+}
+
+void Group::motion_failed(Fault fault, int source) noexcept {
+  const bool job = job_.running();
+  job_.fail(fault, to_string(fault.code), source);
+  finish_service(fault.code, fault.axis);
+  if (job) {
+    stop_for(fault);
+  }
+}
+
+// Rest on the path, then ErrorStop.
+void Group::stop_for(Fault fault) noexcept {
+  error_ = fault.code;
+  error_axis_ = fault.axis;
+  follower_.stop(1);
+  state_ = GroupState::Stopping;
+  to_error_ = true;
+}
+
+void Group::run_state(Signals& signals) noexcept {
+  for (AxisControl& a : axes_) {
+    if (a.state() != AxisState::SynchronizedMotion) {
+      a.move(period_);
+    }
+  }
+  switch (state_) {
+    case GroupState::Disabled:
+      run_enabling();
+      break;
+    case GroupState::Standby:
+    case GroupState::ErrorStop:
+      follower_.reset(commanded());
+      if (active_ && service_ == Service::GroupReset) {
+        reset();
+      }
+      break;
+    case GroupState::Homing:
+      run_homing();
+      break;
+    case GroupState::Moving:
+      run_motion(signals);
+      break;
+    case GroupState::Stopping:
+      run_stopping();
+      break;
+  }
+}
+
+void Group::come_to_standby() noexcept {
+  state_ = GroupState::Standby;
+  on_path_ = true;
+  job_moves_ = false;
+  for (AxisControl& a : axes_) {
+    if (a.state() == AxisState::SynchronizedMotion) {
+      a.rest();
+      a.reset();
+    }
+  }
+}
+
+void Group::run_enabling() noexcept {
+  if (!enabling_) {
+    return;
+  }
+  waited_ += period_;
+  if (all_enabled()) {
+    enabling_ = false;
+    come_to_standby();
+    finish_service(ErrorCode::Ok);
+  } else if (waited_ > kPowerTime) {
+    enabling_ = false;
+    int late = 0;
+    while (late < kAxes - 1 && axes_[at(late)].drive().enabled()) {
+      ++late;
+    }
+    for (AxisControl& a : axes_) {
+      a.power(false);
+    }
+    finish_service(axes_[at(late)].drive().faulty() ? ErrorCode::Drive : ErrorCode::Power, late + 1);
+  }
+}
+
+void Group::run_homing() noexcept {
+  for (int i = 0; i < kAxes; ++i) {
+    if (axes_[at(i)].state() == AxisState::ErrorStop) {
+      trip(ErrorCode::NotHomed, i + 1, 1);
+      return;
+    }
+  }
+  const bool all = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.homed(); });
+  if (all) {
+    come_to_standby();
+    finish_service(ErrorCode::Ok);
+  }
+}
+
+// A path is looked at a few places per period before it may be followed.
+void Group::plan_ahead() noexcept {
+  if (!planning_) {
+    return;
+  }
+  if (const Fault fault = planner_.check(places_per_period_); !fault.ok()) {
+    planning_ = false;
+    motion_failed(fault, planner_.segment().source);
+  } else if (planner_.done()) {
+    planning_ = false;
+    follower_.add(planner_.segment());
+  }
+}
+
+void Group::follow_path() noexcept {
+  const Fault fault = follower_.step(period_);
+  if (!fault.ok()) {
+    trip(fault.code, fault.axis, 1);
+    return;
+  }
+  const Joints speed = (follower_.joints() - last_command_) / period_;
+  for (int i = 0; i < kAxes; ++i) {
+    axes_[at(i)].follow({follower_.joints()[i], speed[i], (speed[i] - last_speed_[i]) / period_});
+  }
+}
+
+void Group::run_motion(Signals& signals) noexcept {
+  if (job_.running()) {
+    job_.step(period_, signals, *this);
+    if (job_.state() == JobState::Failed) {
+      const Fault fault = job_.fault();
+      finish_service(fault.code, fault.axis);
+      stop_for(fault);
+    }
+  }
+  plan_ahead();
+  follow_path();
+  if (state_ == GroupState::Moving && settled() && !job_.running()) {
+    come_to_standby();
+    finish_service(error_);
+  }
+}
+
+void Group::run_stopping() noexcept {
+  if (on_path_) {
+    follow_path();
+  }
+  const bool rest = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.at_rest(); });
+  if (on_path_ ? !follower_.idle() : !rest) {
+    return;
+  }
+  if (to_error_) {
+    state_ = GroupState::ErrorStop;
+    for (AxisControl& a : axes_) {
+      a.rest();
+      a.fail(error_, 1);
+    }
+    quick_stop_ = error_ == ErrorCode::Emergency;
+  } else if (to_disabled_) {
+    state_ = GroupState::Disabled;
+    come_to_standby();
+    state_ = GroupState::Disabled;
+    for (AxisControl& a : axes_) {
+      a.power(false);
+    }
+    finish_service(ErrorCode::Ok);
+  } else {
+    come_to_standby();
+    finish_service(ErrorCode::Ok);
+  }
+  to_error_ = to_disabled_ = false;
+  on_path_ = true;
+}
+
+Fault Group::move(const MoveCommand& command) noexcept {
+  const Joints from = follower_.idle() ? commanded() : follower_.end();
+  const Fault fault = planner_.begin(command, from);
+  planning_ = fault.ok();
+  if (follower_.idle()) {
+    follower_.reset(from);
+    last_command_ = from;
+  }
+  return fault;
+}
+
+}  // namespace indurop::robot

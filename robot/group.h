@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The group of six axes: the state machine behind the services, and the order of work in a period. Reading drives and
+// requests, moving, telling the drives, reporting.
+
+#pragma once
+
+#include <array>
+
+#include "robot/axis_control.h"
+#include "robot/follower.h"
+#include "robot/job_runner.h"
+
+namespace indurop::robot {
+
+// Everything that was read when the task was loaded.
+struct GroupParts {
+  Settings settings;
+  Arm arm;
+  JointLimits joints;
+  ToolLimits tool;
+  JobBook book;
+};
+
+class Group final : public Controller, private MotionPort {
+ public:
+  explicit Group(GroupParts parts);
+
+  void step(const Inputs& in, Signals& signals, Outputs& out) noexcept override;
+  [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return parts_.book.signals; }
+
+ private:
+  // Services (group_services.cpp).
+  void serve(const ServiceRequest& request, bool edit) noexcept;
+  void begin_service(const ServiceRequest& request) noexcept;
+  ErrorCode begin(Service service, const ServiceRequest& request) noexcept;
+  ErrorCode enable() noexcept;
+  ErrorCode disable() noexcept;
+  ErrorCode reset() noexcept;
+  ErrorCode home() noexcept;
+  ErrorCode move(Service service, const ServiceRequest& request) noexcept;
+  ErrorCode start_job(std::uint32_t number) noexcept;
+  ErrorCode stop_motion() noexcept;
+  void finish_service(ErrorCode code, int axis = 0) noexcept;
+
+  // States (group.cpp).
+  void sense(const Inputs& in) noexcept;
+  void watch(const Inputs& in) noexcept;
+  void trip(ErrorCode code, int axis, double hardness) noexcept;
+  void run_state(Signals& signals) noexcept;
+  void run_enabling() noexcept;
+  void run_homing() noexcept;
+  void run_motion(Signals& signals) noexcept;
+  void run_stopping() noexcept;
+  void plan_ahead() noexcept;
+  void follow_path() noexcept;
+  void stop_for(Fault fault) noexcept;
+  void motion_failed(Fault fault, int source) noexcept;
+  void come_to_standby() noexcept;
+  [[nodiscard]] bool all_enabled() const noexcept;
+  [[nodiscard]] bool powered() const noexcept;
+  [[nodiscard]] Joints commanded() const noexcept;
+
+  // The job's side.
+  [[nodiscard]] bool ready() const noexcept override { return !planning_ && follower_.has_room(); }
+  [[nodiscard]] bool settled() const noexcept override { return !planning_ && follower_.idle(); }
+  Fault move(const MoveCommand& command) noexcept override;
+
+  void report(Outputs& out) noexcept;  // group_report.cpp
+  void report_motion(Outputs& out) noexcept;
+
+  GroupParts parts_;
+  Inverse inverse_;
+  Places places_;
+  Planner planner_;
+  Follower follower_;
+  JobRunner job_;
+  std::array<AxisControl, kAxes> axes_;
+  double period_ = 0.01;  // s
+  int places_per_period_ = 8;
+
+  GroupState state_ = GroupState::Disabled;
+  ErrorCode error_ = ErrorCode::Ok;
+  int error_axis_ = 0;
+  bool to_error_ = false;     // what ends Stopping is ErrorStop
+  bool to_disabled_ = false;  // or Disabled
+  bool on_path_ = true;       // the stop goes along the path; else each axis stops by itself
+  bool enabling_ = false;
+  bool quick_stop_ = false;
+  bool planning_ = false;
+  bool job_moves_ = false;
+  double waited_ = 0;
+
+  // The request that is being served.
+  bool first_ = true;
+  bool active_ = false;
+  bool by_edit_ = false;
+  bool edit_done_ = false;
+  bool motion_done_ = false;
+  Service service_ = Service::None;
+  std::uint32_t acknowledged_ = 0;
+  std::uint32_t done_ = 0;
+  Pose last_pose_;
+  Joints last_command_ = Joints::Zero();
+  Joints last_speed_ = Joints::Zero();
+  bool emergency_ = false;
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the group says about itself in every period.
+
+#include "robot/group.h"
+
+namespace indurop::robot {
+
+void Group::report(Outputs& out) noexcept {
+  out.state = state_;
+  out.busy = active_ || state_ == GroupState::Moving || state_ == GroupState::Homing || state_ == GroupState::Stopping;
+  out.motion_done = motion_done_ && !active_;
+  out.edit_done = edit_done_;
+  out.moving_by_job = job_moves_ && state_ == GroupState::Moving;
+  out.acknowledged = acknowledged_;
+  out.done = done_;
+  out.error = error_;
+  out.error_axis = static_cast<std::uint32_t>(error_axis_);
+  out.job = job_.report(follower_.source());
+  for (std::size_t i = 0; i < kJoints; ++i) {
+    out.axes[i] = axes_[i].report();
+  }
+  report_motion(out);
+}
+
+void Group::report_motion(Outputs& out) noexcept {
+  const Joints now = commanded();
+  const Pose pose = parts_.arm.forward(now);
+  const Twist moved = difference(last_pose_, pose) / period_;
+  last_speed_ = (now - last_command_) / period_;
+  for (int i = 0; i < kAxes; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.joints[k] = degrees(axes_[k].measured());
+    out.command[k] = degrees(now[i]);
+    out.speed[k] = degrees(axes_[k].commanded().velocity);
+  }
+  const Vec3 rpy = to_rpy(pose.orientation);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.position[k] = 1000 * pose.position[i];
+    out.orientation[k] = degrees(rpy[i]);
+    out.velocity[k] = 1000 * moved[i];
+    out.turning[k] = degrees(moved[i + 3]);
+  }
+  out.tool_speed = 1000 * moved.head<3>().norm();
+  out.path_speed = 100 * follower_.speed();
+  out.to_go = follower_.to_go();
+  last_pose_ = pose;
+  last_command_ = now;
+}
+
+}  // namespace indurop::robot

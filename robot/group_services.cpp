@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Services of the group: taking a request, what it begins in which state, and how its end is told.
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/group.h"
+
+namespace indurop::robot {
+
+void Group::serve(const ServiceRequest& request, bool edit) noexcept {
+  if (first_) {
+    // What was asked for before this program started is not done now.
+    first_ = false;
+    acknowledged_ = done_ = request.number;
+    error_ = request.number != 0 ? ErrorCode::Aborted : ErrorCode::Ok;
+    return;
+  }
+  edit_done_ = edit_done_ && edit;
+  const bool numbered = request.number != acknowledged_;
+  if (!numbered && (!edit || by_edit_ || edit_done_)) {
+    by_edit_ = by_edit_ && (edit || active_);
+    return;
+  }
+  acknowledged_ = request.number;
+  by_edit_ = !numbered;
+  begin_service(request);
+}
+
+void Group::begin_service(const ServiceRequest& request) noexcept {
+  service_ = static_cast<Service>(request.code);
+  active_ = true;
+  motion_done_ = false;
+  if (state_ != GroupState::ErrorStop) {
+    error_ = ErrorCode::Ok;
+    error_axis_ = 0;
+  }
+  if (const ErrorCode code = begin(service_, request); code != ErrorCode::Ok) {
+    finish_service(code);
+  }
+}
+
+void Group::finish_service(ErrorCode code, int axis) noexcept {
+  if (!active_) {
+    return;
+  }
+  active_ = false;
+  done_ = acknowledged_;
+  motion_done_ = code == ErrorCode::Ok;
+  edit_done_ = by_edit_;
+  by_edit_ = false;
+  if (state_ != GroupState::ErrorStop || code == ErrorCode::Ok) {
+    error_ = code;
+    error_axis_ = axis;
+  }
+}
+
+ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept {
+  switch (service) {
+    case Service::None:
+      finish_service(ErrorCode::Ok);
+      return ErrorCode::Ok;
+    case Service::GroupEnable:
+      return enable();
+    case Service::GroupDisable:
+      return disable();
+    case Service::GroupReset:
+      waited_ = 0;
+      return reset();
+    case Service::GroupHome:
+      return home();
+    case Service::MoveJoints:
+    case Service::MoveLine:
+    case Service::MoveCircle:
+    case Service::DirectAbsolute:
+    case Service::LinearAbsolute:
+      return move(service, request);
+    case Service::Stop:
+    case Service::JobStop:
+      return stop_motion();
+    case Service::JobStart:
+      return start_job(request.job);
+  }
+  return ErrorCode::Opcode;
+}
+
+ErrorCode Group::enable() noexcept {
+  if (emergency_) {
+    return ErrorCode::Emergency;
+  }
+  if (state_ == GroupState::Standby) {
+    finish_service(ErrorCode::Ok);
+    return ErrorCode::Ok;
+  }
+  if (state_ != GroupState::Disabled) {
+    return ErrorCode::State;
+  }
+  enabling_ = true;
+  quick_stop_ = false;
+  waited_ = 0;
+  for (AxisControl& a : axes_) {
+    a.power(true);
+  }
+  return ErrorCode::Ok;
+}
+
+ErrorCode Group::disable() noexcept {
+  if (state_ == GroupState::Homing || state_ == GroupState::Stopping) {
+    return ErrorCode::State;
+  }
+  job_.stop();
+  planning_ = false;
+  enabling_ = false;
+  if (state_ == GroupState::Moving || state_ == GroupState::Standby) {
+    follower_.stop(1);
+    state_ = GroupState::Stopping;
+    to_disabled_ = true;
+    return ErrorCode::Ok;
+  }
+  for (AxisControl& a : axes_) {
+    a.power(false);
+  }
+  finish_service(ErrorCode::Ok);
+  return ErrorCode::Ok;
+}
+
+// Called again every period until the drives have left their faults.
+ErrorCode Group::reset() noexcept {
+  if (state_ != GroupState::ErrorStop) {
+    finish_service(ErrorCode::Ok);
+    return ErrorCode::Ok;
+  }
+  if (emergency_) {
+    return ErrorCode::Emergency;
+  }
+  constexpr double kTime = 4;  // s
+  waited_ += period_;
+  for (int i = 0; i < kAxes; ++i) {
+    AxisControl& a = axes_[static_cast<std::size_t>(i)];
+    if (a.drive().faulty()) {
+      a.reset();
+      if (waited_ > kTime) {
+        finish_service(ErrorCode::Drive, i + 1);
+      }
+      return ErrorCode::Ok;
+    }
+  }
+  quick_stop_ = false;
+  for (AxisControl& a : axes_) {
+    a.reset();
+  }
+  state_ = GroupState::Disabled;
+  if (all_enabled()) {
+    come_to_standby();
+  } else {
+    for (AxisControl& a : axes_) {
+      a.power(false);
+    }
+  }
+  finish_service(ErrorCode::Ok);
+  return ErrorCode::Ok;
+}
+
+ErrorCode Group::home() noexcept {
+  const bool free = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.busy(); });
+  if (state_ != GroupState::Standby || !free) {
+    return ErrorCode::State;
+  }
+  for (AxisControl& a : axes_) {
+    a.home();
+  }
+  state_ = GroupState::Homing;
+  return ErrorCode::Ok;
+}
+
+ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
+  const bool free = std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.busy(); });
+  const bool possible = (state_ == GroupState::Standby && free) || (state_ == GroupState::Moving && !job_.running());
+  if (!possible || !ready()) {
+    return ErrorCode::State;
+  }
+  if (std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.homed(); })) {
+    return ErrorCode::NotHomed;
+  }
+  MoveCommand command;
+  const bool direct = service == Service::DirectAbsolute;
+  const bool linear = service == Service::LinearAbsolute;
+  command.move = service == Service::MoveCircle           ? Move::Circle
+                 : service == Service::MoveLine || linear ? Move::Line
+                                                          : Move::Joint;
+  command.speed = request.speed == 0 ? 1 : request.speed / 100;
+  command.zone = request.level / 100.0;
+  const Eigen::Map<const Joints, Eigen::Unaligned> numbers(request.target.data());
+  if (direct) {
+    command.target.joints = numbers * (kPi / 180);
+    command.speed = request.velocity == 0 ? command.speed : request.velocity / 100;
+  } else if (linear) {
+    command.target.is_pose = true;
+    command.target.pose.position = numbers.head<3>() / 1000;
+    command.target.pose.orientation = from_rpy(numbers.tail<3>() * (kPi / 180));
+    command.tool_speed = request.velocity / 1000;
+  } else {
+    const int target = parts_.book.numbered_point(request.point);
+    const int mid = service == Service::MoveCircle ? parts_.book.numbered_point(request.mid) : target;
+    if (target < 0 || mid < 0) {
+      return ErrorCode::Point;
+    }
+    command.target = parts_.book.points[static_cast<std::size_t>(target)].target;
+    command.mid = parts_.book.points[static_cast<std::size_t>(mid)].target;
+  }
+  const Fault fault = move(command);
+  if (!fault.ok()) {
+    finish_service(fault.code, fault.axis);
+    return ErrorCode::Ok;
+  }
+  state_ = GroupState::Moving;
+  return ErrorCode::Ok;
+}
+
+ErrorCode Group::start_job(std::uint32_t number) noexcept {
+  const bool free = std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.busy(); });
+  if (number == 0 || number > parts_.book.jobs.size()) {
+    return ErrorCode::Job;
+  }
+  if (state_ != GroupState::Standby || !free) {
+    return ErrorCode::State;
+  }
+  if (std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.homed(); })) {
+    return ErrorCode::NotHomed;
+  }
+  job_.start(static_cast<int>(number) - 1);
+  follower_.reset(commanded());
+  last_command_ = commanded();
+  state_ = GroupState::Moving;
+  job_moves_ = true;
+  return ErrorCode::Ok;
+}
+
+ErrorCode Group::stop_motion() noexcept {
+  if (state_ == GroupState::Standby || state_ == GroupState::Disabled) {
+    finish_service(ErrorCode::Ok);
+    return ErrorCode::Ok;
+  }
+  if (state_ != GroupState::Moving) {
+    return ErrorCode::State;
+  }
+  job_.stop();
+  planning_ = false;
+  follower_.stop(1);
+  state_ = GroupState::Stopping;
+  return ErrorCode::Ok;
+}
+
+}  // namespace indurop::robot

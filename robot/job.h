@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs in memory: points, and steps with all names resolved, so that running one is a matter of numbers.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "robot/segment.h"
+
+namespace indurop::robot {
+
+enum class Op : std::uint8_t {
+  Move,        // index: point; mid: point
+  Speed,       // value: part of full speed, or m/s if index is 1
+  Zone,        // value: m
+  Set,         // index: signal; value
+  WaitSignal,  // index: signal; compare; value; timeout
+  WaitTime,    // value: s
+  Call,        // index: job
+  Goto,        // index: step
+  If,          // signal in mid; compare; value; index: step if true
+  Loop,        // value: times, 0: for ever; index: step behind its End
+  End          // index: step of its Loop
+};
+
+enum class Compare : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual };
+
+struct Step {
+  Op op = Op::Move;
+  Move move = Move::Joint;
+  Compare compare = Compare::Equal;
+  std::uint32_t line = 0;
+  int index = -1;
+  int mid = -1;
+  double value = 0;
+  double timeout = 0;  // s; 0: none
+};
+
+struct Point {
+  std::string name;
+  Target target;
+  std::string place;  // "file:line:col"
+};
+
+struct Job {
+  std::string name;  // of the file, without folder and ending
+  std::string file;
+  std::vector<Step> steps;
+};
+
+struct JobBook {
+  std::vector<Point> points;
+  std::vector<Job> jobs;
+  std::vector<std::string> signals;
+
+  // Index of the point called P<number>; -1 if there is none.
+  [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
+  std::vector<int> numbered;  // by number, filled by parse_jobs
+};
+
+struct JobFile {
+  std::string path;  // as it appears in messages
+  std::string text;
+};
+
+// All files together: points and jobs may be used before and beyond the file that declares them. Errors are added in
+// order, "file:line:col: error: text"; the result counts only if there are none. Not real-time safe.
+JobBook parse_jobs(const std::vector<JobFile>& files, std::vector<std::string>& errors);
+
+[[nodiscard]] bool holds(Compare compare, double left, double right) noexcept;
+
+}  // namespace indurop::robot

@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/job_parser.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr std::size_t kMostSteps = 20000;
+constexpr std::size_t kDeepest = 8;
+constexpr const char* kStatements =
+    "POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, SET, WAIT, CALL, LABEL, GOTO, IF, LOOP and END";
+
+std::string name_of(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  const std::string file = slash == std::string::npos ? path : path.substr(slash + 1);
+  return file.substr(0, file.find('.'));
+}
+
+std::string quoted(std::string_view text) {
+  return "'" + std::string(text) + "'";
+}
+
+}  // namespace
+
+bool holds(Compare compare, double left, double right) noexcept {
+  switch (compare) {
+    case Compare::Equal:
+      return left == right;
+    case Compare::NotEqual:
+      return left != right;
+    case Compare::Less:
+      return left < right;
+    case Compare::LessEqual:
+      return left <= right;
+    case Compare::Greater:
+      return left > right;
+    case Compare::GreaterEqual:
+      return left >= right;
+  }
+  return false;
+}
+
+std::string JobParser::shown(const JobToken& token) {
+  return token.kind == JobToken::Kind::End ? std::string("the end of the line") : quoted(token.text);
+}
+
+void JobParser::error(const JobToken& at, const std::string& text) {
+  if (!failed_) {
+    errors_.add(job().file, line_, at.column, text);
+  }
+  failed_ = true;
+}
+
+bool JobParser::accept(std::string_view word) {
+  const bool matches = peek().kind != JobToken::Kind::Number && same_word(peek().text, word);
+  at_ += matches ? 1 : 0;
+  return matches;
+}
+
+Step& JobParser::add(Op op) {
+  Step step;
+  step.op = op;
+  step.line = static_cast<std::uint32_t>(line_);
+  job().steps.push_back(step);
+  return job().steps.back();
+}
+
+void JobParser::expect_end() {
+  if (peek().kind != JobToken::Kind::End) {
+    error(peek(), "unexpected " + shown(peek()) + "; one statement per line");
+  }
+}
+
+void JobParser::read(const JobFile& file) {
+  book_.jobs.push_back({name_of(file.path), file.path, {}});
+  labels_.emplace_back();
+  loops_.clear();
+  std::string_view rest = file.text;
+  if (rest.starts_with("\xEF\xBB\xBF")) {
+    rest.remove_prefix(3);
+  }
+  for (line_ = 1; !rest.empty() && job().steps.size() <= kMostSteps; ++line_) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    tokens_ = split_job_line(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    at_ = 0;
+    failed_ = false;
+    if (peek().kind != JobToken::Kind::End) {
+      statement();
+    }
+  }
+  JobToken start;
+  failed_ = false;
+  if (job().steps.size() > kMostSteps) {
+    error(start, "more than " + std::to_string(kMostSteps) + " steps; split the job and use CALL");
+  }
+  for (const std::size_t loop : loops_) {
+    errors_.add(file.path, job().steps[loop].line, 1, "LOOP without END");
+  }
+}
+
+void JobParser::statement() {
+  struct Known {
+    const char* word;
+    void (*parse)(JobParser&);
+  };
+  static constexpr Known kKnown[] = {
+      {"POINT", [](JobParser& p) { p.point(); }},
+      {"SPEED", [](JobParser& p) { p.speed(); }},
+      {"ZONE", [](JobParser& p) { p.zone(); }},
+      {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
+      {"MOVL", [](JobParser& p) { p.move(Move::Line); }},
+      {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
+      {"SET", [](JobParser& p) { p.set(); }},
+      {"WAIT", [](JobParser& p) { p.wait(); }},
+      {"CALL", [](JobParser& p) { p.jump(Op::Call); }},
+      {"LABEL", [](JobParser& p) { p.label(); }},
+      {"GOTO", [](JobParser& p) { p.jump(Op::Goto); }},
+      {"IF", [](JobParser& p) { p.if_goto(); }},
+      {"LOOP", [](JobParser& p) { p.loop(); }},
+      {"END", [](JobParser& p) { p.end_loop(); }},
+  };
+  for (const Known& known : kKnown) {
+    if (accept(known.word)) {
+      known.parse(*this);
+      if (!failed_) {
+        expect_end();
+      }
+      return;
+    }
+  }
+  error(peek(), "unknown statement " + shown(peek()) + "; known are " + kStatements);
+}
+
+bool JobParser::numbers(int count, double* to, const char* what) {
+  for (int i = 0; i < count; ++i) {
+    accept(",");
+    if (peek().kind != JobToken::Kind::Number || !std::isfinite(peek().value)) {
+      error(peek(), "expected " + std::to_string(count) + " numbers: " + what + "; found " + shown(peek()) +
+                        " as number " + std::to_string(i + 1));
+      return false;
+    }
+    to[i] = take().value;
+  }
+  return true;
+}
+
+void JobParser::joint_point(Target& target) {
+  double q[kAxes];
+  if (numbers(kAxes, q, "the angles of the six joints in degrees")) {
+    for (int i = 0; i < kAxes; ++i) {
+      target.joints[i] = radians(q[i]);
+    }
+  }
+}
+
+void JobParser::pose_point(Target& target) {
+  target.is_pose = true;
+  double position[3];
+  double rpy[3];
+  if (!numbers(3, position, "x y z in mm")) {
+    return;
+  }
+  if (!accept("RPY")) {
+    error(peek(), "expected RPY and roll, pitch and yaw in degrees, found " + shown(peek()));
+    return;
+  }
+  if (!numbers(3, rpy, "roll, pitch and yaw in degrees")) {
+    return;
+  }
+  target.pose.position = Vec3(position[0], position[1], position[2]) / 1000;
+  target.pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
+  if (accept("POSTURE")) {
+    double posture = 0;
+    if (!(numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7)) {
+      error(tokens_[at_ - 1],
+            "a posture is a number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
+      return;
+    }
+    target.posture = static_cast<std::uint8_t>(posture);
+  }
+}
+
+void JobParser::point() {
+  const JobToken name = take();
+  if (name.kind != JobToken::Kind::Word) {
+    error(name, "expected the name of the point, found " + shown(name));
+    return;
+  }
+  if (!accept("=")) {
+    error(peek(), "expected '=', found " + shown(peek()) + "; POINT " + std::string(name.text) +
+                      " = JOINT 0 0 0 0 0 0, or = POSE 500 0 300 RPY 180 0 0");
+    return;
+  }
+  Target target;
+  if (accept("JOINT")) {
+    joint_point(target);
+  } else if (accept("POSE")) {
+    pose_point(target);
+  } else {
+    error(peek(), "expected JOINT or POSE, found " + shown(peek()));
+  }
+  const std::string text(name.text);
+  const auto [found, fresh] = point_places_.try_emplace(text, job().file + ":" + std::to_string(line_));
+  if (!fresh) {
+    error(name, "there is already a point " + quoted(text) + " at " + found->second);
+  }
+  if (fresh && !failed_) {
+    book_.points.push_back(
+        {text, target, job().file + ":" + std::to_string(line_) + ":" + std::to_string(name.column)});
+  }
+}
+
+void JobParser::reference(JobReference::To to, const char* what) {
+  const JobToken name = take();
+  if (name.kind != JobToken::Kind::Word) {
+    error(name, std::string("expected the name of a ") + what + ", found " + shown(name));
+    return;
+  }
+  references_.push_back(
+      {to, book_.jobs.size() - 1, job().steps.size() - 1, std::string(name.text), line_, name.column});
+}
+
+void JobParser::move(Move kind) {
+  add(Op::Move).move = kind;
+  if (kind == Move::Circle) {
+    reference(JobReference::To::Mid, "point on the circle");
+    accept(",");
+  }
+  if (!failed_) {
+    reference(JobReference::To::Target, "point");
+  }
+}
+
+void JobParser::speed() {
+  const JobToken number = peek();
+  double value = 0;
+  if (!numbers(1, &value, "the speed, 50% or 250 mm/s")) {
+    return;
+  }
+  Step& step = add(Op::Speed);
+  if (accept("%")) {
+    step.value = value / 100;
+    if (!(value > 0 && value <= 100)) {
+      error(number, "a speed is above 0 and at most 100 %");
+    }
+    return;
+  }
+  // "mm/s" is a word, and a sign no other statement has.
+  const bool mm = accept("mm");
+  const bool per_second = mm && accept("/") && accept("s");
+  if (!per_second) {
+    error(peek(), "expected % or mm/s, found " + shown(peek()));
+    return;
+  }
+  step.index = 1;
+  step.value = value / 1000;
+  if (!(value > 0)) {
+    error(number, "a speed is above 0");
+  }
+}
+
+void JobParser::zone() {
+  const JobToken number = peek();
+  double value = 0;
+  if (!numbers(1, &value, "the zone, 20 mm")) {
+    return;
+  }
+  accept("mm");
+  add(Op::Zone).value = value / 1000;
+  if (!(value >= 0 && value <= 1000)) {
+    error(number, "a zone is from 0 (stop at the point) to 1000 mm");
+  }
+}
+
+int JobParser::signal(const char* what) {
+  const JobToken name = take();
+  if (name.kind != JobToken::Kind::Word) {
+    error(name, std::string("expected ") + what + ", found " + shown(name));
+    return -1;
+  }
+  const auto found = std::find(book_.signals.begin(), book_.signals.end(), name.text);
+  if (found == book_.signals.end()) {
+    book_.signals.emplace_back(name.text);
+    return static_cast<int>(book_.signals.size()) - 1;
+  }
+  return static_cast<int>(found - book_.signals.begin());
+}
+
+void JobParser::set() {
+  const int index = signal("the name of a variable");
+  accept("=");
+  double value = 1;
+  if (accept("OFF")) {
+    value = 0;
+  } else if (!accept("ON") && !numbers(1, &value, "ON, OFF or the value")) {
+    return;
+  }
+  Step& step = add(Op::Set);
+  step.index = index;
+  step.value = value;
+}
+
+// "I2", "I2 ON", "I2 OFF", "I2 >= 5"
+void JobParser::condition(Step& step, int& index) {
+  static constexpr std::pair<const char*, Compare> kSigns[] = {
+      {"=", Compare::Equal}, {"==", Compare::Equal},     {"!=", Compare::NotEqual}, {"<>", Compare::NotEqual},
+      {"<", Compare::Less},  {"<=", Compare::LessEqual}, {">", Compare::Greater},   {">=", Compare::GreaterEqual},
+  };
+  index = signal("the name of a variable");
+  step.compare = Compare::NotEqual;
+  step.value = 0;
+  if (failed_ || accept("ON")) {
+    return;
+  }
+  if (accept("OFF")) {
+    step.compare = Compare::Equal;
+    return;
+  }
+  for (const auto& [sign, compare] : kSigns) {
+    if (accept(sign)) {
+      step.compare = compare;
+      const bool on = accept("ON");
+      if (on || accept("OFF")) {
+        step.value = on ? 1 : 0;
+      } else {
+        numbers(1, &step.value, "the value to compare with");
+      }
+      return;
+    }
+  }
+}
+
+bool JobParser::duration(double& seconds) {
+  const JobToken number = peek();
+  if (!numbers(1, &seconds, "a time, 0.5s or 200 ms")) {
+    return false;
+  }
+  const bool ms = accept("ms");
+  if (!ms && !accept("s")) {
+    error(peek(), "expected s or ms, found " + shown(peek()));
+    return false;
+  }
+  seconds = ms ? seconds / 1000 : seconds;
+  if (!(seconds >= 0 && seconds <= 86400)) {
+    error(number, "a time is from 0 to 86400 s");
+    return false;
+  }
+  return true;
+}
+
+void JobParser::wait() {
+  if (peek().kind == JobToken::Kind::Number) {
+    double seconds = 0;
+    if (duration(seconds)) {
+      add(Op::WaitTime).value = seconds;
+    }
+    return;
+  }
+  Step step;
+  condition(step, step.index);
+  if (!failed_ && accept("TIMEOUT")) {
+    duration(step.timeout);
+  }
+  Step& added = add(Op::WaitSignal);
+  step.op = added.op;
+  step.line = added.line;
+  added = step;
+}
+
+void JobParser::jump(Op op) {
+  add(op);
+  const bool call = op == Op::Call;
+  reference(call ? JobReference::To::Job : JobReference::To::Label, call ? "job" : "label");
+}
+
+void JobParser::if_goto() {
+  Step step;
+  condition(step, step.mid);
+  if (!failed_ && !accept("GOTO")) {
+    error(peek(), "expected GOTO and a label, found " + shown(peek()));
+    return;
+  }
+  Step& added = add(Op::If);
+  step.op = added.op;
+  step.line = added.line;
+  added = step;
+  if (!failed_) {
+    reference(JobReference::To::Label, "label");
+  }
+}
+
+void JobParser::label() {
+  const JobToken name = take();
+  if (name.kind != JobToken::Kind::Word) {
+    error(name, "expected the name of the label, found " + shown(name));
+    return;
+  }
+  const auto [found, fresh] = labels_.back().try_emplace(std::string(name.text), JobLabel{job().steps.size(), line_});
+  if (!fresh) {
+    error(name, "there is already a label " + quoted(name.text) + " in line " + std::to_string(found->second.line));
+  }
+}
+
+void JobParser::loop() {
+  Step& step = add(Op::Loop);
+  if (peek().kind == JobToken::Kind::Number) {
+    const JobToken times = take();
+    step.value = times.value;
+    if (!(times.value >= 1 && times.value <= 1e9 && times.value == std::floor(times.value))) {
+      error(times, "a LOOP runs a whole number of times, from 1; without a number it runs for ever");
+    }
+  }
+  if (loops_.size() >= kDeepest) {
+    error(tokens_[0], "at most " + std::to_string(kDeepest) + " LOOPs inside each other; use CALL");
+  }
+  loops_.push_back(job().steps.size() - 1);
+}
+
+void JobParser::end_loop() {
+  if (loops_.empty()) {
+    error(tokens_[0], "END without LOOP");
+    return;
+  }
+  const std::size_t start = loops_.back();
+  loops_.pop_back();
+  add(Op::End).index = static_cast<int>(start);
+  job().steps[start].index = static_cast<int>(job().steps.size());
+}
+
+}  // namespace indurop::robot

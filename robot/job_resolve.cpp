@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is only known when all job files have been read: which point, job or label a name means.
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+#include "robot/job_parser.h"
+
+namespace indurop::robot {
+
+namespace {
+
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t replaced = corner + (same_word(a.substr(i, 1), b.substr(k, 1)) ? 0 : 1);
+      corner = row[k + 1];
+      row[k + 1] = std::min({replaced, row[k] + 1, row[k + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string meant(std::string_view name, const std::vector<std::string>& known) {
+  const std::string* best = nullptr;
+  std::size_t fewest = name.size() / 3 + 2;
+  for (const std::string& one : known) {
+    if (const std::size_t n = edits(name, one); n < fewest) {
+      fewest = n;
+      best = &one;
+    }
+  }
+  return best == nullptr ? "" : "; did you mean '" + *best + "'?";
+}
+
+template <class List>
+int index_of(const List& list, std::string_view name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  names.reserve(list.size());
+  for (const auto& one : list) {
+    names.push_back(one.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void JobParser::resolve() {
+  const auto fail = [&](const JobReference& reference, const char* what, const std::vector<std::string>& known) {
+    errors_.add(book_.jobs[reference.job].file, reference.line, reference.column,
+                std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));
+  };
+  for (const JobReference& reference : references_) {
+    Step& step = book_.jobs[reference.job].steps[reference.step];
+    if (reference.to == JobReference::To::Label) {
+      const auto& labels = labels_[reference.job];
+      const auto found = labels.find(reference.name);
+      std::vector<std::string> known;
+      for (const auto& [name, label] : labels) {
+        known.push_back(name);
+      }
+      found == labels.end() ? fail(reference, "label", known) : void(step.index = static_cast<int>(found->second.step));
+    } else if (reference.to == JobReference::To::Job) {
+      step.index = index_of(book_.jobs, reference.name);
+      step.index < 0 ? fail(reference, "job", names_of(book_.jobs)) : void();
+    } else {
+      const int point = index_of(book_.points, reference.name);
+      (reference.to == JobReference::To::Mid ? step.mid : step.index) = point;
+      point < 0 ? fail(reference, "point", names_of(book_.points)) : void();
+    }
+  }
+}
+
+JobBook parse_jobs(const std::vector<JobFile>& files, std::vector<std::string>& errors) {
+  JobBook book;
+  JobErrors list(errors);
+  JobParser parser(book, list);
+  for (const JobFile& file : files) {
+    parser.read(file);
+  }
+  parser.resolve();
+  constexpr unsigned kHighest = 9999;
+  for (std::size_t i = 0; i < book.points.size(); ++i) {
+    const std::string& name = book.points[i].name;
+    unsigned number = 0;
+    const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+    if (name[0] != 'P' || error != std::errc{} || end != name.data() + name.size() || number > kHighest) {
+      continue;
+    }
+    if (book.numbered.size() <= number) {
+      book.numbered.resize(number + 1, -1);
+    }
+    book.numbered[number] = static_cast<int>(i);
+  }
+  return book;
+}
+
+int JobBook::numbered_point(std::uint32_t number) const noexcept {
+  return number < numbered.size() ? numbered[number] : -1;
+}
+
+}  // namespace indurop::robot

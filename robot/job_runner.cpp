@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/job_runner.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
+constexpr int kLineBits = 20;        // MoveCommand::source = job and line
+
+bool touches_world(Op op) noexcept {
+  return op == Op::Set || op == Op::WaitSignal || op == Op::WaitTime || op == Op::If;
+}
+
+std::uint32_t line_of(int source) noexcept {
+  return static_cast<std::uint32_t>(source) & ((1U << kLineBits) - 1);
+}
+
+}  // namespace
+
+void JobRunner::start(int job) noexcept {
+  state_ = JobState::Runs;
+  depth_ = 0;
+  frames_[0] = {};
+  frames_[0].job = job;
+  job_ = job;
+  waited_ = 0;
+  speed_ = 1;
+  tool_speed_ = 0;
+  zone_ = 0;
+  line_ = 0;
+  message_[0] = '\0';
+}
+
+void JobRunner::stop() noexcept {
+  if (running()) {
+    state_ = JobState::Idle;
+  }
+}
+
+void JobRunner::fail(Fault fault, const char* why, int source) noexcept {
+  if (!running()) {
+    return;
+  }
+  state_ = JobState::Failed;
+  fault_ = fault;
+  const int job = source > 0 ? source >> kLineBits : frame().job;
+  line_ = source > 0 ? line_of(source) : line_;
+  const std::string& file = job_of(job).file;
+  const char* name = file.c_str() + (file.find_last_of('/') + 1);
+  std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);
+}
+
+JobReport JobRunner::report(int source) const noexcept {
+  JobReport report;
+  report.state = state_;
+  report.job = static_cast<std::uint32_t>(job_ + 1);
+  report.line = running() && source > 0 ? line_of(source) : line_;
+  report.cycles = cycles_;
+  report.name = job_ >= 0 ? job_of(job_).name.c_str() : "";
+  report.message = message_;
+  return report;
+}
+
+const Step* JobRunner::present() const noexcept {
+  const auto& steps = job_of(frame().job).steps;
+  const auto at = static_cast<std::size_t>(frame().step);
+  return at < steps.size() ? &steps[at] : nullptr;
+}
+
+void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
+  for (int i = 0; i < kStepsPerPeriod && running(); ++i) {
+    const Step* step = present();
+    Next next = Next::Wait;
+    if (step == nullptr) {
+      next = leave(port);
+    } else if (!touches_world(step->op) || port.settled()) {
+      line_ = step->line;
+      next = run(*step, i == 0 ? seconds : 0, signals, port);
+    }
+    if (next == Next::Wait) {
+      return;
+    }
+    waited_ = 0;
+    state_ = running() ? JobState::Runs : state_;
+  }
+}
+
+JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
+  if (depth_ > 0) {
+    --depth_;
+    return Next::Go;
+  }
+  if (port.settled()) {
+    state_ = JobState::Ended;
+    ++cycles_;
+  }
+  return Next::Wait;
+}
+
+JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
+  Next next = Next::Go;
+  switch (step.op) {
+    case Op::Move:
+      return move(step, port);
+    case Op::WaitSignal:
+      next = wait_signal(step, seconds, signals);
+      break;
+    case Op::WaitTime:
+      next = wait_time(step, seconds);
+      break;
+    case Op::Call:
+      return call(step);
+    case Op::Speed:
+      (step.index == 1 ? tool_speed_ : speed_) = step.value;
+      tool_speed_ = step.index == 1 ? tool_speed_ : 0;
+      break;
+    case Op::Zone:
+      zone_ = step.value;
+      break;
+    case Op::Set:
+      signals.write(static_cast<std::size_t>(step.index), step.value);
+      break;
+    case Op::Goto:
+      jump(step.index);
+      return Next::Go;
+    case Op::If:
+      if (holds(step.compare, signals.read(static_cast<std::size_t>(step.mid)), step.value)) {
+        jump(step.index);
+        return Next::Go;
+      }
+      break;
+    case Op::Loop:
+      loop(step);
+      break;
+    case Op::End:
+      end_loop(step);
+      return Next::Go;
+  }
+  frame().step += next == Next::Go ? 1 : 0;
+  return next;
+}
+
+JobRunner::Next JobRunner::move(const Step& step, MotionPort& port) noexcept {
+  if (!port.ready()) {
+    return Next::Wait;
+  }
+  MoveCommand command;
+  command.move = step.move;
+  command.target = book_.points[static_cast<std::size_t>(step.index)].target;
+  if (step.mid >= 0) {
+    command.mid = book_.points[static_cast<std::size_t>(step.mid)].target;
+  }
+  command.speed = speed_;
+  command.tool_speed = step.move == Move::Joint ? 0 : tool_speed_;
+  command.zone = zone_;
+  command.source = frame().job << kLineBits | static_cast<int>(step.line);
+  if (const Fault fault = port.move(command); !fault.ok()) {
+    fail(fault, to_string(fault.code), command.source);
+    return Next::Wait;
+  }
+  ++frame().step;
+  return Next::Go;
+}
+
+JobRunner::Next JobRunner::wait_signal(const Step& step, double seconds, Signals& signals) noexcept {
+  if (holds(step.compare, signals.read(static_cast<std::size_t>(step.index)), step.value)) {
+    return Next::Go;
+  }
+  state_ = JobState::Waits;
+  waited_ += seconds;
+  if (step.timeout > 0 && waited_ >= step.timeout) {
+    fail({ErrorCode::Line}, "waited in vain", 0);
+  }
+  return Next::Wait;
+}
+
+JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept {
+  // The period in which the wait begins does not count, so that a wait is never shorter than written.
+  waited_ += state_ == JobState::Waits ? seconds : 0;
+  state_ = JobState::Waits;
+  constexpr double kRounding = 1e-9;
+  return waited_ + kRounding >= step.value ? Next::Go : Next::Wait;
+}
+
+JobRunner::Next JobRunner::call(const Step& step) noexcept {
+  if (depth_ + 1 >= kDeepest) {
+    fail({ErrorCode::Line}, "jobs call each other too deep", 0);
+    return Next::Wait;
+  }
+  ++frame().step;
+  ++depth_;
+  frame() = {};
+  frame().job = step.index;
+  return Next::Go;
+}
+
+void JobRunner::jump(int step) noexcept {
+  Frame& here = frame();
+  here.step = step;
+  // Loops that do not enclose the label are left; one entered from outside runs once.
+  const auto& steps = job_of(here.job).steps;
+  int open = 0;
+  for (int i = 0; i < step; ++i) {
+    const Op op = steps[static_cast<std::size_t>(i)].op;
+    open += op == Op::Loop ? 1 : op == Op::End ? -1 : 0;
+  }
+  for (; here.loops < open; ++here.loops) {
+    here.left[static_cast<std::size_t>(here.loops)] = 1;
+  }
+  here.loops = open;
+}
+
+void JobRunner::loop(const Step& step) noexcept {
+  constexpr double kForEver = 0;
+  frame().left[static_cast<std::size_t>(frame().loops++)] = step.value > 0 ? step.value : kForEver;
+}
+
+void JobRunner::end_loop(const Step& step) noexcept {
+  Frame& here = frame();
+  double& left = here.left[static_cast<std::size_t>(here.loops - 1)];
+  const bool for_ever = left == 0;
+  left -= for_ever ? 0 : 1;
+  if (for_ever || left > 0) {
+    here.step = step.index + 1;
+  } else {
+    --here.loops;
+    ++here.step;
+  }
+}
+
+}  // namespace indurop::robot

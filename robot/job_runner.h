@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a job, as many of its steps per period as can be done at once. Motions are read ahead so that they can be
+// blended; a step that looks at or changes the outside world waits until the robot stands still.
+
+#pragma once
+
+#include <indurop/robot/controller.h>
+
+#include <array>
+
+#include "robot/errors.h"
+#include "robot/job.h"
+
+namespace indurop::robot {
+
+// What a job needs of the group.
+class MotionPort {
+ public:
+  virtual ~MotionPort() = default;
+  // Another motion can be taken now.
+  [[nodiscard]] virtual bool ready() const noexcept = 0;
+  // Everything commanded has ended.
+  [[nodiscard]] virtual bool settled() const noexcept = 0;
+  virtual Fault move(const MoveCommand& command) noexcept = 0;
+};
+
+class JobRunner {
+ public:
+  explicit JobRunner(const JobBook& book) noexcept : book_(book) {}
+
+  // `job` counts from 0 and exists. Real-time safe, as all here.
+  void start(int job) noexcept;
+  // Ends the job where it is. `why` is kept as message and must outlive this; null: ended by request.
+  void stop() noexcept;
+  // Ends it with a message that names file and line: of the motion called `source`, or, if that is 0, of the present
+  // step.
+  void fail(Fault fault, const char* why, int source) noexcept;
+  void step(double seconds, Signals& signals, MotionPort& port) noexcept;
+
+  [[nodiscard]] bool running() const noexcept { return state_ == JobState::Runs || state_ == JobState::Waits; }
+  // With the line of the motion called `source` while the job runs ahead of it.
+  [[nodiscard]] JobReport report(int source) const noexcept;
+  [[nodiscard]] JobState state() const noexcept { return state_; }
+  // Why it failed last.
+  [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
+
+ private:
+  enum class Next { Go, Wait };
+  static constexpr int kDeepest = 8;
+  struct Frame {
+    int job = 0;
+    int step = 0;
+    int loops = 0;
+    std::array<double, kDeepest> left{};  // times the open loops still run
+  };
+
+  [[nodiscard]] const Step* present() const noexcept;
+  Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
+  Next move(const Step& step, MotionPort& port) noexcept;
+  Next wait_signal(const Step& step, double seconds, Signals& signals) noexcept;
+  Next wait_time(const Step& step, double seconds) noexcept;
+  Next call(const Step& step) noexcept;
+  void jump(int step) noexcept;
+  void loop(const Step& step) noexcept;
+  void end_loop(const Step& step) noexcept;
+  Next leave(MotionPort& port) noexcept;
+
+  [[nodiscard]] Frame& frame() noexcept { return frames_[static_cast<std::size_t>(depth_)]; }
+  [[nodiscard]] const Frame& frame() const noexcept { return frames_[static_cast<std::size_t>(depth_)]; }
+  [[nodiscard]] const Job& job_of(int index) const noexcept { return book_.jobs[static_cast<std::size_t>(index)]; }
+
+  const JobBook& book_;
+  JobState state_ = JobState::Idle;
+  std::array<Frame, kDeepest> frames_{};
+  int depth_ = 0;
+  int job_ = -1;
+  double waited_ = 0;  // s in the present step
+  double speed_ = 1;
+  double tool_speed_ = 0;
+  double zone_ = 0;
+  std::uint32_t line_ = 0;
+  std::uint32_t cycles_ = 0;
+  Fault fault_;
+  char message_[160] = "";
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// One line of a job file as words, numbers and signs, with the places that error messages name.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::robot {
+
+struct JobToken {
+  enum class Kind { Word, Number, Sign, Junk, End };
+  Kind kind = Kind::End;
+  std::string_view text;
+  double value = 0;
+  std::size_t column = 1;
+};
+
+// The last token is always an End. Comments begin with # or //.
+std::vector<JobToken> split_job_line(std::string_view line);
+// Letters of ASCII only; keywords may be written small.
+bool same_word(std::string_view a, std::string_view b) noexcept;
+
+// Messages "file:line:col: error: text".
+class JobErrors {
+ public:
+  explicit JobErrors(std::vector<std::string>& list) : list_(list) {}
+  void add(const std::string& file, std::size_t line, std::size_t column, const std::string& text);
+
+ private:
+  std::vector<std::string>& list_;
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/planner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSpacing = 0.01;  // m between places that are looked at
+constexpr int kFewest = 24;        // places
+constexpr int kBlendPlaces = 16;
+constexpr double kSlowest = 0.02;      // part of full speed below which a path counts as singular
+constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to turn over
+
+ErrorCode code_of(Reach reach) noexcept {
+  switch (reach) {
+    case Reach::Ok:
+      return ErrorCode::Ok;
+    case Reach::OutOfReach:
+      return ErrorCode::Unreachable;
+    case Reach::JointLimit:
+      return ErrorCode::JointLimit;
+  }
+  return ErrorCode::Unreachable;
+}
+
+bool finite(const Target& target) noexcept {
+  return target.joints.allFinite() && target.pose.position.allFinite() && target.pose.orientation.coeffs().allFinite();
+}
+
+// Whether a sharp corner is not so slow to go round that stopping there would be faster.
+bool faster(const Segment& first, const Blend& blend, const Segment& second) noexcept {
+  const double speed = blend.limits.velocity;
+  if (!(speed > 0)) {
+    return false;
+  }
+  const double to = Profile::to_position({}, first.length - blend.zone, speed, first.limits).duration();
+  const double from = Profile::to_position({0, speed, 0}, second.length - blend.zone, 0, second.limits).duration();
+  return to + blend.length() / speed + from < Profile::to_position({}, first.length, 0, first.limits).duration() +
+                                                  Profile::to_position({}, second.length, 0, second.limits).duration();
+}
+
+double shared(double limit, double part) noexcept {
+  return part > 1e-12 ? limit / part : HUGE_VAL;
+}
+
+}  // namespace
+
+LineLimits limits_along(const Joints* places, int count, double spacing, const JointLimits& joints,
+                        const LineLimits& most) noexcept {
+  // Shares of a joint's acceleration and jerk that go into keeping to a bent path; the rest is for changes of speed.
+  constexpr double kBending = 1 - Planner::kShareOfBraking;
+  constexpr double kBendingJerk = 0.6;
+  constexpr double kMixedJerk = 0.2;
+  const auto rates = [&](int i, Joints& first, Joints& second, Joints& third) {
+    const int k = std::clamp(i, 1, count - 1);
+    const int m = std::clamp(i, 1, count - 2);
+    first = (places[i + 1] - places[i]).cwiseAbs() / spacing;
+    second = (places[k + 1] - 2 * places[k] + places[k - 1]).cwiseAbs() / (spacing * spacing);
+    third =
+        (places[m + 2] - 3 * places[m + 1] + 3 * places[m] - places[m - 1]).cwiseAbs() / (spacing * spacing * spacing);
+  };
+  Joints first;
+  Joints second;
+  Joints third;
+  LineLimits result = most;
+  for (int i = 0; i < count; ++i) {
+    rates(i, first, second, third);
+    for (int a = 0; a < kAxes; ++a) {
+      result.velocity = std::min({result.velocity, shared(joints.velocity[a], first[a]),
+                                  std::sqrt(shared(kBending * joints.acceleration[a], second[a])),
+                                  std::cbrt(shared(kBendingJerk * joints.jerk[a], third[a]))});
+    }
+  }
+  const double v = result.velocity;
+  for (int i = 0; i < count; ++i) {
+    rates(i, first, second, third);
+    for (int a = 0; a < kAxes; ++a) {
+      const double left = joints.acceleration[a] - second[a] * v * v;
+      result.acceleration = std::min(
+          {result.acceleration, shared(left, first[a]), shared(kMixedJerk / 3 * joints.jerk[a], second[a] * v)});
+      result.jerk = std::min(result.jerk, shared((1 - kBendingJerk - kMixedJerk) * joints.jerk[a], first[a]));
+    }
+  }
+  return result;
+}
+
+Fault Planner::resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept {
+  if (!finite(target)) {
+    return {ErrorCode::Value};
+  }
+  if (!target.is_pose) {
+    joints = target.joints;
+    pose = places_.arm().forward(joints);
+    const int beyond = places_.arm().beyond_limits(joints);
+    return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
+  }
+  pose = target.pose;
+  const auto found = places_.inverse().nearest(pose, near, target.posture);
+  joints = found.solution.q;
+  return {code_of(found.reach)};
+}
+
+Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
+  segment_ = {};
+  segment_.move = command.move;
+  segment_.from = from;
+  segment_.start = places_.arm().forward(from);
+  segment_.zone = command.zone;
+  segment_.source = command.source;
+  count_ = 0;
+  next_ = 1;
+  const bool sane = command.speed > 0 && command.speed <= 1 && command.tool_speed >= 0 && command.zone >= 0;
+  if (!sane || !from.allFinite()) {
+    return {ErrorCode::Value};
+  }
+  if (const Fault fault = resolve(command.target, from, segment_.to, segment_.end); !fault.ok()) {
+    return fault;
+  }
+  if (command.move == Move::Joint) {
+    measure_joint_motion(command.speed);
+    return {};
+  }
+  if (command.move == Move::Circle) {
+    if (!finite(command.mid)) {
+      return {ErrorCode::Value};
+    }
+    const Pose mid = command.mid.is_pose ? command.mid.pose : places_.arm().forward(command.mid.joints);
+    if (const Fault fault = make_circle(mid.position); !fault.ok()) {
+      return fault;
+    }
+  } else {
+    segment_.way = (segment_.end.position - segment_.start.position).norm();
+  }
+  measure_tool_motion(command);
+  return {};
+}
+
+Fault Planner::make_circle(const Vec3& mid) noexcept {
+  const Vec3 a = mid - segment_.start.position;
+  const Vec3 b = segment_.end.position - segment_.start.position;
+  const Vec3 normal = a.cross(b);
+  const double area = normal.squaredNorm();
+  if (area < 1e-6 * a.squaredNorm() * b.squaredNorm() || area <= 0) {
+    return {ErrorCode::Circle};
+  }
+  segment_.center =
+      segment_.start.position + (a.squaredNorm() * b.cross(normal) - b.squaredNorm() * a.cross(normal)) / (2 * area);
+  segment_.radius_x = segment_.start.position - segment_.center;
+  // The normal is such that the way from start through mid to end turns left about it.
+  segment_.radius_y = normal.normalized().cross(segment_.radius_x);
+  const Vec3 last = segment_.end.position - segment_.center;
+  segment_.angle = std::atan2(segment_.radius_y.dot(last), segment_.radius_x.dot(last));
+  if (segment_.angle <= 0) {
+    segment_.angle += 2 * kPi;
+  }
+  segment_.way = segment_.angle * segment_.radius_x.norm();
+  return {};
+}
+
+void Planner::measure_joint_motion(double speed) noexcept {
+  const Joints change = segment_.to - segment_.from;
+  segment_.length = change.cwiseAbs().cwiseQuotient(joints_.velocity).maxCoeff();
+  if (segment_.length <= 0) {
+    return;
+  }
+  segment_.limits = {speed, HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < kAxes; ++i) {
+    const double rate = std::abs(change[i]) / segment_.length;
+    segment_.limits.acceleration = std::min(segment_.limits.acceleration, shared(joints_.acceleration[i], rate));
+    segment_.limits.jerk = std::min(segment_.limits.jerk, shared(joints_.jerk[i], rate));
+  }
+}
+
+void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
+  Segment& s = segment_;
+  s.turn = rotation_between(s.start.orientation, s.end.orientation);
+  const double angle = s.turn.norm();
+  s.length = std::max(s.way / tool_.velocity, angle / tool_.turn_velocity);
+  if (s.length <= 1e-9) {
+    s.length = 0;
+    return;
+  }
+  const double pace = s.way / s.length;
+  const double turning = angle / s.length;
+  s.limits.velocity = command.speed;
+  if (command.tool_speed > 0) {
+    s.limits.velocity = std::min(1.0, shared(command.tool_speed, pace));
+  }
+  double acceleration = tool_.acceleration;
+  if (s.move == Move::Circle) {
+    // Half of the acceleration holds the tool on the circle.
+    const double bend = pace * pace / s.radius_x.norm();
+    s.limits.velocity = std::min(s.limits.velocity, std::sqrt(shared(acceleration / 2, bend)));
+    acceleration /= 2;
+  }
+  s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool_.turn_acceleration, turning));
+  s.limits.jerk = std::min(shared(tool_.jerk, pace), shared(tool_.turn_jerk, turning));
+  const double finest = std::max(s.way, 0.3 * angle) / kSpacing;
+  count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, kMost);
+  samples_[0] = s.from;
+}
+
+// Between two places with different postures the path goes through a singular position. That can be harmless, if the
+// joints go through it as if it were not there; only a closer look tells.
+Fault Planner::look_closer(double from, double to, const Joints& start) noexcept {
+  constexpr int kParts = 64;
+  const double spacing = (to - from) / kParts;
+  Joints q = start;
+  for (int i = 1; i <= kParts; ++i) {
+    const Joints last = q;
+    if (const Reach reach = places_.on(segment_, from + spacing * i, last, q); reach != Reach::Ok) {
+      return {code_of(reach)};
+    }
+    Eigen::Index axis = 0;
+    const double pace = (q - last).cwiseAbs().cwiseQuotient(joints_.velocity).maxCoeff(&axis) / spacing;
+    segment_.limits.velocity = std::min(segment_.limits.velocity, shared(1, pace));
+    if (pace * kSlowest > 1) {
+      return {ErrorCode::Singular, static_cast<int>(axis) + 1};
+    }
+  }
+  return {};
+}
+
+Fault Planner::check_next() noexcept {
+  Joints& here = samples_[static_cast<std::size_t>(next_)];
+  const Joints& before = samples_[static_cast<std::size_t>(next_) - 1];
+  const double spacing = segment_.length / count_;
+  Solution found;
+  if (const Reach reach = places_.on(segment_, spacing * next_, before, found); reach != Reach::Ok) {
+    return {code_of(reach)};
+  }
+  here = found.q;
+  Eigen::Index axis = 0;
+  if ((here - before).cwiseAbs().maxCoeff(&axis) > kJump) {
+    return {ErrorCode::Singular, static_cast<int>(axis) + 1};
+  }
+  const bool turned_over = next_ > 1 && found.posture != posture_;
+  posture_ = found.posture;
+  return turned_over ? look_closer(spacing * (next_ - 1), spacing * next_, before) : Fault{};
+}
+
+Fault Planner::check(int places) noexcept {
+  for (; places > 0 && next_ <= count_; --places, ++next_) {
+    if (const Fault fault = check_next(); !fault.ok()) {
+      return fault;
+    }
+  }
+  if (!done() || count_ == 0) {
+    return {};
+  }
+  const double wanted = segment_.limits.velocity;
+  segment_.to = samples_[static_cast<std::size_t>(count_)];
+  segment_.limits = limits_along(samples_.data(), count_, segment_.length / count_, joints_, segment_.limits);
+  return {segment_.limits.velocity < std::min(kSlowest, wanted) ? ErrorCode::Singular : ErrorCode::Ok};
+}
+
+Fault Planner::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
+  constexpr double kSlack = 1.05;  // planned limits are exact for joint motions, sampled for the others
+  if (const int beyond = places_.arm().beyond_limits(to, 1e-6); beyond >= 0) {
+    return {ErrorCode::JointLimit, beyond + 1};
+  }
+  for (int i = 0; i < kAxes; ++i) {
+    if (!(std::abs(to[i] - from[i]) <= kSlack * seconds * joints_.velocity[i] + 1e-9)) {
+      return {ErrorCode::Speed, i + 1};
+    }
+  }
+  return {};
+}
+
+Blend Planner::blend(const Segment& first, const Segment& second) const noexcept {
+  Blend result;
+  if (first.zone <= 0 || first.length <= 0 || second.length <= 0) {
+    return result;
+  }
+  // How fast the tool is at the corner, at full speed, says how long the zone is.
+  const Jacobian j = places_.arm().jacobian(first.to);
+  const auto pace = [&](const Segment& s) {
+    return s.move == Move::Joint ? (j.topRows<3>() * ((s.to - s.from) / s.length)).norm() : s.pace();
+  };
+  const double fastest = std::max(pace(first), pace(second));
+  const double half = std::min(first.length, second.length) / 2;
+  result.zone = std::min(half, shared(first.zone, fastest));
+  std::array<Joints, kBlendPlaces + 1> places;
+  const double spacing = result.length() / kBlendPlaces;
+  Joints near = first.to;
+  for (int i = 0; i <= kBlendPlaces; ++i) {
+    if (places_.on(first, result, second, spacing * i, near, near) != Reach::Ok ||
+        places_.arm().beyond_limits(near) >= 0) {
+      return {};
+    }
+    places[static_cast<std::size_t>(i)] = near;
+  }
+  LineLimits most{std::min(first.limits.velocity, second.limits.velocity),
+                  std::min(first.limits.acceleration, second.limits.acceleration),
+                  std::min(first.limits.jerk, second.limits.jerk)};
+  if (first.move != Move::Joint && second.move != Move::Joint) {
+    // The direction of the tool changes by at most this in one second at full speed.
+    const double change = first.pace() + second.pace();
+    const double bend = 1.5 * change / result.length();
+    most.velocity = std::min(most.velocity, std::sqrt(shared(tool_.acceleration / 2, bend)));
+  }
+  result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints_, most);
+  return faster(first, result, second) ? result : Blend{};
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+LineState advanced(const LineState& from, double t, double jerk) noexcept {
+  return {from.position + t * (from.velocity + t * (from.acceleration / 2 + t * jerk / 6)),
+          from.velocity + t * (from.acceleration + t * jerk / 2), from.acceleration + t * jerk};
+}
+
+double sum_of_phases(const Ramp& ramp, const LineState& from) noexcept {
+  LineState state{0, from.velocity, from.acceleration};
+  for (const auto& phase : ramp.phases) {
+    state = advanced(state, phase.duration, phase.jerk);
+  }
+  return state.position;
+}
+
+// Speed once the acceleration has been taken back to zero.
+double velocity_unloaded(const LineState& from, const LineLimits& limits) noexcept {
+  return from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * limits.jerk);
+}
+
+// The way through `peak`, reached as fast as possible, to `arrival`, without any time at the peak.
+double way_through(const LineState& from, double peak, double arrival, const LineLimits& limits) noexcept {
+  return ramp(from, peak, limits).distance + ramp({0, peak, 0}, arrival, limits).distance;
+}
+
+// The argument between `fits`, whose way fits into `length`, and `beyond`, whose way does not, where it just fits.
+template <class Way>
+double just_fitting(double fits, double beyond, double length, const Way& way) noexcept {
+  for (int i = 0; i < 60 && std::abs(beyond - fits) > 1e-15 * (beyond + fits); ++i) {
+    const double middle = (fits + beyond) / 2;
+    (way(middle) <= length ? fits : beyond) = middle;
+  }
+  return fits;
+}
+
+}  // namespace
+
+double Ramp::duration() const noexcept {
+  return phases[0].duration + phases[1].duration + phases[2].duration;
+}
+
+Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept {
+  // Upwards; a ramp down is one up in the mirror.
+  const double sign = velocity >= velocity_unloaded(from, limits) ? 1 : -1;
+  const double a0 = sign * from.acceleration;
+  const double gain = sign * (velocity - from.velocity);
+  const double jerk = limits.jerk;
+  const double peak = std::min(std::sqrt(std::max(0.0, jerk * gain + a0 * a0 / 2)), limits.acceleration);
+  // An acceleration above the limit (which has just been lowered) is taken back first.
+  const double first = peak >= a0 ? 1 : -1;
+  const double first_gain = first * (peak * peak - a0 * a0) / (2 * jerk);
+  const double last_gain = peak * peak / (2 * jerk);
+  Ramp result;
+  result.phases[0] = {std::abs(peak - a0) / jerk, sign * first * jerk};
+  result.phases[1] = {peak > 0 ? std::max(0.0, (gain - first_gain - last_gain) / peak) : 0, 0};
+  result.phases[2] = {peak / jerk, -sign * jerk};
+  result.distance = sum_of_phases(result, from);
+  return result;
+}
+
+Profile Profile::coast(const LineState& state) noexcept {
+  Profile profile;
+  profile.start_ = profile.end_ = state;
+  return profile;
+}
+
+void Profile::append(double duration, double jerk) noexcept {
+  if (duration > 0) {
+    phases_[static_cast<std::size_t>(count_++)] = {duration, jerk};
+    duration_ += duration;
+    end_ = advanced(end_, duration, jerk);
+  }
+}
+
+void Profile::append(const Ramp& ramp) noexcept {
+  for (const auto& phase : ramp.phases) {
+    append(phase.duration, phase.jerk);
+  }
+  end_.acceleration = 0;  // up to rounding it is
+}
+
+Profile Profile::to_velocity(const LineState& from, double velocity, const LineLimits& limits) noexcept {
+  Profile profile = coast(from);
+  velocity = std::clamp(velocity, -limits.velocity, limits.velocity);
+  profile.append(ramp(from, velocity, limits));
+  profile.end_.velocity = velocity;
+  return profile;
+}
+
+Profile Profile::to_position(const LineState& from, double position, double arrival,
+                             const LineLimits& limits) noexcept {
+  const double length = position - from.position;
+  const double top = limits.velocity;
+  double last = std::min(arrival, top);
+  const auto through = [&](double peak) { return way_through(from, peak, last, limits); };
+  const auto straight = [&](double velocity) { return ramp(from, velocity, limits).distance; };
+  Profile profile = coast(from);
+
+  double peak = top;
+  double cruise = 0;
+  if (const double way = through(top); way <= length) {
+    cruise = top > 0 ? (length - way) / top : 0;
+  } else if (straight(last) <= length) {
+    const double unloaded = std::clamp(velocity_unloaded(from, limits), last, top);
+    const bool faster = through(unloaded) <= length;
+    peak = just_fitting(faster ? unloaded : last, faster ? top : unloaded, length, through);
+  } else {
+    // Too short to come to the wanted velocity: as near to it as possible, but when slowing down not above `arrival`.
+    const double unloaded = velocity_unloaded(from, limits);
+    double nearest = last < unloaded ? std::min(unloaded, arrival) : std::max(unloaded, 0.0);
+    nearest = straight(nearest) <= length ? nearest : 0;
+    profile.overshoots_ = straight(nearest) > length * (1 + 1e-9) + 1e-12;
+    last = straight(nearest) > length ? 0 : just_fitting(nearest, last, length, straight);
+    peak = last;
+  }
+  profile.append(ramp(from, peak, limits));
+  profile.append(cruise, 0);
+  profile.append(ramp({0, peak, 0}, last, limits));
+  if (!profile.overshoots_) {
+    profile.end_.position = position;
+  }
+  profile.end_.velocity = last;
+  return profile;
+}
+
+LineState Profile::at(double time) const noexcept {
+  if (time >= duration_) {
+    LineState state = end_;
+    state.position += (time - duration_) * end_.velocity;
+    return state;
+  }
+  LineState state = start_;
+  for (int i = 0; i < count_; ++i) {
+    const auto& phase = phases_[static_cast<std::size_t>(i)];
+    const double t = std::min(time, phase.duration);
+    state = advanced(state, t, phase.jerk);
+    time -= phase.duration;
+    if (time <= 0) {
+      break;
+    }
+  }
+  return state;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jerk-limited motion along one line, as fast as its limits allow: seven phases of constant jerk, from any speed and
+// acceleration. Pure arithmetic: a plan is made when something changes, and then only evaluated.
+
+#pragma once
+
+#include <array>
+
+namespace indurop::robot {
+
+struct LineLimits {
+  double velocity = 1;
+  double acceleration = 1;
+  double jerk = 1;
+};
+
+struct LineState {
+  double position = 0;
+  double velocity = 0;
+  double acceleration = 0;
+};
+
+// From one velocity and acceleration to another velocity, there without acceleration: up to three phases.
+struct Ramp {
+  struct Phase {
+    double duration = 0;
+    double jerk = 0;
+  };
+  std::array<Phase, 3> phases{};
+  double distance = 0;
+  [[nodiscard]] double duration() const noexcept;
+};
+
+// The fastest ramp. `from.position` does not count. Only acceleration and jerk of the limits do. Real-time safe, as
+// everything here.
+Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept;
+
+class Profile {
+ public:
+  Profile() = default;
+
+  // At rest, or moving on, as `state` says, for ever.
+  static Profile coast(const LineState& state) noexcept;
+  // As fast as possible to a velocity (not above the limit), which it then keeps.
+  static Profile to_velocity(const LineState& from, double velocity, const LineLimits& limits) noexcept;
+  // As fast as possible to `position`, not behind `from.position`, being there at the velocity `arrival` >= 0 (at the
+  // limit, if that is lower) or, where the way is too short for that, as near to it as possible but never above
+  // `arrival`. `from.velocity` is not negative. If the way is too short even for that, it comes to rest as soon as
+  // possible behind `position`, and overshoots() says so.
+  static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits) noexcept;
+
+  // At `time` seconds after the start; beyond the end it moves on with its last velocity.
+  [[nodiscard]] LineState at(double time) const noexcept;
+  [[nodiscard]] double duration() const noexcept { return duration_; }
+  [[nodiscard]] bool overshoots() const noexcept { return overshoots_; }
+  // Where it is at the end of its last phase.
+  [[nodiscard]] const LineState& end() const noexcept { return end_; }
+
+ private:
+  void append(const Ramp& ramp) noexcept;
+  void append(double duration, double jerk) noexcept;
+
+  LineState start_;
+  LineState end_;
+  std::array<Ramp::Phase, 7> phases_{};
+  int count_ = 0;
+  double duration_ = 0;
+  bool overshoots_ = false;
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/segment.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+Joints Segment::joints_at(double place) const noexcept {
+  const double part = length > 0 ? std::clamp(place / length, 0.0, 1.0) : 1;
+  return from + part * (to - from);
+}
+
+Pose Segment::pose_at(double place) const noexcept {
+  const double part = length > 0 ? std::clamp(place / length, 0.0, 1.0) : 1;
+  Pose pose;
+  pose.orientation = start.orientation * rotation_by(part * turn);
+  if (move == Move::Circle) {
+    pose.position = center + std::cos(part * angle) * radius_x + std::sin(part * angle) * radius_y;
+  } else {
+    pose.position = start.position + part * (end.position - start.position);
+  }
+  return pose;
+}
+
+void Blend::parts_at(double place, double& first, double& second) const noexcept {
+  // The second one's speed grows from 0 to 1 as 3u^2 - 2u^3, the first one's falls the same way.
+  const double u = length() > 0 ? std::clamp(place / length(), 0.0, 1.0) : 1;
+  second = length() * u * u * u * (1 - u / 2);
+  first = place - zone - second;
+}
+
+Reach Places::on(const Segment& segment, double place, const Joints& near, Solution& solution) const noexcept {
+  if (segment.move == Move::Joint) {
+    solution = {segment.joints_at(place), 0};
+    return Reach::Ok;
+  }
+  const auto found = inverse_.nearest(segment.pose_at(place), near);
+  if (found.reach == Reach::Ok) {
+    solution = found.solution;
+  }
+  return found.reach;
+}
+
+Reach Places::on(const Segment& segment, double place, const Joints& near, Joints& q) const noexcept {
+  Solution solution{q, 0};
+  const Reach reach = on(segment, place, near, solution);
+  q = solution.q;
+  return reach;
+}
+
+Reach Places::on(const Segment& first, const Blend& blend, const Segment& second, double place, const Joints& near,
+                 Joints& q) const noexcept {
+  double before = 0;
+  double behind = 0;
+  blend.parts_at(place, before, behind);
+  before += first.length;
+  if (first.move != Move::Joint && second.move != Move::Joint) {
+    const Pose a = first.pose_at(before);
+    const Pose b = second.pose_at(behind);
+    const Pose& corner = second.start;
+    const Pose pose{a.position + (b.position - corner.position),
+                    a.orientation * (corner.orientation.conjugate() * b.orientation)};
+    const auto found = inverse_.nearest(pose, near);
+    if (found.reach == Reach::Ok) {
+      q = found.solution.q;
+    }
+    return found.reach;
+  }
+  // At least one of them is a path of joints: the sum is made of joint angles.
+  Joints a;
+  Joints b;
+  Reach reach = on(first, before, near, a);
+  if (reach == Reach::Ok) {
+    reach = on(second, behind, second.from, b);
+  }
+  if (reach == Reach::Ok) {
+    q = a + (b - second.from);
+  }
+  return reach;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// One commanded motion as a path: where the robot is at each place of it. A path is measured in seconds at full speed,
+// so that paths of joints, lines and circles can follow each other and share one speed, 1 at most.
+
+#pragma once
+
+#include <optional>
+
+#include "robot/inverse.h"
+#include "robot/profile.h"
+
+namespace indurop::robot {
+
+enum class Move : std::uint8_t { Joint, Line, Circle };
+
+// Where to go: joint angles or a pose of the tool.
+struct Target {
+  bool is_pose = false;
+  Joints joints = Joints::Zero();
+  Pose pose;
+  std::optional<std::uint8_t> posture;  // of a pose reached by a joint motion; default: the nearest
+};
+
+struct MoveCommand {
+  Move move = Move::Joint;
+  Target target;
+  Target mid;             // of circles
+  double speed = 1;       // part of full speed, above 0 to 1
+  double tool_speed = 0;  // m/s, of lines and circles instead of `speed`; 0: none
+  double zone = 0;        // m, how far before the target the path may already turn to the next one
+  int source = 0;         // the caller's name for it
+};
+
+// How fast the tool may move.
+struct ToolLimits {
+  double velocity = 1;            // m/s
+  double acceleration = 5;        // m/s^2
+  double jerk = 50;               // m/s^3
+  double turn_velocity = kPi;     // rad/s
+  double turn_acceleration = 20;  // rad/s^2
+  double turn_jerk = 200;         // rad/s^3
+};
+
+struct Segment {
+  Move move = Move::Joint;
+  Joints from = Joints::Zero();
+  Joints to = Joints::Zero();
+  Pose start;
+  Pose end;
+  Vec3 turn = Vec3::Zero();  // rotation vector from start to end, in the start's frame
+  Vec3 center = Vec3::Zero(), radius_x = Vec3::Zero(), radius_y = Vec3::Zero();  // of circles
+  double angle = 0;                                                              // of circles, from radius_x on
+  double way = 0;                                                                // m, of lines and circles
+  double length = 0;                                                             // s at full speed
+  double zone = 0;                                                               // m
+  int source = 0;
+  LineLimits limits;  // of the speed along it
+
+  // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.
+  [[nodiscard]] Joints joints_at(double place) const noexcept;
+  // Of lines and circles.
+  [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // m per s at full speed
+  [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
+};
+
+// Where two paths meet with a zone: from `zone` before the end of the first to `zone` behind the start of the second.
+// The first one fades out while the second fades in, with continuous acceleration.
+struct Blend {
+  double zone = 0;    // s at full speed, on either side
+  LineLimits limits;  // velocity: what it is passed with
+  [[nodiscard]] double length() const noexcept { return 2 * zone; }
+  // How far beyond its end the first one is (not positive), and the second beyond its start.
+  void parts_at(double place, double& first, double& second) const noexcept;
+};
+
+// Joint angles on the paths, for which lines and circles need the inverse kinematics.
+class Places {
+ public:
+  Places(const Arm& arm, const Inverse& inverse) noexcept : arm_(arm), inverse_(inverse) {}
+  [[nodiscard]] const Arm& arm() const noexcept { return arm_; }
+  [[nodiscard]] const Inverse& inverse() const noexcept { return inverse_; }
+
+  // The joint angles nearest to `near`. Other than Ok leaves `q` alone. Paths of joints have posture 0.
+  Reach on(const Segment& segment, double place, const Joints& near, Joints& q) const noexcept;
+  Reach on(const Segment& segment, double place, const Joints& near, Solution& solution) const noexcept;
+  Reach on(const Segment& first, const Blend& blend, const Segment& second, double place, const Joints& near,
+           Joints& q) const noexcept;
+
+ private:
+  const Arm& arm_;
+  const Inverse& inverse_;
+};
+
+}  // namespace indurop::robot

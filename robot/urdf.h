@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// An arm out of a URDF file. Read once, when the task is loaded; the only place that knows urdfdom.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "robot/arm.h"
+
+namespace indurop::robot {
+
+struct ArmModel {
+  Arm arm;
+  Joints velocity;  // rad/s, the most of each axis
+};
+
+// The six turning joints between the root link and the tool: the link called tool0 or tcp if there is one, else the end
+// of the chain. Errors are added as "file:line:col: error: text"; nothing is returned then.
+std::optional<ArmModel> arm_from_urdf(const std::string& file, const std::string& text,
+                                      std::vector<std::string>& errors);
+
+}  // namespace indurop::robot

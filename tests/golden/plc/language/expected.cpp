@@ -1,0 +1,143 @@
+// Written by indurop plc from in.st: change that, not this.
+#include <indurop/indurop.h>
+#include <indurop/plc/library.h>
+#include <indurop/plc/program.h>
+#include <indurop/generated.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace {
+namespace iec = indurop::iec;
+
+namespace plc {
+enum class Mode : std::int16_t {
+  Off = 0,
+  Auto = 1,
+  Manual = 2,
+};
+struct Point {
+  float x{};
+  float y{};
+  iec::String<10> name{};
+  friend bool operator==(const Point&, const Point&) = default;
+};
+template <class From> void copy_fields(Point& to, const From& from) { iec::copy_value(to.x, from.x); iec::copy_value(to.y, from.y); iec::copy_value(to.name, from.name); }
+template <class To> void copy_fields(To& to, const Point& from) { iec::copy_value(to.x, from.x); iec::copy_value(to.y, from.y); iec::copy_value(to.name, from.name); }
+}  // namespace plc
+
+// What the program sees of the shared variables during a scan.
+struct Image {
+  bool start{};
+  bool motor{};
+  std::int16_t speed{};
+  plc::Point place{};
+  std::array<std::int32_t, 10> list{};
+  plc::Mode mode{};
+  bool IX0_3{};
+};
+Image shared;
+Image before;
+
+namespace plc {
+[[maybe_unused]] const std::int16_t N = std::int16_t{10};
+
+[[maybe_unused]] std::int32_t square([[maybe_unused]] std::int32_t x) {
+  std::int32_t square_result{};
+  square_result = iec::mul(x, x);
+  return square_result;
+}
+
+struct Ramp_up {
+  bool enable{};
+  std::int16_t step = std::int16_t{2};
+  std::int16_t value{};
+  std::uint32_t count{};
+
+  void operator()([[maybe_unused]] const iec::Scan& scan) {
+    if (enable) {
+      value = iec::add(value, step);
+      count = iec::add(count, std::uint32_t{1});
+    } else {
+      value = 0;
+    }
+  }
+};
+
+struct MAIN {
+  iec::Ton delay{};
+  plc::Ramp_up ramp{};
+  std::int16_t i{};
+  std::int32_t sum{};
+  float r{};
+
+  void operator()([[maybe_unused]] const iec::Scan& scan) {
+    delay.in = shared.start;
+    delay.pt = iec::Time{100000000};
+    delay(scan);
+    shared.motor = delay.q && !shared.IX0_3;
+    ramp.enable = shared.motor;
+    ramp(scan);
+    shared.speed = ramp.value;
+    sum = 0;
+     {
+      std::int64_t counter_1 = 1;
+      const std::int64_t end_1 = plc::N;
+      for (; counter_1 <= end_1; ++counter_1) {
+        const auto i = static_cast<std::int16_t>(counter_1);
+        // the sum of all squares
+        shared.list[i - 1] = plc::square(static_cast<std::int32_t>(i));
+        sum = iec::add(sum, shared.list[i - 1]);
+      }
+      i = static_cast<std::int16_t>(counter_1);
+    }
+    r = iec::div({"in.st:55:26", "MAIN"}, iec::to<float>(sum), 2.0F) + iec::sqrt(2.0F);
+    shared.place.x = r;
+     {
+      const std::int16_t case_2 = shared.speed;
+      if (case_2 == 0) {
+        shared.mode = plc::Mode::Off;
+      } else if ((case_2 >= 1 && case_2 <= 5) || case_2 == 7) {
+        shared.mode = plc::Mode::Auto;
+      } else {
+        shared.mode = plc::Mode::Manual;
+      }
+    }
+  }
+};
+}  // namespace plc
+
+plc::MAIN instance_MAIN;
+
+void read_shared() {
+  iec::copy_value(shared.start, ::golden::start.get());
+  iec::copy_value(shared.motor, ::golden::motor.get());
+  iec::copy_value(shared.speed, ::golden::speed.get());
+  iec::copy_value(shared.place, ::golden::place.get());
+  iec::copy_value(shared.list, ::golden::list.get());
+  iec::copy_value(shared.mode, ::golden::mode.get());
+  iec::copy_value(shared.IX0_3, ::golden::IX0_3.get());
+  before = shared;
+}
+
+void write_shared() {
+  iec::write_changed(::golden::motor, shared.motor, before.motor);
+  iec::write_changed(::golden::speed, shared.speed, before.speed);
+  iec::write_changed(::golden::place.x, shared.place.x, before.place.x);
+  iec::write_changed(::golden::list, shared.list, before.list);
+  iec::write_changed(::golden::mode, shared.mode, before.mode);
+}
+}  // namespace
+
+// One scan: all variables it sees are from its beginning, what it changed is there at its end.
+void POU_PROGRAM() {
+  const iec::Scan scan{irp::release_ns()};
+  read_shared();
+  instance_MAIN(scan);
+  write_shared();
+}
+
+void run() { POU_PROGRAM(); }
+
+INDUROP_MODULE(run = &::run, name = "golden")

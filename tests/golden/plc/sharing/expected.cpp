@@ -1,0 +1,140 @@
+// Written by indurop plc from in.st: change that, not this.
+#include <indurop/indurop.h>
+#include <indurop/plc/library.h>
+#include <indurop/plc/program.h>
+#include <indurop/generated.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace {
+namespace iec = indurop::iec;
+
+namespace plc {
+}  // namespace plc
+
+// What the program sees of the shared variables during a scan.
+struct Image {
+  std::int16_t handed{};
+  bool I0{};
+  bool O0{};
+  std::int16_t PLC_ROBOT_I1{};
+  ::PLC_ROBOT::ROBOT_MODULE_STATE_t PLC_ROBOT_ROBOT_MODULE_STATE{};
+  ::PLC_ROBOT::ROBOT_MODULE_SERVICE_t PLC_ROBOT_ROBOT_MODULE_SERVICE{};
+};
+Image shared;
+Image before;
+
+namespace plc {
+
+struct Fast {
+  std::int32_t starts{};
+
+  void operator()([[maybe_unused]] const iec::Scan& scan) {
+    shared.O0 = shared.I0 && (shared.PLC_ROBOT_I1 != 0);
+    if (shared.PLC_ROBOT_ROBOT_MODULE_STATE.eState == ::PLC_ROBOT::State::STANDBY) {
+      shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode = iec::mul(shared.PLC_ROBOT_ROBOT_MODULE_STATE.dCurJoint[2], 2);
+    }
+    starts = iec::add(starts, 1);
+    shared.handed = iec::add(shared.handed, std::int16_t{1});
+  }
+};
+}  // namespace plc
+
+plc::Fast instance_first;
+std::int32_t before_first_starts{};
+
+void read_shared() {
+  iec::copy_value(shared.handed, ::golden::handed.get());
+  iec::copy_value(shared.I0, ::PLC_ROBOT::I0.get());
+  iec::copy_value(shared.O0, ::PLC_ROBOT::O0.get());
+  iec::copy_value(shared.PLC_ROBOT_I1, ::PLC_ROBOT::I1.get());
+  iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_STATE, ::PLC_ROBOT::ROBOT_MODULE_STATE.get());
+  iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_SERVICE, ::PLC_ROBOT::ROBOT_MODULE_SERVICE.get());
+  iec::copy_value(instance_first.starts, ::golden::first_starts.get());
+  before_first_starts = instance_first.starts;
+  before = shared;
+}
+
+void write_shared() {
+  iec::write_changed(::golden::handed, shared.handed, before.handed);
+  iec::write_changed(::PLC_ROBOT::O0, shared.O0, before.O0);
+  iec::write_changed(::PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode, shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode, before.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode);
+  iec::write_changed(::golden::first_starts, instance_first.starts, before_first_starts);
+}
+}  // namespace
+
+// One scan: all variables it sees are from its beginning, what it changed is there at its end.
+void POU_PROGRAM() {
+  const iec::Scan scan{irp::release_ns()};
+  read_shared();
+  instance_first(scan);
+  write_shared();
+}
+
+void run() { POU_PROGRAM(); }
+
+INDUROP_MODULE(run = &::run, name = "golden_fast")
+// Written by indurop plc from in.st: change that, not this.
+#include <indurop/indurop.h>
+#include <indurop/plc/library.h>
+#include <indurop/plc/program.h>
+#include <indurop/generated.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace {
+namespace iec = indurop::iec;
+
+namespace plc {
+}  // namespace plc
+
+// What the program sees of the shared variables during a scan.
+struct Image {
+  std::int16_t handed{};
+  std::int32_t hours{};
+  double speed{};
+};
+Image shared;
+Image before;
+
+namespace plc {
+
+struct Slow {
+
+  void operator()([[maybe_unused]] const iec::Scan& scan) {
+    shared.hours = iec::add(shared.hours, static_cast<std::int32_t>(shared.handed));
+    shared.speed = shared.speed * 2.0;
+  }
+};
+}  // namespace plc
+
+plc::Slow instance_second;
+
+void read_shared() {
+  iec::copy_value(shared.handed, ::golden::handed.get());
+  iec::copy_value(shared.hours, ::golden::hours.get());
+  iec::copy_value(shared.speed, ::PLC_ROBOT::speed.get());
+  before = shared;
+}
+
+void write_shared() {
+  iec::write_changed(::golden::hours, shared.hours, before.hours);
+  iec::write_changed(::PLC_ROBOT::speed, shared.speed, before.speed);
+}
+}  // namespace
+
+// One scan: all variables it sees are from its beginning, what it changed is there at its end.
+void POU_PROGRAM() {
+  const iec::Scan scan{irp::release_ns()};
+  read_shared();
+  instance_second(scan);
+  write_shared();
+}
+
+void run() { POU_PROGRAM(); }
+
+INDUROP_MODULE(run = &::run, name = "golden_slow")

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// `indurop` looks at boards from a machine without a node and without their types.
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "live.h"
+
+namespace indurop::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Far : public Live {
+ protected:
+  Outcome far(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--one-host", "--domain", domain()});
+    return indurop(words);
+  }
+};
+
+TEST_F(Far, Values_are_read_by_name_in_the_forms_that_a_local_node_has) {
+  start_axis();
+  const Outcome target = far({"get", "station::target"});
+  EXPECT_EQ(target.code, 0) << target.err;
+  EXPECT_EQ(target.out, "100\n");
+  EXPECT_EQ(far({"get", "station::state.program"}).out, "\"pick and place\"\n");
+  const Outcome all = far({"get", "station::*", "-o", "json"});
+  ASSERT_EQ(all.code, 0) << all.err;
+  const Json json = Json::parse(all.out);
+  EXPECT_EQ(json["running"], true);
+  ASSERT_EQ(json["values"].size(), 3U);
+  EXPECT_EQ(json["values"][0]["name"], "station::limit");
+  EXPECT_EQ(json["values"][0]["unit"], "mm");
+  const Outcome board = far({"get", "target@" + node()});
+  EXPECT_EQ(board.out, "100\n") << board.err;
+}
+
+TEST_F(Far, Vars_and_typeof_tell_units_and_ranges) {
+  start_axis();
+  const Outcome vars = far({"vars", "-o", "json"});
+  ASSERT_EQ(vars.code, 0) << vars.err;
+  const Json json = Json::parse(vars.out);
+  ASSERT_EQ(json["variables"].size(), 3U);
+  EXPECT_EQ(json["variables"][2]["name"], "station::target");
+  EXPECT_EQ(json["variables"][2]["type"], "double");
+  EXPECT_EQ(json["variables"][2]["range"], Json({0, 500}));
+  const Outcome type = far({"typeof", "station::state"});
+  EXPECT_CONTAINS(type.out, "station::state.force");
+  EXPECT_CONTAINS(type.out, "HOLDING, MOVING, ARRIVED");
+  EXPECT_CONTAINS(indurop({"typeof", "state", "--node", node()}).out, "float[3]");
+}
+
+TEST_F(Far, Setting_is_confirmed_by_the_board_and_only_what_the_manifest_lets) {
+  start_axis();
+  const Outcome good = far({"set", "station::target", "42.5"});
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+  const Outcome beyond = far({"set", "station::target", "501"});
+  EXPECT_EQ(beyond.code, 1);
+  EXPECT_CONTAINS(beyond.err, "501 is outside 0..500");
+  const Outcome closed = far({"set", "station::limit", "3"});
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_CONTAINS(closed.err, "does not let it be set from outside: external=\"write\"");
+  EXPECT_CONTAINS(get("station::limit"), "400");
+}
+
+TEST_F(Far, Watch_goes_on_when_the_node_comes_back) {
+  Program& first = start_axis();
+  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
+                environment());
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
+  first.kill();
+  ASSERT_EQ(first.wait(), 128 + SIGKILL);
+  EXPECT_TRUE(watch.says("not heard: " + node()));
+  const std::size_t before = lines(watch);
+  start_axis();
+  EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.err();
+  EXPECT_TRUE(watch.says("all boards are heard again"));
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 130);
+}
+
+TEST_F(Far, Hz_counts_what_comes_over_the_network) {
+  start_axis();
+  const Outcome sut = far({"hz", "station::state", "--once", "-o", "json"});
+  ASSERT_EQ(sut.code, 0) << sut.err;
+  EXPECT_GT(Json::parse(sut.out)["rate_hz"].get<double>(), 5);
+}
+
+TEST_F(Far, Nobody_there_is_told_in_bounded_time) {
+  const Outcome nobody = far({"get", "station::target", "--wait", "300ms"});
+  EXPECT_EQ(nobody.code, 6);
+  EXPECT_CONTAINS(nobody.err, "nobody shows variables in DDS domain " + domain());
+  start_axis();
+  const Outcome wrong = far({"get", "station::targt"});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_CONTAINS(wrong.err, "station::target");
+  EXPECT_CONTAINS(far({"get", "station::target@elsewhere"}).err, "there is no board elsewhere");
+  EXPECT_EQ(indurop({"get", "station::target", "--remote", "--node", node()}).code, 2);
+}
+
+TEST_F(Far, Boards_that_are_not_heard_are_named) {
+  const std::string plant =
+      write("plant.xml", "<plant name=\"" + node() + "\"><domain>" + std::to_string(1 + (::getpid() + 1) % 200) +
+                             "</domain><external>" + domain() +
+                             "</external><types>" EXAMPLE_FOLDER
+                             "/libstation_types.so</types><board name=\"absent\"/>"
+                             "<board name=\"" +
+                             node() +
+                             "\"><module><filename>" EXAMPLE_FOLDER
+                             "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
+                             "<period>1ms</period><priority>1</priority></module></board></plant>");
+  Program& sut = start_file(plant, {"--node", node(), "--board", node(), "--one-host"});
+  ASSERT_TRUE(wait_until_running(sut)) << sut.err();
+  ASSERT_TRUE(runs_reach("axis", 300));
+  const Outcome heard = far({"get", "station::state.inside", "--wait", "2s"});
+  EXPECT_EQ(heard.code, 0) << heard.err;
+  EXPECT_EQ(heard.out, "true\n");
+  EXPECT_CONTAINS(heard.err, "not heard within 2.0 s: absent");
+}
+
+TEST_F(Far, Topics_of_a_program_that_is_no_board_are_shown_by_their_types) {
+  const Environment alone{
+      {"CYCLONEDDS_URI=<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General>"},
+      static_cast<uid_t>(-1),
+      {}};
+  Program stranger({STRANGER, domain()}, alone);
+  const Outcome sut = far({"get", "lab::probe.text", "lab::probe.colour", "lab::probe.d"});
+  ASSERT_EQ(sut.code, 0) << sut.err;
+  EXPECT_CONTAINS(sut.out, "\"hi\"");
+  EXPECT_CONTAINS(sut.out, "BLUE");
+  EXPECT_CONTAINS(sut.out, "2.5");
+  EXPECT_CONTAINS(far({"typeof", "lab::probe"}).out, "lab::probe.u32");
+  EXPECT_EQ(far({"set", "lab::probe.d", "1"}).code, 1);
+}
+
+using FarNetwork = Network;
+
+TEST_F(FarNetwork, A_machine_without_a_node_looks_and_sets) {
+  if (!up()) {
+    GTEST_SKIP() << "network namespaces cannot be made here (root and iproute2 are needed)";
+  }
+  Program& axis = on("a", {NODE_PROGRAM, EXAMPLE_FOLDER "/module.xml", "--node", node()});
+  ASSERT_TRUE(wait_until_running(axis)) << axis.err();
+  ASSERT_TRUE(runs_reach("axis", 300));
+  Program& looks = on("b", {INDUROP_PROGRAM, "get", "station::target", "--remote"});
+  EXPECT_EQ(looks.wait(), 0) << looks.err();
+  EXPECT_EQ(looks.out(), "100\n");
+  Program& sets = on("b", {INDUROP_PROGRAM, "set", "station::target", "7", "--remote"});
+  EXPECT_EQ(sets.wait(), 0) << sets.err();
+  EXPECT_CONTAINS(get("station::target"), "7");
+}
+
+}  // namespace
+}  // namespace indurop::test

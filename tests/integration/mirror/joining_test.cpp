@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/joining.h"
+
+#include <unistd.h>
+
+#include "board_schema.h"
+#include "boards.h"
+#include "mirror/sender.h"
+#include "rt/clock.h"
+
+namespace indurop::test {
+namespace {
+
+using namespace mirror;
+
+Settings on_loopback() {
+  Settings settings;
+  settings.plant = "joining";
+  settings.board = "a";
+  settings.domain = Boards::domain();
+  settings.one_host = true;
+  return settings;
+}
+
+int entities_of(dds_entity_t participant) {
+  return dds_get_children(participant, nullptr, 0);
+}
+
+class JoiningTest : public ::testing::Test {
+ protected:
+  JoiningTest() { wake_.init(false); }
+  std::atomic<bool> stop_{false};
+  rt::SignalWord wake_{};
+  SharedText problem_{};
+};
+
+TEST_F(JoiningTest, What_went_half_way_is_torn_down_before_the_next_try) {
+  int opened = 0;
+  int closed = 0;
+  Endpoint catalogue;
+  Joining sut(
+      on_loopback(),
+      [&](dds_entity_t participant, std::string& why) {
+        EXPECT_EQ(closed, opened);
+        EXPECT_EQ(entities_of(participant), 0);
+        catalogue = make_writer(participant, indurop_wire_Catalogue_desc, "t", make_qos({}));
+        EXPECT_TRUE(catalogue.ok()) << catalogue.why();
+        why = "not yet";
+        wake_.wake();  // no need to wait for the next try
+        return ++opened == 3;
+      },
+      [&] {
+        ++closed;
+        catalogue.reset();
+      });
+  ASSERT_TRUE(sut.join(stop_, wake_, problem_));
+  EXPECT_EQ(opened, 3);
+  EXPECT_EQ(closed, 2);
+  EXPECT_TRUE(catalogue.ok());
+  sut.leave();
+  EXPECT_EQ(closed, 3);
+  sut.leave();
+  EXPECT_EQ(closed, 3) << "it has left already";
+}
+
+TEST_F(JoiningTest, Ends_when_it_is_told_to_and_says_why_it_waits) {
+  Settings settings = on_loopback();
+  settings.one_host = false;
+  settings.interface_name = "nosuch0";
+  Joining sut(
+      settings, [](dds_entity_t, std::string&) { return true; }, [] { ADD_FAILURE() << "nothing was opened"; });
+  std::thread other([&] {
+    EXPECT_TRUE(wait_until([&] { return problem_.get().find("nosuch0") != std::string::npos; }));
+    stop_ = true;
+    wake_.wake();
+  });
+  EXPECT_FALSE(sut.join(stop_, wake_, problem_));
+  other.join();
+}
+
+TEST_F(JoiningTest, An_endpoint_takes_its_topic_along) {
+  std::string why;
+  const Participant here = join_plant(on_loopback(), why);
+  ASSERT_TRUE(here.participant.ok()) << why;
+  const dds_entity_t participant = here.participant.get();
+  for (int i = 0; i < 3; ++i) {
+    const Endpoint writer = make_writer(participant, indurop_wire_Frame_desc, "t/frame", make_qos({}));
+    const Endpoint reader = make_reader(participant, indurop_wire_Frame_desc, "t/frame", make_qos({}));
+    EXPECT_TRUE(writer.ok() && reader.ok());
+    EXPECT_GT(entities_of(participant), 2);
+  }
+  EXPECT_EQ(entities_of(participant), 0);
+}
+
+// The values of the second participant must be those of writers of the second participant.
+TEST_F(JoiningTest, A_sender_that_was_closed_sends_in_the_next_network) {
+  const std::string node = "joining" + std::to_string(::getpid());
+  auto store = vars::Store::create(node, make_schema("plain"));
+  ASSERT_TRUE(store.ok());
+  const auto block = std::make_unique<MirrorBlock>();
+  Settings settings = on_loopback();
+  settings.outgoing = {{"t::count"}, {"t::large"}};
+  Sender sut(store.value(), settings, 1, *block);
+  std::string why;
+  for (int i = 0; i < 2; ++i) {
+    const Participant here = join_plant(settings, why);
+    ASSERT_TRUE(here.participant.ok()) << why;
+    ASSERT_TRUE(sut.open(here.participant.get(), settings, why)) << why;
+    const std::uint64_t sent = block->frames.load();
+    sut.cycle(rt::now_ns(), 0, false);
+    EXPECT_GT(block->frames.load(), sent);
+    EXPECT_EQ(block->send_errors.load(), 0U);
+    sut.close();
+    EXPECT_EQ(entities_of(here.participant.get()), 0);
+  }
+  (void)vars::remove_node(node);
+}
+
+}  // namespace
+}  // namespace indurop::test

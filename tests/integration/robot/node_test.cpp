@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot task in a node, with six simulated drives and the emergency stop, asked as a PLC program would ask.
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "node_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+class RobotNode : public NodeTest {
+ protected:
+  std::vector<Module> modules(const std::string& job) {
+    std::ifstream urdf(std::string(CELL_SOURCE) + "/robot.urdf");
+    write("robot.urdf", {std::istreambuf_iterator<char>(urdf), {}});
+    write("test.job", job);
+    std::string devices = "<ioconfig>";
+    for (const char axis : std::string("123456")) {
+      const std::string name = std::string("PLC_ROBOT::AXIS") + axis;
+      devices += std::string("<device name='axis") + axis + "' driver='cia402' speed='540' following='30' in='" + name +
+                 "_IN' out='" + name + "_OUT'/>\n";
+    }
+    write("ioconfig.xml", devices + "</ioconfig>\n");
+    const std::string cell = CELL_BUILD;
+    return {
+        {.file = IO_MODULE, .name = "io", .period = "5ms", .priority = 1, .properties = {{"config", "ioconfig.xml"}}},
+        {.file = cell + "/Robot.so",
+         .name = "robot",
+         .period = "5ms",
+         .priority = 2,
+         .properties = {{"urdf", "robot.urdf"}, {"jobs", "test.job"}, {"following_limit", "30"}}},
+        {.file = cell + "/estop.so",
+         .name = "estop",
+         .operation = "sporadic",
+         .period = "1ms",
+         .priority = 1,
+         .more = "<position>after-base</position>"}};
+  }
+
+  void begin(const std::string& job) {
+    start_and_wait(modules(job));
+    set("PLC_ROBOT::I14", "1");
+    set("PLC_ROBOT::I15", "1");
+    ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0; }));
+  }
+  void set(const std::string& variable, const std::string& to) {
+    const Outcome outcome = indurop({"set", variable, to});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+  }
+  // A number in a variable, or a part of one.
+  double number(const std::string& variable) {
+    const Outcome outcome = indurop({"get", variable});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.code == 0 ? std::stod(outcome.out) : std::nan("");
+  }
+  int next_request() { return static_cast<int>(number("PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge")) + 1; }
+  // ROBOT_ERROR of the service, once it has ended.
+  int serve(const std::string& request) {
+    const int wanted = next_request();
+    set("PLC_ROBOT::ROBOT_MODULE_SERVICE", "{nRequest: " + std::to_string(wanted) + ", " + request + "}");
+    EXPECT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_MODULE_STATE.nDone") == wanted; }));
+    return static_cast<int>(number("PLC_ROBOT::ROBOT_MODULE_STATE.nError"));
+  }
+  int state() { return static_cast<int>(number("PLC_ROBOT::ROBOT_MODULE_STATE.eState")); }
+  double joint(int axis) { return 360.0 / 1320000 * number("PLC_ROBOT::AXIS" + std::to_string(axis) + "_IN.position"); }
+};
+
+TEST_F(RobotNode, Drives_take_power_and_a_job_moves_them) {
+  begin("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\nSET O8 ON\nWAIT I4 ON\nSET O8 OFF\n");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  EXPECT_EQ(state(), 1);
+  const int wanted = next_request();
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE", "{eOpCode: 11, nJob: 1, nRequest: " + std::to_string(wanted) + "}");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::O8") == 1; }));
+  EXPECT_EQ(state(), 2);
+  EXPECT_TRUE(wait_until([&] { return std::abs(joint(1) - 30) < 0.01 && std::abs(joint(6) + 20) < 0.01; }));
+  set("PLC_ROBOT::I4", "1");
+  EXPECT_TRUE(wait_until([&] { return state() == 1 && number("PLC_ROBOT::O8") == 0; }));
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.MotionDone"), 1);
+}
+
+TEST_F(RobotNode, The_emergency_stop_is_told_in_its_tick_and_the_robot_brakes_on_its_path) {
+  begin("");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  const int wanted = next_request();
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE",
+      "{eOpCode: 8, t_speed: 20, dTarget: [160, 80, 0, 0, 0, 0], nRequest: " + std::to_string(wanted) + "}");
+  ASSERT_TRUE(wait_until([&] { return joint(1) > 10; }));
+  const double stops = number("PLC_ROBOT::EMERGENCY_STOP.nCount");  // maybe one from before I14 became 1
+  set("PLC_ROBOT::I14", "0");
+  ASSERT_TRUE(wait_until([&] { return state() == 5; }));
+  EXPECT_EQ(number("PLC_ROBOT::EMERGENCY_STOP.nCount"), stops + 1);
+  EXPECT_GT(number("PLC_ROBOT::EMERGENCY_STOP.tReaction"), 0);
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.nError"), 14);
+  EXPECT_LT(joint(1), 159);
+  EXPECT_NEAR(joint(2), joint(1) / 2, 0.5);
+  ASSERT_TRUE(
+      wait_until([&] { return (static_cast<unsigned>(number("PLC_ROBOT::AXIS1_IN.status")) & 0x6FU) != 0x27; }));
+  EXPECT_EQ(serve("eOpCode: 1"), 14) << "no power as long as the circuit is open";
+  set("PLC_ROBOT::I14", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0; }));
+  EXPECT_EQ(serve("eOpCode: 3"), 0);
+  EXPECT_EQ(serve("eOpCode: 1"), 0);
+  EXPECT_EQ(state(), 1);
+}
+
+TEST_F(RobotNode, Single_axes_and_the_request_of_the_chapter) {
+  begin("POINT P1 = JOINT 10 0 0 0 0 0\n");
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode", "1");
+  set("PLC_ROBOT::msgRobotServiceEditNum", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::msgRobotServiceEditNum") == 0; }));
+  EXPECT_EQ(state(), 1);
+  set("PLC_ROBOT::AXIS_SERVICE[2]", "{nRequest: 1, eOpCode: 4, dPosition: -15, dVelocity: 60}");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::AXIS_STATE[2].nDone") == 1; }));
+  EXPECT_TRUE(wait_until([&] { return std::abs(joint(3) + 15) < 0.01; }));
+}
+
+TEST_F(RobotNode, Every_motion_block_of_a_PLC_program) {
+  auto all = modules("");
+  all.push_back({.file = MOTION_BLOCKS, .name = "plc", .period = "5ms", .priority = 3});
+  start_and_wait(all);
+  set("PLC_ROBOT::I14", "1");
+  set("PLC_ROBOT::I15", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0; }));
+  set("motion_blocks::go", "true");
+  const bool ended = wait_until([&] { return number("motion_blocks::stage") == 100; }, std::chrono::seconds(30));
+  ASSERT_TRUE(ended) << "stage " << number("motion_blocks::stage") << indurop({"get", "PLC_ROBOT::AXIS_STATE[0]"}).out
+                     << indurop({"get", "PLC_ROBOT::ROBOT_MODULE_STATE"}).out;
+  EXPECT_NEAR(number("motion_blocks::moved_to"), 30, 1);
+  EXPECT_NEAR(number("motion_blocks::moved_by"), 20, 1);
+  EXPECT_LT(number("motion_blocks::stopped_at"), 20);
+  for (const char* name :
+       {"spun", "seen_moving", "aborted", "limit_refused", "linear_refused", "no_such_job", "no_such_axis"}) {
+    EXPECT_EQ(indurop({"get", std::string("motion_blocks::") + name}).out, "true\n") << name;
+  }
+  EXPECT_EQ(number("motion_blocks::limit_error"), 7);
+  EXPECT_EQ(number("motion_blocks::linear_error"), 6);
+}
+
+TEST_F(RobotNode, What_is_wrong_with_robot_and_jobs_is_said_before_the_start) {
+  auto wrong = modules("POINT A = JOINT 0 0 0 0 400 0\nMOVJ B\nSET O8 ON\n");
+  wrong[1].properties[0].second = "other.urdf";
+  const Outcome outcome = run_to_end(wrong);
+  EXPECT_EQ(outcome.code, 1);
+  const std::string said = outcome.out + outcome.err;
+  EXPECT_CONTAINS(said, "test.job:2:6: error: there is no point 'B'");
+  EXPECT_CONTAINS(said, "other.urdf:1:1: error: this robot description (property urdf) cannot be read");
+  const Outcome unknown = run_to_end(modules("SET O77 ON\n"));
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_CONTAINS(unknown.out + unknown.err, "a job names the variable O77");
+}
+
+}  // namespace
+}  // namespace indurop::test

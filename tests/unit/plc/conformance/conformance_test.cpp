@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Programs in Structured Text that test the language and its library themselves: each is compiled to a module as a
+// user's would be, loaded, and run scan by scan in a time made here; then the expectations it has counted are looked
+// at.
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <indurop/generated.h>
+#include <indurop/indurop.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+constexpr std::int64_t kPeriod = 10'000'000;
+std::int64_t g_release_ns = 987'654'321'000;
+
+// A node named "local" may be running on this machine; a generated header looks for it at priority 101.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wprio-ctor-dtor"
+[[gnu::constructor(100)]] void keep_away_from_others() {
+  ::setenv("INDUROP_NODE", "rttest-none", 0);
+}
+#pragma GCC diagnostic pop
+
+}  // namespace
+
+// The modules find this one before that of libindurop.so.
+std::int64_t irp::release_ns() noexcept {
+  return g_release_ns;
+}
+
+namespace {
+
+class Module {
+ public:
+  explicit Module(const std::string& program)
+      : handle_(::dlopen((PLC_MODULES "/" + program + ".so").c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (handle_ == nullptr) {
+      ADD_FAILURE() << ::dlerror();
+      return;
+    }
+    auto* describe =
+        reinterpret_cast<void (*)(indurop::ModuleDescriptor*)>(::dlsym(handle_, "indurop_module_describe"));
+    describe(&descriptor_);
+    conformance::checks = 0;
+    conformance::failed = 0;
+    conformance::first_failed = "";
+    conformance::scans = 0;
+    conformance::finished = false;
+  }
+  ~Module() {
+    if (handle_ != nullptr) {
+      ::dlclose(handle_);
+    }
+  }
+  Module(const Module&) = delete;
+  Module& operator=(const Module&) = delete;
+
+  void scan() const {
+    descriptor_.run();
+    g_release_ns += kPeriod;
+  }
+
+ private:
+  void* handle_;
+  indurop::ModuleDescriptor descriptor_;
+};
+
+class PlcConformance : public testing::TestWithParam<const char*> {};
+
+TEST_P(PlcConformance, Every_expectation_of_the_program_is_met) {
+  const Module sut(GetParam());
+  constexpr int kMostScans = 20;
+  while (!HasFailure() && !conformance::finished && conformance::scans < kMostScans) {
+    sut.scan();
+  }
+  EXPECT_TRUE(conformance::finished);
+  EXPECT_GT(conformance::checks, 0);
+  EXPECT_EQ(conformance::failed, 0) << "first: " << conformance::first_failed.get().c_str();
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, PlcConformance, testing::Values(PLC_PROGRAMS),
+                         [](const auto& program) { return std::string(program.param); });
+
+std::string fault_of(int which) {
+  const Module sut("faults");
+  conformance::which = which;
+  try {
+    sut.scan();
+  } catch (const std::exception& fault) {
+    return fault.what();
+  }
+  return "no fault";
+}
+
+TEST(PlcFaults, Name_their_place) {
+  struct Row {
+    int which;
+    const char* text;
+  };
+  for (const auto& [which, text] :
+       {Row{0, "no fault"}, Row{1, "faults.st:35:21: division by zero in Main"},
+        Row{2, "faults.st:36:21: MOD by zero in Main"}, Row{3, "faults.st:37:17: division by zero in Main"},
+        Row{4, "faults.st:38:23: division by zero in Main"}, Row{5, "faults.st:9:17: division by zero in Quotient"},
+        Row{6, "faults.st:40:13: index 5 is outside of 1..2 in Main"},
+        Row{7, "faults.st:41:29: index 0 is outside of 1..3 in Main"},
+        Row{8, "faults.st:16:18: index 5 is outside of -2..2 in Picker"},
+        Row{9, "faults.st:43:22: value 105 is outside of 0..100 in Main"},
+        Row{10, "faults.st:44:17: selector K of MUX 5 is outside of 0..2 in Main"}}) {
+    EXPECT_EQ(fault_of(which), text) << which;
+  }
+}
+
+TEST(PlcFaults, A_scan_that_faults_writes_nothing) {
+  const Module sut("faults");
+  conformance::which = 0;
+  sut.scan();
+  conformance::which = 1;
+  EXPECT_ANY_THROW(sut.scan());
+  EXPECT_EQ(conformance::scans, 1);
+}
+
+}  // namespace

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The example of the documentation, and what a module built with --watch tells about its power.
+
+#include <indurop/indurop.h>
+
+#include <gtest/gtest.h>
+#include <plc_test_conveyor.glb.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "plc/print/live.h"
+#include "tests/unit/plc/program/module.h"
+
+namespace indurop {
+namespace {
+
+using std::chrono_literals::operator""ms;
+using testing::PlcModule;
+namespace belt = plc_test_conveyor;
+
+class PlcConveyor : public ::testing::Test {
+ protected:
+  PlcConveyor() {
+    belt::start = false;
+    belt::stop = false;
+    belt::box_sensor = false;
+    belt::pallet_changed = true;
+    belt::acknowledge = false;
+    scan(1);
+    belt::pallet_changed = false;
+  }
+  void scan(int count) {
+    for (int i = 0; i < count; ++i) {
+      sut_.scan(at_);
+      at_ += 10ms;
+    }
+  }
+
+  PlcModule sut_{"plc_test_conveyor"};
+  std::chrono::milliseconds at_{0};
+};
+
+TEST_F(PlcConveyor, TheMotorFollowsTheHorn) {
+  belt::start = true;
+  scan(1);
+  belt::start = false;
+  EXPECT_TRUE(belt::horn.get());
+  scan(199);
+  EXPECT_FALSE(belt::motor.get());
+  scan(1);
+  EXPECT_TRUE(belt::motor.get()) << "2 s later";
+  EXPECT_FALSE(belt::horn.get());
+  belt::stop = true;
+  scan(1);
+  EXPECT_FALSE(belt::motor.get());
+}
+
+TEST_F(PlcConveyor, TwelveBoxesAreAPallet) {
+  for (int i = 1; i <= 12; ++i) {
+    belt::box_sensor = true;
+    scan(3);
+    belt::box_sensor = false;
+    scan(3);
+    EXPECT_EQ(belt::count.get(), i);
+    EXPECT_EQ(belt::pallet_full.get(), i == 12);
+  }
+}
+
+TEST_F(PlcConveyor, AJamStopsItUntilAcknowledged) {
+  belt::start = true;
+  scan(202);
+  belt::start = false;
+  belt::box_sensor = true;
+  scan(302);
+  EXPECT_FALSE(belt::motor.get());
+  belt::box_sensor = false;
+  belt::start = true;
+  scan(300);
+  EXPECT_FALSE(belt::motor.get());
+  belt::acknowledge = true;
+  scan(1);
+  scan(202);
+  EXPECT_TRUE(belt::motor.get());
+}
+
+TEST_F(PlcConveyor, EveryPowerOfTheDrawingIsABitOfTheFlow) {
+  std::ifstream in(PLC_CONVEYOR);
+  std::ostringstream xml;
+  xml << in.rdbuf();
+  plc::Diagnostics diagnostics;
+  auto document = plc::plcopen::read_document(xml.str(), "conveyor.xml", diagnostics);
+  const auto programs = plc::live_programs(document, "", diagnostics);
+  ASSERT_EQ(programs.size(), 1U);
+  const plc::LiveProgram& program = programs.front();
+  const auto bit = [&](std::size_t number) {
+    return (static_cast<unsigned>(belt::conveyor_flow[number / 8].get()) >> (number % 8) & 1U) != 0;
+  };
+  belt::start = true;
+  scan(5);
+  std::size_t contacts = 0;
+  for (const auto& [element, closed] : program.closed) {
+    const bool open = element->text == "box_sensor" || element->text == "pallet_changed" ||
+                      element->text == "acknowledge" || (element->text == "motor" && !element->negated);
+    EXPECT_EQ(bit(closed), !open) << element->text;
+    ++contacts;
+  }
+  EXPECT_EQ(contacts, 12U);
+  for (const auto& [source, power] : program.power) {
+    const auto& [element, pin] = source;
+    const bool flows = element->text == "start" || element->text == "belt" || element->text == "stop" ||
+                       (element->text == "fault" && element->negated) || element->text == "horn" ||
+                       (element->text == "motor" && element->negated);
+    EXPECT_EQ(bit(power), flows) << element->text << element->id;
+  }
+}
+
+}  // namespace
+}  // namespace indurop

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// String functions, with positions and lengths inside, at and beyond the ends of the text.
+
+#include <gtest/gtest.h>
+#include <indurop/plc/text.h>
+
+#include <limits>
+#include <string>
+
+namespace indurop::iec {
+namespace {
+
+const String<10> kText("ABCDEFG");
+constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kBack = std::numeric_limits<std::int64_t>::min();
+
+TEST(PlcText, Length_is_that_of_the_text_not_of_its_room) {
+  EXPECT_EQ(len(kText), 7);
+  EXPECT_EQ(len(String<5>("")), 0);
+  EXPECT_EQ(len(String<5>("12345678")), 5);
+  EXPECT_EQ(len(String<40000>(std::string(40000, 'x'))), 32767);
+}
+
+TEST(PlcText, Left_and_right_parts) {
+  struct Row {
+    std::int64_t length;
+    const char* left;
+    const char* right;
+  };
+  for (const auto& [length, left_part, right_part] :
+       {Row{0, "", ""}, Row{3, "ABC", "EFG"}, Row{7, "ABCDEFG", "ABCDEFG"}, Row{8, "ABCDEFG", "ABCDEFG"},
+        Row{-1, "", ""}, Row{kFar, "ABCDEFG", "ABCDEFG"}, Row{kBack, "", ""}}) {
+    EXPECT_EQ(left(kText, length), left_part) << length;
+    EXPECT_EQ(right(kText, length), right_part) << length;
+  }
+}
+
+TEST(PlcText, Middle_and_deleted_parts) {
+  struct Row {
+    std::int64_t length, first;
+    const char* inside;
+    const char* rest;
+  };
+  for (const auto& [length, first, inside, rest] :
+       {Row{2, 3, "CD", "ABEFG"}, Row{1, 1, "A", "BCDEFG"}, Row{1, 7, "G", "ABCDEF"}, Row{5, 6, "FG", "ABCDE"},
+        Row{2, 8, "", "ABCDEFG"}, Row{0, 3, "", "ABCDEFG"}, Row{-2, 3, "", "ABCDEFG"}, Row{2, 0, "A", "BCDEFG"},
+        Row{2, -5, "", "ABCDEFG"}, Row{kFar, 1, "ABCDEFG", ""}, Row{kFar, kFar, "", "ABCDEFG"},
+        Row{kFar, kBack, "ABCDEFG", ""}}) {
+    if (first != kBack) {
+      EXPECT_EQ(mid(kText, length, first), inside) << length << " from " << first;
+      EXPECT_EQ(erase(kText, length, first), rest) << length << " from " << first;
+    }
+  }
+  EXPECT_EQ(mid(kText, std::uint64_t{2}, std::int8_t{3}), "CD");
+}
+
+TEST(PlcText, Parts_are_the_characters_at_their_positions) {
+  const std::string all = "ABCDEF";
+  for (int size = 0; size <= 6; ++size) {
+    const String<6> text(all.substr(0, static_cast<std::size_t>(size)));
+    for (int length = -2; length <= 8; ++length) {
+      for (int first = -3; first <= 9; ++first) {
+        std::string inside;
+        std::string rest;
+        for (int position = 1; position <= size; ++position) {
+          const bool is_inside = position >= first && position < first + length;
+          (is_inside ? inside : rest) += all[static_cast<std::size_t>(position - 1)];
+        }
+        ASSERT_EQ(mid(text, length, first).view(), inside) << length << " from " << first << " of " << size;
+        ASSERT_EQ(erase(text, length, first).view(), rest) << length << " from " << first << " of " << size;
+      }
+    }
+  }
+}
+
+TEST(PlcText, Texts_are_joined_without_loss) {
+  const String<3> abc("abc");
+  const auto joined = concat(abc, String<2>("de"), abc);
+  EXPECT_EQ(joined, "abcdeabc");
+  EXPECT_EQ(joined.capacity(), 8U);
+  EXPECT_EQ(concat(String<3>(""), abc), "abc");
+  EXPECT_EQ(String<4>(joined), "abcd");
+}
+
+TEST(PlcText, Insertion_after_a_position) {
+  const String<2> xy("xy");
+  EXPECT_EQ(insert(kText, xy, 0), "xyABCDEFG");
+  EXPECT_EQ(insert(kText, xy, 3), "ABCxyDEFG");
+  EXPECT_EQ(insert(kText, xy, 7), "ABCDEFGxy");
+  EXPECT_EQ(insert(kText, xy, 20), "ABCDEFGxy");
+  EXPECT_EQ(insert(kText, xy, -1), "xyABCDEFG");
+  EXPECT_EQ(insert(kText, xy, kFar), "ABCDEFGxy");
+}
+
+TEST(PlcText, Replacement_of_a_part) {
+  const String<3> xyz("xyz");
+  EXPECT_EQ(replace(kText, xyz, 2, 3), "ABxyzEFG");
+  EXPECT_EQ(replace(kText, xyz, 0, 3), "ABxyzCDEFG");
+  EXPECT_EQ(replace(kText, xyz, 10, 6), "ABCDExyz");
+  EXPECT_EQ(replace(kText, xyz, 2, 100), "ABCDEFGxyz");
+  EXPECT_EQ(replace(kText, xyz, 2, 0), "xyzBCDEFG");
+  EXPECT_EQ(replace(kText, String<1>(""), 2, 3), "ABEFG");
+}
+
+TEST(PlcText, The_first_occurrence_is_found) {
+  const String<20> text("banana");
+  EXPECT_EQ(find(text, String<3>("an")), 2);
+  EXPECT_EQ(find(text, String<3>("b")), 1);
+  EXPECT_EQ(find(text, String<3>("x")), 0);
+  EXPECT_EQ(find(text, String<3>("")), 0);
+  EXPECT_EQ(find(String<2>("a"), text), 0);
+}
+
+}  // namespace
+}  // namespace indurop::iec

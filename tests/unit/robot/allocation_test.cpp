@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The controller's step allocates nothing: not while it plans, blends, calculates inverse kinematics in either way,
+// runs a job, or fails. Sanitizers bring their own allocator, so there nothing is counted.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+
+#include "robot/group.h"
+#include "robot_fixture.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define INDUROP_COUNTS_ALLOCATIONS 0
+#else
+#define INDUROP_COUNTS_ALLOCATIONS 1
+#endif
+
+namespace {
+std::atomic<std::uint64_t> g_allocations{0};
+}
+
+#if INDUROP_COUNTS_ALLOCATIONS
+extern "C" {
+void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier): glibc's
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(std::size_t size) noexcept {
+  ++g_allocations;
+  return __libc_malloc(size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++g_allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#endif
+
+namespace indurop::robot {
+namespace {
+
+class NoSignals final : public Signals {
+ public:
+  double read(std::size_t /*index*/) noexcept override { return 1; }
+  void write(std::size_t /*index*/, double /*value*/) noexcept override {}
+};
+
+Settings settings_with(const std::string& urdf, const std::string& job) {
+  Settings settings;
+  settings.urdf = testing::TempDir() + "allocation_test.urdf";
+  std::ofstream(settings.urdf) << urdf;
+  settings.jobs = {testing::TempDir() + "allocation_test.job"};
+  std::ofstream(settings.jobs[0]) << job;
+  return settings;
+}
+
+// Runs job 1 with drives that do what they are told; returns what the steps allocated.
+std::uint64_t allocations_of(const Settings& settings, Outputs& out, std::string& message) {
+  std::vector<std::string> errors;
+  const auto sut = Controller::load(settings, errors);
+  if (!sut) {
+    ADD_FAILURE() << errors.at(0);
+    return 1;
+  }
+  NoSignals signals;
+  Inputs in;
+  const std::uint64_t before = g_allocations;
+  for (int i = 0; i < 3000; ++i) {
+    sut->step(in, signals, out);
+    for (std::size_t k = 0; k < kJoints; ++k) {
+      in.drives[k] = {0, 0x27, out.drives[k].mode, out.drives[k].position};
+    }
+    if (i == 2 || i == 10) {
+      in.service.code = static_cast<std::int32_t>(i == 2 ? Service::GroupEnable : Service::JobStart);
+      in.service.job = 1;
+      ++in.service.number;
+    }
+    in.speed_override = i % 200 < 20 ? 30 : 100;
+  }
+  const std::uint64_t counted = g_allocations - before;
+  message = out.job.message;  // lives as long as the controller
+  return counted;
+}
+
+TEST(RobotAllocation, AWholeJobAllocatesNothing) {
+  Outputs out;
+  std::string message;
+  const Settings settings =
+      settings_with(cell_urdf(),
+                    "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
+                    "POINT C = POSE 500 -100 500 RPY 180 0 180\nPOINT FAR = POSE 3000 0 0 RPY 0 0 0\n"
+                    "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nSET O1 ON\nWAIT 50ms\nEND\nMOVC B A\nMOVL FAR\n");
+  EXPECT_EQ(allocations_of(settings, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Failed);  // it came to its last line
+  EXPECT_EQ(out.error, ErrorCode::Unreachable);
+}
+
+TEST(RobotAllocation, NeitherDoesAnArmWithoutClosedForm) {
+  std::string urdf = cell_urdf();
+  const std::string wrist = "<origin xyz=\"0.09 0 0\" rpy=\"0 0 0\"/>";
+  urdf.replace(urdf.find(wrist), wrist.size(), "<origin xyz=\"0.09 0 0.04\" rpy=\"0 0 0\"/>");
+  Outputs out;
+  std::string message;
+  const Settings settings = settings_with(
+      urdf, "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\nMOVJ A\nMOVJ B\nMOVL A\n");
+  EXPECT_EQ(allocations_of(settings, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Ended) << message;
+}
+
+}  // namespace
+}  // namespace indurop::robot

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/axis_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace indurop::robot {
+namespace {
+
+constexpr LineLimits kLimits{2, 8, 80};
+constexpr double kPeriod = 0.001;
+
+double run_until_done(AxisMotion& sut) {
+  for (int i = 0; i < 100000 && !sut.done(); ++i) {
+    sut.step(kPeriod);
+  }
+  return sut.state().position;
+}
+
+TEST(AxisMotion, ForwardsAndBackwards) {
+  AxisMotion sut;
+  sut.reset({1, 0, 0});
+  sut.move_to(3, kLimits);
+  EXPECT_DOUBLE_EQ(run_until_done(sut), 3);
+  sut.move_to(-1, kLimits);
+  EXPECT_DOUBLE_EQ(run_until_done(sut), -1);
+  EXPECT_TRUE(sut.at_rest());
+}
+
+TEST(AxisMotion, TurnsBackWhenTheNewTargetIsBehind) {
+  AxisMotion sut;
+  sut.reset({0, 0, 0});
+  sut.move_to(10, kLimits);
+  for (int i = 0; i < 800; ++i) {
+    sut.step(kPeriod);
+  }
+  const double turned_at = sut.state().position;
+  sut.move_to(0.5, kLimits);
+  double farthest = turned_at;
+  while (!sut.done()) {
+    sut.step(kPeriod);
+    farthest = std::max(farthest, sut.state().position);
+  }
+  EXPECT_GT(farthest, turned_at);
+  EXPECT_DOUBLE_EQ(sut.state().position, 0.5);
+}
+
+TEST(AxisMotion, VelocityUntilStopped) {
+  AxisMotion sut;
+  sut.reset({0, 0, 0});
+  sut.move_with(-1, kLimits);
+  run_until_done(sut);
+  EXPECT_DOUBLE_EQ(sut.state().velocity, -1);
+  EXPECT_FALSE(sut.at_rest());
+  sut.stop(kLimits);
+  run_until_done(sut);
+  EXPECT_TRUE(sut.at_rest());
+}
+
+TEST(AxisMotion, CommandsAtAnyInstantKeepTheLimits) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> any(-1, 1);
+  AxisMotion sut;
+  sut.reset({0, 0, 0});
+  LineState last;
+  for (int i = 0; i < 200000; ++i) {
+    if (random() % 150 == 0) {
+      switch (random() % 3) {
+        case 0:
+          sut.move_to(5 * any(random), kLimits);
+          break;
+        case 1:
+          sut.move_with(2 * any(random), kLimits);
+          break;
+        default:
+          sut.stop(kLimits);
+      }
+    }
+    sut.step(kPeriod);
+    const LineState now = sut.state();
+    ASSERT_LE(std::abs(now.velocity), kLimits.velocity + 1e-9);
+    ASSERT_LE(std::abs(now.acceleration), kLimits.acceleration + 1e-9);
+    ASSERT_LE(std::abs(now.acceleration - last.acceleration), kLimits.jerk * kPeriod + 1e-6) << i;
+    ASSERT_NEAR(now.position - last.position, kPeriod * (now.velocity + last.velocity) / 2, 1e-6);
+    last = now;
+  }
+}
+
+}  // namespace
+}  // namespace indurop::robot

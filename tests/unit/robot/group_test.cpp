@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/group.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <cmath>
+#include <cstdio>
+
+#include <filesystem>
+#include <fstream>
+
+#include "robot_fixture.h"
+
+namespace indurop::robot {
+namespace {
+
+// Six drives that do at once what they are told.
+class Cell final : public Signals {
+ public:
+  explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true) {
+    Settings settings;
+    const std::filesystem::path folder = testing::TempDir() + "group_test." + std::to_string(::getpid());
+    std::filesystem::create_directories(folder);
+    settings.urdf = folder / "arm.urdf";
+    std::ofstream(settings.urdf) << cell_urdf();
+    const std::string file = folder / "main.job";
+    std::ofstream(file) << "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
+                        << "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n"
+                        << job;
+    settings.jobs = {file};
+    settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
+    std::vector<std::string> errors;
+    sut = Controller::load(settings, errors);
+    if (!sut) {
+      throw std::runtime_error(errors.at(0));
+    }
+    std::filesystem::remove_all(folder);
+    for (DriveIn& drive : in.drives) {
+      drive.status = kSwitchOnDisabled;
+    }
+    in.service.code = static_cast<std::int32_t>(Service::GroupEnable);
+    in.service.number = asked_before;
+    in.requests_known = heard;
+    step();
+  }
+
+  double read(std::size_t index) noexcept override { return values[index]; }
+  void write(std::size_t index, double value) noexcept override { values[index] = value; }
+
+  void step() {
+    sut->step(in, *this, out);
+    ++periods;
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      if (!stuck) {
+        obey(in.drives[i], out.drives[i]);
+      }
+    }
+  }
+  template <class Condition>
+  [[nodiscard]] bool until(const Condition& condition, int most = 5000) {
+    for (int i = 0; i < most; ++i) {
+      if (condition()) {
+        return true;
+      }
+      step();
+    }
+    return false;
+  }
+  void ask(Service service) {
+    in.service.code = static_cast<std::int32_t>(service);
+    in.service.number = out.acknowledged + 1;
+  }
+  // True if it ends well.
+  [[nodiscard]] bool serve(Service service) {
+    ask(service);
+    return until([&] { return out.done == in.service.number; }) && out.error == ErrorCode::Ok;
+  }
+  void ask_axis(std::size_t i, AxisService service, double position = 0, double velocity = 0) {
+    in.axes[i] = {out.axes[i].acknowledged + 1, static_cast<std::int32_t>(service), position, velocity, 0, 0};
+  }
+  [[nodiscard]] bool serve_axis(std::size_t i, AxisService service, double position = 0, double velocity = 0) {
+    ask_axis(i, service, position, velocity);
+    return until([&] { return out.axes[i].done == in.axes[i].number || out.axes[i].aborted == in.axes[i].number; }) &&
+           out.axes[i].done == in.axes[i].number;
+  }
+
+  static constexpr std::uint16_t kSwitchOnDisabled = 0x40;
+  static constexpr std::uint16_t kFault = 0x08;
+  std::unique_ptr<Controller> sut;
+  Inputs in;
+  Outputs out;
+  double values[8] = {};
+  bool stuck = false;
+  int periods = 0;
+
+ private:
+  static void obey(DriveIn& in, const DriveOut& out) {
+    in.mode = out.mode;
+    if (in.status == kFault) {
+      in.status = out.control == 0x80 ? kSwitchOnDisabled : kFault;
+      return;
+    }
+    switch (out.control & 0x0FU) {
+      case 0x06:
+        in.status = 0x21;
+        break;
+      case 0x07:
+        in.status = 0x23;
+        break;
+      case 0x0F:
+        in.status = in.status == 0x21 ? 0x23 : 0x27;
+        break;
+      default:
+        in.status = kSwitchOnDisabled;
+    }
+    if ((in.status & 0x6FU) == 0x27 && out.mode == 8) {
+      in.position = out.position;
+    }
+    if (out.mode == 6 && (out.control & 0x10U) != 0) {
+      in.position = 0;
+      in.status = 0x27 | 1U << 12 | 1U << 10;
+    }
+  }
+};
+
+TEST(Group, FromDisabledToAMotionAndBack) {
+  Cell cell;
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+  EXPECT_TRUE(cell.out.motion_done);
+  cell.in.service.point = 1;
+  cell.ask(Service::MoveJoints);
+  cell.step();
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Moving);
+  EXPECT_TRUE(cell.out.busy);
+  EXPECT_FALSE(cell.out.motion_done);
+  ASSERT_TRUE(cell.until([&] { return !cell.out.busy; }));
+  EXPECT_TRUE(cell.out.motion_done);
+  EXPECT_EQ(cell.out.done, cell.out.acknowledged);
+  EXPECT_NEAR(cell.out.command[0], 20, 1e-9);
+  EXPECT_NEAR(cell.in.drives[2].position, -20 * 1320000.0 / 360, 1);
+  const SixNumbers there = cell.out.command;
+  for (int i = 0; i < 200; ++i) {
+    cell.step();
+  }
+  EXPECT_EQ(cell.out.command, there);
+  EXPECT_EQ(cell.out.axes[0].state, AxisState::Standstill);
+  cell.in.service.point = 2;
+  ASSERT_TRUE(cell.serve(Service::MoveLine));
+  EXPECT_NEAR(cell.out.position[1], 100, 1e-3);
+  ASSERT_TRUE(cell.serve(Service::GroupDisable));
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+  EXPECT_FALSE(cell.until([&] { return cell.in.drives[0].status != Cell::kSwitchOnDisabled; }, 20));
+}
+
+TEST(Group, ARequestWithoutANumberAsInTheChapter) {
+  Cell cell;
+  cell.in.service.code = static_cast<std::int32_t>(Service::GroupEnable);
+  cell.in.edit = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.edit_done; }));
+  EXPECT_TRUE(cell.out.motion_done);
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+  cell.step();
+  EXPECT_TRUE(cell.out.edit_done);  // until it is seen
+  cell.in.edit = false;
+  cell.step();
+  EXPECT_FALSE(cell.out.edit_done);
+  cell.in.service.code = static_cast<std::int32_t>(Service::DirectAbsolute);
+  cell.in.service.target = {10, 0, 0, 0, 0, 0};
+  cell.in.edit = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.edit_done; }));
+  EXPECT_NEAR(cell.out.command[0], 10, 1e-9);
+}
+
+TEST(Group, WhatWasAskedForBeforeTheStartIsNotDone) {
+  Cell cell("", 10, 7);
+  EXPECT_EQ(cell.out.acknowledged, 7U);
+  EXPECT_EQ(cell.out.done, 7U);
+  EXPECT_EQ(cell.out.error, ErrorCode::Aborted);
+  EXPECT_FALSE(cell.until([&] { return cell.out.state != GroupState::Disabled; }, 50));
+  EXPECT_TRUE(cell.serve(Service::GroupEnable));
+}
+
+TEST(Group, ARequestThatWasWaitingOnASilentBoardIsNotANewOne) {
+  Cell cell("", 10, 0, false);
+  for (int i = 0; i < 20; ++i) {
+    cell.step();
+  }
+  cell.in.service.number = 57;
+  cell.in.axes[0] = {12, static_cast<std::int32_t>(AxisService::PowerOn), 0, 0, 0, 0};
+  cell.in.requests_known = true;
+  EXPECT_FALSE(cell.until([&] { return cell.out.state != GroupState::Disabled || cell.out.axes[0].power; }, 50));
+  EXPECT_EQ(cell.out.acknowledged, 57U);
+  EXPECT_EQ(cell.out.axes[0].aborted, 12U);
+  EXPECT_TRUE(cell.serve(Service::GroupEnable));
+}
+
+TEST(Group, RequestsThatCannotBeServedSayWhy) {
+  Cell cell;
+  EXPECT_FALSE(cell.serve(Service::MoveJoints));
+  EXPECT_EQ(cell.out.error, ErrorCode::State);
+  EXPECT_FALSE(cell.serve(static_cast<Service>(99)));
+  EXPECT_EQ(cell.out.error, ErrorCode::Opcode);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.point = 44;
+  EXPECT_FALSE(cell.serve(Service::MoveJoints));
+  EXPECT_EQ(cell.out.error, ErrorCode::Point);
+  cell.in.service.point = 3;
+  EXPECT_FALSE(cell.serve(Service::MoveLine));
+  EXPECT_EQ(cell.out.error, ErrorCode::Unreachable);
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+  cell.in.service.job = 9;
+  EXPECT_FALSE(cell.serve(Service::JobStart));
+  EXPECT_EQ(cell.out.error, ErrorCode::Job);
+  cell.in.service.target = {0, 0, 0, 0, 170, 0};
+  EXPECT_FALSE(cell.serve(Service::DirectAbsolute));
+  EXPECT_EQ(cell.out.error, ErrorCode::JointLimit);
+  EXPECT_EQ(cell.out.error_axis, 5U);
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+}
+
+TEST(Group, DrivesThatTakeNoPowerAreNamed) {
+  Cell cell;
+  cell.stuck = true;
+  EXPECT_FALSE(cell.serve(Service::GroupEnable));
+  EXPECT_EQ(cell.out.error, ErrorCode::Power);
+  EXPECT_EQ(cell.out.error_axis, 1U);
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+}
+
+TEST(Group, AJobWithSignals) {
+  Cell cell("SPEED 50%\nMOVJ P1\nSET O8 ON\nWAIT I4 TIMEOUT 5s\nZONE 50\nMOVL P2\nMOVJ P1\nSET O8 OFF\n");
+  EXPECT_EQ(cell.sut->signals(), (std::vector<std::string>{"O8", "I4"}));
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.job = 1;
+  cell.ask(Service::JobStart);
+  ASSERT_TRUE(cell.until([&] { return cell.values[0] == 1; }));
+  EXPECT_TRUE(cell.out.moving_by_job);
+  EXPECT_NEAR(cell.out.command[0], 20, 1e-9);
+  cell.values[1] = 1;
+  ASSERT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Ended; }));
+  EXPECT_EQ(cell.values[0], 0);
+  EXPECT_EQ(cell.out.job.cycles, 1U);
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+  EXPECT_TRUE(cell.out.motion_done);
+}
+
+TEST(Group, AJobThatFailsStopsAndNamesItsLine) {
+  Cell cell("MOVJ P1\nMOVL P3\n");
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.job = 1;
+  EXPECT_FALSE(cell.serve(Service::JobStart));
+  EXPECT_EQ(cell.out.job.state, JobState::Failed);
+  EXPECT_NE(std::string(cell.out.job.message).find("main.job:5: the target is out of reach"), std::string::npos)
+      << cell.out.job.message;
+  ASSERT_TRUE(cell.until([&] { return cell.out.state == GroupState::ErrorStop; }));
+  EXPECT_FALSE(cell.serve(Service::MoveJoints));
+  ASSERT_TRUE(cell.serve(Service::GroupReset));
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+}
+
+TEST(Group, EmergencyStopBrakesOnThePathThenTakesPowerAway) {
+  Cell cell("", 1);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
+  cell.in.emergency = true;
+  double before = cell.out.path_speed;
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Stopping);
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  ASSERT_TRUE(cell.until([&] {
+    // On the path: all axes at the same part of their way, never faster again.
+    EXPECT_NEAR(cell.out.command[5], cell.out.command[0] / 2, 1e-6);
+    EXPECT_LE(cell.out.path_speed, before + 0.5);
+    before = cell.out.path_speed;
+    return cell.out.state == GroupState::ErrorStop;
+  }));
+  EXPECT_EQ(cell.out.drives[0].control, 0x02);
+  EXPECT_LT(cell.out.command[0], 99);
+  EXPECT_EQ(cell.out.speed, SixNumbers{});
+  EXPECT_FALSE(cell.serve(Service::GroupReset));
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  cell.in.emergency = false;
+  ASSERT_TRUE(cell.serve(Service::GroupReset));
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  EXPECT_EQ(cell.out.error, ErrorCode::Ok);
+  cell.in.service.target = {};
+  EXPECT_TRUE(cell.serve(Service::DirectAbsolute));
+}
+
+TEST(Group, NoPowerDuringAnEmergency) {
+  Cell cell;
+  cell.in.emergency = true;
+  EXPECT_FALSE(cell.serve(Service::GroupEnable));
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+}
+
+TEST(Group, AFaultyDriveStopsTheOthers) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 99.9; }));
+  cell.in.drives[3].status = Cell::kFault;
+  cell.step();
+  EXPECT_EQ(cell.out.error, ErrorCode::Drive);
+  EXPECT_EQ(cell.out.error_axis, 4U);
+  double last = cell.out.speed[0];
+  ASSERT_TRUE(cell.until([&] {
+    EXPECT_LE(cell.out.speed[0], last + 1e-6);
+    last = cell.out.speed[0];
+    return cell.out.state == GroupState::ErrorStop;
+  }));
+  EXPECT_EQ(cell.out.error, ErrorCode::Drive);
+  ASSERT_TRUE(cell.serve(Service::GroupReset));
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+}
+
+TEST(Group, AnAxisThatDoesNotFollowStopsTheGroup) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 0};
+  cell.ask(Service::DirectAbsolute);
+  cell.stuck = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.error == ErrorCode::Following; }));
+  EXPECT_EQ(cell.out.error_axis, 1U);
+}
+
+TEST(Group, HoldAndOverrideFromOutside) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 0};
+  cell.ask(Service::DirectAbsolute);
+  cell.in.speed_override = 20;
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 19; }));
+  EXPECT_LT(cell.out.path_speed, 20.1);
+  cell.in.hold = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed == 0; }));
+  EXPECT_EQ(cell.out.state, GroupState::Moving);
+  cell.in.hold = false;
+  cell.in.speed_override = std::nan("");  // nonsense is no speed
+  for (int i = 0; i < 10; ++i) {
+    cell.step();
+  }
+  EXPECT_EQ(cell.out.path_speed, 0);
+  cell.in.speed_override = 100;
+  ASSERT_TRUE(cell.until([&] { return !cell.out.busy; }));
+  EXPECT_NEAR(cell.out.command[0], 100, 1e-9);
+}
+
+TEST(Group, StopEndsTheMotionAndItsRequest) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 0};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 50; }));
+  ASSERT_TRUE(cell.serve(Service::Stop));
+  EXPECT_EQ(cell.out.state, GroupState::Standby);
+  EXPECT_LT(cell.out.command[0], 99);
+}
+
+TEST(Group, HomingGivesTheAxesTheirZero) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {30, 0, 0, 0, 0, 0};
+  ASSERT_TRUE(cell.serve(Service::DirectAbsolute));
+  cell.ask(Service::GroupHome);
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Homing);
+  ASSERT_TRUE(cell.until([&] { return cell.out.state == GroupState::Standby; }));
+  cell.step();
+  EXPECT_NEAR(cell.out.joints[0], 0, 1e-9);
+  EXPECT_EQ(cell.out.drives[0].mode, 8);
+}
+
+TEST(Axis, MovesByItselfWhileTheGroupRests) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOn));
+  EXPECT_TRUE(cell.out.axes[1].power);
+  EXPECT_FALSE(cell.out.axes[0].power);
+  EXPECT_FALSE(cell.serve_axis(0, AxisService::MoveAbsolute, 5));
+  EXPECT_EQ(cell.out.axes[0].error, ErrorCode::State);
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveAbsolute, 20, 30));
+  EXPECT_NEAR(cell.out.command[1], 20, 1e-9);
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveRelative, -5));
+  EXPECT_NEAR(cell.out.command[1], 15, 1e-9);
+  EXPECT_FALSE(cell.serve_axis(1, AxisService::MoveAbsolute, 500));
+  EXPECT_EQ(cell.out.axes[1].error, ErrorCode::JointLimit);
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveVelocity, 0, 10));
+  EXPECT_TRUE(cell.out.axes[1].in_velocity);
+  EXPECT_EQ(cell.out.axes[1].state, AxisState::ContinuousMotion);
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::Stop));
+  EXPECT_EQ(cell.out.axes[1].state, AxisState::Standstill);
+  ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOff));
+  cell.step();
+  cell.step();
+  EXPECT_EQ(cell.out.axes[1].state, AxisState::Disabled);
+}
+
+TEST(Axis, ALaterRequestAbortsTheOneBefore) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve_axis(0, AxisService::PowerOn));
+  cell.ask_axis(0, AxisService::MoveAbsolute, 100);
+  cell.step();
+  cell.step();
+  const std::uint32_t first = cell.in.axes[0].number;
+  ASSERT_TRUE(cell.serve_axis(0, AxisService::MoveAbsolute, -10));
+  EXPECT_EQ(cell.out.axes[0].aborted, first);
+  EXPECT_NEAR(cell.out.command[0], -10, 1e-9);
+}
+
+TEST(Axis, AMotionWithoutTargetStopsBeforeTheLimit) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve_axis(4, AxisService::PowerOn));
+  cell.ask_axis(4, AxisService::MoveVelocity, 0, 200);
+  ASSERT_TRUE(cell.until([&] { return cell.out.axes[4].error == ErrorCode::JointLimit; }));
+  ASSERT_TRUE(cell.until([&] { return cell.out.axes[4].velocity == 0; }));
+  EXPECT_GT(cell.out.command[4], 110);
+  EXPECT_LT(cell.out.command[4], degrees(2.094));
+}
+
+TEST(Load, EverythingThatIsWrongIsSaid) {
+  Settings settings;
+  settings.urdf = "nowhere.urdf";
+  settings.jobs = {"nowhere.job"};
+  settings.tool_speed = -1;
+  std::vector<std::string> errors;
+  EXPECT_EQ(Controller::load(settings, errors), nullptr);
+  ASSERT_EQ(errors.size(), 3U);
+  EXPECT_EQ(errors[0], "property tool_speed: error: it has to be above 0");
+  EXPECT_EQ(errors[1],
+            "nowhere.urdf:1:1: error: this robot description (property urdf) cannot be read; names begin at the "
+            "folder of the module.xml");
+}
+
+}  // namespace
+}  // namespace indurop::robot

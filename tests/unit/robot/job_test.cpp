@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/job.h"
+
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <random>
+
+#include "robot/job_runner.h"
+
+namespace indurop::robot {
+namespace {
+
+JobBook parse(const std::string& text, std::vector<std::string>& errors) {
+  return parse_jobs({{"a.job", text}}, errors);
+}
+
+JobBook good(const std::string& text) {
+  std::vector<std::string> errors;
+  JobBook book = parse(text, errors);
+  EXPECT_TRUE(errors.empty()) << errors[0];
+  return book;
+}
+
+class Recorder final : public Signals, public MotionPort {
+ public:
+  double read(std::size_t index) noexcept override { return values[index]; }
+  void write(std::size_t index, double value) noexcept override { values[index] = value; }
+  [[nodiscard]] bool ready() const noexcept override { return true; }
+  [[nodiscard]] bool settled() const noexcept override { return at_rest; }
+  Fault move(const MoveCommand& command) noexcept override {
+    moves.push_back(command);
+    return answer;
+  }
+  double values[8] = {};
+  std::vector<MoveCommand> moves;
+  Fault answer;
+  bool at_rest = true;
+};
+
+TEST(Job, PointsSpeedsAndZonesReachTheMotion) {
+  const JobBook book = good(
+      "POINT A = JOINT 0 10 20 30 40 50   # degrees\n"
+      "point B = POSE 500, 0, 300 RPY 180 0 0 posture 4\n"
+      "SPEED 50%\nZONE 20 mm\nMOVJ A\nSPEED 250 mm/s\nMOVL B\nMOVC A B\n");
+  JobRunner sut(book);
+  Recorder port;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  ASSERT_EQ(port.moves.size(), 3U);
+  EXPECT_NEAR(port.moves[0].target.joints[5], radians(50), 1e-12);
+  EXPECT_DOUBLE_EQ(port.moves[0].speed, 0.5);
+  EXPECT_DOUBLE_EQ(port.moves[0].zone, 0.02);
+  EXPECT_DOUBLE_EQ(port.moves[1].tool_speed, 0.25);
+  EXPECT_EQ(port.moves[1].target.posture, std::uint8_t{4});
+  EXPECT_DOUBLE_EQ(port.moves[1].target.pose.position.x(), 0.5);
+  EXPECT_EQ(port.moves[2].move, Move::Circle);
+  EXPECT_FALSE(port.moves[2].mid.is_pose);
+  EXPECT_EQ(sut.report(0).state, JobState::Ended);
+}
+
+TEST(Job, SignalsLoopsJumpsAndCalls) {
+  std::vector<std::string> errors;
+  const JobBook book =
+      parse_jobs({{"main.job",
+                   "LOOP 3\n  CALL count\n  LOOP 2\n    CALL count\n  END\nEND\n"
+                   "LABEL again\nIF I0 >= 9 GOTO out\nCALL count\nGOTO again\nLABEL out\nSET O1 = -2.5\n"},
+                  {"folder/count.job", "IF O0 GOTO on\nSET O0 ON\nGOTO out\nLABEL on\nSET O0 OFF\nLABEL out\n"}},
+                 errors);
+  ASSERT_TRUE(errors.empty()) << errors[0];
+  ASSERT_EQ(book.signals, (std::vector<std::string>{"I0", "O1", "O0"}));
+  JobRunner sut(book);
+  Recorder port;
+  port.values[0] = 9;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  EXPECT_EQ(sut.report(0).state, JobState::Ended);
+  EXPECT_EQ(port.values[2], 1);  // switched nine times
+  EXPECT_DOUBLE_EQ(port.values[1], -2.5);
+}
+
+TEST(Job, WaitsForRestSignalsAndTime) {
+  const JobBook book = good("SET O0 ON\nWAIT I1 OFF\nWAIT 0.03s\nSET O0 OFF\n");
+  JobRunner sut(book);
+  Recorder port;
+  port.at_rest = false;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  EXPECT_EQ(port.values[0], 0);
+  port.at_rest = true;
+  port.values[1] = 1;
+  sut.step(0.01, port, port);
+  EXPECT_EQ(port.values[0], 1);
+  EXPECT_EQ(sut.report(0).state, JobState::Waits);
+  EXPECT_EQ(sut.report(0).line, 2U);
+  port.values[1] = 0;
+  int periods = 0;
+  for (; port.values[0] == 1 && periods < 100; ++periods) {
+    sut.step(0.01, port, port);
+  }
+  EXPECT_EQ(periods, 4);
+}
+
+TEST(Job, AWaitThatTakesTooLongNamesItsLine) {
+  const JobBook book = good("\nWAIT I1 TIMEOUT 50 ms\n");
+  JobRunner sut(book);
+  Recorder port;
+  sut.start(0);
+  for (int i = 0; i < 10; ++i) {
+    sut.step(0.01, port, port);
+  }
+  EXPECT_EQ(sut.report(0).state, JobState::Failed);
+  EXPECT_STREQ(sut.report(0).message, "a.job:2: waited in vain");
+}
+
+TEST(Job, AMotionThatFailsNamesItsLine) {
+  const JobBook book = good("POINT A = JOINT 0 0 0 0 0 0\n\nMOVL A\n");
+  JobRunner sut(book);
+  Recorder port;
+  port.answer = {ErrorCode::Unreachable};
+  sut.start(0);
+  sut.step(0.01, port, port);
+  EXPECT_STREQ(sut.report(0).message, "a.job:3: the target is out of reach");
+}
+
+TEST(Job, EndlessLoopsAndRecursionDoNotHang) {
+  const JobBook loop = good("LOOP\nSET O0 ON\nEND\n");
+  JobRunner sut(loop);
+  Recorder port;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  EXPECT_TRUE(sut.running());
+  const JobBook recursion = good("CALL a\n");
+  JobRunner deep(recursion);
+  deep.start(0);
+  deep.step(0.01, port, port);
+  EXPECT_STREQ(deep.report(0).message, "a.job:1: jobs call each other too deep");
+}
+
+TEST(Job, NumberedPointsAreFoundByTheirNumber) {
+  const JobBook book =
+      good("POINT P7 = JOINT 0 0 0 0 0 0\nPOINT P = JOINT 1 0 0 0 0 0\nPOINT P12 = JOINT 2 0 0 0 0 0\n");
+  EXPECT_EQ(book.numbered_point(7), 0);
+  EXPECT_EQ(book.numbered_point(12), 2);
+  EXPECT_EQ(book.numbered_point(8), -1);
+  EXPECT_EQ(book.numbered_point(4000000000U), -1);
+}
+
+struct Bad {
+  const char* text;
+  const char* error;
+};
+
+class JobErrorsTest : public testing::TestWithParam<Bad> {};
+
+TEST_P(JobErrorsTest, NamePlaceAndCure) {
+  std::vector<std::string> errors;
+  parse(GetParam().text, errors);
+  ASSERT_FALSE(errors.empty());
+  EXPECT_EQ(errors[0], GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Golden, JobErrorsTest,
+    testing::Values(
+        Bad{"MOVE A\n",
+            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, SET, "
+            "WAIT, CALL, LABEL, GOTO, IF, LOOP and END"},
+        Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
+            "a.job:1:8: error: there is no point 'ABOV'; did you mean 'ABOVE'?"},
+        Bad{"MOVJ\n", "a.job:1:5: error: expected the name of a point, found the end of the line"},
+        Bad{"POINT A = JOINT 1 2 3\n",
+            "a.job:1:22: error: expected 6 numbers: the angles of the six joints in degrees; "
+            "found the end of the line as number 4"},
+        Bad{"POINT A = POSE 1 2 3\n",
+            "a.job:1:21: error: expected RPY and roll, pitch and yaw in degrees, found the end of the line"},
+        Bad{"POINT A = JOINT 1 2 3 4 5 6\nPOINT A = JOINT 1 2 3 4 5 6\n",
+            "a.job:2:7: error: there is already a point 'A' at a.job:1"},
+        Bad{"SPEED 120%\n", "a.job:1:7: error: a speed is above 0 and at most 100 %"},
+        Bad{"SPEED 20 km/h\n", "a.job:1:10: error: expected % or mm/s, found 'km'"},
+        Bad{"ZONE -1\n", "a.job:1:6: error: a zone is from 0 (stop at the point) to 1000 mm"},
+        Bad{"WAIT 5\n", "a.job:1:7: error: expected s or ms, found the end of the line"},
+        Bad{"WAIT I2 ON now\n", "a.job:1:12: error: unexpected 'now'; one statement per line"},
+        Bad{"GOTO nowhere\n", "a.job:1:6: error: there is no label 'nowhere'"},
+        Bad{"LABEL a\nLABEL a\n", "a.job:2:7: error: there is already a label 'a' in line 1"},
+        Bad{"LOOP 2\n", "a.job:1:1: error: LOOP without END"}, Bad{"END\n", "a.job:1:1: error: END without LOOP"},
+        Bad{"LOOP 0\nEND\n",
+            "a.job:1:6: error: a LOOP runs a whole number of times, from 1; without a number it runs for ever"},
+        Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'; did you mean 'a'?"},
+        Bad{"SET 5 ON\n", "a.job:1:5: error: expected the name of a variable, found '5'"},
+        Bad{"IF I0 = 3\n", "a.job:1:10: error: expected GOTO and a label, found the end of the line"},
+        Bad{"SET O1 $\n", "a.job:1:8: error: expected 1 numbers: ON, OFF or the value; found '$' as number 1"}));
+
+TEST(Job, AnyTextIsEitherAJobOrAnError) {
+  const std::string words[] = {"POINT", "A",   "=",    "JOINT", "POSE", "1",       "-2.5e3",  "RPY", "MOVL", "MOVC",
+                               "SPEED", "%",   "mm",   "/",     "s",    "WAIT",    "ms",      "IF",  "GOTO", "LABEL",
+                               "LOOP",  "END", "CALL", "\n",    "\n",   "a",       "#",       "\t",  ">=",   "ZONE",
+                               "1e999", "nan", "\xff", "::",    "[3]",  "TIMEOUT", "POSTURE", ",",   "+"};
+  std::mt19937 random(41);
+  for (int i = 0; i < 3000; ++i) {
+    std::string text;
+    for (auto k = random() % 40; k > 0; --k) {
+      text += words[random() % std::size(words)] + (random() % 4 == 0 ? "" : " ");
+    }
+    std::vector<std::string> errors;
+    const JobBook book = parse(text, errors);
+    if (errors.empty()) {
+      JobRunner sut(book);
+      Recorder port;
+      sut.start(0);
+      sut.step(0.01, port, port);
+    }
+  }
+}
+
+TEST(Job, AllErrorsAtOnce) {
+  std::vector<std::string> errors;
+  parse("MOVJ A\nFOO\nSPEED 0%\n", errors);
+  EXPECT_EQ(errors.size(), 3U);
+}
+
+}  // namespace
+}  // namespace indurop::robot

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace indurop::robot {
+namespace {
+
+constexpr double kSlack = 1e-7;
+
+struct Case {
+  LineState from;
+  double length;
+  double arrival;
+  LineLimits limits;
+};
+
+// States a motion within these limits can be in: what is left of the acceleration does not carry it beyond them.
+Case random_case(std::mt19937& random) {
+  const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Case c;
+  c.limits = {std::exp(any(-3, 2)), std::exp(any(-2, 3)), std::exp(any(-1, 6))};
+  c.from.velocity = any(0, 1) < 0.3 ? 0 : any(0, c.limits.velocity);
+  if (any(0, 1) < 0.5) {
+    const double up = std::sqrt(2 * c.limits.jerk * (c.limits.velocity - c.from.velocity));
+    const double down = std::sqrt(2 * c.limits.jerk * c.from.velocity);
+    c.from.acceleration = any(-std::min(down, c.limits.acceleration), std::min(up, c.limits.acceleration));
+  }
+  c.arrival = any(0, 1) < 0.5 ? 0 : any(0, c.limits.velocity);
+  c.length = std::exp(any(-6, 3));
+  return c;
+}
+
+void expect_within_limits(const Profile& sut, const LineLimits& limits) {
+  constexpr int kPlaces = 400;
+  const double step = sut.duration() / kPlaces;
+  LineState last = sut.at(0);
+  for (int i = 1; i <= kPlaces; ++i) {
+    const LineState now = sut.at(i * step);
+    ASSERT_LE(now.velocity, limits.velocity * (1 + kSlack) + kSlack);
+    ASSERT_GE(now.velocity, -kSlack * (1 + limits.velocity));
+    ASSERT_LE(std::abs(now.acceleration), limits.acceleration * (1 + kSlack) + kSlack);
+    ASSERT_LE(std::abs(now.acceleration - last.acceleration), limits.jerk * step * (1 + 1e-6) + 1e-6);
+    ASSERT_GE(now.position, last.position - kSlack);
+    last = now;
+  }
+}
+
+TEST(Profile, LimitsAreNeverExceededAndTheTargetIsMet) {
+  std::mt19937 random(11);
+  int short_ways = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = random_case(random);
+    const Profile sut = Profile::to_position(c.from, c.length, c.arrival, c.limits);
+    expect_within_limits(sut, c.limits);
+    if (sut.overshoots()) {
+      ++short_ways;
+      EXPECT_GT(ramp(c.from, 0, c.limits).distance, c.length);
+      EXPECT_EQ(sut.end().velocity, 0);
+      continue;
+    }
+    // Just before its end, where nothing has been set right yet.
+    const LineState last = sut.at(sut.duration() * (1 - 1e-12));
+    EXPECT_NEAR(last.position, c.length, 1e-6 * (1 + c.length));
+    EXPECT_NEAR(last.acceleration, 0, 1e-3 * (1 + c.limits.acceleration));
+    EXPECT_LE(sut.end().velocity, c.arrival + kSlack);
+  }
+  EXPECT_GT(short_ways, 100);
+  EXPECT_LT(short_ways, 15000);
+}
+
+// From rest to rest the shortest time has a closed form in each of its four cases; nothing may be slower.
+double shortest_time(double length, const LineLimits& l) {
+  const double v = l.velocity;
+  const double a = l.acceleration;
+  const double j = l.jerk;
+  if (v * j >= a * a) {
+    if (length >= v * v / a + v * a / j) {
+      return length / v + v / a + a / j;
+    }
+    if (length >= 2 * a * a * a / (j * j)) {
+      return a / j + std::sqrt(a * a / (j * j) + 4 * length / a);
+    }
+    return 4 * std::cbrt(length / (2 * j));
+  }
+  return length >= 2 * v * std::sqrt(v / j) ? length / v + 2 * std::sqrt(v / j) : 4 * std::cbrt(length / (2 * j));
+}
+
+TEST(Profile, FromRestToRestInTheShortestTime) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 20000; ++i) {
+    Case c = random_case(random);
+    const Profile sut = Profile::to_position({}, c.length, 0, c.limits);
+    const double expected = shortest_time(c.length, c.limits);
+    EXPECT_NEAR(sut.duration(), expected, 1e-6 * expected);
+  }
+}
+
+TEST(Profile, PlanningAgainOnTheWayChangesNothing) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 5000; ++i) {
+    Case c = random_case(random);
+    const Profile first = Profile::to_position({}, c.length, 0, c.limits);
+    const double when = part(random) * first.duration();
+    const Profile again = Profile::to_position(first.at(when), c.length, 0, c.limits);
+    // While it already brakes, there may be no way to lose less; it never takes much longer and arrives all the same.
+    EXPECT_GE(when + again.duration(), first.duration() * (1 - 1e-6));
+    const double before_braking = first.duration() / 2;
+    if (when < before_braking) {
+      EXPECT_NEAR(when + again.duration(), first.duration(), 1e-4 * first.duration());
+    }
+    EXPECT_NEAR(again.at(again.duration()).position, c.length, 1e-6 * (1 + c.length));
+  }
+}
+
+TEST(Profile, ToAVelocityAndOn) {
+  const LineLimits limits{2, 5, 50};
+  const Profile sut = Profile::to_velocity({1, 2, 0}, -1.5, limits);
+  const LineState end = sut.at(sut.duration() + 1);
+  EXPECT_DOUBLE_EQ(end.velocity, -1.5);
+  EXPECT_DOUBLE_EQ(end.position, sut.at(sut.duration()).position - 1.5);
+  EXPECT_EQ(Profile::to_velocity({}, 9, limits).end().velocity, 2);
+}
+
+TEST(Profile, AnAccelerationAboveItsLimitIsTakenBack) {
+  const LineLimits limits{2, 1, 10};
+  const Ramp sut = ramp({0, 0.5, 3}, 2, limits);
+  EXPECT_LT(sut.phases[0].jerk, 0);
+  EXPECT_NEAR(Profile::to_velocity({0, 0.5, 3}, 2, limits).end().velocity, 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace indurop::robot

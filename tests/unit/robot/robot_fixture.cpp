@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot_fixture.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace indurop::robot {
+
+std::string cell_urdf() {
+  std::ifstream file(ROBOT_URDF);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Arm cell_arm() {
+  std::vector<std::string> errors;
+  auto model = arm_from_urdf("robot.urdf", cell_urdf(), errors);
+  if (!model) {
+    throw std::runtime_error(errors.at(0));
+  }
+  return model->arm;
+}
+
+Arm odd_arm() {
+  const Arm arm = cell_arm();
+  std::array<Axis, kAxes> axes;
+  for (int i = 0; i < kAxes; ++i) {
+    axes[static_cast<std::size_t>(i)] = arm.axis(i);
+  }
+  axes[5].point += Vec3(0, 0, 0.05);
+  return {axes, arm.home()};
+}
+
+JointLimits cell_limits() {
+  JointLimits limits;
+  limits.velocity << 3.49, 3.49, 3.49, 6.98, 6.98, 8.72;
+  limits.acceleration = limits.velocity / 0.25;
+  limits.jerk = limits.acceleration / 0.1;
+  return limits;
+}
+
+Joints anywhere(const Arm& arm, std::mt19937& random, double margin) {
+  Joints q;
+  for (int i = 0; i < kAxes; ++i) {
+    q[i] = std::uniform_real_distribution<double>(arm.axis(i).lower + margin, arm.axis(i).upper - margin)(random);
+  }
+  return q;
+}
+
+double distance(const Pose& a, const Pose& b) {
+  return difference(a, b).norm();
+}
+
+}  // namespace indurop::robot

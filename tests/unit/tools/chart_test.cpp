@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tools/chart_svg.h"
+#include "tools/chart_text.h"
+#include "tools/recording.h"
+
+namespace indurop::tools {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::NanSensitiveDoubleEq;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kRun =
+    "time_ns,speed,state,\"arm,joint\",on\n"
+    "5000000000,0.5,Idle,\"[1.0,2.0]\",false\n"
+    "5500000000,1.5,Moving,\"[1.5,2.5]\",true\n"
+    "\r\n"
+    "6000000000,,Idle,\"[2.0,3.0]\",true\n";
+
+Recording read(std::string_view text) {
+  Recording recording;
+  EXPECT_EQ(read_recording(text, "run.csv", recording), "");
+  return recording;
+}
+
+std::string problem(std::string_view text) {
+  Recording recording;
+  return read_recording(text, "run.csv", recording);
+}
+
+TEST(RecordingText, Numbers_words_arrays_and_gaps_are_read) {
+  const Recording sut = read(kRun);
+  EXPECT_THAT(sut.time_s, ElementsAre(0, 0.5, 1.0));
+  ASSERT_EQ(sut.series.size(), 4U);
+  EXPECT_THAT(sut.series[0].lines, ElementsAre(ElementsAre(0.5, 1.5, NanSensitiveDoubleEq(std::nan("")))));
+  EXPECT_FALSE(sut.series[0].steps);
+  EXPECT_THAT(sut.series[1].words, ElementsAre("Idle", "Moving"));
+  EXPECT_THAT(sut.series[1].lines, ElementsAre(ElementsAre(0, 1, 0)));
+  EXPECT_TRUE(sut.series[1].steps);
+  EXPECT_EQ(sut.series[2].name, "arm,joint");
+  EXPECT_THAT(sut.series[2].lines, ElementsAre(ElementsAre(1, 1.5, 2), ElementsAre(2, 2.5, 3)));
+  EXPECT_THAT(sut.series[3].lines, ElementsAre(ElementsAre(0, 1, 1)));
+}
+
+TEST(RecordingText, What_is_no_recording_is_named_with_its_line) {
+  EXPECT_THAT(problem("a,b\n1,2\n"), StartsWith("run.csv:1: error: the heading is not that of a recording"));
+  EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3: error: 1 values for 2 columns"));
+  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2: error: the first column is no time"));
+  EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times do not rise"));
+  EXPECT_THAT(problem("time_ns,a\n1,2\n"), HasSubstr("at least two rows"));
+  EXPECT_THAT(problem(""), HasSubstr("error"));
+}
+
+TEST(RecordingText, A_number_of_many_values_is_a_line_and_one_of_few_a_lane) {
+  std::string text = "time,many,few\n";
+  for (int i = 0; i < 20; ++i) {
+    text += std::to_string(i) + "," + std::to_string(i) + "," + std::to_string(i % 3) + "\n";
+  }
+  const Recording sut = read(text);
+  EXPECT_FALSE(sut.series[0].steps);
+  EXPECT_TRUE(sut.series[1].steps);
+}
+
+TEST(ChartSvg, Every_column_is_there_and_nothing_is_not_a_number) {
+  const std::string svg = chart_svg("A <run>", read(kRun));
+  EXPECT_THAT(svg, StartsWith("<svg "));
+  EXPECT_THAT(svg, HasSubstr("A &lt;run&gt;"));
+  for (const char* name : {"speed", "state", "arm,joint", "on", "[0]", "[1]", "Moving"}) {
+    EXPECT_THAT(svg, HasSubstr(name));
+  }
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+TEST(ChartSvg, A_constant_and_a_column_without_values_can_be_drawn) {
+  const std::string svg = chart_svg("", read("time,a,b\n0,3.5,\n1,3.5,\n"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+TEST(ChartSvg, Round_values_are_round) {
+  EXPECT_THAT(round_values(0, 20, 10), ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20));
+  EXPECT_THAT(round_values(-1.2, 1.1, 4), ElementsAre(-1, 0, 1));
+}
+
+TEST(ChartText, A_row_each_between_smallest_and_largest) {
+  const auto lines = chart_lines(read("time,ramp\n0,0\n1,1\n2,2.5\n3,3\n"), 60, false);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[0], StartsWith("ramp  0"));
+  EXPECT_THAT(lines[0], HasSubstr("9  0 .. 3"));
+  EXPECT_THAT(lines[1], HasSubstr("3 s"));
+}
+
+TEST(ChartText, Fits_a_narrow_terminal) {
+  EXPECT_THAT(chart_lines(read(kRun), 1, true), Each(Not(IsEmpty())));
+}
+
+}  // namespace
+}  // namespace indurop::tools

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop chart: values over time as a picture.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "tools/chart_svg.h"
+#include "tools/chart_text.h"
+#include "tools/save_file.h"
+#include "tools/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string svg_file;
+  std::string title;
+};
+
+int chart(Context& context, const Options& options) {
+  const bool piped = options.file == "-";
+  std::ifstream stream;
+  if (!piped) {
+    stream.open(options.file, std::ios::binary);
+    if (!stream) {
+      context.out.error(fmt::format("cannot read '{}'; record one with `indurop watch NAME... -o csv > {}`",
+                                    options.file, options.file));
+      return kFailed;
+    }
+  }
+  std::istream& in = piped ? std::cin : stream;
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  Recording recording;
+  const std::string problem = read_recording(text, piped ? "stdin" : options.file, recording);
+  if (!problem.empty()) {
+    context.out.message_line(problem);
+    return kFailed;
+  }
+  if (options.svg_file.empty() && context.format == Format::Table) {
+    for (const std::string& line : chart_lines(recording, context.out.extent().columns, context.out.unicode())) {
+      context.out.line(line);
+    }
+    return kOk;
+  }
+  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, recording);
+  if (options.svg_file.empty()) {
+    context.out.write(picture);
+    return kOk;
+  }
+  const std::string failure = save_file(options.svg_file, picture);
+  if (!failure.empty()) {
+    context.out.error(failure);
+    return kFailed;
+  }
+  context.out.note(fmt::format("wrote {}", options.svg_file));
+  return kOk;
+}
+
+Action declare(CLI::App& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add_option("file", options->file, "Recording; - reads it from stdin")->required()->type_name("FILE.csv");
+  app.add_option("--svg", options->svg_file, "Write a picture to FILE")->type_name("FILE");
+  app.add_option("--title", options->title, "Heading of the picture")->type_name("TEXT");
+  add_format_option(app, context, {Format::Table, Format::Svg});
+  return [options](Context& c) { return chart(c, *options); };
+}
+
+}  // namespace
+
+const Verb kChartVerb{
+    "chart", "Variables", "Draw recorded values over time, in the terminal or as SVG",
+    "Reads what `indurop watch -o csv` wrote. Numbers are drawn as lines, the elements of an array together,\n"
+    "what has few values (bool, enumerators, small counters) as a lane of bars.\n"
+    "Examples:\n"
+    "  indurop watch 'joints' motor_on state --hz 50 --timeout 20s -o csv > run.csv\n"
+    "  indurop chart run.csv\n"
+    "  indurop chart run.csv --svg run.svg --title 'First run'\n",
+    &declare};
+
+}  // namespace indurop::tools

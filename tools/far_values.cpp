@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/far_values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rt/clock.h"
+#include "tools/interrupt.h"
+#include "tools/units.h"
+#include "vars/shm_file.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kQuietNs = 200'000'000;  // nothing new for so long: that was all
+constexpr std::int64_t kSetNs = 3'000'000'000;
+constexpr std::chrono::milliseconds kPoll{20};
+
+std::vector<std::string> silent(const std::vector<mirror::FarBoard>& boards) {
+  std::vector<std::string> names;
+  for (const mirror::FarBoard& board : boards) {
+    if (!board.heard) {
+      names.push_back(board.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+std::shared_ptr<FarValues> FarValues::open(Context& context, int& code) {
+  std::string problem;
+  auto plane = mirror::FarPlane::open(context.far.network, problem);
+  if (plane == nullptr) {
+    context.out.error(problem);
+    code = kUnreachable;
+    return nullptr;
+  }
+  if (!problem.empty()) {
+    context.out.note(problem);
+  }
+  std::shared_ptr<FarValues> made(new FarValues(std::move(plane), context.far.wait_ns));
+  if (!made->gather(context)) {
+    code = interrupted() ? interrupt_code() : kUnreachable;
+    return nullptr;
+  }
+  made->thread_ = std::thread([&self = *made] { self.feed(); });
+  return made;
+}
+
+FarValues::~FarValues() {
+  stop_.store(true);
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+// Until nothing new has come for a while and nobody is missing, or the time is over.
+bool FarValues::gather(Context& context) {
+  const std::int64_t end = rt::now_ns() + wait_ns_;
+  std::int64_t changed_ns = rt::now_ns();
+  std::uint64_t generation = plane_->generation();
+  while (!interrupted() && rt::now_ns() < end) {
+    plane_->look(rt::now_ns() + kLookNs);
+    if (plane_->generation() != generation) {
+      generation = plane_->generation();
+      changed_ns = rt::now_ns();
+    }
+    if (plane_->complete() && rt::now_ns() - changed_ns > kQuietNs) {
+      break;
+    }
+  }
+  update();
+  title_ = fmt::format("DDS domain {}", context.far.network.domain);
+  std::set<std::string> plants;
+  for (const mirror::FarBoard& board : boards_) {
+    plants.insert(board.plant);
+  }
+  if (plants.size() == 1 && !plants.begin()->empty()) {
+    title_ = "plant " + *plants.begin();
+  }
+  for (const std::string& why : hidden_) {
+    context.out.note(fmt::format("not shown: {}", printable(why)));
+  }
+  if (const auto missing = silent(boards_); !missing.empty()) {
+    context.out.note(fmt::format("{}: not heard within {}: {}", title_, human_age(wait_ns_), fmt::join(missing, ", ")));
+  }
+  if (variables_.empty() && !interrupted()) {
+    context.out.error(
+        fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest names "
+                    "<types>; other networks: "
+                    "--domain, --interface, --peer",
+                    context.far.network.domain, human_age(wait_ns_)));
+  }
+  return !variables_.empty() && !interrupted();
+}
+
+void FarValues::feed() {
+  while (!stop_.load()) {
+    plane_->look(rt::now_ns() + kLookNs);
+    update();
+  }
+}
+
+// What the plane knows now, and what is wanted of it.
+void FarValues::update() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  boards_ = plane_->boards();
+  if (plane_->generation() != plane_generation_) {
+    plane_generation_ = plane_->generation();
+    hidden_ = plane_->hidden();
+    rebuild(plane_->variables());
+  }
+  for (const std::string& variable : followed_) {
+    const auto known = variables_.find(variable);
+    if (known != variables_.end()) {
+      plane_->follow(variable, known->second.owner);
+    }
+  }
+  if (order_ && !order_->sent) {
+    order_->sent = plane_->send(order_->variable, variables_.at(order_->variable).owner, order_->value);
+  }
+  plane_->take([this](const std::string& variable, const std::string& board, std::span<const std::uint8_t> value) {
+    value_came(variable, board, value);
+  });
+  news_.notify_all();
+}
+
+void FarValues::value_came(const std::string& variable, const std::string& board, std::span<const std::uint8_t> value) {
+  const auto known = variables_.find(variable);
+  if (known == variables_.end() || known->second.owner != board || !store_ ||
+      value.size() != known->second.declared.type.size()) {
+    return;
+  }
+  const auto* entry = store_->find(known->second.declared.name_hash());
+  if (entry != nullptr && store_->write(*entry, 0, value).ok()) {
+    arrived_.insert(variable);
+  }
+  if (order_ && order_->sent && order_->variable == variable) {
+    order_->shown = true;
+    order_->answer.assign(value.begin(), value.end());
+  }
+}
+
+// Boards that are gone keep their variables: the last values stay, and go on when the board is back.
+void FarValues::rebuild(const std::vector<mirror::FarVariable>& variables) {
+  bool other = !store_;
+  for (const mirror::FarVariable& seen : variables) {
+    auto& known = variables_[seen.declared.name];
+    const bool replaced =
+        known.boards.empty() || (known.owner == seen.board && known.declared.type_hash != seen.declared.type_hash);
+    if (known.boards.empty()) {
+      known.owner = seen.board;
+    }
+    if (replaced) {
+      known.declared = seen.declared;
+      known.declared.kind = abi::Kind::Ring;  // numbers what comes
+      other = true;
+    }
+    known.boards[seen.board] = seen.writable;
+  }
+  if (other && !variables_.empty()) {
+    (void)renew_store();
+  }
+}
+
+Status FarValues::renew_store() {
+  schema::Schema schema;
+  for (const auto& [name, known] : variables_) {
+    schema.variables.push_back(known.declared);
+  }
+  const std::string name = fmt::format("far-{}-{}", ::getpid(), ++stores_);
+  auto fresh = vars::Store::create(name, schema);
+  auto view = fresh ? vars::Store::attach(name, vars::Mode::ReadOnly) : std::move(fresh);
+  (void)vars::remove_shm_file(vars::block_file(name));  // only this process has it
+  if (!view) {
+    return view.error();
+  }
+  std::vector<std::uint8_t> bytes;
+  for (const vars::DirectoryEntry& entry : fresh.value().directory()) {
+    const auto* old = store_ ? store_->find(entry.name_hash) : nullptr;
+    if (old != nullptr && old->type_hash == entry.type_hash) {
+      bytes.resize(entry.value_size);
+      if (store_->read(*old, 0, bytes).ok()) {
+        (void)fresh.value().write(entry, 0, bytes);
+      }
+    }
+  }
+  store_ = std::move(fresh).value();
+  view_ = std::move(view).value();
+  generation_.fetch_add(1);
+  return {};
+}
+
+Result<vars::Store> FarValues::attach() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  if (!view_) {
+    return Error{Errc::Busy, 0, "variables of the network"};
+  }
+  vars::Store view = std::move(*view_);
+  view_.reset();
+  return view;
+}
+
+std::string FarValues::absence() const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto missing = silent(boards_);
+  return missing.empty() ? std::string{} : fmt::format("not heard: {}", fmt::join(missing, ", "));
+}
+
+std::string FarValues::prefer(const std::string& pattern, const std::string& board) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  bool any = false;
+  for (auto& [name, known] : variables_) {
+    if (known.boards.count(board) > 0 && (name == pattern || schema::glob_match(pattern, name))) {
+      known.owner = board;
+      any = true;
+    }
+  }
+  const bool there = std::any_of(boards_.begin(), boards_.end(), [&](const auto& one) { return one.name == board; });
+  return any     ? std::string{}
+         : there ? fmt::format("board {} shows no variable '{}'", board, pattern)
+                 : fmt::format("there is no board {}", board);
+}
+
+std::string FarValues::owner(const std::string& variable) const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto known = variables_.find(variable);
+  return known == variables_.end() ? std::string{} : known->second.owner;
+}
+
+std::vector<std::string> FarValues::follow(const std::set<std::string>& variables) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  followed_.insert(variables.begin(), variables.end());
+  const std::int64_t end = rt::now_ns() + wait_ns_;
+  std::vector<std::string> missing;
+  do {
+    missing.clear();
+    std::set_difference(variables.begin(), variables.end(), arrived_.begin(), arrived_.end(),
+                        std::back_inserter(missing));
+  } while (!missing.empty() && !interrupted() && rt::now_ns() < end && (news_.wait_for(lock, kPoll), true));
+  return missing;
+}
+
+std::string FarValues::set(const std::string& variable, std::span<const std::uint8_t> value, bool& timed_out) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  timed_out = false;
+  const auto known = variables_.find(variable);
+  if (known == variables_.end() || !known->second.boards[known->second.owner]) {
+    return known != variables_.end() && known->second.owner.empty()
+               ? "the program that shows it is no board of InduRoP"
+               : "its board does not let it be set from outside: external=\"write\" in the manifest";
+  }
+  order_ = Order{variable, {value.begin(), value.end()}, false, false, {}};
+  const std::int64_t end = rt::now_ns() + kSetNs;
+  const auto taken = [&] { return order_->shown && order_->answer == order_->value; };
+  while (!taken() && !interrupted() && rt::now_ns() < end) {
+    news_.wait_for(lock, kPoll);
+  }
+  const Order order = std::move(*order_);
+  order_.reset();
+  if (order.shown && order.answer == order.value) {
+    return {};
+  }
+  timed_out = !order.shown;
+  return order.shown ? fmt::format("board {} shows {}: it was refused there, or a module writes it too",
+                                   known->second.owner, schema::format_value(known->second.declared.type, order.answer))
+                     : fmt::format("board {} did not answer within {}", known->second.owner, human_age(kSetNs));
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values over time as `indurop watch -o csv` writes them, read back for a chart.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::tools {
+
+// One column: a number, a word (enumerators, text), true or false; or an array of numbers, drawn together.
+struct Series {
+  std::string name;
+  std::vector<std::vector<double>> lines;  // of each element the values in time; NaN: none
+  std::vector<std::string> words;          // what the numbers 0, 1, ... stand for, if they stand for words
+  bool steps = false;                      // few values that hold until the next: drawn as a lane
+};
+
+struct Recording {
+  std::vector<double> time_s;  // since the first row, rising
+  std::vector<Series> series;
+};
+
+// Errors: "name:line: error: ..."; empty: all is well.
+std::string read_recording(std::string_view text, const std::string& name, Recording& to);
+
+}  // namespace indurop::tools
