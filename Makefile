@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS)
 
-.PHONY: all with-tests demo test check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
+.PHONY: all with-tests demo test soak check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -27,7 +27,10 @@ demo: ## install what is missing, build, run the chapter's example, a plant of t
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
-	@$(CTEST) -LE tidy
+	@$(CTEST) -LE 'tidy|soak'
+
+soak: with-tests ## the store read 10^9 times and its processes killed for minutes
+	@$(CTEST) -L soak
 
 check-deps:
 	@missing=$$(.ci/install-deps --list build); if [ -n "$$missing" ]; then \

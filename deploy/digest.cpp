@@ -12,7 +12,7 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::size_t kBlock = 256 * 1024;
+constexpr std::size_t kBlock = std::size_t{256} * 1024;
 constexpr std::size_t kDigits = 64;
 
 }  // namespace

@@ -18,6 +18,8 @@ class Digest {
   Digest();
   Digest(Digest&&) noexcept;
   Digest& operator=(Digest&&) noexcept;
+  Digest(const Digest&) = delete;
+  Digest& operator=(const Digest&) = delete;
   ~Digest();
   void add(std::span<const std::uint8_t> bytes);
   // 64 lower-case hexadecimal digits of all that was added. Ends the use of the object.

@@ -22,6 +22,8 @@ class External {
   static Result<External> start(const ExternalSettings& settings, const std::string& node, vars::Store& store);
   External(External&&) noexcept;
   External& operator=(External&&) noexcept;
+  External(const External&) = delete;
+  External& operator=(const External&) = delete;
   ~External();  // as stop()
 
   // What was written last is still published. Not real-time safe.

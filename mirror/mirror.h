@@ -26,6 +26,8 @@ class Mirror {
                               const std::atomic<std::uint64_t>& tick);
   Mirror(Mirror&&) noexcept;
   Mirror& operator=(Mirror&&) noexcept;
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
   ~Mirror();  // as stop()
 
   // Something may have changed in the store: looks and sends soon. Real-time safe, any thread.

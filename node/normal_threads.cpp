@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kLookNs = 10'000'000;
 constexpr std::int64_t kGraceNs = 2'000'000'000;
-constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
 

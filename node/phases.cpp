@@ -12,7 +12,7 @@ namespace indurop::node {
 namespace {
 
 constexpr std::int64_t kLookNs = 1'000'000;
-constexpr std::size_t kStackBytes = 8 * 1024 * 1024;
+constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
 

@@ -38,7 +38,7 @@ void install(int number, void (*handler)(int, siginfo_t*, void*), int more_flags
   ::sigaction(number, &action, nullptr);
 }
 
-constexpr std::size_t kHandlerStackBytes = 64 * 1024;
+constexpr std::size_t kHandlerStackBytes = std::size_t{64} * 1024;
 
 }  // namespace
 

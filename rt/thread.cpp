@@ -129,7 +129,7 @@ Status pin_process_to_core(pid_t process, int core) noexcept {
 }
 
 bool StackBounds::overflowed_at(const void* address) const noexcept {
-  constexpr std::size_t kAround = 64 * 1024;
+  constexpr std::size_t kAround = std::size_t{64} * 1024;
   const auto at = reinterpret_cast<std::uintptr_t>(address);
   const auto low = reinterpret_cast<std::uintptr_t>(lowest);
   return lowest != nullptr && at < low + 4096 && at + kAround >= low;

@@ -45,7 +45,7 @@ struct ThreadSettings {
   std::string name;       // at most 15 characters are shown by the system
   int fifo_priority = 0;  // 0: normal scheduling
   int core = -1;          // -1: not pinned
-  std::size_t stack_bytes = 512 * 1024;
+  std::size_t stack_bytes = std::size_t{512} * 1024;
 };
 
 // A thread that starts with its settings applied and its stack touched, and is joined by its destructor.

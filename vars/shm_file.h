@@ -47,6 +47,8 @@ class ShmFile {
 
   ShmFile(ShmFile&&) noexcept;
   ShmFile& operator=(ShmFile&&) noexcept;
+  ShmFile(const ShmFile&) = delete;
+  ShmFile& operator=(const ShmFile&) = delete;
   ~ShmFile();  // unmaps; removes the file if it was created and not published
 
   [[nodiscard]] std::byte* data() const noexcept;  // page aligned; read-only memory if opened so

@@ -22,6 +22,8 @@ class Handle {
   Handle() noexcept;
   Handle(Handle&&) noexcept;
   Handle& operator=(Handle&&) noexcept;
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
   ~Handle();
 
   struct Impl;

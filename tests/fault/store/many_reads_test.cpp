@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inlined read of the generated headers, as often as INDUROP_READS says (default 5 million), against writers that
-// preempt it and writers that are killed in the middle of a write.
+// The inlined read of the generated headers, of each size as often as INDUROP_READS says (default 1 million), against
+// writers that preempt it and writers that are killed in the middle of a write.
 
 #include <gtest/gtest.h>
 
@@ -32,10 +32,11 @@ template <std::size_t Words>
 using Value = std::array<std::uint64_t, Words>;
 constexpr std::size_t kSmall = 3;   // 24 bytes
 constexpr std::size_t kLarge = 32;  // 256 bytes
+constexpr std::uint64_t kAtOnce = 10'000;
 
 struct Score {
   std::atomic<bool> stop;
-  std::atomic<std::uint64_t> reads;
+  std::atomic<std::uint64_t> reads;  // of each size
   std::atomic<std::uint64_t> torn;
   std::atomic<std::uint64_t> backwards;
   std::atomic<std::uint64_t> changes;  // times a read saw another value than the one before
@@ -68,26 +69,26 @@ void bump(abi::RingHeader& ring) {
   commit(ring);
 }
 
-int run_writer(const TestNode& node, Score& score, int fifo_priority) {
-  auto store = Store::attach(node.name(), Mode::ReadWrite);
-  if (!store.ok()) {
-    return 1;
-  }
+void write_until_stopped(Store& store, Score& score, int fifo_priority) {
   (void)rt::set_fifo(fifo_priority);  // refused for an ordinary user: then the writers preempt less
   while (!score.stop) {
     for (int i = 0; i < 50; ++i) {
-      bump<kSmall>(ring_of(*store, "small"));
-      bump<kLarge>(ring_of(*store, "large"));
+      bump<kSmall>(ring_of(store, "small"));
+      bump<kLarge>(ring_of(store, "large"));
     }
     score.commits.fetch_add(100, std::memory_order_relaxed);
     std::this_thread::sleep_for(std::chrono::microseconds(20));  // a real-time thread must let others run
   }
-  return 0;
+}
+
+// On the core of the reader, so that a write comes between any two of its instructions.
+void write_beside_reader(Store& store, Score& score) {
+  (void)rt::pin_to_core(rt::allowed_cores().front());
+  write_until_stopped(store, score, 10);
 }
 
 template <std::size_t Words>
 void read_many(abi::RingHeader& ring, Score& score, std::uint64_t& last) {
-  constexpr std::uint64_t kAtOnce = 10'000;
   std::uint64_t torn = 0;
   std::uint64_t backwards = 0;
   std::uint64_t changes = 0;
@@ -102,52 +103,89 @@ void read_many(abi::RingHeader& ring, Score& score, std::uint64_t& last) {
     changes += value[0] != last ? 1U : 0U;
     last = value[0];
   }
-  score.reads.fetch_add(kAtOnce, std::memory_order_relaxed);
   score.torn.fetch_add(torn, std::memory_order_relaxed);
   score.backwards.fetch_add(backwards, std::memory_order_relaxed);
   score.changes.fetch_add(changes, std::memory_order_relaxed);
 }
 
-int run_reader(const TestNode& node, Score& score, std::uint64_t wanted) {
+void read_until(Store& store, Score& score, std::uint64_t wanted) {
+  (void)rt::pin_to_core(rt::allowed_cores().front());
+  std::uint64_t small = 0;
+  std::uint64_t large = 0;
+  while (score.reads.load(std::memory_order_relaxed) < wanted) {
+    read_many<kSmall>(ring_of(store, "small"), score, small);
+    read_many<kLarge>(ring_of(store, "large"), score, large);
+    score.reads.fetch_add(kAtOnce, std::memory_order_relaxed);
+  }
+  score.stop = true;
+}
+
+// A process that attaches to the store and does something with it.
+template <class Work>
+int attached(const TestNode& node, const Work& work) {
   auto store = Store::attach(node.name(), Mode::ReadWrite);
   if (!store.ok()) {
     return 1;
   }
-  std::uint64_t small = 0;
-  std::uint64_t large = 0;
-  while (score.reads.load(std::memory_order_relaxed) < wanted) {
-    read_many<kSmall>(ring_of(*store, "small"), score, small);
-    read_many<kLarge>(ring_of(*store, "large"), score, large);
-  }
-  score.stop = true;
+  work(*store);
   return 0;
 }
 
-TEST(ManyReads, Never_see_a_torn_or_older_value) {
+// Lets writers come and be killed until the reader has read enough.
+int kill_writers(const TestNode& node, Score& score) {
+  std::mt19937 random(11);
+  int kills = 0;
+  for (; !score.stop; ++kills) {
+    Child writer([&] { return attached(node, [&](Store& store) { write_until_stopped(store, score, 11); }); });
+    test::wait_a_random_moment(random, 4000);
+    writer.kill_and_wait();
+  }
+  return kills;
+}
+
+std::uint64_t wanted_reads() {
   const char* const text = std::getenv("INDUROP_READS");
-  const std::uint64_t wanted = text == nullptr ? 5'000'000 : std::strtoull(text, nullptr, 10);
+  return text == nullptr ? 1'000'000 : std::strtoull(text, nullptr, 10);
+}
+
+void expect_whole_values(const Score& score, int kills) {
+  EXPECT_GE(score.reads, wanted_reads());
+  EXPECT_EQ(score.torn, 0U);
+  EXPECT_EQ(score.backwards, 0U);
+  EXPECT_GT(score.changes, 0U);
+  std::printf("%llu reads of 24 bytes and as many of 256, %llu saw a new value, %llu commits, %d writers killed\n",
+              static_cast<unsigned long long>(score.reads), static_cast<unsigned long long>(score.changes),
+              static_cast<unsigned long long>(score.commits), kills);
+}
+
+TEST(ManyReads, Of_what_other_processes_write_are_never_torn_or_older) {
   const TestNode node("many-reads");
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), both());
   ASSERT_TRUE(store.ok());
-  Child steady([&] { return run_writer(node, *score, 10); });
-  Child reader([&] { return run_reader(node, *score, wanted); });
-  std::mt19937 random(11);
-  int kills = 0;
-  for (; !score->stop; ++kills) {
-    Child writer([&] { return run_writer(node, *score, 11); });
-    test::wait_a_random_moment(random, 4000);
-    writer.kill_and_wait();
-  }
+  Child steady([&] { return attached(node, [&](Store& mine) { write_beside_reader(mine, *score); }); });
+  Child reader([&] { return attached(node, [&](Store& mine) { read_until(mine, *score, wanted_reads()); }); });
+  const int kills = kill_writers(node, *score);
   EXPECT_EQ(reader.wait(), 0);
   EXPECT_EQ(steady.wait(), 0);
-  EXPECT_GE(score->reads, wanted);
-  EXPECT_EQ(score->torn, 0U);
-  EXPECT_EQ(score->backwards, 0U);
-  EXPECT_GT(score->changes, 0U);
-  std::printf("%llu reads, %llu saw a new value, %llu commits, %d writers killed\n",
-              static_cast<unsigned long long>(score->reads), static_cast<unsigned long long>(score->changes),
-              static_cast<unsigned long long>(score->commits), kills);
+  expect_whole_values(*score, kills);
+}
+
+TEST(ManyReads, Of_what_a_thread_of_the_same_process_writes_are_never_torn_or_older) {
+  const TestNode node("many-reads");
+  const test::Shared<Score> score;
+  auto store = Store::create(node.name(), both());
+  ASSERT_TRUE(store.ok());
+  Child process([&] {
+    return attached(node, [&](Store& mine) {
+      std::thread steady([&] { write_beside_reader(mine, *score); });
+      read_until(mine, *score, wanted_reads());
+      steady.join();
+    });
+  });
+  const int kills = kill_writers(node, *score);
+  EXPECT_EQ(process.wait(), 0);
+  expect_whole_values(*score, kills);
 }
 
 }  // namespace
