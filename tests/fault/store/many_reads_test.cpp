@@ -108,11 +108,13 @@ void read_many(abi::RingHeader& ring, Score& score, std::uint64_t& last) {
   score.changes.fetch_add(changes, std::memory_order_relaxed);
 }
 
+// Goes on until some of the values were new: a quick reader could be done before the first writer comes.
 void read_until(Store& store, Score& score, std::uint64_t wanted) {
+  constexpr std::uint64_t kNew = 100;
   (void)rt::pin_to_core(rt::allowed_cores().front());
   std::uint64_t small = 0;
   std::uint64_t large = 0;
-  while (score.reads.load(std::memory_order_relaxed) < wanted) {
+  while (score.reads.load(std::memory_order_relaxed) < wanted || score.changes.load(std::memory_order_relaxed) < kNew) {
     read_many<kSmall>(ring_of(store, "small"), score, small);
     read_many<kLarge>(ring_of(store, "large"), score, large);
     score.reads.fetch_add(kAtOnce, std::memory_order_relaxed);
@@ -152,7 +154,6 @@ void expect_whole_values(const Score& score, int kills) {
   EXPECT_GE(score.reads, wanted_reads());
   EXPECT_EQ(score.torn, 0U);
   EXPECT_EQ(score.backwards, 0U);
-  EXPECT_GT(score.changes, 0U);
   std::printf("%llu reads of 24 bytes and as many of 256, %llu saw a new value, %llu commits, %d writers killed\n",
               static_cast<unsigned long long>(score.reads), static_cast<unsigned long long>(score.changes),
               static_cast<unsigned long long>(score.commits), kills);
