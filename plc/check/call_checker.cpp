@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "plc/model/make.h"
+
 namespace indurop::plc {
 namespace {
 
@@ -39,6 +41,9 @@ bool CallChecker::take_enable(Expression& call, bool allowed) {
   bool fine = true;
   for (Argument& argument : call.arguments) {
     if (!is_enable(argument) && !is_enable_out(argument)) {
+      continue;
+    }
+    if (!allowed && is_enable(argument) && argument.value && make::is_true(*argument.value)) {
       continue;
     }
     if (!allowed) {

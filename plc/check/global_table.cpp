@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
@@ -128,11 +129,32 @@ void declare_global(Context& context, ast::Variable& variable) {
   if (type == nullptr) {
     return;
   }
-  if (variable.address) {
+  if (variable.address && variable.address->numbers.empty()) {
+    declare_placeless(context, variable, *type);
+  } else if (variable.address) {
     declare_located(context, variable, *type);
   } else {
     declare_one(context, variable, *type);
   }
+}
+
+// AT %I*: a shared variable of the declared name.
+Global* declare_placeless(Context& context, ast::Variable& variable, const Type& type) {
+  if (context.pou != nullptr && context.pou->tree->kind != ast::Pou::Kind::Program) {
+    context.error(variable.at,
+                  fmt::format("AT {} in a function block is a place of its own for each instance, which is "
+                              "not supported; make it an input or output",
+                              ast::to_string(*variable.address)));
+    return nullptr;
+  }
+  const auto address = std::exchange(variable.address, std::nullopt);
+  const std::string before = variable.name;
+  variable.name = context.pou != nullptr ? free_name(context.program, before) : before;
+  declare_one(context, variable, type);
+  const auto made = context.program.global_names.find(upper(variable.name));
+  variable.name = before;
+  variable.address = address;
+  return made == context.program.global_names.end() ? nullptr : made->second;
 }
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {

@@ -13,6 +13,7 @@ namespace indurop::plc {
 // Declares a variable of VAR_GLOBAL.
 void declare_global(Context& context, ast::Variable& variable);
 // The variable at an address; declared now if no declaration names the address.
+Global* declare_placeless(Context& context, ast::Variable& variable, const Type& type);
 Global& located_global(Context& context, const ast::DirectAddress& address, const Place& at);
 // The same for a declaration `name AT %IX0.0 : type`.
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plc/check/expression_checker.h"
 #include "plc/check/global_table.h"
 #include "plc/library/standard.h"
@@ -30,6 +32,11 @@ std::string path_of(const Expression& expression, bool& fixed) {
   std::string path = path_of(expression.operands[0], fixed);
   fixed = fixed && expression.kind == Expression::Kind::Member;
   return fixed ? path + "." + expression.name : path;
+}
+
+bool is_global_list(const Program& program, std::string_view name) {
+  const auto& lists = program.project.global_lists;
+  return std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return same_name(list, name); });
 }
 
 }  // namespace
@@ -68,7 +75,7 @@ const Type* ExpressionChecker::name(Expression& expression) {
     expression.type = type->second;
     return nullptr;
   }
-  if (is_namespace(program, expression.name)) {
+  if (is_namespace(program, expression.name) || is_global_list(program, expression.name)) {
     out.meaning = Meaning::Namespace;
     out.path = expression.name;
     return nullptr;
@@ -94,6 +101,14 @@ const Type* ExpressionChecker::unknown(const Expression& expression) {
   }
   if (found != nullptr) {
     return found;
+  }
+  if (const auto pou = context_.program.pou_names.find(upper(expression.name));
+      pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Program) {
+    context_.error(expression.at,
+                   fmt::format("{} is a program, whose variables are its own; declare what others use as "
+                               "VAR_GLOBAL",
+                               pou->second->name));
+    return nullptr;
   }
   std::vector<std::string> known;
   if (context_.pou != nullptr) {
@@ -138,6 +153,11 @@ const Type* ExpressionChecker::global(Expression& expression, Global& global) {
 }
 
 const Type* ExpressionChecker::direct(Expression& expression) {
+  if (expression.address.numbers.empty()) {
+    context_.error(expression.at, fmt::format("{} says no place, write it behind AT in a declaration only",
+                                              ast::to_string(expression.address)));
+    return nullptr;
+  }
   return global(expression, located_global(context_, expression.address, expression.at));
 }
 
@@ -189,6 +209,11 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
+    if (found != nullptr && found->section == ast::Section::InOut) {
+      context_.error(expression.at, fmt::format("{} is VAR_IN_OUT of {}, use the variable that was given for it",
+                                                found->name, to_string(block)));
+      return nullptr;
+    }
     for (const Variable& one : block.pou->variables) {
       if (one.section == ast::Section::Output) {
         known.push_back(one.name);
@@ -201,6 +226,10 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
 }
 
 const Type* ExpressionChecker::namespace_member(Expression& expression, const std::string& path) {
+  const auto own = context_.program.global_names.find(upper(expression.name));
+  if (is_global_list(context_.program, path) && own != context_.program.global_names.end()) {
+    return global(expression, *own->second);
+  }
   const std::string full = path + "::" + expression.name;
   if (Global* found = foreign_global(context_, full)) {
     return global(expression, *found);

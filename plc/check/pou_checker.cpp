@@ -15,6 +15,8 @@ namespace {
 
 using ast::Section;
 
+constexpr std::string_view kTimer = "TON";  // charts are built on it
+
 const Type& innermost(const Type& type) noexcept {
   return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
 }
@@ -41,6 +43,8 @@ class VariableDeclarer {
     }
     if (declared.section == Section::External) {
       made->global = external_global(context_, declared, *type);
+    } else if (declared.address && declared.address->numbers.empty()) {
+      made->global = declare_placeless(context_, declared, *type);
     } else if (declared.address) {
       made->global = &declare_located(context_, declared, *type);
     } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant) {
@@ -158,9 +162,12 @@ class PouOrder {
 
 void declare_pous(Context& context) {
   for (ast::Pou& tree : context.program.project.pous) {
-    if (elementary_named(tree.name) || find_block(tree.name) != nullptr || !find_functions(tree.name).empty()) {
+    if (elementary_named(tree.name) || same_name(tree.name, kTimer)) {
       context.error(tree.at, fmt::format("'{}' is a name of the standard, use another one", tree.name));
       continue;
+    }
+    if (find_block(tree.name) != nullptr || !find_functions(tree.name).empty()) {
+      context.warning(tree.at, fmt::format("'{}' takes the place of that of the standard library", tree.name));
     }
     if (const auto known = context.program.pou_names.find(upper(tree.name)); known != context.program.pou_names.end()) {
       context.error(tree.at, fmt::format("'{}' is already declared at {}, rename one of them", tree.name,
@@ -197,7 +204,8 @@ void check_bodies(Context& context) {
       continue;
     }
     if (pou.result != nullptr && !pou.result_assigned) {
-      context.error(pou.tree->at, fmt::format("the function has no result, assign it: {} := ...;", pou.name));
+      context.warning(pou.tree->at,
+                      fmt::format("the function never gives its result, assign it: {} := ...;", pou.name));
     }
     warn_about_unused(context, pou);
   }

@@ -19,6 +19,18 @@ bool is_whole(Elementary type) noexcept {
   return is_int(type) || (is_bit(type) && type != Elementary::Bool);
 }
 
+// Of extensions of editors, which are not part of the programs they export.
+std::string whose(const std::string& name) {
+  const std::string capitals = upper(name);
+  if (capitals.starts_with("HMI_")) {
+    return "; it belongs to Beremiz' SVGHMI, give its pous.xml with the program, or declare TYPE " + name + " : ...";
+  }
+  if (capitals.starts_with("PYTHON_") || capitals == "LOGGER") {
+    return "; it is Python or C code of Beremiz, write a module of its own for that, with shared variables between";
+  }
+  return ", declare it";
+}
+
 class TypeBuilder {
  public:
   explicit TypeBuilder(Context& context) : context_(context), expressions_(context) {}
@@ -87,7 +99,7 @@ class TypeBuilder {
     }
     const std::string hint = did_you_mean(spec.name, known);
     context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
-                                        hint.empty() ? ", declare it" : hint));
+                                        hint.empty() ? whose(spec.name) : hint));
     return nullptr;
   }
 

@@ -26,6 +26,9 @@ std::string name_from(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string();
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !is_name(std::string("a") + c); }, '_');
+  for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) {
+    name.erase(at, 1);  // C++ keeps it for itself
+  }
   return is_name(name) ? name : "plc_" + name;
 }
 

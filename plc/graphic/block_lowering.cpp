@@ -7,6 +7,7 @@
 
 #include "plc/library/standard.h"
 #include "plc/model/make.h"
+#include "plc/st/parser.h"
 
 namespace indurop::plc::graphic {
 namespace {
@@ -62,6 +63,11 @@ const ast::Variable* find_variable(const ast::Pou* pou, const std::string& name)
 
 }  // namespace
 
+// One of the project takes the place of that of the library.
+bool BlockLowering::is_standard(const std::string& function) const {
+  return !find_functions(function).empty() && find_pou(options_.project, function) == nullptr;
+}
+
 void BlockLowering::block(const Element& element) {
   std::string enable;
   for (const Pin& pin : element.inputs) {
@@ -78,7 +84,9 @@ void BlockLowering::block(const Element& element) {
       lowering_.show(FlowPoint::Kind::Power, {&element, &pin}, std::move(value));
     }
   }
-  if (element.instance.empty()) {
+  if (element.inlined != nullptr) {
+    code(element, enable);
+  } else if (element.instance.empty()) {
     function(element, enable);
   } else {
     instance(element, enable);
@@ -107,6 +115,18 @@ std::vector<ast::Argument> BlockLowering::arguments(const Element& element, bool
     }
   }
   return arguments;
+}
+
+// Structured Text in a box. What flows out of it is what flowed in.
+void BlockLowering::code(const Element& element, const std::string& enable) {
+  ast::Body body = st::parse_body({element.inlined->text, element.inlined->text_at}, lowering_.diagnostics());
+  ast::Expression power = enable.empty() ? make::truth(element.at, true) : make::name(element.at, enable);
+  lowering_.add(make::when(power, std::move(body)));
+  for (const Pin& pin : element.outputs) {
+    if (!is_enabled(pin)) {
+      lowering_.define(element, &pin, with_sign(pin, power));
+    }
+  }
 }
 
 void BlockLowering::instance(const Element& element, const std::string& enable) {
@@ -143,7 +163,7 @@ void BlockLowering::instance(const Element& element, const std::string& enable) 
 
 void BlockLowering::function(const Element& element, const std::string& enable) {
   const Pin* result = result_pin(element);
-  const bool standard = !find_functions(element.type).empty();
+  const bool standard = is_standard(element.type);
   std::vector<ast::Argument> given = arguments(element, !standard);
   further_outputs(element, result, given);
   ast::Expression call = make::call(element.at, make::name(element.at, element.type), std::move(given));
@@ -151,7 +171,7 @@ void BlockLowering::function(const Element& element, const std::string& enable) 
     add(make::call_statement(std::move(call)), enable);
     return;
   }
-  if (gives_bool(element.type)) {
+  if (standard && gives_bool(element.type)) {
     const std::string name = lowering_.temporary("p", fmt::format("{}_{}", element.id, result->name),
                                                  make::type(element.at, Elementary::Bool));
     ast::Expression power =
@@ -181,7 +201,8 @@ void BlockLowering::further_outputs(const Element& element, const Pin* result, s
 }
 
 ast::TypeSpec BlockLowering::output_type(const Element& element, const Pin& pin) const {
-  if (const LibraryBlock* block = find_block(element.type)) {
+  const LibraryBlock* block = find_block(element.type);
+  if (block != nullptr && find_pou(options_.project, element.type) == nullptr) {
     const LibraryParameter* output = block->output(pin.name);
     const auto* fixed = output == nullptr ? nullptr : std::get_if<Elementary>(&output->type);
     return fixed == nullptr ? make::inferred_type(pin.at) : make::type(pin.at, *fixed);

@@ -16,8 +16,10 @@ class BlockLowering {
   void block(const Element& element);
 
  private:
+  void code(const Element& element, const std::string& enable);
   void instance(const Element& element, const std::string& enable);
   void function(const Element& element, const std::string& enable);
+  [[nodiscard]] bool is_standard(const std::string& function) const;
   [[nodiscard]] std::vector<ast::Argument> arguments(const Element& element, bool named);
   void further_outputs(const Element& element, const Pin* result, std::vector<ast::Argument>& arguments);
   [[nodiscard]] ast::TypeSpec output_type(const Element& element, const Pin& pin) const;

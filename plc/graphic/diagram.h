@@ -37,12 +37,16 @@ struct Pin {
 
 struct Body;
 
+// The qualifier of what CODESYS runs in each scan in which a step is active; unlike N not once more after it.
+inline constexpr const char* kWhileActive = "active";
+
 // One line of an action block.
 struct ActionLine {
   Place at;
   std::string qualifier = "N";
   std::string duration;
-  std::string name;  // an action or a variable; empty: the body below
+  std::string name;          // an action or a variable; empty: the body below
+  bool only_action = false;  // never a variable
   std::shared_ptr<Body> inlined;
 };
 
@@ -88,12 +92,12 @@ struct Element {
   Storage storage = Storage::None;
   bool initial = false;             // Step
   int priority = 0;                 // Transition
-  std::shared_ptr<Body> inlined;    // Transition: its condition as code
+  std::shared_ptr<Body> inlined;    // Transition: its condition as code; Block: what the box does, as code
   std::optional<Pin> condition;     // Transition: its condition as a connection
   std::vector<Pin> inputs;          // of others than blocks at most one
   std::vector<Pin> in_outs;         // Block
   std::vector<Pin> outputs;         // Block
-  std::vector<ActionLine> actions;  // ActionBlock
+  std::vector<ActionLine> actions;  // ActionBlock, Step
 };
 
 // "contact", "step": how messages call it.

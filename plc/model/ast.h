@@ -28,7 +28,7 @@ inline constexpr int kMaxDepth = 400;
 struct DirectAddress {
   char area = 'I';           // I Q M
   char size = 'X';           // X B W D L
-  std::vector<int> numbers;  // {0, 3}
+  std::vector<int> numbers;  // {0, 3}; none: %I*
 };
 // "%IX0.3"
 [[nodiscard]] std::string to_string(const DirectAddress& address);

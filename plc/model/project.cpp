@@ -17,6 +17,7 @@ void append(Project& into, Project from) {
   move_all(into.types, from.types);
   move_all(into.pous, from.pous);
   move_all(into.globals, from.globals);
+  move_all(into.global_lists, from.global_lists);
   move_all(into.configurations, from.configurations);
 }
 

@@ -49,6 +49,7 @@ struct Project {
   std::vector<ast::Pou> pous;
   std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
   std::vector<Configuration> configurations;
+  std::vector<std::string> global_lists;  // names through which globals may be reached: Io.Blocked, as CODESYS has it
 };
 
 // Appends everything in `from`, in its order. Doubles are for the checker to find.

@@ -77,6 +77,14 @@ void read_variable(const Node& node, ast::Variable variable, const std::string& 
   into.push_back(std::move(variable));
 }
 
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) {
+    out += c == '\'' ? "$'" : std::string(1, c);
+  }
+  return out + "'";
+}
+
 }  // namespace
 
 void read_variables(const Node& list, ast::Section section, const std::string& what, std::vector<ast::Variable>& into,
@@ -109,32 +117,53 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
   }
 }
 
+void quote_texts(Node& node) {
+  const Node* type = node.child("type") != nullptr ? node.child("type") : node.child("baseType");
+  const bool text = type != nullptr && type->child("string") != nullptr;
+  for (Node& child : node.children) {
+    quote_texts(child);
+    if (!text || child.name != "initialValue") {
+      continue;
+    }
+    for (Node& value : child.children) {
+      for (Attribute& attribute : value.attributes) {
+        if (attribute.name == "value" && !attribute.value.empty() && attribute.value.front() != '\'') {
+          attribute.value = quoted(attribute.value);
+        }
+      }
+    }
+  }
+}
+
+void read_data_type(const Node& node, std::vector<ast::TypeDeclaration>& into, Diagnostics& diagnostics) {
+  ast::TypeDeclaration declared;
+  declared.name = std::string(node.attribute("name"));
+  declared.at = within(node.at, "type " + declared.name);
+  declared.comment = comment_of(node);
+  const Node* base = node.child("baseType");
+  if (declared.name.empty() || base == nullptr) {
+    diagnostics.error(declared.at, "a <dataType> has a name and a <baseType>");
+    return;
+  }
+  const std::string text = type_text(*base, diagnostics);
+  auto parsed = text.empty() ? std::nullopt : st::parse_type({text, declared.at}, diagnostics);
+  if (!parsed) {
+    return;
+  }
+  declared.type = std::move(*parsed);
+  const Node* initial = node.child("initialValue");
+  const std::string value = initial == nullptr ? std::string() : value_text(*initial);
+  if (!value.empty()) {
+    declared.initial = st::parse_initial({value, declared.at}, diagnostics);
+  }
+  into.push_back(std::move(declared));
+}
+
 void read_data_types(const Node& list, std::vector<ast::TypeDeclaration>& into, Diagnostics& diagnostics) {
   for (const Node& node : list.children) {
-    if (node.name != "dataType") {
-      continue;
+    if (node.name == "dataType") {
+      read_data_type(node, into, diagnostics);
     }
-    ast::TypeDeclaration declared;
-    declared.name = std::string(node.attribute("name"));
-    declared.at = within(node.at, "type " + declared.name);
-    declared.comment = comment_of(node);
-    const Node* base = node.child("baseType");
-    if (declared.name.empty() || base == nullptr) {
-      diagnostics.error(declared.at, "a <dataType> has a name and a <baseType>");
-      continue;
-    }
-    const std::string text = type_text(*base, diagnostics);
-    auto parsed = text.empty() ? std::nullopt : st::parse_type({text, declared.at}, diagnostics);
-    if (!parsed) {
-      continue;
-    }
-    declared.type = std::move(*parsed);
-    const Node* initial = node.child("initialValue");
-    const std::string value = initial == nullptr ? std::string() : value_text(*initial);
-    if (!value.empty()) {
-      declared.initial = st::parse_initial({value, declared.at}, diagnostics);
-    }
-    into.push_back(std::move(declared));
   }
 }
 

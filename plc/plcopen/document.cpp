@@ -12,7 +12,7 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-constexpr std::string_view kGlobalsOfCodesys = "http://www.3s-software.com/plcopenxml/globalvars";
+constexpr std::string_view kExtensionsOfCodesys = "http://www.3s-software.com/plcopenxml/";
 
 std::optional<ast::Pou::Kind> kind_named(std::string_view name) {
   if (name == "program") {
@@ -46,11 +46,13 @@ class Reader {
     if (const Node* instances = root.child("instances")) {
       read_instances(*instances, document_.project.configurations, diagnostics_);
     }
-    if (const Node* extensions = root.child("addData")) {
-      extended_globals(*extensions);
+    if (const Node* instances = root.child("instances")) {
+      extensions_below(*instances);
     }
-    if (document_.pous.empty() && !diagnostics_.failed()) {
-      diagnostics_.error(root.at, "this project has no program, function or function block");
+    extensions(root);
+    const Project& project = document_.project;
+    if (document_.pous.empty() && project.types.empty() && project.globals.empty() && !diagnostics_.failed()) {
+      diagnostics_.error(root.at, "this project has no program, function, function block, type or global variable");
     }
     return std::move(document_);
   }
@@ -75,6 +77,7 @@ class Reader {
       return;
     }
     made.pou.kind = *kind;
+    refuse_classes(node, made.pou.at);
     if (const Node* documentation = node.child("documentation")) {
       made.pou.comment = formatted_text(*documentation);
     }
@@ -111,15 +114,60 @@ class Reader {
     }
   }
 
-  // CODESYS keeps its lists of globals in an extension of the format.
-  void extended_globals(const Node& extensions) {
-    for (const Node& data : extensions.children) {
-      if (data.attribute("name") != kGlobalsOfCodesys) {
+  // Of the configurations and resources of a whole project.
+  void extensions_below(const Node& node) {
+    for (const Node& child : node.children) {
+      if (child.name == "configurations" || child.name == "configuration" || child.name == "resource") {
+        extensions(child);
+        extensions_below(child);
+      }
+    }
+  }
+
+  // CODESYS and TwinCAT keep lists of globals, and what lies below an application, in extensions of the format.
+  void extensions(const Node& node) {
+    for (const Node& data : children_of(node.child("addData"))) {
+      if (!data.attribute("name").starts_with(kExtensionsOfCodesys)) {
         continue;
       }
-      for (const Node& list : data.children) {
-        read_variables(list, ast::Section::Global, "globals " + std::string(list.attribute("name")),
-                       document_.project.globals, diagnostics_);
+      for (const Node& part : data.children) {
+        if (part.name == "globalVars") {
+          globals(part);
+        } else if (part.name == "pou") {
+          pou(part);
+        } else if (part.name == "dataType") {
+          read_data_type(part, document_.project.types, diagnostics_);
+        } else if (part.name == "resource") {
+          read_application(part, document_.project.configurations, diagnostics_);
+          extensions(part);
+        }
+      }
+    }
+  }
+
+  // A list in which variables have different attributes holds one list for each kind.
+  void globals(const Node& list) {
+    for (const Node& data : children_of(list.child("addData"))) {
+      if (const Node* mixed = data.child("MixedAttrsVarList")) {
+        for (const Node& part : mixed->children) {
+          globals(part);
+        }
+        return;
+      }
+    }
+    document_.project.global_lists.emplace_back(list.attribute("name"));
+    read_variables(list, ast::Section::Global, "globals " + document_.project.global_lists.back(),
+                   document_.project.globals, diagnostics_);
+  }
+
+  void refuse_classes(const Node& node, const Place& at) {
+    for (const Node& data : children_of(node.child("addData"))) {
+      for (const Node& part : data.children) {
+        if (part.name == "Method" || part.name == "Property" || part.name == "Inheritance") {
+          diagnostics_.error(at,
+                             "methods, properties and inheritance are not supported; use function blocks with inputs "
+                             "and outputs");
+        }
       }
     }
   }
@@ -131,8 +179,14 @@ class Reader {
 }  // namespace
 
 Document read_document(std::string_view bytes, const std::string& name, Diagnostics& diagnostics) {
-  const auto root = read_xml(bytes, std::make_shared<const std::string>(name), diagnostics);
-  return root ? Reader(diagnostics).read(*root) : Document{};
+  auto root = read_xml(bytes, std::make_shared<const std::string>(name), diagnostics);
+  if (!root) {
+    return {};
+  }
+  if (bytes.find(kExtensionsOfCodesys) == std::string_view::npos) {
+    quote_texts(*root);
+  }
+  return Reader(diagnostics).read(*root);
 }
 
 }  // namespace indurop::plc::plcopen

@@ -49,6 +49,12 @@ constexpr std::array<std::pair<std::string_view, Kind>, 22> kKinds{
 constexpr std::array<std::string_view, 4> kNameAttributes{"name", "label", "targetName", "target"};
 constexpr std::array<std::string_view, 2> kNameElements{"variable", "expression"};
 
+// Entry, main and exit action of a step.
+constexpr std::array<std::pair<std::string_view, const char*>, 3> kStepActions{
+    {{"a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", "P1"},
+     {"700a583f-b4d4-43e4-8c14-629c7cd3bec8", graphic::kWhileActive},
+     {"a2621e18-7de3-4ea6-ae6d-89e9e0b7befd", "P0"}}};
+
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kSpace);
@@ -93,10 +99,21 @@ class Reader {
         element(node);
       }
     }
+    name_conditions();
     return std::move(diagram_);
   }
 
  private:
+  // What is printed at a transition that has one operand drawn to it.
+  void name_conditions() {
+    for (Element& each : diagram_.elements) {
+      if (each.condition && each.condition->connections.size() == 1) {
+        const Element* from = diagram_.find(each.condition->connections[0].from);
+        each.text = from != nullptr && from->kind == Kind::InVariable ? from->text : each.text;
+      }
+    }
+  }
+
   [[nodiscard]] Place place(const Node& node) const {
     Place at = node.at;
     at.within = what_;
@@ -136,6 +153,8 @@ class Reader {
       transition(node, made);
     } else if (made.kind == Kind::ActionBlock) {
       action_block(node, made);
+    } else if (made.kind == Kind::Step) {
+      step_actions(node, made);
     }
     diagram_.elements.push_back(std::move(made));
   }
@@ -250,6 +269,15 @@ class Reader {
     if (const Node* pins = node.child("outputVariables")) {
       read_pins(*pins, made.outputs);
     }
+    for (const Node& data : children_of(node.child("addData"))) {
+      if (const Node* code = data.child("STCode")) {  // CODESYS' box EXECUTE
+        made.inlined = std::make_shared<graphic::Body>();
+        made.inlined->language = graphic::Body::Language::St;
+        made.inlined->at = place(*code);
+        made.inlined->text = formatted_text(*code, &made.inlined->text_at);
+        made.inlined->text_at.within = what_;
+      }
+    }
   }
 
   void read_pins(const Node& list, std::vector<Pin>& pins) {
@@ -286,6 +314,23 @@ class Reader {
       Pin& pin = made.condition.emplace();
       pin.at = place(*condition);
       connect(point != nullptr ? *point : *condition, pin);
+    }
+  }
+
+  // CODESYS and TwinCAT keep the actions of a step itself in attributes with numbers for names.
+  void step_actions(const Node& node, Element& made) {
+    for (const Node& data : children_of(node.child("addData"))) {
+      for (const Node& attribute : children_of(data.child("attributes"))) {
+        const auto* known = std::find_if(kStepActions.begin(), kStepActions.end(),
+                                         [&](const auto& each) { return each.first == attribute.attribute("guid"); });
+        if (known != kStepActions.end() && !trimmed(attribute.text).empty()) {
+          graphic::ActionLine& line = made.actions.emplace_back();
+          line.at = place(attribute);
+          line.qualifier = known->second;
+          line.name = trimmed(attribute.text);
+          line.only_action = true;
+        }
+      }
     }
   }
 

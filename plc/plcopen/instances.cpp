@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -59,6 +60,22 @@ std::optional<std::int64_t> literal_ns(std::string_view text) {
   return ns == nullptr ? std::nullopt : std::optional(*ns);
 }
 
+// "00:00:00.020000", as Beremiz once wrote it: hours, minutes, seconds.
+std::optional<std::int64_t> clock_ns(std::string_view text) {
+  std::array<double, 3> parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), parts[i]);
+    const char behind = end == text.data() + text.size() ? '\0' : *end;
+    if (error != std::errc{} || parts[i] < 0 || behind != (i < 2 ? ':' : '\0')) {
+      return std::nullopt;
+    }
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()) + (i < 2 ? 1 : 0));
+  }
+  constexpr double kMost = 9e9;  // seconds
+  const double seconds = (parts[0] * 60 + parts[1]) * 60 + parts[2];
+  return seconds < kMost ? std::optional(std::llround(seconds * 1e9)) : std::nullopt;
+}
+
 class Reader {
  public:
   explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -82,6 +99,14 @@ class Reader {
     return made;
   }
 
+  Configuration application(const Node& node) {
+    Configuration made;
+    made.name = std::string(node.attribute("name"));
+    made.at = within(node.at, "application " + made.name);
+    made.resources.push_back(resource(node));
+    return made;
+  }
+
  private:
   Resource resource(const Node& node) {
     Resource made;
@@ -99,12 +124,27 @@ class Reader {
     return made;
   }
 
+  // TwinCAT writes interval="PT0S", and what it means into an extension.
+  static std::string interval_text(const Node& task) {
+    const std::string standard(task.attribute("interval"));
+    if (!standard.empty() && interval_ns(standard) != 0) {
+      return standard;
+    }
+    for (const Node& data : children_of(task.child("addData"))) {
+      const Node* settings = data.child("TaskSettings");
+      if (settings != nullptr && !settings->attribute("Interval").empty()) {
+        return fmt::format("T#{}{}", settings->attribute("Interval"), settings->attribute("IntervalUnit"));
+      }
+    }
+    return standard;
+  }
+
   void task(const Node& node, Resource& resource) {
     Task& made = resource.tasks.emplace_back();
     made.name = std::string(node.attribute("name"));
     made.at = within(node.at, "task " + made.name);
     made.single = std::string(node.attribute("single"));
-    const std::string_view interval = node.attribute("interval");
+    const std::string interval = interval_text(node);
     if (!interval.empty()) {
       made.interval_ns = interval_ns(interval);
       if (!made.interval_ns || *made.interval_ns <= 0) {
@@ -151,7 +191,14 @@ class Reader {
 }  // namespace
 
 std::optional<std::int64_t> interval_ns(std::string_view text) {
+  if (const auto clock = clock_ns(text)) {
+    return clock;
+  }
   return text.starts_with('P') ? iso_ns(text) : literal_ns(text);
+}
+
+void read_application(const Node& resource, std::vector<Configuration>& into, Diagnostics& diagnostics) {
+  into.push_back(Reader(diagnostics).application(resource));
 }
 
 void read_instances(const Node& instances, std::vector<Configuration>& into, Diagnostics& diagnostics) {

@@ -12,7 +12,10 @@ namespace indurop::plc::plcopen {
 
 void read_instances(const Node& instances, std::vector<Configuration>& into, Diagnostics& diagnostics);
 
-// "T#10ms", "TIME#1s", or ISO 8601 as in "PT0.01S", "P1DT2H": nanoseconds; empty if it is neither.
+// A <resource> that stands for itself, as a configuration of its name.
+void read_application(const Node& resource, std::vector<Configuration>& into, Diagnostics& diagnostics);
+
+// "T#10ms", "TIME#1s", ISO 8601 as in "PT0.01S", "P1DT2H", or "00:00:00.010000": nanoseconds; empty if it is neither.
 [[nodiscard]] std::optional<std::int64_t> interval_ns(std::string_view text);
 
 }  // namespace indurop::plc::plcopen

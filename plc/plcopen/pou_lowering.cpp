@@ -84,6 +84,7 @@ class Lowering {
         break;
       case Language::St:
         code.body = st::parse_body({body.text, body.text_at}, diagnostics_);
+        call_actions(code.body, code.variables);
         break;
       case Language::Il: {
         il::Lowered lowered = il::lower({body.text, body.text_at}, prefix, diagnostics_);
@@ -111,6 +112,33 @@ class Lowering {
     return code;
   }
 
+  // "Open();" of an action of this POU: its code, here.
+  void call_actions(ast::Body& body, std::vector<ast::Variable>& variables) {
+    for (ast::Statement& statement : body) {
+      call_actions(statement.body, variables);
+      for (ast::Branch& branch : statement.branches) {
+        call_actions(branch.body, variables);
+      }
+      if (statement.kind != ast::Statement::Kind::Call || !statement.value->arguments.empty() ||
+          statement.value->operands[0].kind != ast::Expression::Kind::Name) {
+        continue;
+      }
+      const std::string& name = statement.value->operands[0].name;
+      Body* called = find(document_.actions, name);
+      if (called == nullptr) {
+        continue;
+      }
+      if (!open_actions_.insert(called).second) {
+        diagnostics_.error(statement.at, fmt::format("recursion is not possible: action {} calls itself", name));
+        continue;
+      }
+      Code code = action(*called, fmt::format("c{}_", ++calls_));
+      open_actions_.erase(called);
+      std::move(code.variables.begin(), code.variables.end(), std::back_inserter(variables));
+      statement = make::when(make::truth(statement.at, true), std::move(code.body));
+    }
+  }
+
   // Contacts and boxes of a chart are conditions of transitions.
   Code chart() {
     Body& body = document_.body;
@@ -127,6 +155,13 @@ class Lowering {
     sfc::Surroundings around;
     around.action = [this](const std::string& name) { return find(document_.actions, name); };
     around.transition = [this](const std::string& name) { return find(document_.transitions, name); };
+    around.declared = [this](const std::string& name) { return declares(name); };
+    for (const char* ignored : {"SFCInit", "SFCPause", "SFCTip", "SFCTipMode", "SFCEnableLimit"}) {
+      if (declares(ignored)) {
+        diagnostics_.warning(pou_.at,
+                             fmt::format("{} is an ordinary variable here; charts obey SFCReset only", ignored));
+      }
+    }
     around.action_code = [this](Body& code, const std::string& prefix) { return action(code, prefix); };
     around.condition_code = [this](Body& code, const std::string& name, const std::string& prefix) {
       return condition(code, name, prefix);
@@ -147,6 +182,11 @@ class Lowering {
     const auto found =
         std::find_if(bodies.begin(), bodies.end(), [&](const NamedBody& each) { return same_name(each.name, name); });
     return found == bodies.end() ? nullptr : &found->body;
+  }
+
+  [[nodiscard]] bool declares(const std::string& name) const {
+    return std::any_of(pou_.variables.begin(), pou_.variables.end(),
+                       [&](const ast::Variable& variable) { return same_name(variable.name, name); });
   }
 
   [[nodiscard]] std::string what_of(const Body& body) const {
@@ -181,9 +221,7 @@ class Lowering {
       diagnostics_.error(body.at, "a drawn condition has a name, which its coil or output writes; give it one");
       return code;
     }
-    const bool declared = std::any_of(pou_.variables.begin(), pou_.variables.end(),
-                                      [&](const ast::Variable& variable) { return same_name(variable.name, name); });
-    if (!declared && conditions_.insert(upper(name)).second) {
+    if (!declares(name) && conditions_.insert(upper(name)).second) {
       code.variables.push_back(make::variable(ast::Section::Temp, name, make::type(body.at, Elementary::Bool)));
     }
     code.value = make::name(body.at, name);
@@ -197,6 +235,8 @@ class Lowering {
   Diagnostics& diagnostics_;
   std::string what_;
   std::unordered_set<std::string> conditions_;
+  std::unordered_set<const Body*> open_actions_;
+  int calls_ = 0;
 };
 
 }  // namespace

@@ -85,6 +85,10 @@ std::string one_type_text(const Node& type, Diagnostics& diagnostics) {
   if (elementary_named(type.name)) {
     return type.name;
   }
+  if (type.name == "pointer") {
+    diagnostics.error(type.at, "there are no pointers here, use VAR_IN_OUT or an array");
+    return {};
+  }
   const bool wide = type.name == "wstring";
   diagnostics.error(type.at, wide ? std::string("WSTRING is not supported; use STRING, which holds UTF-8")
                                   : fmt::format("<{}> is no data type this compiler knows; use an elementary type, an "

@@ -33,7 +33,7 @@ std::string action_line(const graphic::ActionLine& line) {
   if (what.empty() && line.inlined != nullptr) {
     what = one_line(line.inlined->text);
   }
-  return fmt::format("      {:<3} {:<8} {}\n", line.qualifier, line.duration, what);
+  return fmt::format("      {:<6} {:<8} {}\n", line.qualifier, line.duration, what);
 }
 
 std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc::Transition& transition,

@@ -16,7 +16,7 @@ namespace indurop::plc::sfc {
 namespace {
 
 constexpr std::array<std::string_view, 5> kTimed{"L", "D", "SD", "DS", "SL"};
-constexpr std::array<std::string_view, 7> kUntimed{"N", "R", "S", "P", "P0", "P1", ""};
+constexpr std::array<std::string_view, 8> kUntimed{"N", "R", "S", "P", "P0", "P1", "", graphic::kWhileActive};
 
 template <class List>
 bool contains(const List& list, std::string_view word) {
@@ -74,6 +74,12 @@ class Actions {
                          fmt::format("qualifier {} needs a duration; write one, such as T#2s", line.qualifier));
       return false;
     }
+    if (line.only_action && around_.action(line.name) == nullptr) {
+      diagnostics_.error(line.at, fmt::format("there is no action '{}' in this POU; actions of other POUs cannot be "
+                                              "called, call their function blocks instead",
+                                              line.name));
+      return false;
+    }
     if (line.name.empty() && line.inlined == nullptr) {
       diagnostics_.error(line.at, "this action has neither a name nor code");
       return false;
@@ -109,7 +115,9 @@ class Actions {
     for (const std::size_t i : group.associations) {
       const Association& association = chart_.actions[i];
       const std::string& qualifier = association.line->qualifier;
-      if (qualifier.starts_with('P')) {
+      if (qualifier == graphic::kWhileActive) {
+        pulse = join(std::move(pulse), active(chart_, association.step, association.line->at));
+      } else if (qualifier.starts_with('P')) {
         pulse = join(std::move(pulse), edge(association, qualifier == "P0"));
       } else if (qualifier != "R") {
         level = join(std::move(level), on(association, i, reset));

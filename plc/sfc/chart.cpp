@@ -50,6 +50,9 @@ class Reader {
     for (const Element& element : diagram_.elements) {
       if (element.kind == Kind::Step) {
         into(element, steps_.at(&element));
+        for (const graphic::ActionLine& line : element.actions) {
+          chart_.actions.push_back({steps_.at(&element), &line});
+        }
       } else if (element.kind == Kind::JumpStep) {
         jump(element);
       } else if (element.kind == Kind::ActionBlock) {
@@ -145,6 +148,11 @@ class Reader {
         case Kind::SimultaneousDivergence:
           into(from, step);
           break;
+        case Kind::JumpStep:
+          if (element.kind == Kind::SelectionConvergence) {
+            break;  // CODESYS closes branches that end in a jump, too
+          }
+          [[fallthrough]];
         default:
           diagnostics_.error(element.at,
                              fmt::format("{} stands before it, where a transition must be", title_of(from)));

@@ -18,6 +18,7 @@ class Lowering {
 
   Code run() {
     declare_steps();
+    reset();
     evaluate();
     clear();
     measure();
@@ -55,6 +56,21 @@ class Lowering {
     }
     const Place at = chart_.steps.empty() ? Place{} : chart_.steps.front().element->at;
     declare(ast::Section::Local, kRunning, make::type(at, Elementary::Bool));
+  }
+
+  // SFCReset of CODESYS: while it is true the chart begins anew.
+  void reset() {
+    if (chart_.steps.empty() || !around_.declared(kReset)) {
+      return;
+    }
+    const Place& begin = chart_.steps.front().element->at;
+    ast::Body body;
+    for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
+      const Place& at = chart_.steps[i].element->at;
+      body.push_back(make::assign(active(chart_, i, at), make::truth(at, chart_.steps[i].initial)));
+    }
+    body.push_back(make::assign(make::name(begin, kRunning), make::truth(begin, false)));
+    add(make::when(make::name(begin, kReset), std::move(body)));
   }
 
   static std::string fired(std::size_t i) { return fmt::format("_f{}", i); }
@@ -156,6 +172,7 @@ class Lowering {
   }
 
   static constexpr const char* kRunning = "_running";
+  static constexpr const char* kReset = "SFCReset";
 
   const Chart& chart_;
   const Surroundings& around_;

@@ -31,6 +31,8 @@ struct Surroundings {
   // The code of an action of this name; null if there is none: the name is that of a variable.
   std::function<graphic::Body*(const std::string&)> action;
   std::function<graphic::Body*(const std::string&)> transition;
+  // Whether the POU has a variable of this name.
+  std::function<bool(const std::string&)> declared;
   // `prefix` makes the names of variables different from those of other bodies.
   std::function<Code(graphic::Body&, const std::string& prefix)> action_code;
   std::function<Code(graphic::Body&, const std::string& name, const std::string& prefix)> condition_code;

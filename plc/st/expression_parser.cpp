@@ -19,9 +19,9 @@ struct Symbol {
 using Level = std::array<Symbol, 4>;
 // Weakest first.
 constexpr std::array<Level, 8> kLevels{{
-    {{{"OR", Operator::Or}}},
+    {{{"OR", Operator::Or}, {"OR_ELSE", Operator::Or}}},
     {{{"XOR", Operator::Xor}}},
-    {{{"AND", Operator::And}, {"&", Operator::And}}},
+    {{{"AND", Operator::And}, {"&", Operator::And}, {"AND_THEN", Operator::And}}},
     {{{"=", Operator::Equal}, {"<>", Operator::NotEqual}}},
     {{{"<", Operator::Less}, {">", Operator::Greater}, {"<=", Operator::LessEqual}, {">=", Operator::GreaterEqual}}},
     {{{"+", Operator::Add}, {"-", Operator::Subtract}}},

@@ -113,26 +113,41 @@ class Lexer {
     step(end - at_);
   }
 
-  // Comments of one kind may lie inside each other.
   void block_comment(char close) {
-    const char open = peek();
-    int depth = 0;
-    do {
-      if (peek() == open && peek(1) == '*') {
-        ++depth;
-        step(2);
-      } else if (peek() == '*' && peek(1) == close) {
-        --depth;
-        step(2);
-      } else {
-        step();
-      }
-    } while (depth > 0 && at_ < text_.size());
-    if (depth > 0) {
-      error(fmt::format("this comment has no end, close it with *{}", close));
+    const std::array<char, 2> mark{'*', close};
+    const std::string_view end(mark.data(), mark.size());
+    std::size_t length = nested_ ? nested_comment(end) : 0;
+    if (length == 0) {
+      nested_ = false;
+      const std::size_t first = text_.find(end, at_ + 2);
+      length = first == std::string_view::npos ? 0 : first + end.size() - at_;
+    }
+    if (length == 0) {
+      error(fmt::format("this comment has no end, close it with {}", end));
+      step(text_.size() - at_);
       return;
     }
+    step(length);
     remember(text_.substr(from_ + 2, at_ - from_ - 4));
+  }
+
+  // Comments of one kind may lie inside each other. 0 if that gives no end: then the first end is meant from there on,
+  // as the standard once had it.
+  [[nodiscard]] std::size_t nested_comment(std::string_view end) const noexcept {
+    int depth = 0;
+    for (std::size_t at = at_; at + 1 < text_.size(); ++at) {
+      if (text_[at] == text_[at_] && text_[at + 1] == '*') {
+        ++depth;
+        ++at;
+      } else if (text_.substr(at, 2) == end) {
+        --depth;
+        ++at;
+      }
+      if (depth == 0) {
+        return at + 1 - at_;
+      }
+    }
+    return 0;
   }
 
   void remember(std::string_view text) noexcept {
@@ -140,12 +155,20 @@ class Lexer {
     comment_line_ = comment_.empty() ? 0 : from_line_;
   }
 
+  // What changes the program is refused, other pragmas are skipped.
   void pragma() {
-    const std::size_t end = text_.find('}', at_);
+    const bool c_code = peek(1) == '{';
+    const std::string_view close = c_code ? "}}" : "}";
+    const std::size_t end = text_.find(close, at_);
     if (end == std::string_view::npos) {
-      error("this pragma has no end, close it with }");
+      error(fmt::format("this pragma has no end, close it with {}", close));
+    } else if (c_code) {
+      error("C code in {{ }} is not supported, write it in ST, or as a module of its own");
+    } else if (const std::string word = upper(trimmed(text_.substr(at_ + 1, end - at_ - 1)).substr(0, 3));
+               word.starts_with("IF") || word == "ELS") {
+      error("conditional compilation is not supported, keep the text that is wanted");
     }
-    step(std::min(end, text_.size() - 1) + 1 - at_);
+    step(end == std::string_view::npos ? text_.size() - at_ : end + close.size() - at_);
   }
 
   void word() {
@@ -217,6 +240,7 @@ class Lexer {
     while (is_word(peek()) || (peek() == '.' && is_digit(peek(1)))) {
       step();
     }
+    step(peek() == '*' ? 1 : 0);  // %I*
     push(TokenKind::Address);
   }
 
@@ -275,6 +299,7 @@ class Lexer {
   std::uint32_t from_column_ = 1;
   std::string_view comment_;
   std::uint32_t comment_line_ = 0;
+  bool nested_ = true;
 };
 
 }  // namespace

@@ -223,6 +223,9 @@ std::optional<ast::DirectAddress> address_literal(std::string_view text) {
     out.size = letter();
     ++at;
   }
+  if (text.substr(at) == "*") {
+    return out;  // AT %I*: the place is left open
+  }
   while (at < text.size()) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), number);
@@ -235,7 +238,7 @@ std::optional<ast::DirectAddress> address_literal(std::string_view text) {
       return std::nullopt;
     }
   }
-  constexpr std::size_t kMostNumbers = 4;
+  constexpr std::size_t kMostNumbers = 8;
   return out.numbers.empty() || out.numbers.size() > kMostNumbers ? std::nullopt : std::optional(out);
 }
 

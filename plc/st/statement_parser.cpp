@@ -64,21 +64,22 @@ std::optional<ast::Statement> StatementParser::statement() {
   return ok ? std::optional(std::move(out)) : std::nullopt;
 }
 
+// The ';' behind END_IF and its like is one that list() skips: CODESYS and TwinCAT leave it out.
 bool StatementParser::fill(Statement& out) {
   if (in_.accept("IF")) {
-    return if_statement(out) && in_.expect_end("behind END_IF");
+    return if_statement(out);
   }
   if (in_.accept("CASE")) {
-    return case_statement(out) && in_.expect_end("behind END_CASE");
+    return case_statement(out);
   }
   if (in_.accept("FOR")) {
-    return for_statement(out) && in_.expect_end("behind END_FOR");
+    return for_statement(out);
   }
   if (in_.accept("WHILE")) {
-    return while_statement(out) && in_.expect_end("behind END_WHILE");
+    return while_statement(out);
   }
   if (in_.accept("REPEAT")) {
-    return repeat_statement(out) && in_.expect_end("behind END_REPEAT");
+    return repeat_statement(out);
   }
   if (in_.accept("EXIT")) {
     out.kind = Statement::Kind::Exit;
