@@ -29,7 +29,11 @@ std::string to_string(const Diagnostic& diagnostic) {
       text += ":" + std::to_string(diagnostic.place.column);
     }
   }
-  return text + (text.empty() ? "" : ": ") + word(diagnostic.severity) + ": " + diagnostic.text;
+  text += (text.empty() ? "" : ": ") + std::string(word(diagnostic.severity)) + ": " + diagnostic.text;
+  for (char& c : text) {
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // one line, whatever a name in the file holds
+  }
+  return text;
 }
 
 bool has_error(const std::vector<Diagnostic>& diagnostics) noexcept {

@@ -14,11 +14,7 @@ bool continues(char c) noexcept {
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kShown = 60;
-  std::string shown = shortened(text, kShown);
-  for (char& c : shown) {
-    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // a diagnostic is one line
-  }
-  return "'" + shown + "'";
+  return "'" + shortened(text, kShown) + "'";
 }
 
 std::string meant(std::string_view name, const std::vector<std::string>& known) {

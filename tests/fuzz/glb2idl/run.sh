@@ -11,5 +11,5 @@ for case in "$golden"/*/in.glb; do
   cp "$case" "$work/cases/$(basename "$(dirname "$case")").glb"
 done
 cd "$work"
-"$fuzzer" -runs=20000 -max_total_time="${INDUROP_FUZZ_SECONDS:-20}" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -verbosity=0 \
+"$fuzzer" -seed=1 -runs=20000 -max_total_time="${INDUROP_FUZZ_SECONDS:-20}" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -verbosity=0 \
   -print_final_stats=1 -dict="$corpus/../glb.dict" "$work/new" "$corpus" "$work/cases"
