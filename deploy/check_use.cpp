@@ -23,15 +23,11 @@ void check_writers_of_one_board(const std::string& name, const Users& users, con
   }
 }
 
-bool has_initial_value(const std::string& name, const schema::Schema& schema) {
-  return std::any_of(schema.variables.begin(), schema.variables.end(),
-                     [&](const schema::Variable& v) { return v.name == name && !v.initial.empty(); });
-}
-
 void check_never_written(const std::string& name, const Users& users, const Uses& uses, Report& report) {
   const Place place = uses.module(users.readers.front()).places.file;
   const std::string text = in_quotes(name) + " is read by " + enumerate(uses.names(users.readers)) + " but ";
-  if (has_initial_value(name, uses.board(users.readers.front()).result.schema)) {
+  const auto* variable = schema::find_variable(uses.board(users.readers.front()).result.schema, name);
+  if (variable != nullptr && variable->given) {
     report.note(place, text + "no module writes it: a parameter, with the value of its declaration unless set by hand");
     return;
   }

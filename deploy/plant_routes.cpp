@@ -25,11 +25,6 @@ std::vector<User> only_on(const std::vector<User>& users, std::size_t board, boo
   return some;
 }
 
-bool declares(const CheckResult& board, const std::string& variable) {
-  return std::any_of(board.schema.variables.begin(), board.schema.variables.end(),
-                     [&](const schema::Variable& v) { return v.name == variable; });
-}
-
 class RouteFinder {
  public:
   RouteFinder(PlantContext& context, std::map<std::string, std::size_t>& owners)
@@ -79,7 +74,7 @@ class RouteFinder {
                                     [&](const BoardView& board) { return board.name == rule.owner; });
     const auto owner = static_cast<std::size_t>(found - context_.boards.begin());
     const std::vector<User> others = only_on(users.writers, owner, false);
-    if (!declares(found->result, name)) {
+    if (schema::find_variable(found->result.schema, name) == nullptr) {
       report_.error(rule.owner_place, "owner: no module of board " + in_quotes(rule.owner) + " has " + in_quotes(name) +
                                           better_owner(others));
       return std::nullopt;

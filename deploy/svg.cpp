@@ -3,28 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "schema/xml_text.h"
+
 namespace indurop::deploy {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string dash_attribute(std::string_view dashes) {
   return dashes.empty() ? std::string() : fmt::format(" stroke-dasharray=\"{}\"", dashes);
@@ -58,7 +40,7 @@ void Svg::line(int x1, int y1, int x2, int y2, std::string_view colour, double w
 void Svg::text(int x, int y, std::string_view text, int size, std::string_view colour, std::string_view anchor,
                bool bold) {
   out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
-                      size, colour, anchor, bold ? " font-weight=\"bold\"" : "", escaped(text));
+                      size, colour, anchor, bold ? " font-weight=\"bold\"" : "", schema::xml_text(text));
 }
 
 std::string Svg::finish() {

@@ -241,11 +241,9 @@ class Checker {
     result.source = source(name);
     if (declarator.initial) {
       result.initial = bytes(*whole, *declarator.initial, notes.range);
-      // A value written down makes a variable a parameter, also if it is 0; but memory is 0 without large tables of it.
-      constexpr std::size_t kSmall = 1024;
-      if (result.initial.size() > kSmall &&
-          std::all_of(result.initial.begin(), result.initial.end(), [](std::uint8_t b) { return b == 0; })) {
-        result.initial.clear();
+      result.given = true;
+      if (std::all_of(result.initial.begin(), result.initial.end(), [](std::uint8_t b) { return b == 0; })) {
+        result.initial.clear();  // memory is 0 without it
       }
     } else if (notes.range && (notes.range->min > 0 || notes.range->max < 0)) {
       context_.error(

@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::size_t kMostParts = 100'000;  // of a sane catalogue
 
-const schema::Variable* find_variable(const schema::Schema& schema, const std::string& name) {
-  const auto found = std::find_if(schema.variables.begin(), schema.variables.end(),
-                                  [&](const schema::Variable& v) { return v.name == name; });
-  return found == schema.variables.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 Receiver::Receiver(std::string board, const std::vector<Landing*>& landings, std::mutex& mutex, PeerRecord& record)
@@ -62,7 +56,7 @@ std::string Receiver::match(const indurop_wire_Catalogue& catalogue, std::vector
       continue;
     }
     if (found->type_hash != mine.type_hash || found->size != items_[i].landing->entry().value_size) {
-      const auto* other = theirs ? find_variable(theirs.value(), mine.name) : nullptr;
+      const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
       complain(fmt::format("{} differs between the boards: {} (here / on {}); build both from the same .glb", mine.name,
                            other != nullptr ? schema::first_difference(mine.type, other->type) : "another type",
                            board_));

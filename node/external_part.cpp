@@ -78,9 +78,8 @@ void ExternalPart::find_types(const schema::Schema& schema, Console& console) {
   libraries_.load(types_, problems);
   std::vector<std::string> unknown;
   std::erase_if(settings_.variables, [&](mirror::Exported& exported) {
-    const auto known = std::find_if(schema.variables.begin(), schema.variables.end(),
-                                    [&](const schema::Variable& v) { return v.name == exported.variable; });
-    if (known == schema.variables.end()) {
+    const schema::Variable* known = schema::find_variable(schema, exported.variable);
+    if (known == nullptr) {
       return true;
     }
     const TypeLibraries::Found found = libraries_.find(mirror::descriptor_symbol(*known));

@@ -109,6 +109,8 @@ ordered_json variable_json(const Variable& variable) {
   }
   if (!variable.initial.empty()) {
     out["initial"] = to_hex(variable.initial);
+  } else if (variable.given) {
+    out["given"] = true;
   }
   if (!variable.fallback.empty()) {
     out["fallback"] = to_hex(variable.fallback);
@@ -189,6 +191,15 @@ bool read_u32(const json* value, std::uint32_t& to) {
 bool read_time(const json& object, const char* key, std::int64_t& to) {
   const json* value = member(object, key);
   return value == nullptr || read_integer(value, 0, INT64_MAX, to);
+}
+
+bool read_flag(const json& object, const char* key, bool& to) {
+  const json* value = member(object, key);
+  if (value == nullptr || !value->is_boolean()) {
+    return value == nullptr;
+  }
+  to = value->get<bool>();
+  return true;
 }
 
 bool read_limit(const json& value, double& to) {
@@ -355,16 +366,13 @@ bool read_variable(const json& object, Variable& to) {
   if (empty || (to.kind == abi::Kind::Scalar && !fits_scalar)) {
     return false;
   }
-  if (const json* retain = member(object, "retain")) {
-    if (!retain->is_boolean()) {
-      return false;
-    }
-    to.retain = retain->get<bool>();
-  }
   to.type_hash = hash_of(to.type);
-  return read_notes(object, to) && read_time(object, "maxage_ns", to.maxage_ns) &&
-         read_bytes(object, "initial", size, to.initial) && read_bytes(object, "fallback", size, to.fallback) &&
-         read_string(object, "source", to.source);
+  const bool sound = read_notes(object, to) && read_flag(object, "retain", to.retain) &&
+                     read_time(object, "maxage_ns", to.maxage_ns) && read_flag(object, "given", to.given) &&
+                     read_bytes(object, "initial", size, to.initial) &&
+                     read_bytes(object, "fallback", size, to.fallback) && read_string(object, "source", to.source);
+  to.given = to.given || !to.initial.empty();
+  return sound;
 }
 
 bool read_function(const json& object, Function& to) {

@@ -316,4 +316,10 @@ Result<Place> find_place(const Schema& schema, std::string_view text, std::strin
   return Error{failure.code, 0, kWhere};
 }
 
+const Variable* find_variable(const Schema& schema, std::string_view name) noexcept {
+  const auto found = std::find_if(schema.variables.begin(), schema.variables.end(),
+                                  [name](const Variable& v) { return v.name == name; });
+  return found == schema.variables.end() ? nullptr : &*found;
+}
+
 }  // namespace indurop::schema

@@ -85,6 +85,7 @@ struct Variable {
   bool retain = false;
   std::int64_t maxage_ns = 0;          // 0: none
   std::vector<std::uint8_t> initial;   // empty: all zero, else type.size() bytes
+  bool given = false;                  // an initial value was written down, be it 0: without a writer it is a parameter
   std::vector<std::uint8_t> fallback;  // empty: none declared
   std::string source;                  // "knuRobot.glb:3"
   [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
@@ -132,6 +133,9 @@ std::string to_json(const Schema& schema);
 Result<Schema> from_json(std::string_view text);
 // abi::kVersion of the headers behind a schema text, 0 if it does not say. Reads only the beginning of the first line.
 std::uint32_t abi_of_json(std::string_view text) noexcept;
+
+// The variable of this full name, or nullptr.
+const Variable* find_variable(const Schema& schema, std::string_view name) noexcept;
 
 // Adds `from` to `into`. A variable or function present in both with the same type is kept once; with different
 // types the one in `into` stays and `differences` gets one line, naming the first differing field.

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "schema/xml_text.h"
 #include "tools/svg_parts.h"
+#include "tools/units.h"
 
 namespace indurop::tools {
 namespace {
@@ -80,8 +82,8 @@ std::string lane(const Recording& recording, const Series& series, const Scale& 
       out += fmt::format(
           "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"s{}\"><title>{} from {:.3f} "
           "s</title></rect>\n",
-          left, top + 2, width, kLane - 8, series.words.empty() ? (line[i] == 1 ? 0 : color) : color, xml_text(value),
-          recording.time_s[i]);
+          left, top + 2, width, kLane - 8, series.words.empty() ? (line[i] == 1 ? 0 : color) : color,
+          schema::xml_text(printable(value)), recording.time_s[i]);
       constexpr double kLetter = 6.6;
       const bool says = !series.words.empty() || line[i] != 1;
       if (says && width > kLetter * static_cast<double>(value.size()) + 4) {

@@ -26,19 +26,10 @@ std::string summary_line(const CheckedConfig& checked) {
   return line + ", " + counted(checked.check.schema.variables.size(), "shared variable");
 }
 
-const schema::Variable* find_variable(const schema::Schema& schema, const std::string& name) {
-  for (const auto& variable : schema.variables) {
-    if (variable.name == name) {
-      return &variable;
-    }
-  }
-  return nullptr;
-}
-
 Table variable_table(const CheckedConfig& checked) {
   Table table({{"VARIABLE", "name"}, {"TYPE", "type"}, {"WRITTEN BY", "writers"}, {"READ BY", "readers"}});
   for (const auto& use : checked.check.uses) {
-    const auto* variable = find_variable(checked.check.schema, use.name);
+    const auto* variable = schema::find_variable(checked.check.schema, use.name);
     const std::string type = variable != nullptr ? schema::display_name(variable->type) : "?";
     const auto names = [](const std::vector<std::string>& list) {
       return Cell(list.empty() ? "-" : fmt::format("{}", fmt::join(list, ", ")), JsonValue(list), Style::None);

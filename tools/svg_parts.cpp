@@ -3,36 +3,14 @@
 
 #include <fmt/format.h>
 
+#include "schema/xml_text.h"
 #include "tools/units.h"
 
 namespace indurop::tools {
 
-std::string xml_text(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string svg_text(double x, double y, const char* anchor, const char* kind, std::string_view content) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x, y, anchor, kind,
-                     xml_text(content));
+                     schema::xml_text(printable(content)));
 }
 
 std::string svg_line(double x1, double y1, double x2, double y2, const char* kind) {

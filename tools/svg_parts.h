@@ -8,9 +8,6 @@
 
 namespace indurop::tools {
 
-// &, <, > and quotes as entities; what cannot be printed is replaced.
-std::string xml_text(std::string_view text);
-
 // `anchor` start|middle|end; `kind` is the class of the picture's style sheet.
 std::string svg_text(double x, double y, const char* anchor, const char* kind, std::string_view content);
 std::string svg_line(double x1, double y1, double x2, double y2, const char* kind);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "glb2idl/names.h"
+#include "glb2idl/text.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -190,19 +191,7 @@ std::string cpp_initial(const Type& type, const ast::Initial* initial) {
 }
 
 std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20 || byte >= 0x7F || c == '?') {
-      out += fmt::format("\\{:03o}", byte);
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
+  return '"' + glb2idl::escape(text) + '"';
 }
 
 std::string cpp_place(const Place& place, std::string_view pou) {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "plc/graphic/svg_symbols.h"
+#include "schema/xml_text.h"
 
 namespace indurop::plc::graphic {
 namespace {
@@ -120,7 +121,7 @@ class Svg {
     out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", x1, y1, x2, y2, attributes);
   }
   void text(int x, int y, std::string_view text, const char* attributes) {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, svg_escaped(text));
+    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, schema::xml_text(text));
   }
 
   std::string out_;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "schema/xml_text.h"
+
 namespace indurop::plc::graphic {
 namespace {
 
@@ -53,7 +55,7 @@ class Drawing {
  private:
   void text(double x, double y, std::string_view text, const char* anchor, const char* attributes) {
     out_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, anchor, attributes,
-                        svg_escaped(text));
+                        schema::xml_text(text));
   }
 
   void switch_symbol(const Symbol& symbol) {
@@ -145,26 +147,6 @@ class Drawing {
 };
 
 }  // namespace
-
-std::string svg_escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string svg_symbol(const Symbol& symbol) {
   return Drawing().run(symbol);

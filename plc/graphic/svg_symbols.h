@@ -22,6 +22,5 @@ inline constexpr int kCellHeight = 20;
 }
 
 [[nodiscard]] std::string svg_symbol(const Symbol& symbol);
-[[nodiscard]] std::string svg_escaped(std::string_view text);
 
 }  // namespace indurop::plc::graphic

@@ -41,7 +41,7 @@ TEST(Plan, Names_with_special_characters_stay_readable_in_every_form) {
   const Checked c = check(root(periodic("a &lt;b&gt; &quot;c&quot;, d.so", "1ms", 1)), kScheduleOnly);
   EXPECT_EQ(nlohmann::json::parse(plan_json(c.config, c.result))["slots"][0]["modules"][0], "a <b> \"c\", d");
   EXPECT_THAT(plan_csv(c.config, c.result), HasSubstr("0,0,\"a <b> \"\"c\"\", d\"\n"));
-  EXPECT_THAT(plan_svg(c.config, c.result), HasSubstr("a &lt;b&gt; \"c\", d"));
+  EXPECT_THAT(plan_svg(c.config, c.result), HasSubstr("a &lt;b&gt; &quot;c&quot;, d"));
   EXPECT_TRUE(is_well_formed(plan_svg(c.config, c.result)));
 }
 

@@ -99,7 +99,9 @@ TEST(Initial, Values_become_bytes) {
   double b = 0;
   std::memcpy(&b, bytes.data() + 24, sizeof b);
   EXPECT_EQ(b, 0.5);
-  EXPECT_TRUE(variable(compile_text("char x[2000] = \"\";"), "x").initial.empty());
+  EXPECT_TRUE(variable(compile_text("int x = 0;"), "x").initial.empty()) << "memory is 0 without it";
+  EXPECT_TRUE(variable(compile_text("int x = 0;"), "x").given);
+  EXPECT_FALSE(variable(compile_text("int x;"), "x").given);
   EXPECT_EQ(variable(compile_text("int x @fallback(0);"), "x").fallback.size(), 4U) << "a fallback of 0 is a fallback";
 }
 

@@ -1,41 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller's step allocates nothing: not while it plans, blends, calculates inverse kinematics in either way,
-// runs a job, or fails. Sanitizers bring their own allocator, so there nothing is counted.
+// runs a job, or fails.
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <fstream>
-
 #include "robot/group.h"
 #include "robot_fixture.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define INDUROP_COUNTS_ALLOCATIONS 0
-#else
-#define INDUROP_COUNTS_ALLOCATIONS 1
-#endif
-
-namespace {
-std::atomic<std::uint64_t> g_allocations{0};
-}
-
-#if INDUROP_COUNTS_ALLOCATIONS
-extern "C" {
-void* __libc_malloc(std::size_t size);                           // NOLINT(bugprone-reserved-identifier): glibc's
-void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
-
-void* malloc(std::size_t size) noexcept {
-  ++g_allocations;
-  return __libc_malloc(size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  ++g_allocations;
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
+#include "tests/unit/allocations.h"
 
 namespace indurop::robot {
 namespace {
@@ -46,23 +17,9 @@ class NoSignals final : public Signals {
   void write(std::size_t /*index*/, double /*value*/) noexcept override {}
 };
 
-Settings settings_with(const std::string& urdf, const std::string& job) {
-  Settings settings;
-  settings.urdf = testing::TempDir() + "allocation_test.urdf";
-  std::ofstream(settings.urdf) << urdf;
-  settings.jobs = {testing::TempDir() + "allocation_test.job"};
-  std::ofstream(settings.jobs[0]) << job;
-  return settings;
-}
-
 // Runs job 1 with drives that do what they are told; returns what the steps allocated.
-std::uint64_t allocations_of(const Settings& settings, Outputs& out, std::string& message) {
-  std::vector<std::string> errors;
-  const auto sut = Controller::load(settings, errors);
-  if (!sut) {
-    ADD_FAILURE() << errors.at(0);
-    return 1;
-  }
+std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Outputs& out, std::string& message) {
+  const auto sut = controller_of(urdf, job);
   NoSignals signals;
   Inputs in;
   const std::uint64_t before = g_allocations;
@@ -86,12 +43,11 @@ std::uint64_t allocations_of(const Settings& settings, Outputs& out, std::string
 TEST(RobotAllocation, AWholeJobAllocatesNothing) {
   Outputs out;
   std::string message;
-  const Settings settings =
-      settings_with(cell_urdf(),
-                    "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
-                    "POINT C = POSE 500 -100 500 RPY 180 0 180\nPOINT FAR = POSE 3000 0 0 RPY 0 0 0\n"
-                    "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nSET O1 ON\nWAIT 50ms\nEND\nMOVC B A\nMOVL FAR\n");
-  EXPECT_EQ(allocations_of(settings, out, message), 0U);
+  const std::string job =
+      "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
+      "POINT C = POSE 500 -100 500 RPY 180 0 180\nPOINT FAR = POSE 3000 0 0 RPY 0 0 0\n"
+      "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nSET O1 ON\nWAIT 50ms\nEND\nMOVC B A\nMOVL FAR\n";
+  EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
   EXPECT_EQ(out.job.state, JobState::Failed);  // it came to its last line
   EXPECT_EQ(out.error, ErrorCode::Unreachable);
 }
@@ -102,9 +58,9 @@ TEST(RobotAllocation, NeitherDoesAnArmWithoutClosedForm) {
   urdf.replace(urdf.find(wrist), wrist.size(), "<origin xyz=\"0.09 0 0.04\" rpy=\"0 0 0\"/>");
   Outputs out;
   std::string message;
-  const Settings settings = settings_with(
-      urdf, "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\nMOVJ A\nMOVJ B\nMOVL A\n");
-  EXPECT_EQ(allocations_of(settings, out, message), 0U);
+  const std::string job =
+      "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\nMOVJ A\nMOVJ B\nMOVL A\n";
+  EXPECT_EQ(allocations_of(urdf, job, out, message), 0U);
   EXPECT_EQ(out.job.state, JobState::Ended) << message;
 }
 

@@ -3,12 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
 #include <cmath>
 #include <cstdio>
-
-#include <filesystem>
-#include <fstream>
 
 #include "robot_fixture.h"
 
@@ -20,22 +16,12 @@ class Cell final : public Signals {
  public:
   explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true) {
     Settings settings;
-    const std::filesystem::path folder = testing::TempDir() + "group_test." + std::to_string(::getpid());
-    std::filesystem::create_directories(folder);
-    settings.urdf = folder / "arm.urdf";
-    std::ofstream(settings.urdf) << cell_urdf();
-    const std::string file = folder / "main.job";
-    std::ofstream(file) << "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
-                        << "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n"
-                        << job;
-    settings.jobs = {file};
     settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
-    std::vector<std::string> errors;
-    sut = Controller::load(settings, errors);
-    if (!sut) {
-      throw std::runtime_error(errors.at(0));
-    }
-    std::filesystem::remove_all(folder);
+    sut = controller_of(cell_urdf(),
+                        "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
+                        "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n" +
+                            job,
+                        settings);
     for (DriveIn& drive : in.drives) {
       drive.status = kSwitchOnDisabled;
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot_fixture.h"
 
+#include <unistd.h>
+
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -29,6 +32,22 @@ Arm odd_arm() {
   }
   axes[5].point += Vec3(0, 0, 0.05);
   return {axes, arm.home()};
+}
+
+std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings) {
+  const auto folder = std::filesystem::temp_directory_path() / ("robot_test." + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  settings.urdf = folder / "arm.urdf";
+  std::ofstream(settings.urdf) << urdf;
+  settings.jobs = {folder / "main.job"};
+  std::ofstream(settings.jobs[0]) << job;
+  std::vector<std::string> errors;
+  auto controller = Controller::load(settings, errors);
+  std::filesystem::remove_all(folder);
+  if (!controller) {
+    throw std::runtime_error(errors.at(0));
+  }
+  return controller;
 }
 
 JointLimits cell_limits() {

@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <memory>
 #include <random>
 #include <string>
 
+#include "robot/group.h"
 #include "robot/planner.h"
 #include "robot/urdf.h"
 
@@ -16,6 +18,8 @@ Arm cell_arm();
 // Wrist axes that do not meet: no closed form.
 Arm odd_arm();
 JointLimits cell_limits();
+// One that has read both texts as files. Throws what it says of them.
+std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings = {});
 
 // Somewhere within the limits, `margin` away from them. The same sequence for the same seed.
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin = 0.01);

@@ -8,40 +8,40 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_21fe1e8ad214cea0,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_06c0fa9137b915a3,comdat
 .ascii "{\"schema\":1,\"abi\":2,\"variables\":[{\"name\":\"demo::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"0500000"
-.ascii "0\",\"source\":\"in.glb:3\"},{\"name\":\"demo::zero\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"00000000\",\"so"
-.ascii "urce\":\"in.glb:4\"},{\"name\":\"demo::least8\",\"type\":\"int8\",\"kind\":\"scalar\",\"initial\":\"80\",\"source\":\"in.g"
-.ascii "lb:5\"},{\"name\":\"demo::least64\",\"type\":\"int64\",\"kind\":\"scalar\",\"initial\":\"0000000000000080\",\"source\":"
-.ascii "\"in.glb:6\"},{\"name\":\"demo::most64\",\"type\":\"uint64\",\"kind\":\"scalar\",\"initial\":\"ffffffffffffffff\",\"sou"
-.ascii "rce\":\"in.glb:7\"},{\"name\":\"demo::hex\",\"type\":\"uint32\",\"kind\":\"scalar\",\"initial\":\"efbeadde\",\"source\":\""
-.ascii "in.glb:8\"},{\"name\":\"demo::f\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"cdcccc3d\",\"source\":\"in.glb:9\""
-.ascii "},{\"name\":\"demo::g\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"ec78ad60\",\"source\":\"in.glb:9\"},{\"name\""
-.ascii ":\"demo::h\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"000000c0\",\"source\":\"in.glb:9\"},{\"name\":\"demo::d"
-.ascii "\",\"type\":\"double\",\"kind\":\"scalar\",\"initial\":\"59f3f8c21f6ea501\",\"source\":\"in.glb:10\"},{\"name\":\"demo::"
-.ascii "whole\",\"type\":\"double\",\"kind\":\"scalar\",\"initial\":\"0000000000000840\",\"source\":\"in.glb:10\"},{\"name\":\"d"
-.ascii "emo::yes\",\"type\":\"bool\",\"kind\":\"scalar\",\"initial\":\"01\",\"source\":\"in.glb:11\"},{\"name\":\"demo::no\",\"typ"
-.ascii "e\":\"bool\",\"kind\":\"scalar\",\"initial\":\"00\",\"source\":\"in.glb:11\"},{\"name\":\"demo::letter\",\"type\":\"char\","
-.ascii "\"kind\":\"scalar\",\"initial\":\"78\",\"source\":\"in.glb:12\"},{\"name\":\"demo::text\",\"type\":{\"base\":\"text\",\"siz"
-.ascii "e\":16},\"kind\":\"ring\",\"initial\":\"616263202271756f7465642220095c00\",\"source\":\"in.glb:13\"},{\"name\":\"dem"
-.ascii "o::sized\",\"type\":{\"base\":\"text\",\"size\":7},\"kind\":\"ring\",\"initial\":\"6cc3a46e676500\",\"source\":\"in.glb:"
-.ascii "14\"},{\"name\":\"demo::numbers\",\"type\":{\"base\":\"int32\",\"dims\":[3]},\"kind\":\"ring\",\"initial\":\"01000000020"
-.ascii "0000003000000\",\"source\":\"in.glb:15\"},{\"name\":\"demo::table\",\"type\":{\"base\":\"int32\",\"dims\":[3,2]},\"kin"
-.ascii "d\":\"ring\",\"initial\":\"010000000200000000000000000000000500000000000000\",\"source\":\"in.glb:16\"},{\"name\""
-.ascii ":\"demo::p\",\"type\":{\"base\":\"struct\",\"name\":\"demo::P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\""
-.ascii ":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"kind\":\"ring\",\"initial\":\"00000000000"
-.ascii "0f03f00000000000000c0\",\"source\":\"in.glb:17\"},{\"name\":\"demo::ps\",\"type\":{\"base\":\"struct\",\"name\":\"demo"
-.ascii "::P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"doubl"
-.ascii "e\",\"offset\":8}],\"dims\":[4]},\"kind\":\"ring\",\"initial\":\"000000000000f03f0000000000000000000000000000004"
-.ascii "000000000000008400000000000000000000000000000000000000000000000000000000000000000\",\"source\":\"in.glb:"
-.ascii "17\"},{\"name\":\"demo::names\",\"type\":{\"base\":\"text\",\"size\":8,\"dims\":[3]},\"kind\":\"ring\",\"initial\":\"6f6e6"
-.ascii "5000000000000000000000000007468726565000000\",\"source\":\"in.glb:18\"},{\"name\":\"demo::nested\",\"type\":{\"b"
-.ascii "ase\":\"struct\",\"name\":\"demo::nested_t\",\"size\":32,\"align\":8,\"fields\":[{\"name\":\"p\",\"type\":{\"base\":\"stru"
-.ascii "ct\",\"name\":\"demo::P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\""
-.ascii "y\",\"type\":\"double\",\"offset\":8}]},\"offset\":0},{\"name\":\"n\",\"type\":{\"base\":\"int32\",\"dims\":[2]},\"offset\""
-.ascii ":16},{\"name\":\"on\",\"type\":\"bool\",\"offset\":24}]},\"kind\":\"ring\",\"initial\":\"000000000000f03f000000000000"
-.ascii "004003000000040000000100000000000000\",\"source\":\"in.glb:19\"},{\"name\":\"demo::braces\",\"type\":\"int32\",\"k"
-.ascii "ind\":\"scalar\",\"initial\":\"07000000\",\"source\":\"in.glb:20\"}]}"
+.ascii "0\",\"source\":\"in.glb:3\"},{\"name\":\"demo::zero\",\"type\":\"int32\",\"kind\":\"scalar\",\"given\":true,\"source\":\"i"
+.ascii "n.glb:4\"},{\"name\":\"demo::least8\",\"type\":\"int8\",\"kind\":\"scalar\",\"initial\":\"80\",\"source\":\"in.glb:5\"},{"
+.ascii "\"name\":\"demo::least64\",\"type\":\"int64\",\"kind\":\"scalar\",\"initial\":\"0000000000000080\",\"source\":\"in.glb:"
+.ascii "6\"},{\"name\":\"demo::most64\",\"type\":\"uint64\",\"kind\":\"scalar\",\"initial\":\"ffffffffffffffff\",\"source\":\"in"
+.ascii ".glb:7\"},{\"name\":\"demo::hex\",\"type\":\"uint32\",\"kind\":\"scalar\",\"initial\":\"efbeadde\",\"source\":\"in.glb:8"
+.ascii "\"},{\"name\":\"demo::f\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"cdcccc3d\",\"source\":\"in.glb:9\"},{\"name"
+.ascii "\":\"demo::g\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"ec78ad60\",\"source\":\"in.glb:9\"},{\"name\":\"demo::"
+.ascii "h\",\"type\":\"float\",\"kind\":\"scalar\",\"initial\":\"000000c0\",\"source\":\"in.glb:9\"},{\"name\":\"demo::d\",\"type\""
+.ascii ":\"double\",\"kind\":\"scalar\",\"initial\":\"59f3f8c21f6ea501\",\"source\":\"in.glb:10\"},{\"name\":\"demo::whole\",\""
+.ascii "type\":\"double\",\"kind\":\"scalar\",\"initial\":\"0000000000000840\",\"source\":\"in.glb:10\"},{\"name\":\"demo::yes"
+.ascii "\",\"type\":\"bool\",\"kind\":\"scalar\",\"initial\":\"01\",\"source\":\"in.glb:11\"},{\"name\":\"demo::no\",\"type\":\"bool"
+.ascii "\",\"kind\":\"scalar\",\"given\":true,\"source\":\"in.glb:11\"},{\"name\":\"demo::letter\",\"type\":\"char\",\"kind\":\"sc"
+.ascii "alar\",\"initial\":\"78\",\"source\":\"in.glb:12\"},{\"name\":\"demo::text\",\"type\":{\"base\":\"text\",\"size\":16},\"ki"
+.ascii "nd\":\"ring\",\"initial\":\"616263202271756f7465642220095c00\",\"source\":\"in.glb:13\"},{\"name\":\"demo::sized\","
+.ascii "\"type\":{\"base\":\"text\",\"size\":7},\"kind\":\"ring\",\"initial\":\"6cc3a46e676500\",\"source\":\"in.glb:14\"},{\"nam"
+.ascii "e\":\"demo::numbers\",\"type\":{\"base\":\"int32\",\"dims\":[3]},\"kind\":\"ring\",\"initial\":\"010000000200000003000"
+.ascii "000\",\"source\":\"in.glb:15\"},{\"name\":\"demo::table\",\"type\":{\"base\":\"int32\",\"dims\":[3,2]},\"kind\":\"ring\","
+.ascii "\"initial\":\"010000000200000000000000000000000500000000000000\",\"source\":\"in.glb:16\"},{\"name\":\"demo::p\""
+.ascii ",\"type\":{\"base\":\"struct\",\"name\":\"demo::P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\","
+.ascii "\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"kind\":\"ring\",\"initial\":\"000000000000f03f00000"
+.ascii "000000000c0\",\"source\":\"in.glb:17\"},{\"name\":\"demo::ps\",\"type\":{\"base\":\"struct\",\"name\":\"demo::P\",\"size"
+.ascii "\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset"
+.ascii "\":8}],\"dims\":[4]},\"kind\":\"ring\",\"initial\":\"000000000000f03f00000000000000000000000000000040000000000"
+.ascii "00008400000000000000000000000000000000000000000000000000000000000000000\",\"source\":\"in.glb:17\"},{\"nam"
+.ascii "e\":\"demo::names\",\"type\":{\"base\":\"text\",\"size\":8,\"dims\":[3]},\"kind\":\"ring\",\"initial\":\"6f6e65000000000"
+.ascii "000000000000000007468726565000000\",\"source\":\"in.glb:18\"},{\"name\":\"demo::nested\",\"type\":{\"base\":\"stru"
+.ascii "ct\",\"name\":\"demo::nested_t\",\"size\":32,\"align\":8,\"fields\":[{\"name\":\"p\",\"type\":{\"base\":\"struct\",\"name\""
+.ascii ":\"demo::P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":"
+.ascii "\"double\",\"offset\":8}]},\"offset\":0},{\"name\":\"n\",\"type\":{\"base\":\"int32\",\"dims\":[2]},\"offset\":16},{\"nam"
+.ascii "e\":\"on\",\"type\":\"bool\",\"offset\":24}]},\"kind\":\"ring\",\"initial\":\"000000000000f03f0000000000000040030000"
+.ascii "00040000000100000000000000\",\"source\":\"in.glb:19\"},{\"name\":\"demo::braces\",\"type\":\"int32\",\"kind\":\"scal"
+.ascii "ar\",\"initial\":\"07000000\",\"source\":\"in.glb:20\"}]}"
 .ascii "\n"
 .popsection)indurop");
 
@@ -77,9 +77,8 @@ constexpr void indurop_fields(const nested_t& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_21fe1e8ad214cea0 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_06c0fa9137b915a3 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_demo_a{5};
-inline constexpr ::std::int32_t initial_demo_zero{0};
 inline constexpr ::std::int8_t initial_demo_least8{-128};
 inline constexpr ::std::int64_t initial_demo_least64{INT64_MIN};
 inline constexpr ::std::uint64_t initial_demo_most64{18446744073709551615U};
@@ -90,7 +89,6 @@ inline constexpr float initial_demo_h{-2.0F};
 inline constexpr double initial_demo_d{1e-300};
 inline constexpr double initial_demo_whole{3.0};
 inline constexpr bool initial_demo_yes{true};
-inline constexpr bool initial_demo_no{false};
 inline constexpr char initial_demo_letter{120};
 inline constexpr ::indurop::string<16> initial_demo_text{"abc \"quoted\" \011\\"};
 inline constexpr ::indurop::string<7> initial_demo_sized{"l\303\244nge"};
@@ -103,7 +101,7 @@ inline constexpr ::demo::nested_t initial_demo_nested{{1.0, 2.0}, {{3, 4}}, true
 inline constexpr ::std::int32_t initial_demo_braces{7};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xaecab772fc402801, 0x2af2b3192b419145, nullptr, &initial_demo_a, 4, ::indurop::abi::Kind::Scalar, "demo::a"},
-    {0xdd3ed0b9e177d9a8, 0x2af2b3192b419145, nullptr, &initial_demo_zero, 4, ::indurop::abi::Kind::Scalar, "demo::zero"},
+    {0xdd3ed0b9e177d9a8, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "demo::zero"},
     {0x425fff4441f30899, 0x08b70a07b55bfd94, nullptr, &initial_demo_least8, 1, ::indurop::abi::Kind::Scalar, "demo::least8"},
     {0xbc4961fc10148ff9, 0x2ae1af192b331746, nullptr, &initial_demo_least64, 8, ::indurop::abi::Kind::Scalar, "demo::least64"},
     {0xe3ec561dae2498fb, 0x4d35d3193e8d66f2, nullptr, &initial_demo_most64, 8, ::indurop::abi::Kind::Scalar, "demo::most64"},
@@ -114,7 +112,7 @@ inline constinit ::indurop::abi::Ref refs[] = {
     {0xaecaba72fc402d1a, 0xdd744c18ff7ea1ab, nullptr, &initial_demo_d, 8, ::indurop::abi::Kind::Scalar, "demo::d"},
     {0xd57d0d192bf84d61, 0xdd744c18ff7ea1ab, nullptr, &initial_demo_whole, 8, ::indurop::abi::Kind::Scalar, "demo::whole"},
     {0x668ef29724662d45, 0xcd2fd49bc6b014bd, nullptr, &initial_demo_yes, 1, ::indurop::abi::Kind::Scalar, "demo::yes"},
-    {0x42864662a0f05769, 0xcd2fd49bc6b014bd, nullptr, &initial_demo_no, 1, ::indurop::abi::Kind::Scalar, "demo::no"},
+    {0x42864662a0f05769, 0xcd2fd49bc6b014bd, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "demo::no"},
     {0xe9a67ab455632966, 0xf2a393910b5b3ebd, nullptr, &initial_demo_letter, 1, ::indurop::abi::Kind::Scalar, "demo::letter"},
     {0x466f002c22e55c31, 0x196ff26a059abe6c, nullptr, &initial_demo_text, 16, ::indurop::abi::Kind::Ring, "demo::text"},
     {0x261467b7064a2485, 0x8afe3cc691fb7eb2, nullptr, &initial_demo_sized, 7, ::indurop::abi::Kind::Ring, "demo::sized"},
@@ -294,36 +292,36 @@ union ref_demo_nested_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_21fe1e8ad214cea0::ref_demo_P<indurop_tag, indurop_offset + 0> p;
+  ::indurop_generated_06c0fa9137b915a3::ref_demo_P<indurop_tag, indurop_offset + 0> p;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16>, 2> n;
   ::indurop::Leaf<indurop_tag, bool, indurop_offset + 24> on;
   INDUROP_UNION_SHAPE(ref_demo_nested_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_21fe1e8ad214cea0
+}  // namespace indurop_generated_06c0fa9137b915a3
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_21fe1e8ad214cea0::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_21fe1e8ad214cea0::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_21fe1e8ad214cea0::ref_demo_P<::indurop_generated_21fe1e8ad214cea0::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_21fe1e8ad214cea0::ref_demo_P<::indurop_generated_21fe1e8ad214cea0::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_21fe1e8ad214cea0::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_21fe1e8ad214cea0::ref_demo_nested_t<::indurop_generated_21fe1e8ad214cea0::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_21fe1e8ad214cea0::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_06c0fa9137b915a3::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_06c0fa9137b915a3::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_06c0fa9137b915a3::ref_demo_P<::indurop_generated_06c0fa9137b915a3::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_06c0fa9137b915a3::ref_demo_P<::indurop_generated_06c0fa9137b915a3::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_06c0fa9137b915a3::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_06c0fa9137b915a3::ref_demo_nested_t<::indurop_generated_06c0fa9137b915a3::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_06c0fa9137b915a3::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo
