@@ -8,54 +8,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "glb2idl/source_line.h"
+
 namespace indurop::glb2idl {
-namespace {
-
-constexpr std::size_t kShown = 120;  // characters of a source line
-
-// One element per character; what a terminal might misread becomes '?'.
-std::vector<std::string> characters(std::string_view line) {
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < line.size();) {
-    std::size_t length = 1;
-    while (i + length < line.size() && (static_cast<unsigned char>(line[i + length]) & 0xC0U) == 0x80U) {
-      ++length;
-    }
-    const std::string_view one = line.substr(i, length);
-    const auto first = static_cast<unsigned char>(one[0]);
-    const bool control = (first < 0x20 && first != '\t') || first == 0x7F || one.starts_with("\xC2\x80");
-    out.emplace_back(control || first_invalid_utf8(one) ? "?" : std::string(one));
-    i += length;
-  }
-  return out;
-}
-
-// The source line and, below it, a caret under column `column` with `width` characters underlined.
-std::string picture(std::string_view line, std::size_t column, std::size_t width) {
-  const std::vector<std::string> shown = characters(line);
-  const std::size_t at = std::min(column - 1, shown.size());
-  const std::size_t from = at > kShown * 3 / 4 ? at - kShown * 3 / 4 : 0;
-  const std::size_t to = std::min(shown.size(), from + kShown);
-  std::string text = "    ";
-  std::string mark = "    ";
-  for (std::size_t i = from; i < to; ++i) {
-    text += shown[i];
-    if (i < at) {
-      mark += shown[i] == "\t" ? '\t' : ' ';
-    } else if (i > at && i < at + width) {
-      mark += '~';
-    } else if (i == at) {
-      mark += '^';
-    }
-  }
-  if (at >= to) {
-    mark += '^';
-  }
-  return text + "\n" + mark + "\n";
-}
-
-}  // namespace
-
 void Diagnostics::add(std::optional<Span> at, std::string text) {
   const auto same = [&](const Message& m) {
     return m.text == text && m.at.has_value() == at.has_value() &&
@@ -89,7 +44,7 @@ std::string Diagnostics::render() const {
     }
     const LineColumn place = sources_.place_of(*m->at);
     out += fmt::format("{}:{}:{}: error: {}\n", sources_.file(m->at->file).path, place.line, place.column, m->text);
-    out += picture(sources_.line_text(m->at->file, place.line), place.column, m->at->length);
+    out += picture_of_line(sources_.line_text(m->at->file, place.line), place.column, m->at->length);
   }
   if (errors_ > kLimit) {
     out += fmt::format("glb2idl: error: too many errors, the first {} are shown\n", kLimit);

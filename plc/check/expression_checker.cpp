@@ -106,6 +106,9 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
       type = binary(expression, wanted);
       break;
   }
+  if (type != nullptr && reading_ && counts_as_truth(expression, *type)) {
+    return typed(make_truth(expression), nullptr);
+  }
   if (expression.resolved->meaning != Meaning::Type) {  // a type stays noted for the member behind it
     expression.type = type;
   }

@@ -21,6 +21,8 @@ class ExpressionChecker {
   bool assigned(ast::Expression& expression, const Type& to);
   // A variable that is written; its type, null after an error.
   const Type* target(ast::Expression& expression);
+  // Whether it is a number of another module that a contact or coil takes as a BOOL. `type`: its own.
+  [[nodiscard]] static bool counts_as_truth(const ast::Expression& expression, const Type& type) noexcept;
   // A variable that is passed by reference, read and written.
   const Type* reference(ast::Expression& expression);
   // A call as a statement: functions and instances of function blocks.
@@ -54,8 +56,9 @@ class ExpressionChecker {
   const Type* arithmetic(ast::Expression& expression, const Type* wanted);
   void fold(ast::Expression& expression, const Type& operand);
   bool meet(ast::Expression& a, ast::Expression& b);
-  const Type* unknown(const ast::Expression& expression);
+  const Type* unknown(ast::Expression& expression);
   void note_write(const ast::Expression& expression);
+  static ast::Expression& make_truth(ast::Expression& expression);
   bool writable(const ast::Expression& expression);
   bool array_initial(ast::Initial& initial, const Type& type);
   bool struct_initial(ast::Initial& initial, const Type& type);

@@ -103,6 +103,9 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     const Constant* known = scalar ? constant_of(*variable.initial->value) : nullptr;
     global.constant = known != nullptr && !type.is_string() ? std::optional(stored(*known, type)) : std::nullopt;
   } else if (contains_block(type)) {
+    if (variable.retain) {
+      context.error(variable.at, kNoRetain);
+    }
     global.kind = Global::Kind::Private;
   }
   global.shared_name = fmt::format("{}::{}", program.space, global.name);
@@ -213,6 +216,19 @@ Global* foreign_global(Context& context, std::string_view full_name) {
   global.foreign = &*found;
   global.type = foreign_type(context, found->type);
   return &add(program, std::move(global));
+}
+
+Global* only_foreign_global(Context& context, std::string_view name) {
+  const schema::Variable* only = nullptr;
+  for (const schema::Variable& one : context.program.foreign) {
+    if (same_name(last_name(one.name), name)) {
+      if (only != nullptr) {
+        return nullptr;
+      }
+      only = &one;
+    }
+  }
+  return only == nullptr ? nullptr : foreign_global(context, only->name);
 }
 
 Global* external_global(Context& context, const ast::Variable& variable, const Type& type) {

@@ -83,7 +83,31 @@ const Type* ExpressionChecker::name(Expression& expression) {
   return unknown(expression);
 }
 
-const Type* ExpressionChecker::unknown(const Expression& expression) {
+bool ExpressionChecker::counts_as_truth(const Expression& expression, const Type& type) noexcept {
+  const Resolved* root = root_of(expression).resolved.get();
+  const bool shared = root != nullptr && root->global != nullptr && root->global->kind == Global::Kind::Foreign;
+  return expression.as_truth && shared && type.kind == Type::Kind::Elementary &&
+         (is_int(type.elementary) || (is_bit(type.elementary) && !type.is(Elementary::Bool)));
+}
+
+// x <> 0
+Expression& ExpressionChecker::make_truth(Expression& expression) {
+  Expression number = std::move(expression);
+  number.as_truth = false;
+  Expression zero;
+  zero.at = number.at;
+  zero.value = std::uint64_t{0};
+  expression = Expression{};
+  expression.kind = Expression::Kind::Binary;
+  expression.op = ast::Operator::NotEqual;
+  expression.at = zero.at;
+  expression.operands.push_back(std::move(number));
+  expression.operands.push_back(std::move(zero));
+  static_cast<void>(resolved(expression));
+  return expression;
+}
+
+const Type* ExpressionChecker::unknown(Expression& expression) {
   const Type* found = nullptr;
   for (const Type* type : context_.program.named_types) {
     for (const EnumItem& item : type->items) {
@@ -102,6 +126,9 @@ const Type* ExpressionChecker::unknown(const Expression& expression) {
   if (found != nullptr) {
     return found;
   }
+  if (Global* shared = only_foreign_global(context_, expression.name)) {
+    return global(expression, *shared);
+  }
   if (const auto pou = context_.program.pou_names.find(upper(expression.name));
       pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Program) {
     context_.error(expression.at,
@@ -119,12 +146,9 @@ const Type* ExpressionChecker::unknown(const Expression& expression) {
   for (const Global& one : context_.program.globals) {
     known.push_back(one.name);
   }
-  const std::string shared = suggest_shared(context_.program, expression.name);
-  std::string hint = did_you_mean(expression.name, known);
-  hint = hint.empty() ? ", declare it between VAR and END_VAR" : hint;
-  context_.error(expression.at,
-                 fmt::format("'{}' is not declared{}", expression.name,
-                             shared.empty() ? hint : ", did you mean the shared variable '" + shared + "'?"));
+  const std::string hint = did_you_mean(expression.name, known);
+  context_.error(expression.at, fmt::format("'{}' is not declared{}", expression.name,
+                                            hint.empty() ? ", declare it between VAR and END_VAR" : hint));
   return nullptr;
 }
 

@@ -64,6 +64,11 @@ class VariableDeclarer {
     if (is_block && declared.constant) {
       context_.error(declared.at, "an instance of a function block cannot be CONSTANT");
     }
+    if (declared.retain && is_block) {
+      context_.error(declared.at, kNoRetain);
+    } else if (declared.retain && pou_.tree->kind != ast::Pou::Kind::Program) {
+      context_.warning(declared.at, "RETAIN has no effect here, only in programs and in VAR_GLOBAL");
+    }
     if (declared.edge != ast::Edge::None && (!type.is(Elementary::Bool) || declared.section != Section::Input ||
                                              pou_.tree->kind == ast::Pou::Kind::Function)) {
       context_.error(declared.at, "R_EDGE and F_EDGE are for BOOL inputs of function blocks and programs");

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "plc/model/make.h"
+
 namespace indurop::plc {
 
 using ast::Statement;
@@ -125,6 +127,12 @@ void StatementChecker::assign(Statement& one) {
   if (to->kind == Type::Kind::Block) {
     context_.error(one.at, "instances of function blocks cannot be assigned");
     return;
+  }
+  if (ExpressionChecker::counts_as_truth(*one.target, *to)) {  // a coil writes 1 or 0
+    std::vector<ast::Argument> arguments;
+    arguments.push_back(make::argument("", std::move(*one.value)));
+    one.value = make::call(one.at, make::name(one.at, fmt::format("BOOL_TO_{}", name_of(to->elementary))),
+                           std::move(arguments));
   }
   expressions_.assigned(*one.value, *to);
 }

@@ -51,6 +51,9 @@ Project read_project(const std::vector<std::string>& files, const ReadOptions& o
     }
     at.line = 1;
     at.column = 1;
+    if (type->read == &read_st) {
+      diagnostics.show_lines_of(file, *got.text);
+    }
     append(out, type->read(*got.text, at, options, diagnostics));
   }
   return out;

@@ -89,6 +89,7 @@ class Networks {
     if (!variable) {
       return;
     }
+    variable->as_truth = true;
     if (element.edge != ast::Edge::None) {
       variable = lowering_.edge(std::move(*variable), element.edge, std::to_string(element.id));
     } else if (element.negated) {
@@ -104,6 +105,7 @@ class Networks {
     if (!target) {
       return;
     }
+    target->as_truth = true;
     const ast::Expression power = lowering_.power(element, lowering_.input(element, element.inputs.front()));
     lowering_.define(element, nullptr, power);
     ast::Expression value = power;

@@ -54,7 +54,7 @@ class Svg {
   std::string run(const std::vector<SvgSheet>& sheets) {
     int width = 0;
     for (const SvgSheet& sheet : sheets) {
-      width = std::max(width, kLeft + 9 * text_width(sheet.heading));
+      width = std::max({width, kLeft + 9 * text_width(sheet.heading), kLeft + sheet.chart.width});
       for (const SvgNetwork& network : sheet.networks) {
         width = std::max(width, kLeft + network.picture.width * kCellWidth);
         for (const std::string& remark : network.remarks) {
@@ -67,6 +67,9 @@ class Svg {
       text(kMargin, y_ - 12, sheet.heading, "font-size=\"17\" font-weight=\"bold\" fill=\"#16324F\"");
       line(kMargin, y_ - 2, width, y_ - 2, "stroke=\"#C9D3DF\" stroke-width=\"1\"");
       y_ += kGap / 2;
+      if (!sheet.chart.elements.empty()) {
+        part(sheet.chart.elements, sheet.chart.height);
+      }
       for (const SvgNetwork& network : sheet.networks) {
         draw(network);
       }
@@ -93,10 +96,16 @@ class Svg {
       y_ += kRemark;
     }
     y_ += network.remarks.empty() && network.labels.empty() ? 0 : kRemark / 3;
-    out_ += fmt::format("<g transform=\"translate({},{})\">\n", kLeft, y_);
+    const std::size_t begin = out_.size();
     picture(network.picture);
-    out_ += "</g>\n";
-    y_ += network.picture.height * kCellHeight + kGap;
+    std::string drawn = out_.substr(begin);
+    out_.resize(begin);
+    part(drawn, network.picture.height * kCellHeight);
+  }
+
+  void part(const std::string& elements, int height) {
+    out_ += fmt::format("<g transform=\"translate({},{})\">\n{}</g>\n", kLeft, y_, elements);
+    y_ += height + kGap;
   }
 
   void picture(const Picture& picture) {

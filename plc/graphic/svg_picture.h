@@ -16,9 +16,16 @@ struct SvgNetwork {
   std::vector<std::string> labels;
   Picture picture;
 };
+// Something drawn already, from 0, 0.
+struct SvgPart {
+  std::string elements;
+  int width = 0;
+  int height = 0;
+};
 // What is drawn under one heading.
 struct SvgSheet {
   std::string heading;
+  SvgPart chart;  // above the networks
   std::vector<SvgNetwork> networks;
 };
 

@@ -80,6 +80,7 @@ struct Expression {
   LiteralValue value;                    // Literal
   std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
   std::string value_enum;                // Name: the type in Color#Red
+  bool as_truth = false;                 // at a contact or coil: a number of a .glb is a BOOL, 0 is FALSE
   unsigned bit = 0;
   DirectAddress address;
   std::vector<Expression> operands;

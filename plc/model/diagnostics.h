@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "plc/model/place.h"
@@ -17,11 +19,15 @@ class Diagnostics {
   void error(const Place& at, std::string text) { add(true, at, std::move(text)); }
   void warning(const Place& at, std::string text) { add(false, at, std::move(text)); }
 
+  // The text of a file whose lines are shown below messages about it. Drawn programs have none.
+  void show_lines_of(const std::string& file, std::string text) { texts_[file] = std::move(text); }
+
   [[nodiscard]] bool failed() const noexcept { return errors_ > 0; }
   [[nodiscard]] std::size_t errors() const noexcept { return errors_; }
 
-  // One line each, "prog.st:12:5: error: text" or, with Place::within, "prog.xml:80:3: error: POU main, rung 3: text".
-  // Files in the order in which they were first complained about, lines ascending; at most 100 errors.
+  // "prog.st:12:5: error: text" or, with Place::within, "prog.xml:80:3: error: POU main, rung 3: text", then the line
+  // of the source where it is known, with a mark. Files in the order in which they were first complained about, lines
+  // ascending; at most 100 errors.
   [[nodiscard]] std::string render() const;
 
  private:
@@ -32,7 +38,10 @@ class Diagnostics {
   };
   void add(bool is_error, const Place& at, std::string text);
 
+  [[nodiscard]] std::string picture(const Place& at) const;
+
   std::vector<Message> messages_;
+  std::map<std::string, std::string> texts_;
   std::size_t errors_ = 0;
 };
 

@@ -29,11 +29,7 @@ std::string names_of(const sfc::Chart& chart, const std::vector<std::size_t>& st
 }
 
 std::string action_line(const graphic::ActionLine& line) {
-  std::string what = line.name;
-  if (what.empty() && line.inlined != nullptr) {
-    what = one_line(line.inlined->text);
-  }
-  return fmt::format("      {:<6} {:<8} {}\n", line.qualifier, line.duration, what);
+  return fmt::format("      {:<6} {:<8} {}\n", line.qualifier, line.duration, action_text(line));
 }
 
 std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc::Transition& transition,
@@ -52,6 +48,10 @@ std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc
 }
 
 }  // namespace
+
+std::string action_text(const graphic::ActionLine& line) {
+  return line.name.empty() && line.inlined != nullptr ? one_line(line.inlined->text) : line.name;
+}
 
 std::string condition_text(const graphic::Element& transition) {
   if (transition.inlined != nullptr && transition.inlined->language == graphic::Body::Language::St) {

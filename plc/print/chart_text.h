@@ -11,6 +11,9 @@ namespace indurop::plc {
 
 [[nodiscard]] std::string chart_text(const sfc::Chart& chart, bool unicode);
 
+// The name of an action, or its code in one line.
+[[nodiscard]] std::string action_text(const graphic::ActionLine& line);
+
 // What is written at a transition: its condition, or its name.
 [[nodiscard]] std::string condition_text(const graphic::Element& transition);
 

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plc/graphic/svg_picture.h"
 #include "plc/graphic/text_picture.h"
 #include "plc/model/elementary.h"
+#include "plc/print/chart_svg.h"
 #include "plc/print/chart_text.h"
 
 namespace indurop::plc {
@@ -60,6 +63,28 @@ void append_lines(std::vector<std::string>& lines, const std::string& text) {
     }
     begin = end + 1;
   }
+}
+
+// The networks of a chart that are more than an operand, and their numbers at the transitions they lead to.
+std::vector<std::size_t> conditions_of(graphic::Diagram& diagram, const graphic::Sheet& sheet) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < sheet.networks.size(); ++i) {
+    const auto& elements = sheet.networks[i].elements;
+    if (elements.size() < 2 && (elements.empty() || elements[0]->kind == graphic::Element::Kind::InVariable)) {
+      continue;
+    }
+    found.push_back(i);
+    for (graphic::Element& each : diagram.elements) {
+      const auto leads = [&](const graphic::Connection& connection) {
+        return std::find(elements.begin(), elements.end(), diagram.find(connection.from)) != elements.end();
+      };
+      if (each.condition &&
+          std::any_of(each.condition->connections.begin(), each.condition->connections.end(), leads)) {
+        each.text = fmt::format("(network {})", sheet.networks[i].number);
+      }
+    }
+  }
+  return found;
 }
 
 // Code in a file is indented as the editor left it; common white space goes.
@@ -129,8 +154,14 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
   for (const PrintedBody& each : bodies) {
     text += each.heading + "\n\n";
     if (each.body->language == Language::Sfc) {
-      (void)graphic::make_sheet(*each.body, each.what, diagnostics);  // names the places
+      const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+      const std::vector<std::size_t> conditions = conditions_of(each.body->diagram, sheet);
       text += chart_text(sfc::read_chart(each.body->diagram, diagnostics), unicode);
+      const auto pictures =
+          conditions.empty() ? std::vector<graphic::Picture>{} : graphic::lay_out(sheet, Language::Fbd);
+      for (const std::size_t i : conditions) {
+        text += network_text(sheet.networks[i], pictures[i], Language::Fbd, unicode);
+      }
       continue;
     }
     if (!is_networks(*each.body)) {
@@ -152,17 +183,32 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
 std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagnostics) {
   std::vector<graphic::SvgSheet> drawn;
   for (const PrintedBody& each : bodies) {
-    if (!is_networks(*each.body)) {
+    const bool is_chart = each.body->language == Language::Sfc;
+    if (!is_networks(*each.body) && !is_chart) {
       continue;
     }
     const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+    const std::vector<std::size_t> conditions =
+        is_chart ? conditions_of(each.body->diagram, sheet) : std::vector<std::size_t>{};
+    const sfc::Chart chart = is_chart ? sfc::read_chart(each.body->diagram, diagnostics) : sfc::Chart{};
     if (diagnostics.failed()) {
       continue;
     }
     graphic::SvgSheet& made = drawn.emplace_back();
     made.heading = each.heading;
-    auto pictures = graphic::lay_out(sheet, each.body->language);
+    constexpr std::size_t kMostSteps = 5000;
+    if (chart.steps.size() + chart.transitions.size() > kMostSteps) {
+      diagnostics.error(each.body->at, "this chart is too large for a picture; print it as text");
+      continue;
+    }
+    if (is_chart) {
+      made.chart = draw_chart(chart);
+    }
+    auto pictures = graphic::lay_out(sheet, is_chart ? Language::Fbd : each.body->language);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
+      if (is_chart && std::find(conditions.begin(), conditions.end(), i) == conditions.end()) {
+        continue;
+      }
       const graphic::Network& network = sheet.networks[i];
       made.networks.push_back({network.number, remarks_of(network), network.labels, std::move(pictures[i])});
     }

@@ -224,7 +224,7 @@ std::optional<Expression> ExpressionParser::postfix(Expression base) {
   while (true) {
     const Token& token = in_.peek();
     bool ok = true;
-    if (token.is(".")) {
+    if (token.is(".") || token.is("::")) {  // PLC_ROBOT::I0, as C++ has it
       ok = member(base);
     } else if (token.is("[")) {
       ok = index(base);

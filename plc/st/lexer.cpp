@@ -10,7 +10,7 @@
 namespace indurop::plc::st {
 namespace {
 
-constexpr std::array<std::string_view, 8> kTwoCharacterSymbols{":=", "=>", "<=", ">=", "<>", "**", "..", "?="};
+constexpr std::array<std::string_view, 9> kTwoCharacterSymbols{":=", "::", "=>", "<=", ">=", "<>", "**", "..", "?="};
 constexpr std::string_view kSymbols = "+-*/&=<>()[],;:.^#|";
 
 bool is_letter(char c) noexcept {

@@ -55,6 +55,10 @@ TEST_P(Golden, Networks_and_their_meaning_or_errors_are_as_expected) {
   expect_file(folder / "expected.err", diagnostics.render());
   expect_file(folder / "expected.st", diagnostics.failed() ? "" : statements);
   expect_file(folder / "expected.txt", diagnostics.failed() ? "" : text);
+  const bool chart = std::any_of(bodies.begin(), bodies.end(), [](const PrintedBody& each) {
+    return each.body->language == graphic::Body::Language::Sfc;
+  });
+  expect_file(folder / "expected.svg", chart && !diagnostics.failed() ? print_svg(bodies, diagnostics) : "");
 }
 
 TEST_P(Golden, A_file_cut_off_anywhere_is_an_error_and_no_crash) {
