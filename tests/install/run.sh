@@ -25,7 +25,7 @@ esac
 cmake -G Ninja -S "$work/project" -B "$work/out" -DCMAKE_BUILD_TYPE=Release "$@"
 cmake --build "$work/out" -j 2
 cd "$work/out"
-for file in output.so modify.so event1.so observer.exe libvariables_types.so; do
+for file in output.so modify.so event1.so mixer.so observer.exe libvariables_types.so; do
   [ -f "$file" ] || { echo "missing: $file" >&2; exit 1; }
 done
 ./types
@@ -59,4 +59,5 @@ if [ -z "$io" ] || ldd "$io" | grep 'not found'; then
 fi
 "$programs/indurop" run module.xml --node "$node" --duration 1s --report report.json >run.log 2>&1 || { cat run.log; exit 1; }
 grep -q '"name": "observer"' report.json
+grep -q '"name": "mixer"' report.json
 grep -q 'joints\[0\] = {' run.log

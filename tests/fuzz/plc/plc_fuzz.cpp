@@ -25,8 +25,9 @@ void compile(const std::string& text, bool drawn) {
   options.files = {drawn ? "in.xml" : "in.st"};
   options.name = "fuzzed";
   options.watch = drawn;
-  const auto compiled =
-      plc::compile(options, [&](const std::string& name) { return glb2idl::ReadResult{text, name, ""}; });
+  const auto compiled = plc::compile(options, [&](const std::string& name) {
+    return glb2idl::ReadResult{text, name, ""};
+  });
   require(compiled.ok ? !compiled.modules.empty() : !compiled.messages.empty());
 }
 

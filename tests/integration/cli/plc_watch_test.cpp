@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// plc watch: the power in the rungs of examples/plc while a node runs it.
+#include <chrono>
+#include <thread>
+
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+const std::string kFolder = PLC_EXAMPLE;
+constexpr const char* kDead = "───( )────┤";
+constexpr const char* kPowered = "━━━( )━━━━┫";  // heavy to the right rail
+
+class PlcWatch : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    if (!IsSkipped()) {
+      node_ = std::make_unique<Background>(indurop_command({"run", kFolder + "/module.xml", "-q", "--node", "belt"}));
+      ASSERT_TRUE(wait_for(rung(1), "rung 1: ")) << node_->output();
+    }
+  }
+  static std::vector<std::string> rung(int number) {
+    return {"plc", "watch", kFolder + "/conveyor.xml", "--node", "belt", "--once", "--rung", std::to_string(number)};
+  }
+  static void set(const char* name, const char* value) {
+    ASSERT_EQ(indurop({"set", "--node", "belt", name, value}).code, 0) << name;
+  }
+  // Until what it prints holds the text, for at most ten seconds.
+  static bool wait_for(const std::vector<std::string>& command, const std::string& text) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    RunOptions options;
+    options.environment = {"LC_ALL=C.UTF-8"};
+    do {
+      if (indurop(command, options).out.find(text) != std::string::npos) {
+        return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    } while (std::chrono::steady_clock::now() < end);
+    return false;
+  }
+
+  std::unique_ptr<Background> node_;
+};
+
+TEST_F(PlcWatch, Power_comes_and_goes_with_the_contacts) {
+  ASSERT_TRUE(wait_for(rung(1), kDead));
+  set("start", "true");
+  EXPECT_TRUE(wait_for(rung(1), kPowered));
+  set("start", "false");
+  // The belt keeps itself on: its branch is heavy, that of the button is not.
+  EXPECT_TRUE(wait_for(rung(1), "┣━━━━┤ ├───┳━━━┤/├━━━━━━┤/├"));
+  set("stop", "true");
+  EXPECT_TRUE(wait_for(rung(1), kDead));
+}
+
+TEST_F(PlcWatch, Values_stand_at_the_outputs_of_boxes) {
+  EXPECT_TRUE(wait_for(rung(2), "│0 ns")) << "the timer has not begun";
+  set("start", "true");
+  EXPECT_TRUE(wait_for(rung(2), "│2.00 s")) << "it has counted to its end";
+  EXPECT_TRUE(wait_for(rung(2), kPowered)) << "and the motor runs";
+}
+
+}  // namespace
+}  // namespace indurop::test
