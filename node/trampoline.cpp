@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/trampoline.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -11,8 +12,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "rt/thread.h"
+#include "runtime/host.h"
 
 extern char** environ;
 
@@ -39,6 +42,24 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   }
   result.push_back(nullptr);
   return result;
+}
+
+// A module that was built in another place, or deployed from another machine, has to find libindurop: it gets the
+// node's own, whose memory it shares, unless the user's environment names another one.
+void offer_own_library() {
+  constexpr const char* kVariable = "LD_LIBRARY_PATH";
+  Dl_info library{};
+  if (::dladdr(reinterpret_cast<const void*>(&runtime::current_module), &library) == 0 ||
+      library.dli_fname == nullptr) {
+    return;
+  }
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(library.dli_fname, error).parent_path();
+  if (!error) {
+    const char* before = std::getenv(kVariable);
+    const std::string first = before == nullptr || *before == '\0' ? "" : std::string(before) + ":";
+    ::setenv(kVariable, (first + folder.string()).c_str(), 1);
+  }
 }
 
 }  // namespace
@@ -82,6 +103,7 @@ int become_module(int argc, char** argv) {
   if (const int core = static_cast<int>(std::strtol(argv[3], nullptr, 10)); core >= 0) {
     (void)rt::pin_to_core(core);
   }
+  offer_own_library();
   ::execv(argv[kFirstArgument], argv + kFirstArgument);
   fmt::print(stderr, "indurop-node: error: cannot run {}: {}\n", argv[kFirstArgument], std::strerror(errno));
   return 127;
