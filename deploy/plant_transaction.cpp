@@ -49,6 +49,7 @@ void PlantTransaction::hear(const BoardReport& report, std::int64_t now_ns) {
   }
   const bool was_ours = !first && ours(known->second) && known->second.phase != Phase::Steady;
   known->second = report;
+  gone_.erase(report.board);
   if (was_ours && report.phase == Phase::Steady && order_.step != Step::Commit && order_.step != Step::Abort) {
     abort(Verdict::Refused, report.board, report.message.empty() ? "it gave up" : report.message, now_ns);
   }
@@ -75,6 +76,7 @@ void PlantTransaction::board_gone(const std::string& board, std::uint64_t agent,
   if (known == reports_.end() || known->second.agent != agent) {
     return;
   }
+  gone_.insert(board);
   abort(Verdict::Refused, board, "it is not heard any more", now_ns);
 }
 
@@ -105,7 +107,8 @@ bool PlantTransaction::wound_up() {
   unconfirmed_.clear();
   for (const std::string& board : order_.boards) {
     const auto found = reports_.find(board);
-    if (found == reports_.end()) {
+    if (found == reports_.end() || gone_.count(board) > 0) {
+      // Nobody waits for it to go back: it does so by itself. A commit may still reach it.
       if (order_.step == Step::Commit) {
         unconfirmed_.push_back(board);
       }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class PlantTransaction {
   bool finished_ = false;
   Verdict verdict_ = Verdict::Open;
   std::map<std::string, BoardReport> reports_;  // of the boards meant, newest
+  std::set<std::string> gone_;                  // of those, not heard any more
   std::map<std::string, std::int64_t> busy_since_;
   std::map<std::string, std::string> reasons_;
   std::vector<std::string> unconfirmed_;

@@ -134,6 +134,23 @@ TEST_F(Deployer, A_board_that_dies_in_the_trial_rolls_all_boards_back) {
   EXPECT_EQ(sut_.order().step, Step::Switch) << "another agent";
   sut_.board_gone("b", 2, now_);
   EXPECT_EQ(sut_.verdict(), Verdict::RolledBack);
+  time();
+  EXPECT_FALSE(sut_.finished()) << "a has not gone back yet";
+  say(report("a", Phase::Steady));
+  time();
+  EXPECT_TRUE(sut_.finished()) << "b goes back by itself";
+}
+
+TEST_F(Deployer, A_board_that_is_heard_again_is_waited_for) {
+  to_trial();
+  sut_.board_gone("b", 2, now_);
+  say(report("b", Phase::Trial));
+  say(report("a", Phase::Steady));
+  time();
+  EXPECT_FALSE(sut_.finished());
+  say(report("b", Phase::Steady));
+  time();
+  EXPECT_TRUE(sut_.finished());
 }
 
 TEST_F(Deployer, An_agent_that_was_started_again_does_not_count_as_the_same) {
