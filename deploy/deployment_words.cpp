@@ -57,4 +57,10 @@ std::string order_text(const Order& order) {
                      fmt::join(order.boards, ","));
 }
 
+std::string describe(const OtherAgent& agent, unsigned own_protocol) {
+  return fmt::format("{}{} speaks protocol {} of another release, here it is {}: install the same release on both",
+                     agent.board.empty() ? "an agent" : "the agent of board " + agent.board,
+                     agent.host.empty() ? "" : " on " + agent.host, agent.protocol, own_protocol);
+}
+
 }  // namespace indurop::deploy

@@ -72,6 +72,15 @@ struct BoardReport {
   std::int64_t clock_offset_ns = 0;  // CLOCK_REALTIME here minus the deployer's, transport included
 };
 
+// An agent of another release whose protocol is not this one's: it is there, and nothing it says can be heard.
+struct OtherAgent {
+  unsigned protocol = 0;
+  std::string board;  // empty: it does not tell; likewise
+  std::string host;
+};
+// "the agent of board b on HOST speaks protocol 1 ...", and what to do.
+std::string describe(const OtherAgent& agent, unsigned own_protocol);
+
 struct Order {
   std::uint64_t deployer = 0;  // this run of the deployer
   std::string host;
@@ -116,5 +125,7 @@ inline std::string shown_id(const std::string& id) {
 }
 // In place of a digest: the list of a board's earlier deployments, as JSON.
 inline constexpr const char* kHistoryBlob = "history";
+// Likewise: what the board's node reads from other boards at this moment, and how old it is.
+inline constexpr const char* kMirrorBlob = "mirror";
 
 }  // namespace indurop::deploy

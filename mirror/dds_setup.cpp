@@ -93,7 +93,11 @@ Participant join_plant(const Settings& settings, std::string& problem) {
     problem = fmt::format("DDS domain {}: {}", settings.domain, joined.domain.why());
     return joined;
   }
-  joined.participant = Entity(dds_create_participant(id, nullptr, nullptr));
+  const Qos qos(dds_create_qos());
+  if (!settings.board.empty()) {
+    dds_qset_entity_name(qos.get(), settings.board.c_str());  // for tools of DDS, and for other releases
+  }
+  joined.participant = Entity(dds_create_participant(id, qos.get(), nullptr));
   if (!joined.participant.ok()) {
     const std::string said = last_dds_message();
     problem = said.empty() ? joined.participant.why() : said;

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "mirror/dds_setup.h"
+#include "mirror/other_releases.h"
 #include "rt/clock.h"
 #include "rt/signal_word.h"
 #include "schema/topic_name.h"
@@ -132,6 +133,7 @@ struct DeployLink::Impl {
   std::uint64_t self = 0;
   rt::SignalWord wake;  // used by listeners until the readers are gone
   Participant joined;
+  OtherReleases others;
   Endpoint boards_out;
   Endpoint orders_out;
   Endpoint requests_out;
@@ -165,7 +167,9 @@ std::string DeployLink::Impl::make() {
       return "deployment topics cannot be made: " + end->why();
     }
   }
-  return {};
+  std::string problem;
+  (void)others.open(joined.participant.get(), problem);
+  return problem;
 }
 
 std::uint64_t new_session() {
@@ -182,6 +186,7 @@ std::string host_name() {
 std::unique_ptr<DeployLink> DeployLink::open(const LinkSettings& settings, std::string& problem) {
   Settings network;
   network.domain = settings.domain;
+  network.board = settings.board;
   network.interface_name = settings.interface_name;
   network.address = settings.address;
   network.multicast = settings.multicast;
@@ -346,6 +351,18 @@ std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
     }
   });
   return chunks;
+}
+
+std::vector<deploy::OtherAgent> DeployLink::other_agents() {
+  constexpr const char* kTool = "indurop";  // it has the same topics, and goes again
+  (void)impl_->others.look();
+  std::vector<deploy::OtherAgent> agents;
+  for (OtherReleases::Speaker& speaker : impl_->others.speakers()) {
+    if (speaker.topic.plant == "deploy" && speaker.program != kTool) {
+      agents.push_back({speaker.topic.protocol, std::move(speaker.name), std::move(speaker.host)});
+    }
+  }
+  return agents;
 }
 
 int DeployLink::participant() const noexcept {

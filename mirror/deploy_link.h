@@ -27,6 +27,7 @@ struct LinkSettings {
   bool multicast = true;
   bool one_host = false;   // all of it on loopback
   std::uint64_t self = 0;  // session of this agent or deployer
+  std::string board;       // of an agent, for those who cannot understand it
 };
 
 // A session number that no other run has.
@@ -67,6 +68,9 @@ class DeployLink {
   std::vector<OrderNews> take_orders();
   std::vector<deploy::BlobRequest> take_requests();  // to this session
   std::vector<deploy::BlobChunk> take_chunks();
+
+  // Agents in the network whose protocol is another one, as far as they are known by now.
+  std::vector<deploy::OtherAgent> other_agents();
 
   // For topics beside these (mirror/command_link.h): what they are made in, and what their readers wake.
   [[nodiscard]] int participant() const noexcept;

@@ -35,11 +35,11 @@ void lend(Sequence& sequence, std::vector<char*>& pointers) {
 }  // namespace
 
 std::string directory_topic() {
-  return std::string(schema::kTopicRoot) + "external/directory";
+  return schema::topic_root() + "external/directory";
 }
 
 std::string wish_topic() {
-  return std::string(schema::kTopicRoot) + "external/wish";
+  return schema::topic_root() + "external/wish";
 }
 
 bool ExternalDirectory::open(dds_entity_t participant, const Content& content, bool asked, std::string& problem) {

@@ -15,6 +15,7 @@
 #include "mirror/joining.h"
 #include "mirror/landing.h"
 #include "mirror/mirror_block.h"
+#include "mirror/other_releases.h"
 #include "mirror/receiver.h"
 #include "mirror/sender.h"
 #include "rt/clock.h"
@@ -70,6 +71,7 @@ struct Mirror::Impl {
   bool open(dds_entity_t participant, std::string& problem);
   void close() noexcept;
   void take_catalogues() noexcept;
+  void look_for_other_releases();
   void send_loop(bool bulk) noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
 
@@ -91,6 +93,7 @@ struct Mirror::Impl {
   std::vector<std::unique_ptr<Landing>> landings;
   std::vector<std::unique_ptr<Receiver>> receivers;
   Endpoint catalogues;
+  OtherReleases others;
   Joining joining;
   std::atomic<bool> up{false};
   std::atomic<bool> stop{false};
@@ -191,7 +194,7 @@ bool Mirror::Impl::open(dds_entity_t participant, std::string& problem) {
   if (!catalogues.ok()) {
     problem = "cannot receive catalogues: " + catalogues.why();
   }
-  return catalogues.ok();
+  return catalogues.ok() && others.open(participant, problem);
 }
 
 void Mirror::Impl::close() noexcept {
@@ -201,6 +204,7 @@ void Mirror::Impl::close() noexcept {
   beacons->close();
   sender->close();
   catalogues.reset();
+  others.close();
 }
 
 void Mirror::Impl::manage() {
@@ -213,6 +217,7 @@ void Mirror::Impl::manage() {
   wake_bulk.wake();
   while (!stopping()) {
     take_catalogues();
+    look_for_other_releases();
     const std::int64_t now = rt::now_ns();
     Schedule current;
     {
@@ -254,6 +259,24 @@ void Mirror::Impl::take_catalogues() noexcept {
                                              settings.board, settings.plant));
     }
   });
+}
+
+void Mirror::Impl::look_for_other_releases() {
+  if (!others.look()) {
+    return;
+  }
+  const auto speakers = others.speakers();
+  for (const auto& receiver : receivers) {
+    const auto found = std::find_if(speakers.begin(), speakers.end(), [&](const auto& speaker) {
+      return speaker.topic.plant == settings.plant &&
+             (speaker.topic.board == receiver->board() || speaker.name == receiver->board());
+    });
+    receiver->other_release(
+        found == speakers.end()
+            ? std::string{}
+            : fmt::format("it speaks protocol {} of another release, this board {}: install the same release on both",
+                          found->topic.protocol, schema::protocol()));
+  }
 }
 
 void Mirror::Impl::send_loop(bool of_bulk) noexcept {

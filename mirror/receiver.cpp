@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "mirror/dds_setup.h"
 #include "rt/clock.h"
@@ -74,6 +75,9 @@ std::string Receiver::match(const indurop_wire_Catalogue& catalogue, std::vector
 }
 
 void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds_entity_t participant, const Settings& settings) {
+  if (std::exchange(other_release_, false)) {
+    record_.problem.set({});
+  }
   if (catalogue.session == session_ && catalogue.layout == layout_) {
     record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
     return;
@@ -196,6 +200,20 @@ void Receiver::silent() noexcept {
     item.landing->silent(item.source, now, record_);
   }
   word_.end(word_.whole());
+}
+
+void Receiver::other_release(const std::string& problem) {
+  const PeerState state = record_.state.load(std::memory_order_relaxed);
+  const bool announced = state == PeerState::Alive || (state == PeerState::Mismatched && !other_release_);
+  if (announced || other_release_ == !problem.empty()) {
+    return;
+  }
+  other_release_ = !problem.empty();
+  record_.problem.set(problem);
+  record_.state.store(other_release_  ? PeerState::Mismatched
+                      : session_ != 0 ? PeerState::Silent
+                                      : PeerState::Absent,
+                      std::memory_order_release);
 }
 
 }  // namespace indurop::mirror

@@ -36,6 +36,9 @@ class Receiver {
   void announced(const indurop_wire_Catalogue& catalogue, dds_entity_t participant, const Settings& settings);
   // The board fell silent: its values are no longer confirmed.
   void silent() noexcept;
+  // The board is there, but with a release whose protocol is another one; an empty problem: not any more. Called by the
+  // mirror's manager only.
+  void other_release(const std::string& problem);
   // Stops reading.
   void close() noexcept;
 
@@ -73,6 +76,7 @@ class Receiver {
   std::vector<Item> items_;
   std::uint64_t session_ = 0;
   std::uint64_t layout_ = 0;
+  bool other_release_ = false;
   bool matched_ = false;        // this session's variables agree with ours
   std::vector<Inbox> inboxes_;  // by part, all parts of the board
   Staging staging_;

@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "deploy/board_transaction.h"
-#include "deploy/plant.h"
 #include "mirror/blob_server.h"
 #include "node/agent_state.h"
+#include "node/board_deployment.h"
 #include "node/board_orders.h"
 #include "node/board_process.h"
 #include "node/deploy_keys.h"
 #include "node/fetcher.h"
+#include "node/mirror_text.h"
 #include "node/stop_signal.h"
 #include "rt/clock.h"
+#include "schema/topic_name.h"
 
 namespace indurop::node {
 namespace {
@@ -26,25 +29,6 @@ constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::int64_t kTellNs = 500'000'000;  // at least
 constexpr std::int64_t kTellFastNs = 50'000'000;
 constexpr std::int64_t kNetworkRetryNs = 1'000'000'000;
-
-// First error of a check, and how many more.
-std::string first_error(const std::vector<deploy::Diagnostic>& diagnostics) {
-  std::string text;
-  std::size_t more = 0;
-  for (const deploy::Diagnostic& diagnostic : diagnostics) {
-    if (diagnostic.severity != deploy::Diagnostic::Severity::Error) {
-      continue;
-    }
-    if (text.empty()) {
-      deploy::Diagnostic shown = diagnostic;
-      shown.file = std::filesystem::path(shown.file).filename().string();
-      text = deploy::to_string(shown);
-    } else {
-      ++more;
-    }
-  }
-  return more > 0 ? fmt::format("{} (and {} more)", text, more) : text;
-}
 
 std::vector<std::string> node_arguments(const Options& options) {
   std::vector<std::string> words;
@@ -71,6 +55,7 @@ class Agent {
         state_(state),
         self_(mirror::new_session()),
         keys_(options.board),
+        deployment_(state, options.board, options.one_host),
         transaction_(options.board),
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), console),
@@ -80,6 +65,7 @@ class Agent {
     link_settings_.interface_name = options.interface_name;
     link_settings_.one_host = options.one_host;
     link_settings_.self = self_;
+    link_settings_.board = options.board;
     host_ = mirror::host_name();
   }
 
@@ -105,10 +91,6 @@ class Agent {
   }
 
  private:
-  [[nodiscard]] bool belongs(const std::vector<std::string>& members) const {
-    return std::find(members.begin(), members.end(), options_.board) != members.end();
-  }
-
   // The last committed deployment, without any network.
   void resume() {
     const Committed& committed = state_.committed();
@@ -116,7 +98,7 @@ class Agent {
       console_.info("board {}: nothing is deployed yet", options_.board);
       return;
     }
-    if (!belongs(committed.members)) {
+    if (!deployment_.belongs(committed.members)) {
       console_.info("board {}: not part of plant {} any more", options_.board, committed.plant);
       return;
     }
@@ -131,8 +113,8 @@ class Agent {
   }
 
   bool find(const std::string& name, mirror::BlobServer::Blob& blob) const {
-    if (name == deploy::kHistoryBlob) {
-      blob.text = state_.history_text();
+    if (name == deploy::kHistoryBlob || name == deploy::kMirrorBlob) {
+      blob.text = name == deploy::kHistoryBlob ? state_.history_text() : mirror_text(options_.board);
       return true;
     }
     blob.file = state_.file(name);
@@ -176,12 +158,17 @@ class Agent {
         others_[key] = std::move(news.report);
       }
     }
+    for (const deploy::OtherAgent& other : link_->other_agents()) {
+      if (told_others_.insert(other.host + "/" + other.board).second) {
+        console_.warning("{}", deploy::describe(other, schema::protocol()));
+      }
+    }
     for (const auto& [key, other] : others_) {
       // It missed a deployment of its plant, which may be the one that leaves it out.
-      const bool dropped = other.plant == state_.committed().plant && belongs(state_.committed().members);
+      const bool dropped = other.plant == state_.committed().plant && deployment_.belongs(state_.committed().members);
       const bool complete =
           std::find(other.members.begin(), other.members.end(), key.first) != other.members.end();  // has all files
-      if (key.first != options_.board && complete && (belongs(other.members) || dropped) &&
+      if (key.first != options_.board && complete && (deployment_.belongs(other.members) || dropped) &&
           other.generation > state_.committed().generation &&
           keys_.refusal(other.plant, deploy::grant_text(other.plant, other.current, other.generation), other.grant)
               .empty()) {
@@ -192,7 +179,7 @@ class Agent {
 
   // Orders meant for this board are taken from who may deploy to it; others are told why not.
   bool may_order(const deploy::Order& order) {
-    if (!belongs(order.boards)) {
+    if (!deployment_.belongs(order.boards)) {
       return false;
     }
     std::string why = keys_.refusal(order.plant, deploy::order_text(order), order.signature);
@@ -249,13 +236,14 @@ class Agent {
         fetcher_.begin(transaction_.source(), order.deployment, order.size);
         break;
       case Do::Check:
+        tell_now_ = true;
         tell(now);  // it may take a while
-        perform(transaction_.checked(check(order.deployment), rt::now_ns()), rt::now_ns());
+        perform(transaction_.checked(deployment_.check(order), rt::now_ns()), rt::now_ns());
         break;
       case Do::Switch:
         console_.info("deployment {}: switching", deploy::shown_id(order.deployment));
         held_before_ = process_.held();
-        process_.want(manifest_for(order.deployment));
+        process_.want(deployment_.manifest(order.deployment));
         break;
       case Do::Commit:
         commit(order);
@@ -272,79 +260,21 @@ class Agent {
     tell_now_ = true;
   }
 
-  // The deployment is of this board's plant and leaves it out, perhaps not for the first time.
-  bool leaves(const std::string& id) const {
-    std::string problem;
-    const auto package = state_.package(id, problem);
-    return package && package->plant == state_.committed().plant && !belongs(package->boards);
-  }
-
-  std::filesystem::path manifest_for(const std::string& id) const {
-    std::string problem;
-    const auto package = id.empty() ? std::nullopt : state_.package(id, problem);
-    return package && belongs(package->boards) ? state_.manifest(id) : std::filesystem::path{};
-  }
-
-  std::string check(const std::string& id) {
-    if (leaves(id)) {
-      return {};
-    }
-    if (std::string problem = state_.install(id); !problem.empty()) {
-      return problem;
-    }
-    deploy::ReadPlant read = deploy::read_plant(state_.manifest(id));
-    if (!read.ok()) {
-      return first_error(read.diagnostics);
-    }
-    if (read.plant.name != transaction_.order().plant) {
-      return fmt::format("plant {} was offered, and {} is in the package", transaction_.order().plant, read.plant.name);
-    }
-    deploy::CheckOptions how;
-    how.board = options_.one_host ? std::string{} : options_.board;
-    const deploy::PlantCheck checked = deploy::check_plant(read.plant, how);
-    const bool here = std::any_of(read.plant.boards.begin(), read.plant.boards.end(),
-                                  [this](const deploy::Board& board) { return board.name == options_.board; });
-    return here ? first_error(checked.diagnostics) : fmt::format("the plant has no board {}", options_.board);
-  }
-
-  static HistoryEntry history_of(const deploy::Order& order, const std::string& plant, const std::string& outcome) {
-    return {order.deployment, plant, order.generation, order.host, rt::wall_ns(), outcome};
-  }
-
   void commit(const deploy::Order& order) {
-    std::string problem;
-    const auto package = state_.package(order.deployment, problem);
-    Committed next = state_.committed();
-    next.generation = order.generation;
-    next.grant = order.grant;
-    if (package) {
-      next.plant = package->plant;
-      next.members = package->boards;
-    }
-    if (next.current != order.deployment) {
-      next.previous = next.current;
-    }
-    next.current = order.deployment;
-    std::error_code error;
-    next.current_size = std::filesystem::file_size(state_.file(order.deployment), error);
-    next.history.push_back(history_of(order, next.plant, "committed"));
-    problem = state_.commit(std::move(next));
-    if (!problem.empty()) {
+    const std::string problem = deployment_.commit(order);
+    if (problem.empty()) {
+      console_.info("deployment {}: committed", deploy::shown_id(order.deployment));
+    } else {
       console_.error("deployment {} runs but cannot be committed: {}", deploy::shown_id(order.deployment), problem);
-      return;
     }
-    console_.info("deployment {}: committed", deploy::shown_id(order.deployment));
-    state_.collect_garbage();
   }
 
   void go_back(const deploy::Order& order) {
-    Committed same = state_.committed();
-    same.history.push_back(history_of(order, same.plant, "rolled back: " + transaction_.message()));
-    process_.want(manifest_for(same.current));
+    process_.want(deployment_.manifest(state_.committed().current));
     if (!held_before_.empty()) {
       process_.hold(held_before_);
     }
-    if (const std::string problem = state_.commit(std::move(same)); !problem.empty()) {
+    if (const std::string problem = deployment_.note_rollback(order, transaction_.message()); !problem.empty()) {
       console_.error("{}", problem);
     }
   }
@@ -380,7 +310,7 @@ class Agent {
     if (out.message.empty() && process_.condition() != deploy::NodeCondition::Running) {
       out.message = process_.reason();
     }
-    if (out.message.empty() && !committed.current.empty() && !belongs(committed.members)) {
+    if (out.message.empty() && !committed.current.empty() && !deployment_.belongs(committed.members)) {
       out.message = fmt::format("not part of plant {} any more", committed.plant);
     }
     out.node = process_.condition();
@@ -417,6 +347,7 @@ class Agent {
   std::uint64_t self_;
   std::string host_;
   DeployKeys keys_;
+  BoardDeployment deployment_;
   BoardTransaction transaction_;
   Fetcher fetcher_;
   BoardProcess process_;
@@ -429,6 +360,7 @@ class Agent {
   std::int64_t connect_ns_ = 0;
   std::string network_problem_;
   std::map<std::pair<std::string, std::uint64_t>, deploy::BoardReport> others_;
+  std::set<std::string> told_others_;  // agents of other releases
   std::uint64_t refused_ = 0;
   std::string refusal_;
   bool busy_ = false;

@@ -4,41 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "deploy/deployment_words.h"
-#include "rt/clock.h"
-#include "tools/interrupt.h"
+#include "tools/board_texts.h"
 
 namespace indurop::tools {
-namespace {
-
-using Json = nlohmann::json;
-
-constexpr std::int64_t kPatienceNs = 2'000'000'000;
-constexpr std::int64_t kAskAgainNs = 250'000'000;
-constexpr std::int64_t kLookNs = 20'000'000;
-constexpr std::uint64_t kLargest = mirror::DeployLink::kChunk;  // some twenty short entries
-
-std::string fetch(mirror::DeployLink& link, std::uint64_t self, std::uint64_t agent) {
-  const std::int64_t end = rt::now_ns() + kPatienceNs;
-  std::int64_t ask = 0;
-  while (!interrupted() && rt::now_ns() < end) {
-    if (rt::now_ns() >= ask) {
-      link.request({self, agent, deploy::kHistoryBlob, 0, kLargest, true});
-      ask = rt::now_ns() + kAskAgainNs;
-    }
-    link.wait(rt::now_ns() + kLookNs);
-    for (const deploy::BlobChunk& chunk : link.take_chunks()) {
-      if (chunk.source == agent && chunk.blob == deploy::kHistoryBlob && chunk.offset == 0) {
-        return {chunk.data.begin(), chunk.data.end()};
-      }
-    }
-  }
-  return {};
-}
-
-}  // namespace
 
 std::vector<PastDeployment> fetch_history(mirror::DeployLink& link, std::uint64_t self, std::uint64_t agent) {
-  const Json whole = Json::parse(fetch(link, self, agent), nullptr, false);
+  using Json = nlohmann::json;
+  const auto texts = fetch_texts(link, self, deploy::kHistoryBlob, {agent});
+  const auto text = texts.find(agent);
+  const Json whole = Json::parse(text == texts.end() ? "" : text->second, nullptr, false);
   std::vector<PastDeployment> history;
   try {
     for (const Json& entry : whole.at("history")) {

@@ -50,6 +50,7 @@ void BoardRoster::listen(mirror::DeployLink& link, std::int64_t now_ns, std::vec
       boards_[key] = {std::move(news.report), now_ns};
     }
   }
+  others_ = link.other_agents();
 }
 
 void BoardRoster::gather_until(mirror::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {

@@ -42,12 +42,15 @@ class BoardRoster {
   // Newest word of the board; null if it is not there.
   [[nodiscard]] const Entry* find(const std::string& board) const;
   [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, Entry>& all() const noexcept { return boards_; }
+  // Agents that cannot be understood.
+  [[nodiscard]] const std::vector<deploy::OtherAgent>& others() const noexcept { return others_; }
   // Hosts of a name that more than one agent has, both of them alive; empty if it is one.
   [[nodiscard]] std::string twins(const std::string& board, std::int64_t now_ns) const;
 
  private:
   void gather_until(mirror::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context);
   std::map<std::pair<std::string, std::uint64_t>, Entry> boards_;  // by name and agent
+  std::vector<deploy::OtherAgent> others_;
 };
 
 }  // namespace indurop::tools

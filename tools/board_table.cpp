@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
+#include "schema/topic_name.h"
+#include "tools/mirror_view.h"
 #include "tools/units.h"
 
 namespace indurop::tools {
@@ -56,30 +59,69 @@ std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry
           Cell(message, Style::Bad)};
 }
 
+Cell read_cell(const std::vector<mirror::MirroredVariable>& variables) {
+  std::int64_t oldest = -1;
+  for (const mirror::MirroredVariable& variable : variables) {
+    oldest = std::max(oldest, variable.age_ns);
+  }
+  const auto invalid = std::count_if(variables.begin(), variables.end(), [](const auto& v) { return !v.valid; });
+  std::string text = std::to_string(variables.size());
+  if (invalid > 0) {
+    text += fmt::format(", {} not valid", invalid);
+  }
+  if (oldest >= 0) {
+    text += fmt::format(", up to {} old", human_ns(oldest));
+  }
+  return {text, json_of(variables), invalid > 0 ? Style::Bad : Style::None};
+}
+
 }  // namespace
 
-Table board_table(const BoardRoster& roster, std::int64_t now) {
+Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRead* read) {
   constexpr Align kRight = Align::Right;
-  Table table({{"BOARD", "board"},
-               {"HOST", "host", Align::Left, 3},
-               {"STATE", "state"},
-               {"DEPLOYING", "phase"},
-               {"PLANT", "plant"},
-               {"DEPLOYMENT", "deployment"},
-               {"", "previous"},
-               {"", "generation"},
-               {"TICK", "tick", kRight, 2},
-               {"LOST", "lost_ticks", kRight, 2},
-               {"OVERRUNS", "overruns", kRight},
-               {"FAULTS", "faults", kRight},
-               {"", "clock_offset_ns"},
-               {"", "release"},
-               {"HEARD", "age_ns", kRight, 1},
-               {"MESSAGE", "message"}});
+  std::vector<Column> columns({{"BOARD", "board"},
+                               {"HOST", "host", Align::Left, 3},
+                               {"STATE", "state"},
+                               {"DEPLOYING", "phase"},
+                               {"PLANT", "plant"},
+                               {"DEPLOYMENT", "deployment"},
+                               {"", "previous"},
+                               {"", "generation"},
+                               {"TICK", "tick", kRight, 2},
+                               {"LOST", "lost_ticks", kRight, 2},
+                               {"OVERRUNS", "overruns", kRight},
+                               {"FAULTS", "faults", kRight},
+                               {"", "clock_offset_ns"},
+                               {"", "release"},
+                               {"HEARD", "age_ns", kRight, 1},
+                               {"MESSAGE", "message"}});
+  if (read != nullptr) {
+    columns.insert(columns.end() - 1, {"VARIABLES READ", "variables", Align::Left, 1});
+  }
+  Table table(std::move(columns));
   for (const auto& [key, entry] : roster.all()) {
-    table.add(row(roster, entry, now));
+    std::vector<Cell> cells = row(roster, entry, now);
+    if (read != nullptr) {
+      const auto told = read->find(key.second);
+      cells.insert(cells.end() - 1, told == read->end() ? Cell("", JsonValue()) : read_cell(told->second));
+    }
+    table.add(std::move(cells));
   }
   return table;
+}
+
+void note_others(Context& context, const BoardRoster& roster) {
+  for (const deploy::OtherAgent& other : roster.others()) {
+    context.out.error(printable(describe(other, schema::protocol())));
+  }
+}
+
+JsonValue json_of_others(const BoardRoster& roster) {
+  JsonValue all = JsonValue::array();
+  for (const deploy::OtherAgent& other : roster.others()) {
+    all.push_back({{"board", other.board}, {"host", other.host}, {"protocol", other.protocol}});
+  }
+  return all;
 }
 
 std::vector<std::string> boards_not_heard(const BoardRoster& roster) {

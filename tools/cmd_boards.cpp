@@ -37,7 +37,9 @@ int show(Context& context, Options& options) {
                     "--agent --board NAME",
                     options.link.domain, human_age(options.wait_ns)));
   }
-  print_table(context, table, {{"domain", options.link.domain}}, "boards");
+  note_others(context, options.roster);
+  print_table(context, table, {{"domain", options.link.domain}, {"other_releases", json_of_others(options.roster)}},
+              "boards");
   return table.empty() ? kUnreachable : kOk;
 }
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop status: is the node well, what real-time rights did it get, how do its modules do.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "deploy/reader.h"
 #include "rt/clock.h"
-#include "tools/board_roster.h"
-#include "tools/board_table.h"
 #include "tools/external_view.h"
 #include "tools/interrupt.h"
 #include "tools/mirror_view.h"
 #include "tools/node_choice.h"
+#include "tools/plant_status.h"
 #include "tools/repeat.h"
 #include "tools/run_report.h"
 #include "tools/units.h"
@@ -18,8 +16,6 @@
 
 namespace indurop::tools {
 namespace {
-
-constexpr std::int64_t kHearNs = 1'500'000'000;  // agents speak twice a second
 
 std::string fault_text(const scheduler::ModuleRecord& module) {
   const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));
@@ -140,41 +136,9 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
   return report.alive ? kOk : kUnreachable;
 }
 
-// The whole plant, from anywhere in the network.
-struct PlantOptions {
-  bool wanted = false;
-  mirror::LinkSettings link;
-  std::unique_ptr<mirror::DeployLink> open;
-  BoardRoster roster;
-};
-
-int show_plant(Context& context, PlantOptions& options) {
-  if (options.open == nullptr) {
-    options.open = open_link(context, options.link);
-    if (options.open == nullptr) {
-      return kUnreachable;
-    }
-    options.roster.gather(*options.open, kHearNs, [&] { return false; });
-  }
-  const std::int64_t now = rt::now_ns();
-  options.roster.listen(*options.open, now);
-  const Table table = board_table(options.roster, now);
-  const std::vector<std::string> missing = boards_not_heard(options.roster);
-  if (table.empty()) {
-    context.out.error(
-        fmt::format("no board was heard on domain {} within {}; agents are started with indurop-node --agent "
-                    "--board NAME",
-                    options.link.domain, human_age(kHearNs)));
-  } else if (!missing.empty()) {
-    context.out.error(fmt::format("not heard: {}", fmt::join(missing, ", ")));
-  }
-  print_table(context, table, {{"domain", options.link.domain}, {"not_heard", missing}}, "boards");
-  return table.empty() || !missing.empty() ? kUnreachable : kOk;
-}
-
 Action declare(CLI::App& app, Context& context) {
   auto repeat = std::make_shared<Repeat>();
-  auto plant = std::make_shared<PlantOptions>();
+  auto plant = std::make_shared<PlantStatus>();
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, *repeat);
@@ -183,7 +147,7 @@ Action declare(CLI::App& app, Context& context) {
   return [repeat, plant](Context& c) {
     return repeat_rounds(c, *repeat, [&c, &plant] {
       if (plant->wanted) {
-        return show_plant(c, *plant);
+        return plant->show(c);
       }
       std::string node;
       int code = kOk;

@@ -11,7 +11,6 @@
 #include "tools/run_view.h"
 #include "tools/units.h"
 #include "vars/shm_file.h"
-#include "vars/store.h"
 
 namespace indurop::tools {
 namespace {
@@ -36,27 +35,6 @@ PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
           .clock_bound_ns = record.clock_bound_ns.load(kRelaxed),
           .clock_synchronised = record.clock_synchronised.load(kRelaxed) != 0,
           .epoch_wall_ns = record.epoch_wall_ns.load(kRelaxed)};
-}
-
-std::vector<MirroredVariable> view_variables(const std::string& node, const mirror::MirrorBlock& block,
-                                             std::uint32_t peers, std::uint32_t incoming, std::int64_t now) {
-  std::vector<MirroredVariable> variables;
-  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
-  for (std::uint32_t i = 0; store && i < incoming; ++i) {
-    const mirror::IncomingRecord& record = block.variables()[i];
-    const auto* entry = store.value().find(record.name_hash);
-    if (entry == nullptr || record.peer >= peers) {
-      continue;
-    }
-    const schema::Variable& variable = store.value().schema().variables[entry->schema_index];
-    const std::int64_t confirmed =
-        abi::confirmed_of(store.value().entry(entry->name_hash, 0), entry->kind).load(std::memory_order_acquire);
-    const bool never = confirmed == abi::kNeverConfirmed;
-    const std::int64_t age = never ? -1 : std::max<std::int64_t>(0, now - (confirmed < 0 ? -confirmed : confirmed));
-    variables.push_back({variable.name, fixed_text(block.peers()[record.peer].name), age,
-                         confirmed > 0 && (variable.maxage_ns == 0 || age <= variable.maxage_ns)});
-  }
-  return variables;
 }
 
 Style style_of(const std::string& state) {
@@ -90,7 +68,7 @@ std::optional<MirrorView> view_mirror(const std::string& node) {
                   .clock_error_ns = block->clock_error_ns.load(kRelaxed),
                   .epoch_wall_ns = block->epoch_wall_ns.load(kRelaxed),
                   .peers = {},
-                  .variables = view_variables(node, *block, peers, block->incoming, now)};
+                  .variables = mirror::mirrored_variables(node, *block, now)};
   for (std::uint32_t i = 0; i < peers; ++i) {
     view.peers.push_back(view_peer(block->peers()[i], now));
   }
@@ -129,6 +107,17 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
   return lines;
 }
 
+JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables) {
+  JsonValue all = JsonValue::array();
+  for (const mirror::MirroredVariable& variable : variables) {
+    all.push_back({{"name", variable.name},
+                   {"owner", variable.owner},
+                   {"age_ns", variable.age_ns < 0 ? JsonValue() : JsonValue(variable.age_ns)},
+                   {"valid", variable.valid}});
+  }
+  return all;
+}
+
 JsonValue json_of(const MirrorView& view) {
   JsonValue peers = JsonValue::array();
   for (const PeerView& peer : view.peers) {
@@ -148,13 +137,6 @@ JsonValue json_of(const MirrorView& view) {
                      {"clock_synchronised", peer.clock_synchronised},
                      {"epoch_wall_ns", peer.epoch_wall_ns}});
   }
-  JsonValue variables = JsonValue::array();
-  for (const MirroredVariable& variable : view.variables) {
-    variables.push_back({{"name", variable.name},
-                         {"owner", variable.owner},
-                         {"age_ns", variable.age_ns < 0 ? JsonValue() : JsonValue(variable.age_ns)},
-                         {"valid", variable.valid}});
-  }
   return {{"plant", view.plant},
           {"board", view.board},
           {"domain", view.domain},
@@ -170,7 +152,7 @@ JsonValue json_of(const MirrorView& view) {
           {"clock_error_ns", view.clock_error_ns},
           {"epoch_wall_ns", view.epoch_wall_ns},
           {"boards", peers},
-          {"variables", variables}};
+          {"variables", json_of(view.variables)}};
 }
 
 }  // namespace indurop::tools

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mirror/mirrored_variables.h"
 #include "tools/verb.h"
 
 namespace indurop::tools {
@@ -30,13 +31,6 @@ struct PeerView {
   std::int64_t epoch_wall_ns = 0;  // of its tick 0
 };
 
-struct MirroredVariable {
-  std::string name;
-  std::string owner;
-  std::int64_t age_ns = 0;  // negative: never heard
-  bool valid = false;
-};
-
 struct MirrorView {
   std::string plant;
   std::string board;
@@ -54,12 +48,13 @@ struct MirrorView {
   std::int64_t clock_error_ns = 0;
   std::int64_t epoch_wall_ns = 0;
   std::vector<PeerView> peers;
-  std::vector<MirroredVariable> variables;
+  std::vector<mirror::MirroredVariable> variables;
 };
 
 // Empty if the node is no board of a plant, or its file makes no sense.
 std::optional<MirrorView> view_mirror(const std::string& node);
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
+JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables);
 JsonValue json_of(const MirrorView& view);
 
 }  // namespace indurop::tools

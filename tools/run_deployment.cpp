@@ -12,6 +12,7 @@
 #include "deploy/plant_keys.h"
 #include "deploy/plant_transaction.h"
 #include "rt/clock.h"
+#include "tools/board_table.h"
 #include "tools/interrupt.h"
 #include "tools/units.h"
 
@@ -284,6 +285,9 @@ std::vector<std::string> present_boards(Context& context, mirror::DeployLink& li
   }
   const std::string seen =
       fmt::format("{} of {} boards heard within {}", present.size(), wanted.size(), human_age(timeout_ns));
+  if (!missing.empty()) {
+    note_others(context, roster);
+  }
   if (!missing.empty() && !allow_missing) {
     context.out.error(
         fmt::format("missing: {} ({}); nothing was deployed. Start their agents (indurop-node --agent "

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/mirror_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include "mirror/mirrored_variables.h"
+#include "rt/clock.h"
+#include "vars/node_lock.h"
+#include "vars/shm_file.h"
+
+namespace indurop::node {
+
+std::string mirror_text(const std::string& board) {
+  using Json = nlohmann::ordered_json;
+  Json variables = Json::array();
+  const auto file = vars::ShmFile::open(vars::mirror_file(board), vars::Mode::ReadOnly);
+  const mirror::MirrorBlock* block =
+      file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
+  if (block != nullptr && vars::running_node(board) > 0) {
+    for (const mirror::MirroredVariable& variable : mirror::mirrored_variables(board, *block, rt::now_ns())) {
+      variables.push_back({{"name", variable.name},
+                           {"owner", variable.owner},
+                           {"age_ns", variable.age_ns < 0 ? Json() : Json(variable.age_ns)},
+                           {"valid", variable.valid}});
+    }
+  }
+  return Json{{"variables", variables}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace indurop::node
