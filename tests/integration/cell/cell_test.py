@@ -4,16 +4,13 @@
 stop the robot, it goes on after reset and start; and all of it in the same order on one board and on two."""
 
 import argparse
-import csv
-import json
 import os
 import socket
 import subprocess
 import sys
 import tempfile
-import time
 
-PATIENCE = 90  # seconds until the tour is over and three parts were placed
+from cell import Cell, jobs
 
 
 def copy_configuration(built, io_module, folder):
@@ -33,32 +30,12 @@ def copy_configuration(built, io_module, folder):
                 file.write(text)
 
 
-class Cell:
-    """A running cell. `station` has the PLC's points and the surroundings, `robot` the robot task."""
+class RunningCell(Cell):
+    """Started with indurop run."""
 
     def __init__(self, arguments, folder, run, station, robot):
-        self.arguments = arguments
-        self.folder = folder
+        super().__init__(arguments, folder, station, robot)
         self.run = run
-        self.station = station
-        self.robot = robot
-
-    def indurop(self, *words, **options):
-        return subprocess.run([f"{self.arguments.bin}/indurop", *words], cwd=self.folder, text=True,
-                              capture_output=True, timeout=30, check=False, **options)
-
-    def get(self, node, name):
-        done = self.indurop("get", "--node", node, name, "-o", "json")
-        return json.loads(done.stdout)["values"][0]["value"] if done.returncode == 0 else None
-
-    def wait(self, what, condition):
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
-            if condition():
-                return
-            time.sleep(0.1)
-        raise AssertionError(f"{what}: not within {PATIENCE} s; {self.get(self.station, 'CELL::world')} "
-                             f"{self.get(self.robot, 'ROBOT_JOB')} {self.get(self.robot, 'ROBOT_MODULE_STATE.nError')}")
 
     def __enter__(self):
         for node in {self.station, self.robot}:
@@ -74,30 +51,19 @@ class Cell:
             self.indurop("clean", "--node", node)
 
     def tour(self):
-        """What happened, in order: every change of the robot's state and of its job."""
+        """What happened, as changes() tells it."""
         self.wait("Modbus station", lambda: (self.get(self.station, "I14") or 0) == 1)
         self.wait("robot sees the station", lambda: self.get(self.robot, "EMERGENCY_STOP.bActive") == 0)
         stops = self.get(self.robot, "EMERGENCY_STOP.nCount")  # the inputs were 0 until the station answered
-        recording = subprocess.Popen([f"{self.arguments.bin}/indurop", "watch", "--node", self.robot, "ROBOT_MODULE_STATE.eState",
-                                      "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=subprocess.PIPE, text=True)
-        self.indurop("set", "--node", self.station, "CELL::tour", "true")
-        self.wait("two stops", lambda: (self.get(self.robot, "EMERGENCY_STOP.nCount") or 0) >= stops + 2)
-        self.wait("three parts on the pallet", lambda: (self.get(self.station, "CELL::world.placed") or 0) >= 3)
-        recording.terminate()
-        rows = list(csv.reader(recording.communicate(timeout=30)[0].splitlines()))[1:]
-        changes = []
-        for row in rows:
-            now = tuple(row[1:])
-            if len(now) == 2 and (not changes or changes[-1] != now):
-                changes.append(now)
+
+        def work():
+            self.indurop("set", "--node", self.station, "CELL::tour", "true")
+            self.wait("two stops", lambda: (self.get(self.robot, "EMERGENCY_STOP.nCount") or 0) >= stops + 2)
+            self.wait("three parts on the pallet", lambda: (self.get(self.station, "CELL::world.placed") or 0) >= 3)
+
+        changes = self.changes(work)
         assert self.get(self.station, "CELL::world.lost") == 0, "a part was lost"
         return changes
-
-
-def jobs(changes):
-    """Names of the jobs one after the other; one that runs again after another begins anew."""
-    names = [name for _, name in changes if name]
-    return [name for i, name in enumerate(names) if i == 0 or names[i - 1] != name]
 
 
 def main():
@@ -108,9 +74,9 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         copy_configuration(os.path.abspath(arguments.cell), os.path.abspath(arguments.io_module), folder)
-        with Cell(arguments, folder, ["module.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
+        with RunningCell(arguments, folder, ["module.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
             one = cell.tour()
-        with Cell(arguments, folder, ["plant.xml", "--local"], "plc", "motion") as cell:
+        with RunningCell(arguments, folder, ["plant.xml", "--local"], "plc", "motion") as cell:
             two = cell.tour()
     states = {int(state) for state, _ in one}
     assert {1, 2, 5} <= states, f"standby, moving and error stop were not all seen: {sorted(states)}"

@@ -3,44 +3,15 @@
 
 #include <sys/mount.h>
 
-#include "plant_fixture.h"
+#include "killed_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using testing::HasSubstr;
 
-class Killed : public PlantTest {
- protected:
-  void SetUp() override {
-    start_agent("a");
-    start_agent("b");
-    const Outcome done = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
-    ASSERT_EQ(done.code, 0) << done.err;
-    committed_ = done.json()["deployment"];
-    next_ = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
-  }
-  bool in_phase(const std::string& name, const std::string& phase) {
-    const Json one = indurop({"boards", "--wait", "200ms", "-o", "json"}).json();
-    if (one.is_object()) {
-      for (const Json& entry : one["boards"]) {
-        if (entry["board"] == board(name) && entry["phase"] == phase) {
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-  bool both_run_the_committed() {
-    return wait_until([&] { return runs("a", committed_) && runs("b", committed_); });
-  }
-  std::string committed_;
-  std::string next_;
-};
-
 TEST_F(Killed, A_board_without_power_resumes_what_was_committed) {
-  stop_agent("a", SIGKILL);
-  kill_node(board("a"));
+  lose("a");
   start_agent("a");
   EXPECT_TRUE(both_run_the_committed());
 }
@@ -76,8 +47,7 @@ TEST_F(Killed, A_node_that_dies_again_and_again_stays_down) {
 TEST_F(Killed, A_board_that_dies_in_the_trial_rolls_all_back) {
   const pid_t deployer = start_indurop({"deploy", next_, "--health", "8s"}, "killed.out");
   ASSERT_TRUE(wait_until([&] { return in_phase("a", "trial"); }));
-  stop_agent("a", SIGKILL);
-  kill_node(board("a"));
+  lose("a");
   const Outcome outcome = finish(deployer, "killed.out");
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   start_agent("a");
@@ -103,8 +73,7 @@ TEST_F(Killed, An_interrupted_deployment_is_taken_back_at_once) {
 }
 
 TEST_F(Killed, A_board_that_missed_the_commit_takes_it_over) {
-  stop_agent("b", SIGKILL);
-  kill_node(board("b"));
+  lose("b");
   const Outcome done = deploy(next_, {"--allow-missing", "--timeout", "4s"});
   ASSERT_EQ(done.code, 0) << done.err;
   start_agent("b");

@@ -47,6 +47,11 @@ TEST_F(Network, Three_boards_are_deployed_to_across_the_network) {
   const Outcome done = deploy(v1_, {}, on("desk"));
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_TRUE(all_run(done.json()["deployment"]));
+  ASSERT_EQ(lab("off b"), 0);
+  stop_agent("b", SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return report("b", on("desk")).is_null(); })) << "it is missed";
+  start_agent("b", on("b"));
+  EXPECT_TRUE(all_run(done.json()["deployment"])) << "it resumes what it had";
 }
 
 TEST_F(Network, A_cable_pulled_in_the_trial_ends_in_one_state) {
@@ -61,13 +66,35 @@ TEST_F(Network, A_cable_pulled_in_the_trial_ends_in_one_state) {
 }
 
 TEST_F(Network, Lost_packets_cost_time_only) {
-  if (lab("loss a 20 2>/dev/null") != 0 || lab("loss desk 20 2>/dev/null") != 0) {
-    GTEST_SKIP() << "iptables cannot lose packets here";
+  for (const char* name : {"a", "b", "c", "desk"}) {
+    if (lab(std::string("loss ") + name + " 30 2>/dev/null") != 0) {
+      GTEST_SKIP() << "iptables cannot lose packets here";
+    }
   }
   std::ofstream(folder() / "steady.so", std::ios::app) << std::string(1U << 20U, 'x');
   const Outcome done = deploy(v1_, {"--timeout", "20s"}, on("desk"));
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_TRUE(all_run(done.json()["deployment"]));
+}
+
+TEST_F(Network, A_flood_of_garbage_at_the_ports_of_boards_and_deployer_disturbs_nobody) {
+  std::vector<pid_t> floods;
+  for (const int host : {1, 2, 4}) {  // a, b, desk
+    std::vector<std::string> words = on("c");
+    words.insert(words.end(),
+                 {"python3", GARBAGE_PROGRAM, "10.77.0." + std::to_string(host), std::to_string(link_domain())});
+    floods.push_back(start_program(words, "flood.out"));
+  }
+  std::ofstream(folder() / "steady.so", std::ios::app) << std::string(1U << 20U, 'x');
+  const Outcome done = deploy(v1_, {}, on("desk"));
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Outcome next = deploy(v2_, {}, on("desk"));
+  ASSERT_EQ(next.code, 0) << next.err;
+  EXPECT_TRUE(all_run(next.json()["deployment"]));
+  for (const pid_t flood : floods) {
+    ::kill(flood, SIGKILL);
+    EXPECT_EQ(finish(flood, "flood.out").code, 128 + SIGKILL) << "it was there all the time";
+  }
 }
 
 }  // namespace

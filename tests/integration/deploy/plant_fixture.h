@@ -19,6 +19,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "vars/node_lock.h"
@@ -53,7 +54,7 @@ class PlantTest : public ::testing::Test {
   PlantTest() : folder_(std::filesystem::temp_directory_path() / ("irp-deploy-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "state");
-    for (const char* module : {"steady", "other", "faulty"}) {
+    for (const char* module : {"steady", "other", "faulty", "slow"}) {
       std::filesystem::copy_file(std::string(MODULE_FOLDER) + "/" + module + ".so",
                                  folder_ / (std::string(module) + ".so"));
     }
@@ -74,14 +75,17 @@ class PlantTest : public ::testing::Test {
   static std::string board(const std::string& name) { return "d" + std::to_string(::getpid()) + name; }
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  // A plant of boards and their modules.
-  std::string manifest(const std::string& file, const std::vector<std::pair<std::string, std::string>>& boards) const {
+  // A plant of boards and their modules; `more`: elements of the first board besides.
+  [[nodiscard]] std::string manifest(const std::string& file,
+                                     const std::vector<std::pair<std::string, std::string>>& boards,
+                                     std::string more = {}) const {
     std::ofstream out(folder_ / file);
     out << "<plant name=\"p" << ::getpid() << "\"><domain>" << domain() << "</domain><external>off</external>\n";
     for (const auto& [name, module] : boards) {
       out << "<board name=\"" << board(name) << "\"><module><filename>./" << module
           << ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
-             "<period>2ms</period><priority>1</priority></module></board>\n";
+             "<period>2ms</period><priority>1</priority></module>"
+          << std::exchange(more, {}) << "</board>\n";
     }
     out << "</plant>\n";
     out.close();
@@ -92,8 +96,8 @@ class PlantTest : public ::testing::Test {
   void start_agent(const std::string& name, const std::vector<std::string>& before = {},
                    const std::string& state = "") {
     std::vector<std::string> words = before;
-    for (const std::string& word : {std::string(NODE_PROGRAM), std::string("--agent"), std::string("--quiet"),
-                                    std::string("--board"), board(name)}) {
+    for (const std::string& word :
+         {node_program_, std::string("--agent"), std::string("--quiet"), std::string("--board"), board(name)}) {
       words.push_back(word);
     }
     add_link_words(words, !before.empty());
@@ -102,6 +106,8 @@ class PlantTest : public ::testing::Test {
       boards_.push_back(board(name));
     }
   }
+  // Of agents started from now on.
+  void use_program(const std::string& program) { node_program_ = program; }
   void stop_agent(const std::string& name, int signal) {
     end(agents_.at(name), signal);
     agents_.erase(name);
@@ -134,6 +140,9 @@ class PlantTest : public ::testing::Test {
   }
   Outcome indurop(const std::vector<std::string>& arguments, const std::vector<std::string>& before = {}) {
     return finish(start_indurop(arguments, "indurop.out", before), "indurop.out");
+  }
+  pid_t start_program(const std::vector<std::string>& words, const std::string& out) {
+    return launch(words, path(out), path(out + ".err"), "");
   }
   // Without the words that lead to agents.
   Outcome indurop_here(const std::vector<std::string>& arguments) {
@@ -171,11 +180,13 @@ class PlantTest : public ::testing::Test {
     return all.str();
   }
   static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+  // Of agents and who speaks to them.
+  static int link_domain() { return 1 + (domain() + 100) % 200; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   static void add_link_words(std::vector<std::string>& words, bool network) {
-    words.insert(words.end(), {"--domain", std::to_string(1 + (domain() + 100) % 200)});
+    words.insert(words.end(), {"--domain", std::to_string(link_domain())});
     if (!network) {
       words.emplace_back("--one-host");
     }
@@ -211,6 +222,7 @@ class PlantTest : public ::testing::Test {
   }
 
   std::filesystem::path folder_;
+  std::string node_program_ = NODE_PROGRAM;
   std::map<std::string, pid_t> agents_;
   std::vector<std::string> boards_;
 };

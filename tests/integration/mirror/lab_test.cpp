@@ -106,15 +106,8 @@ TEST_F(Lab, A_flood_of_garbage_at_the_ports_disturbs_nobody) {
   start({"a", "t::count", "-", "plain"}, {"b"}, lab());
   start({"b", "-", "t::count@a", "plain"}, {"a"}, lab());
   ASSERT_TRUE(wait_until([&] { return sees("b", "a", PeerState::Alive); }));
-  const std::string script =
-      "import os,random,socket,sys\n"
-      "s=socket.socket(socket.AF_INET,socket.SOCK_DGRAM)\n"
-      "ports=[7400+250*int(sys.argv[1])+i for i in (0,1,10,11,12,13,14,15)]\n"
-      "for n in range(20000):\n"
-      "  head=b'RTPS' if n%2 else b''\n"
-      "  try: s.sendto(head+os.urandom(random.randrange(0,1400)),('10.77.0.2',random.choice(ports)))\n"
-      "  except OSError: pass\n";
-  std::thread flood([&] { (void)run("exec evil python3 -c \"" + script + "\" " + std::to_string(domain())); });
+  std::thread flood(
+      [&] { (void)run("exec evil python3 " GARBAGE_PROGRAM " 10.77.0.2 " + std::to_string(domain()) + " 20000"); });
   for (std::int64_t i = 1; i <= 50; ++i) {
     put("a", "t::count", i);
     EXPECT_TRUE(wait_until([&] { return get<std::int64_t>("b", "t::count") == i; })) << i;

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A robot cell (examples/robot_cell) that runs somewhere, as its tests see it."""
+
+import csv
+import json
+import subprocess
+import time
+
+PATIENCE = 90  # seconds until whatever is waited for has happened
+
+
+class Cell:
+    """A running cell. `station` has the PLC's points and the surroundings, `robot` the robot task."""
+
+    def __init__(self, arguments, folder, station, robot):
+        self.arguments = arguments
+        self.folder = folder
+        self.station = station
+        self.robot = robot
+
+    def indurop(self, *words, **options):
+        return subprocess.run([f"{self.arguments.bin}/indurop", *words], cwd=self.folder, text=True,
+                              capture_output=True, timeout=30, check=False, **options)
+
+    def get(self, node, name):
+        done = self.indurop("get", "--node", node, name, "-o", "json")
+        return json.loads(done.stdout)["values"][0]["value"] if done.returncode == 0 else None
+
+    def wait(self, what, condition):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if condition():
+                return
+            time.sleep(0.1)
+        raise AssertionError(f"{what}: not within {PATIENCE} s; {self.get(self.station, 'CELL::world')} "
+                             f"{self.get(self.robot, 'ROBOT_JOB')} {self.get(self.robot, 'ROBOT_MODULE_STATE.nError')}")
+
+    def changes(self, work):
+        """What happened during work(), in order: every change of the robot's state and of its job."""
+        recording = subprocess.Popen([f"{self.arguments.bin}/indurop", "watch", "--node", self.robot, "ROBOT_MODULE_STATE.eState",
+                                      "ROBOT_JOB.name", "--hz", "100", "-o", "csv"], stdout=subprocess.PIPE, text=True)
+        try:
+            work()
+        finally:
+            recording.terminate()
+            rows = list(csv.reader(recording.communicate(timeout=30)[0].splitlines()))[1:]
+        changes = []
+        for row in rows:
+            now = tuple(row[1:])
+            if len(now) == 2 and (not changes or changes[-1] != now):
+                changes.append(now)
+        return changes
+
+
+def jobs(changes):
+    """Names of the jobs one after the other; one that runs again after another begins anew."""
+    names = [name for _, name in changes if name]
+    return [name for i, name in enumerate(names) if i == 0 or names[i - 1] != name]

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The robot cell (examples/robot_cell) deployed to two boards, network namespaces with agents, from a third one: it works, stops when
+a cable is pulled, goes on after it is back, and comes back by itself when a board's node is killed. Needs root."""
+
+import argparse
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+from cell import Cell, jobs
+
+SKIPPED = 77
+UNREACHABLE = 6
+
+
+class DeployedCell(Cell):
+    """Boards have names of their own, because shared memory is everybody's on this machine."""
+
+    def __init__(self, arguments, folder):
+        super().__init__(arguments, folder, f"plc{os.getpid()}", f"motion{os.getpid()}")
+        self.name = f"cell{os.getpid()}"
+        self.agents = []
+
+    def lab(self, *words, **options):
+        return subprocess.run([self.arguments.lab, "-l", self.name, *words], cwd=self.folder, text=True,
+                              capture_output=True, timeout=60, check=False, **options)
+
+    def desk(self, *words):
+        return self.lab("exec", "desk", f"{self.arguments.bin}/indurop", *words)
+
+    def copy_built(self):
+        for name in os.listdir(self.arguments.cell):
+            if name.endswith((".so", ".exe", ".xml", ".job", ".urdf")):
+                shutil.copy(os.path.join(self.arguments.cell, name), self.folder)
+        plant = os.path.join(self.folder, "plant.xml")
+        with open(plant, encoding="utf-8") as file:
+            text = file.read()
+        with open(plant, "w", encoding="utf-8") as file:
+            file.write(text.replace('name="plc"', f'name="{self.station}"').replace('name="motion"', f'name="{self.robot}"'))
+
+    def __enter__(self):
+        self.copy_built()
+        made = self.lab("up", self.station, self.robot, "desk")
+        if made.returncode != 0:
+            print(f"skipped: no network namespaces here: {made.stderr.strip()}")
+            sys.exit(SKIPPED)
+        for board in (self.station, self.robot):
+            self.agents.append(subprocess.Popen(
+                [self.arguments.lab, "-l", self.name, "exec", board, f"{self.arguments.bin}/indurop-node", "--agent", "--board", board,
+                 "--quiet"], env={**os.environ, "INDUROP_STATE_DIR": os.path.join(self.folder, "state")}))
+        return self
+
+    def __exit__(self, *_):
+        for agent in self.agents:
+            agent.terminate()  # and its node
+        for agent in self.agents:
+            agent.wait(timeout=30)
+        self.lab("down")
+        for node in (self.station, self.robot):
+            self.indurop("clean", "--node", node)
+
+    def board(self, name):
+        """What status --plant says of a board; None if it is not heard."""
+        done = self.desk("status", "--plant", "-o", "json")
+        boards = json.loads(done.stdout)["boards"] if done.stdout else []
+        return next((board for board in boards if board["board"] == name), None)
+
+    def press(self, button, point, until):
+        """Somebody holds a button, which is wired to a point, until the PLC sees it and it has an effect."""
+        self.indurop("set", "--node", self.station, f"CELL::panel.{button}", "true")
+        self.wait(f"{button} does something", lambda: self.get(self.station, point) == 1 and until())
+        self.indurop("set", "--node", self.station, f"CELL::panel.{button}", "false")
+
+    def stopped(self):
+        return self.get(self.robot, "EMERGENCY_STOP.bActive") == 1
+
+    def moves(self):
+        return self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 2
+
+    def placed(self):
+        return self.get(self.station, "CELL::world.placed") or 0
+
+    def go_on(self):
+        """After a stop: somebody presses reset and start."""
+        self.wait("the stop is over", lambda: not self.stopped())
+        self.press("reset", "I2", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") != 5)
+        self.press("start", "I0", self.moves)
+
+
+def deploy(cell):
+    done = cell.desk("deploy", "plant.xml", "--health", "1s", "-o", "json")
+    assert done.returncode == 0, done.stderr
+    deployment = json.loads(done.stdout)["deployment"]
+    cell.wait("Modbus station", lambda: cell.get(cell.station, "I14") == 1)
+    for name, variable in ((cell.station, "ROBOT_ARM"), (cell.robot, "I14")):
+        board = cell.board(name)
+        assert (board["state"], board["deployment"], board["plant"]) == ("running", deployment, "robot_cell"), board
+        assert board["tick"] > 0 and board["overruns"] >= 0, board
+        read = {one["name"]: one for one in board["variables"]}[f"PLC_ROBOT::{variable}"]
+        assert read["valid"] and read["age_ns"] >= 0 and read["owner"] != name, read
+
+
+def work(cell):
+    def until_placed():
+        cell.go_on()
+        cell.wait("a part is on the pallet", lambda: cell.placed() >= 1)
+
+    seen = jobs(cell.changes(until_placed))
+    assert seen[:3] == ["home", "pick", "place"], seen
+
+
+def cable(cell):
+    cell.wait("the robot moves", cell.moves)
+    cell.lab("unplug", cell.station)
+    cell.wait("the robot stops without its PLC", lambda: cell.stopped() and not cell.moves())
+    cell.wait("the board is missing", lambda: cell.board(cell.station) is None)
+    missing = cell.desk("status", "--plant")
+    assert missing.returncode == UNREACHABLE and f"not heard: {cell.station}" in missing.stderr, missing.stderr
+    assert not any(one["valid"] for one in cell.board(cell.robot)["variables"]), cell.board(cell.robot)
+    cell.lab("plug", cell.station)
+    cell.go_on()
+
+
+def kill(cell):
+    listed = json.loads(cell.indurop("nodes", "-o", "json").stdout)["nodes"]
+    first = next(node["pid"] for node in listed if node["node"] == cell.station)
+    os.kill(first, signal.SIGKILL)
+    cell.wait("the robot stops without its PLC", cell.stopped)
+    cell.wait("the node is back", lambda: (cell.board(cell.station) or {}).get("state") == "running")
+    cell.go_on()
+    assert cell.get(cell.station, "CELL::world.lost") == 0, "a part was lost"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bin", required=True)
+    parser.add_argument("--cell", required=True, help="folder with plant.xml and what was built for it")
+    parser.add_argument("--lab", required=True, help="indurop-lab")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder, DeployedCell(arguments, folder) as cell:
+        deploy(cell)
+        work(cell)
+        cable(cell)
+        kill(cell)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

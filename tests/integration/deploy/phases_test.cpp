@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boards and deployers killed in each phase of a deployment: in the end all boards run the same, and it is either what
+// was committed or, once one board has committed the next, that. (The trial: faults_test.cpp.)
+
+#include <fcntl.h>
+
+#include "killed_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+
+// Whoever opens the file waits while this lives, as if the disk hung: the kernel first asks us to give the lease back.
+class HeldFile {
+ public:
+  explicit HeldFile(const std::string& file) : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    ::signal(SIGIO, SIG_IGN);
+    held_ = file_ >= 0 && ::fcntl(file_, F_SETLEASE, F_WRLCK) == 0;
+  }
+  HeldFile(const HeldFile&) = delete;
+  HeldFile& operator=(const HeldFile&) = delete;
+  ~HeldFile() { release(); }
+  [[nodiscard]] bool ok() const noexcept { return held_; }
+  void release() noexcept {
+    if (file_ >= 0) {
+      ::close(file_);
+    }
+    file_ = -1;
+  }
+
+ private:
+  int file_;
+  bool held_ = false;
+};
+
+class Phases : public Killed {
+ protected:
+  // Where a deployment's files lie on a board.
+  [[nodiscard]] std::filesystem::path installed(const std::string& name, const std::string& deployment) const {
+    return folder() / "state" / board(name) / "deployments" / deployment.substr(0, 16);
+  }
+  // Deploys `next_` until board a has some pieces of a large file, and stops the deployer there.
+  pid_t deploy_until_fetching() {
+    std::ofstream(folder() / "other.so", std::ios::app) << std::string(24U << 20U, 'x');
+    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms"}, "killed.out");
+    EXPECT_TRUE(wait_until([&] { return fetched() > 100'000; }));
+    ::kill(deployer, SIGSTOP);
+    EXPECT_LT(fetched(), 24U << 20U) << "it was faster than this test";
+    return deployer;
+  }
+  [[nodiscard]] std::uintmax_t fetched() const {
+    std::error_code error;
+    for (std::filesystem::directory_iterator at(folder() / "state" / board("a") / "parts", error), end; at != end;
+         at.increment(error)) {
+      const std::uintmax_t size = at->file_size(error);
+      if (!error && size > 0) {
+        return size;
+      }
+    }
+    return 0;
+  }
+  // Deploys `next_` until b checks, which lasts as long as its file is held, and a waits for it.
+  pid_t deploy_until_checking() {
+    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms", "--timeout", "20s"}, "killed.out");
+    EXPECT_TRUE(wait_until([&] {
+      return boards_are(
+          [](const Json& a, const Json& b) { return a["phase"] == "prepared" && b["phase"] == "checking"; });
+    }));
+    return deployer;
+  }
+  // Deploys a plant until a does well and b, whose module takes seconds to start, does not yet.
+  pid_t deploy_until_healthy() {
+    const std::string slow = manifest("slow.xml", {{"a", "other"}, {"b", "slow"}});
+    const pid_t deployer = start_indurop({"deploy", slow, "--health", "300ms"}, "killed.out");
+    EXPECT_TRUE(wait_until([&] { return said_on_err("killed.out", board("a"), "healthy"); }));
+    EXPECT_FALSE(said_on_err("killed.out", board("b"), "healthy"));
+    return deployer;
+  }
+  // Deploys `next_` until a has committed it; whether b has, nobody knows.
+  pid_t deploy_until_committed() {
+    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms", "-o", "json"}, "killed.out");
+    const std::string file = (folder() / "state" / board("a") / "committed.json").string();
+    const std::string before = text(file);
+    EXPECT_TRUE(wait_until([&] { return text(file) != before; }));
+    return deployer;
+  }
+  bool said_on_err(const std::string& out, const std::string& name, const std::string& phase) const {
+    std::istringstream lines(text(path(out + ".err")));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(name) != std::string::npos && line.find(phase) != std::string::npos) {
+        return true;
+      }
+    }
+    return false;
+  }
+  // The one both boards run in the end, if it is neither the old one nor none.
+  std::string new_one() {
+    std::string id;
+    EXPECT_TRUE(wait_until([&] {
+      const Json one = report("a");
+      id = one.is_object() ? one["deployment"].get<std::string>() : "";
+      return !id.empty() && id != committed_ && runs("a", id) && runs("b", id);
+    }));
+    return id;
+  }
+};
+
+#define NEEDS_LEASE(held)                                            \
+  if (!(held).ok()) {                                                \
+    GTEST_SKIP() << "this file system gives no leases on its files"; \
+  }
+
+TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
+  const pid_t deployer = deploy_until_fetching();
+  lose("a");
+  ::kill(deployer, SIGCONT);
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
+  const std::uintmax_t there = fetched();
+  EXPECT_GT(there, 0U) << "what came is kept";
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+  EXPECT_GE(fetched(), there);
+  const Outcome again = deploy(next_);
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(both_run(again.json()["deployment"]));
+}
+
+TEST_F(Phases, A_deployer_killed_while_boards_fetch_changes_nothing) {
+  const pid_t deployer = deploy_until_fetching();
+  ::kill(deployer, SIGKILL);
+  (void)finish(deployer, "killed.out");
+  EXPECT_TRUE(both_run_the_committed());
+  EXPECT_THAT(report("a")["message"].get<std::string>(), HasSubstr("deployer"));
+  EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
+}
+
+TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
+  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  NEEDS_LEASE(held);
+  const pid_t deployer = deploy_until_checking();
+  lose("b");
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it is not heard any more"));
+  held.release();
+  start_agent("b");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
+  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  NEEDS_LEASE(held);
+  const pid_t deployer = deploy_until_checking();
+  lose("a");
+  held.release();
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_THAT(outcome.code, AnyOf(1, 5)) << "b may have begun its trial when a is missed: " << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepared_changes_nothing) {
+  HeldFile held((installed("b", committed_) / "nap.sh").string());
+  NEEDS_LEASE(held);
+  const pid_t deployer = deploy_until_checking();
+  ::kill(deployer, SIGKILL);
+  (void)finish(deployer, "killed.out");
+  EXPECT_TRUE(wait_until([&] { return runs("a", committed_); })) << "it does not wait for b";
+  held.release();
+  EXPECT_TRUE(both_run_the_committed());
+  EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
+}
+
+TEST_F(Phases, A_board_killed_while_it_is_healthy_takes_all_back) {
+  const pid_t deployer = deploy_until_healthy();
+  lose("a");
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Phases, A_deployer_killed_before_all_are_healthy_is_no_commit) {
+  const pid_t deployer = deploy_until_healthy();
+  ::kill(deployer, SIGKILL);
+  (void)finish(deployer, "killed.out");
+  EXPECT_TRUE(both_run_the_committed());
+}
+
+TEST_F(Phases, A_board_killed_at_the_commit_ends_with_what_the_others_run) {
+  const pid_t deployer = deploy_until_committed();
+  lose("b");
+  const Outcome outcome = finish(deployer, "killed.out");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  start_agent("b");
+  EXPECT_EQ(new_one(), outcome.json()["deployment"]);
+}
+
+TEST_F(Phases, A_deployer_killed_at_the_commit_leaves_all_boards_with_the_same) {
+  const pid_t deployer = deploy_until_committed();
+  ::kill(deployer, SIGKILL);
+  (void)finish(deployer, "killed.out");
+  EXPECT_NE(new_one(), "");
+  const Json past = indurop({"history", "-o", "json"}).json();
+  EXPECT_EQ(past["deployments"].back()["current"], true);
+}
+
+}  // namespace
+}  // namespace indurop::test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board with an older release in the network, whose protocol is another one: it is named, and disturbs nobody.
+
+#include "plant_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Releases : public PlantTest {
+ protected:
+  void SetUp() override { file_ = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}); }
+  // What board a's node says of board b.
+  Json peer() {
+    const Json all = indurop_here({"status", "--node", board("a"), "-o", "json"}).json();
+    return all.is_object() && all["mirror"].is_object() ? all["mirror"]["boards"][0] : Json{};
+  }
+  bool peer_is(const std::string& state) {
+    return wait_until([&] {
+      const Json one = peer();
+      return one.is_object() && one["state"] == state;
+    });
+  }
+  std::string file_;
+};
+
+TEST_F(Releases, An_agent_of_another_one_is_named_and_nothing_is_deployed) {
+  start_agent("a");
+  use_program(OLDER_PROGRAM);
+  start_agent("b");
+  const std::string named = "the agent of board " + board("b");
+  ASSERT_TRUE(wait_until([&] { return indurop({"boards"}).err.find(named) != std::string::npos; }));
+  const Outcome refused = deploy(file_, {"--timeout", "1s"});
+  EXPECT_EQ(refused.code, 6);
+  EXPECT_THAT(refused.err, HasSubstr("missing: " + board("b")));
+  EXPECT_THAT(refused.err, HasSubstr("speaks protocol 1 of another release, here it is 2"));
+  const Json seen = indurop({"boards", "-o", "json"}).json();
+  ASSERT_EQ(seen["other_releases"].size(), 1U);
+  EXPECT_EQ(seen["other_releases"][0]["board"], board("b"));
+  EXPECT_EQ(seen["other_releases"][0]["protocol"], 1);
+  EXPECT_EQ(report("a")["state"], "empty");
+  // The same release on both.
+  stop_agent("b", SIGTERM);
+  use_program(NODE_PROGRAM);
+  start_agent("b");
+  const Outcome done = deploy(file_);
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(runs("b", done.json()["deployment"]));
+  EXPECT_TRUE(wait_until([&] { return indurop({"boards", "-o", "json"}).json()["other_releases"].empty(); }));
+}
+
+TEST_F(Releases, A_node_of_another_one_is_named_by_the_others) {
+  start_agent("a");
+  start_agent("b");
+  const Outcome done = deploy(file_);
+  ASSERT_EQ(done.code, 0) << done.err;
+  ASSERT_TRUE(peer_is("alive"));
+  stop_agent("b", SIGTERM);
+  ASSERT_TRUE(peer_is("silent"));
+  const pid_t older =
+      start_program({OLDER_PROGRAM, file_, "--board", board("b"), "--one-host", "--quiet"}, "older.out");
+  ASSERT_TRUE(peer_is("mismatched")) << text(path("older.out.err"));
+  EXPECT_THAT(peer()["problem"].get<std::string>(), HasSubstr("speaks protocol 1 of another release, this board 2"));
+  EXPECT_TRUE(runs("a", done.json()["deployment"]));
+  ::kill(older, SIGTERM);
+  (void)finish(older, "older.out");
+  EXPECT_TRUE(peer_is("silent"));
+  start_agent("b");
+  EXPECT_TRUE(peer_is("alive"));
+  EXPECT_EQ(peer()["problem"], "");
+}
+
+}  // namespace
+}  // namespace indurop::test
