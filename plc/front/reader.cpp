@@ -6,14 +6,36 @@
 #include <algorithm>
 #include <array>
 
+#include "plc/plcopen/pou_lowering.h"
 #include "plc/plcopen/read_project.h"
+#include "plc/sfc/lower.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc {
 namespace {
 
-Project read_st(std::string_view text, const Place& at, const ReadOptions& /*options*/, Diagnostics& diagnostics) {
-  return st::parse_project({text, at}, diagnostics);
+bool is_step_type(const ast::TypeDeclaration& type) {
+  return type.name == sfc::kStepType;
+}
+bool has_step_type(const Project& project) {
+  return std::any_of(project.types.begin(), project.types.end(), is_step_type);
+}
+
+Project read_st(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> others;
+  Project project = st::parse_project({text, at}, others, diagnostics);
+  for (st::WrittenBody& other : others) {
+    plcopen::PouDocument document;
+    document.body = std::move(other.body);
+    if (document.body.language == graphic::Body::Language::Sfc && !has_step_type(project)) {
+      project.types.push_back(sfc::step_type());
+    }
+    for (st::WrittenAction& action : other.actions) {
+      document.actions.push_back({action.at, std::move(action.name), std::move(action.body)});
+    }
+    plcopen::lower_pou(document, options, project, project.pous[other.pou], diagnostics);
+  }
+  return project;
 }
 
 Project read_xml(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
@@ -54,7 +76,11 @@ Project read_project(const std::vector<std::string>& files, const ReadOptions& o
     if (type->read == &read_st) {
       diagnostics.show_lines_of(file, *got.text);
     }
-    append(out, type->read(*got.text, at, options, diagnostics));
+    Project read_now = type->read(*got.text, at, options, diagnostics);
+    if (has_step_type(out)) {
+      std::erase_if(read_now.types, is_step_type);  // each file with a chart has it
+    }
+    append(out, std::move(read_now));
   }
   return out;
 }

@@ -163,7 +163,9 @@ class Lexer {
     if (end == std::string_view::npos) {
       error(fmt::format("this pragma has no end, close it with {}", close));
     } else if (c_code) {
-      error("C code in {{ }} is not supported, write it in ST, or as a module of its own");
+      step(end + close.size() - at_);
+      push(TokenKind::CCode);
+      return;
     } else if (const std::string word = upper(trimmed(text_.substr(at_ + 1, end - at_ - 1)).substr(0, 3));
                word.starts_with("IF") || word == "ELS") {
       error("conditional compilation is not supported, keep the text that is wanted");

@@ -19,6 +19,7 @@ enum class TokenKind : std::uint8_t {
   Text,     // 'str$N', quotes included
   Address,  // %IX0.0
   Symbol,
+  CCode,  // {{ ... }}
 };
 
 struct Token {

@@ -21,16 +21,19 @@ auto alone(const Text& text, Diagnostics& diagnostics, Parse parse) -> decltype(
 
 }  // namespace
 
-Project parse_project(const Text& text, Diagnostics& diagnostics) {
+Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics) {
   const auto tokens = tokenize(text.text, text.at, diagnostics);
   TokenReader in(tokens, text.at, diagnostics);
-  return ProjectParser(in).project();
+  ProjectParser parser(in);
+  Project project = parser.project();
+  others = parser.take_written();
+  return project;
 }
 
 ast::Body parse_body(const Text& text, Diagnostics& diagnostics) {
   const auto tokens = tokenize(text.text, text.at, diagnostics);
   TokenReader in(tokens, text.at, diagnostics);
-  return ProjectParser(in).body("");
+  return ProjectParser(in).whole_body();
 }
 
 std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics) {

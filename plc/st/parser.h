@@ -5,9 +5,11 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "plc/model/diagnostics.h"
 #include "plc/model/project.h"
+#include "plc/st/chart_parser.h"
 
 namespace indurop::plc::st {
 
@@ -18,7 +20,8 @@ struct Text {
 };
 
 // PROGRAM, FUNCTION, FUNCTION_BLOCK, TYPE, VAR_GLOBAL, CONFIGURATION. What has errors is left out.
-[[nodiscard]] Project parse_project(const Text& text, Diagnostics& diagnostics);
+// `others`: bodies that are no Structured Text; their POUs are without code in the result.
+[[nodiscard]] Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics);
 // Statements.
 [[nodiscard]] ast::Body parse_body(const Text& text, Diagnostics& diagnostics);
 // Exactly one; none after an error.

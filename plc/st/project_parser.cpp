@@ -84,13 +84,44 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   while (declarations_.at_variables()) {
     declarations_.variables(out.variables);
   }
-  out.body = body(end);
+  ChartParser chart(in_);
+  if (chart.at_chart() || chart.at_instruction_list()) {
+    WrittenBody written = chart.at_chart() ? chart.chart(end) : chart.instruction_list(end);
+    written.pou = to.size();
+    if (ok) {
+      written_.push_back(std::move(written));
+    }
+  } else {
+    out.body = body(end);
+  }
   if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
     in_.accept(";");
   }
-  if (ok) {
+  if (ok && !refuses_c_code(out)) {
     to.push_back(std::move(out));
   }
+}
+
+// Beremiz puts blocks of its own into every program it writes; who does not use them does not miss them.
+bool ProjectParser::refuses_c_code(const ast::Pou& pou) {
+  const auto at = statements_.take_c_code();
+  if (!at) {
+    return false;
+  }
+  if (pou.kind == ast::Pou::Kind::Program) {
+    in_.error(*at, "C code in {{ }} is not supported, write it in ST, or as a module of its own");
+  } else {
+    in_.warning(*at, fmt::format("{} is left out, because C code in {{{{ }}}} is not supported", pou.name));
+  }
+  return true;
+}
+
+ast::Body ProjectParser::whole_body() {
+  ast::Body out = body("");
+  if (const auto at = statements_.take_c_code()) {
+    in_.error(*at, "C code in {{ }} is not supported, write it in ST, or as a module of its own");
+  }
+  return out;
 }
 
 ast::Body ProjectParser::body(std::string_view end) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "plc/model/project.h"
+#include "plc/st/chart_parser.h"
 #include "plc/st/declaration_parser.h"
 #include "plc/st/statement_parser.h"
 
@@ -14,10 +15,15 @@ class ProjectParser {
   explicit ProjectParser(TokenReader& in) : in_(in), expressions_(in), declarations_(in), statements_(in) {}
 
   [[nodiscard]] Project project();
-  // Statements up to the end of the text, or `end`, which is not taken.
+  // Bodies in other languages, of its POUs.
+  [[nodiscard]] std::vector<WrittenBody> take_written() { return std::move(written_); }
+  // Statements up to the end of the text.
+  [[nodiscard]] ast::Body whole_body();
+  // The same up to `end`, which is not taken.
   [[nodiscard]] ast::Body body(std::string_view end);
 
  private:
+  [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
   void configuration(std::vector<Configuration>& to);
   void resource(std::vector<Resource>& to);
@@ -33,6 +39,7 @@ class ProjectParser {
   ExpressionParser expressions_;
   DeclarationParser declarations_;
   StatementParser statements_;
+  std::vector<WrittenBody> written_;
 };
 
 }  // namespace indurop::plc::st

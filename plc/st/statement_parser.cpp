@@ -23,6 +23,11 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
     if (in_.accept(";")) {
       continue;
     }
+    if (in_.peek().kind == TokenKind::CCode) {
+      c_code_ = c_code_ ? c_code_ : in_.here();
+      in_.take();
+      continue;
+    }
     if (begins_something(in_.peek())) {
       break;  // the end of something around this list: its reader says what is missing
     }

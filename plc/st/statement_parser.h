@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "plc/st/expression_parser.h"
 
@@ -17,6 +18,8 @@ class StatementParser {
 
   // Statements up to one of the words, which is not taken, or the end of the text.
   [[nodiscard]] ast::Body list(std::initializer_list<std::string_view> ends);
+  // Where C code stood since the last question.
+  [[nodiscard]] std::optional<Place> take_c_code() { return std::exchange(c_code_, std::nullopt); }
 
  private:
   using Statement = ast::Statement;
@@ -37,6 +40,7 @@ class StatementParser {
   TokenReader& in_;
   ExpressionParser expressions_;
   int depth_ = 0;
+  std::optional<Place> c_code_;
 };
 
 }  // namespace indurop::plc::st

@@ -88,6 +88,8 @@ class TokenReader {
   void error(const Token& at, std::string text) { diagnostics_.error(place(at), std::move(text)); }
   void error(const Place& at, std::string text) { diagnostics_.error(at, std::move(text)); }
 
+  void warning(const Place& at, std::string text) { diagnostics_.warning(at, std::move(text)); }
+
   [[nodiscard]] static std::string spelled(const Token& token) {
     constexpr std::size_t kShown = 40;
     if (token.kind == TokenKind::End) {

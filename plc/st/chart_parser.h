@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies in a text that are no Structured Text: sequential function charts as the standard writes them (INITIAL_STEP,
+// TRANSITION FROM a TO b) and instruction lists. They become the same data as those of a drawn file.
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plc/graphic/diagram.h"
+#include "plc/st/token_reader.h"
+
+namespace indurop::plc::st {
+
+struct WrittenAction {
+  Place at;
+  std::string name;
+  graphic::Body body;
+};
+
+// The code of the `pou`-th POU of the project, to be translated when all are known.
+struct WrittenBody {
+  std::size_t pou = 0;
+  graphic::Body body;
+  std::vector<WrittenAction> actions;
+};
+
+class ChartParser {
+ public:
+  explicit ChartParser(TokenReader& in) : in_(in) {}
+
+  [[nodiscard]] bool at_chart() const;
+  [[nodiscard]] bool at_instruction_list() const;
+
+  // Up to `end`, which is not taken. After errors what was understood.
+  [[nodiscard]] WrittenBody chart(std::string_view end);
+  [[nodiscard]] WrittenBody instruction_list(std::string_view end);
+
+ private:
+  using Element = graphic::Element;
+  // TRANSITION FROM a, b TO c, kept until all steps are known.
+  struct Transition {
+    Place at;
+    std::vector<const Token*> from;
+    std::vector<const Token*> to;
+    int priority = 0;
+    std::shared_ptr<graphic::Body> condition;
+  };
+
+  bool step(bool initial);
+  bool action_line(Element& block);
+  bool action();
+  bool transition();
+  bool steps(std::vector<const Token*>& into);
+  [[nodiscard]] graphic::Body code_until(std::string_view end, graphic::Body::Language language);
+  void connect(const Transition& transition);
+  [[nodiscard]] Element* step_named(const Token& name);
+  Element& add(Element::Kind kind, const Place& at);
+  static void lead(Element& to, std::uint64_t from);
+
+  TokenReader& in_;
+  WrittenBody out_;
+  std::map<std::string, std::size_t> steps_;  // in capitals, to its element
+  std::vector<Transition> transitions_;
+};
+
+}  // namespace indurop::plc::st
