@@ -6,6 +6,7 @@
 namespace indurop::rt {
 namespace {
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler is given nothing else
 thread_local Guard* t_guard = nullptr;
 
 constexpr int kFaultSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -70,11 +71,11 @@ HandlerStack::~HandlerStack() {
 void Guard::enter() noexcept {
   t_guard = this;
 }
-void Guard::leave() noexcept {
+void Guard::leave() noexcept {  // NOLINT(readability-convert-member-functions-to-static): the other half of enter()
   t_guard = nullptr;
 }
 
-void Guard::recovered() noexcept {
+void Guard::recovered() noexcept {  // NOLINT(readability-convert-member-functions-to-static): said of this guard
   sigset_t set;
   ::sigemptyset(&set);
   for (const int number : kFaultSignals) {

@@ -52,7 +52,7 @@ int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
     }
     const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
     const std::uintptr_t end = library->dlpi_addr + segment.p_vaddr + segment.p_memsz;
-    auto* const memory = reinterpret_cast<void*>(begin);
+    auto* const memory = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): the loader gives numbers
     (void)::munlock(memory, end - begin);
     (void)::madvise(memory, end - begin, MADV_DONTNEED);
   }
@@ -88,7 +88,7 @@ Range heap() noexcept {
 // can only be given back afterwards; those in use remain locked, the others are again when somebody allocates them.
 void let_go_of_free_heap() noexcept {
   const Range range = heap();
-  auto* const memory = reinterpret_cast<void*>(range.begin);
+  auto* const memory = reinterpret_cast<void*>(range.begin);  // NOLINT(performance-no-int-to-ptr): read as text
   if (range.end > range.begin && ::munlock(memory, range.end - range.begin) == 0) {
     ::malloc_trim(0);
     const Range rest = heap();  // its end may have been given back too
