@@ -114,9 +114,12 @@ class Reader {
     }
   }
 
-  // Of the configurations and resources of a whole project.
+  // Of the configurations and resources of a whole project, whose lists of globals have names in CODESYS.
   void extensions_below(const Node& node) {
     for (const Node& child : node.children) {
+      if (child.name == "globalVars" && child.has("name")) {
+        document_.project.global_lists.emplace_back(child.attribute("name"));
+      }
       if (child.name == "configurations" || child.name == "configuration" || child.name == "resource") {
         extensions(child);
         extensions_below(child);

@@ -133,7 +133,9 @@ class Reader {
     for (const Node& data : children_of(task.child("addData"))) {
       const Node* settings = data.child("TaskSettings");
       if (settings != nullptr && !settings->attribute("Interval").empty()) {
-        return fmt::format("T#{}{}", settings->attribute("Interval"), settings->attribute("IntervalUnit"));
+        const std::string_view interval = settings->attribute("Interval");
+        const bool number = interval.front() >= '0' && interval.front() <= '9';
+        return number ? fmt::format("T#{}{}", interval, settings->attribute("IntervalUnit")) : std::string(interval);
       }
     }
     return standard;
@@ -177,6 +179,10 @@ class Reader {
     made.type = std::string(node.attribute("typeName").empty() ? node.attribute("type") : node.attribute("typeName"));
     if (made.type.empty()) {
       made.type = made.name;
+    }
+    if (made.type.find('.') != std::string::npos) {
+      diagnostics_.warning(made.at, "this is a program of a library, which is not in the file; it is left out");
+      return;
     }
     if (made.type.empty()) {
       diagnostics_.error(made.at, "a <pouInstance> has a name and, in typeName, the program it runs");

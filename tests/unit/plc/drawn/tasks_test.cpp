@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tasks as the editors write them: which modules a file becomes, and how often they run.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "plc/front/compiler.h"
+
+namespace indurop {
+namespace {
+
+using std::chrono_literals::operator""ms;
+
+plc::Compiled compiled(const std::vector<std::string>& cases) {
+  plc::CompileOptions options;
+  for (const std::string& one : cases) {
+    options.files.push_back(std::string(PLCOPEN_CASES) + "/" + one + "/in.xml");
+  }
+  options.name = "sut";
+  return plc::compile(options);
+}
+
+std::chrono::nanoseconds period_of(const plc::Compiled& program) {
+  return std::chrono::nanoseconds(program.modules.at(0).period_ns);
+}
+
+TEST(PlcTasks, AnIntervalMayStandInAnExtension) {
+  const plc::Compiled twincat = compiled({"twincat_application"});
+  ASSERT_TRUE(twincat.ok) << twincat.messages;
+  EXPECT_EQ(period_of(twincat), 5ms);
+  EXPECT_EQ(twincat.modules.at(0).priority, 20);
+  const plc::Compiled codesys = compiled({"codesys_project"});
+  ASSERT_TRUE(codesys.ok) << codesys.messages;
+  EXPECT_EQ(period_of(codesys), 20ms);
+}
+
+TEST(PlcTasks, AnIntervalMayBeAClockTime) {
+  const plc::Compiled sut = compiled({"beremiz_details"});
+  ASSERT_TRUE(sut.ok) << sut.messages;
+  EXPECT_EQ(period_of(sut), 20ms);
+}
+
+TEST(PlcTasks, ProgramsOfLibrariesAreLeftOutWithAWarning) {
+  const plc::Compiled sut = compiled({"codesys_project"});
+  EXPECT_EQ(sut.modules.size(), 1U);
+  EXPECT_NE(sut.messages.find("warning: program VisuElems.Visu_Prg: this is a program of a library"), std::string::npos)
+      << sut.messages;
+}
+
+TEST(PlcTasks, TypesMayComeFromAFileOfTheirOwn) {
+  const plc::Compiled alone = compiled({"types_only"});
+  EXPECT_NE(alone.messages.find("there is no PROGRAM that could run"), std::string::npos) << alone.messages;
+  const plc::Compiled both = compiled({"beremiz_details", "types_only"});
+  EXPECT_TRUE(both.ok) << both.messages;
+}
+
+TEST(PlcTasks, TwoFilesWithChartsAreOneProgram) {
+  const plc::Compiled sut = compiled({"beremiz_chart", "twincat_application"});
+  EXPECT_EQ(sut.messages.find("SFC_STEP"), std::string::npos) << sut.messages;
+}
+
+}  // namespace
+}  // namespace indurop
