@@ -90,6 +90,11 @@ class FileCheck {
       error("is a directory; give the module's file in it");
       return;
     }
+    // Not even looked into: a pipe that nobody writes to would hang us.
+    if (std::filesystem::exists(module_.file, ignored) && !std::filesystem::is_regular_file(module_.file, ignored)) {
+      error("is not an ordinary file; give the module's file");
+      return;
+    }
     if (module_.type == ModuleType::Process && is_script(module_.file)) {
       check_executable();
       check_wake_up();

@@ -2,6 +2,7 @@
 #include "mirror/other_releases.h"
 
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace indurop::mirror {
@@ -12,18 +13,25 @@ struct DdsFree {
 };
 using DdsText = std::unique_ptr<char, DdsFree>;
 
+// Said by anybody, and shown on terminals: a name, or nothing.
+std::string plain_name(const DdsText& told) {
+  constexpr std::size_t kLongest = 64;
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+  const std::string_view name = told == nullptr ? std::string_view{} : told.get();
+  const bool plain = name.size() <= kLongest && name.find_first_not_of(kLetters) == std::string_view::npos;
+  return plain ? std::string(name) : std::string{};
+}
+
 std::string property(const dds_qos_t* qos, const char* name) {
   char* raw = nullptr;
-  const bool told = dds_qget_prop(qos, name, &raw);
-  const DdsText value(raw);
-  return told && value != nullptr ? value.get() : "";
+  (void)dds_qget_prop(qos, name, &raw);
+  return plain_name(DdsText(raw));
 }
 
 std::string entity_name(const dds_qos_t* qos) {
   char* raw = nullptr;
-  const bool told = dds_qget_entity_name(qos, &raw);
-  const DdsText value(raw);
-  return told && value != nullptr ? value.get() : "";
+  (void)dds_qget_entity_name(qos, &raw);
+  return plain_name(DdsText(raw));
 }
 
 }  // namespace

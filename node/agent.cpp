@@ -28,6 +28,7 @@ using Do = BoardTransaction::Do;
 constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::int64_t kTellNs = 500'000'000;  // at least
 constexpr std::int64_t kTellFastNs = 50'000'000;
+constexpr std::size_t kOthersTold = 32;  // then it may be somebody who invents them
 constexpr std::int64_t kNetworkRetryNs = 1'000'000'000;
 
 std::vector<std::string> node_arguments(const Options& options) {
@@ -159,7 +160,7 @@ class Agent {
       }
     }
     for (const deploy::OtherAgent& other : link_->other_agents()) {
-      if (told_others_.insert(other.host + "/" + other.board).second) {
+      if (told_others_.size() < kOthersTold && told_others_.insert(other.host + "/" + other.board).second) {
         console_.warning("{}", deploy::describe(other, schema::protocol()));
       }
     }

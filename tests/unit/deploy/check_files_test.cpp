@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Module files that are missing, wrong, or disagree about their variables.
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -55,6 +56,13 @@ TEST_F(CheckFiles, What_is_no_module_is_refused) {
       check_lines(periodic("text.so", "1ms", 1) + periodic("empty.so", "1ms", 2) + periodic("folder.so", "1ms", 3)),
       ElementsAre(HasSubstr("'text.so' cannot be used"), HasSubstr("'empty.so' cannot be used"),
                   HasSubstr("'folder.so' is a directory")));
+}
+
+TEST_F(CheckFiles, A_pipe_is_refused_and_not_waited_for) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.exe").c_str(), 0755), 0);
+  EXPECT_THAT(check_lines("<module><filename>pipe.exe</filename><moduletype>process</moduletype>"
+                          "<operationtype>non-real</operationtype></module>"),
+              Contains(HasSubstr("'pipe.exe' is not an ordinary file")));
 }
 
 TEST_F(CheckFiles, Unreadable_file_is_told) {
