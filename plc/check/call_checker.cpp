@@ -79,7 +79,11 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     }
     return user_function(call, *pou->second);
   }
-  const auto overloads = find_functions(callee.name);
+  auto overloads = find_functions(callee.name);
+  if (same_name(callee.name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
+    // Any whole number, says the standard: the one that is wanted, else DINT.
+    overloads = find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
+  }
   if (!overloads.empty()) {
     return library_function(call, overloads, wanted);
   }
@@ -219,6 +223,9 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
       output_to(argument, *parameter->type);
     } else if (parameter->section == ast::Section::InOut) {
       const Type* type = expressions_.reference(*argument.value);
+      if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
+        context_.pou->given[upper(call.operands[0].name + "." + parameter->name)] = *argument.value;
+      }
       if (type != nullptr && !same_type(*type, *parameter->type)) {
         context_.error(argument.value->at,
                        fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter->name,

@@ -233,9 +233,19 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
+    if (found != nullptr && found->section == ast::Section::InOut && reading_ && context_.pou != nullptr) {
+      // It is the variable that the call above was given.
+      const auto given = context_.pou->given.find(upper(expression.operands[0].name + "." + expression.name));
+      if (given != context_.pou->given.end()) {
+        expression = ast::Expression(given->second);
+        expression.resolved = nullptr;
+        return typed(expression, nullptr);
+      }
+    }
     if (found != nullptr && found->section == ast::Section::InOut) {
-      context_.error(expression.at, fmt::format("{} is VAR_IN_OUT of {}, use the variable that was given for it",
-                                                found->name, to_string(block)));
+      context_.error(expression.at,
+                     fmt::format("{} is VAR_IN_OUT of {} and here without a variable, call the instance before",
+                                 found->name, to_string(block)));
       return nullptr;
     }
     for (const Variable& one : block.pou->variables) {

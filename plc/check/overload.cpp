@@ -78,8 +78,10 @@ const Type* CallChecker::library_function(Expression& call, const std::vector<co
       return nullptr;
     }
     inputs[*position] = &*argument.value;
-    const bool same_as_result = first.input(*position).type == first.result;
-    fine = expressions_.value(*argument.value, same_as_result ? wanted : nullptr) != nullptr && fine;
+    const LibraryType type = first.input(*position).type;
+    const auto* fixed = overloads.size() == 1 ? std::get_if<Elementary>(&type) : nullptr;
+    const Type* wanted_here = fixed != nullptr ? context_.elementary(*fixed) : type == first.result ? wanted : nullptr;
+    fine = expressions_.value(*argument.value, wanted_here) != nullptr && fine;
   }
   if (!fine) {
     return nullptr;

@@ -73,6 +73,7 @@ struct Pou {
   std::map<const Global*, GlobalUse> globals;
   std::set<std::string> labels;
   bool result_assigned = false;
+  std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
   [[nodiscard]] Variable* find(const std::string& capitals) const {
     const auto found = names.find(capitals);

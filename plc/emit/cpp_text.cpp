@@ -92,7 +92,7 @@ std::string of_tree(const Type& type, const ValueTree& tree, std::size_t level) 
   for (const ValueTree& one : tree.parts) {
     parts += (parts.empty() ? "" : ", ") + part(one);
   }
-  return cpp_type(rest) + "{" + parts + "}";
+  return cpp_type(rest) + "{{" + parts + "}}";  // else a first {} would be taken for the whole
 }
 
 // Values of inputs that an instance begins with.
