@@ -41,7 +41,9 @@ int print(Context& context, const Request& request) {
     return kCheckFailed;
   }
   if (bodies.empty()) {
-    context.out.error(fmt::format("{} has no POU '{}'; it has {}", request.file, request.pou, names_of(document)));
+    const std::string names = names_of(document);
+    context.out.error(names.empty() ? fmt::format("{} has no program to print, only types or variables", request.file)
+                                    : fmt::format("{} has no POU '{}'; it has {}", request.file, request.pou, names));
     return kFailed;
   }
   if (!only_svg) {

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
+#include "plc/model/elementary.h"
 #include "plc/plcopen/body_reader.h"
 #include "plc/plcopen/type_text.h"
 #include "plc/st/parser.h"
@@ -117,11 +119,15 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
   }
 }
 
-void quote_texts(Node& node) {
+namespace {
+
+void quote_texts(Node& node, const std::set<std::string>& text_types) {
   const Node* type = node.child("type") != nullptr ? node.child("type") : node.child("baseType");
-  const bool text = type != nullptr && type->child("string") != nullptr;
+  const Node* derived = type == nullptr ? nullptr : type->child("derived");
+  const bool text = type != nullptr && (type->child("string") != nullptr ||
+                                        (derived != nullptr && text_types.contains(upper(derived->attribute("name")))));
   for (Node& child : node.children) {
-    quote_texts(child);
+    quote_texts(child, text_types);
     if (!text || child.name != "initialValue") {
       continue;
     }
@@ -133,6 +139,21 @@ void quote_texts(Node& node) {
       }
     }
   }
+}
+
+}  // namespace
+
+void quote_texts(Node& root) {
+  std::set<std::string> text_types{"HMI_STRING"};  // of Beremiz' SVGHMI, which is a file of its own
+  const Node* types = root.child("types");
+  const Node* list = types == nullptr ? nullptr : types->child("dataTypes");
+  for (const Node& declared : children_of(list)) {
+    const Node* base = declared.child("baseType");
+    if (base != nullptr && base->child("string") != nullptr) {
+      text_types.insert(upper(declared.attribute("name")));
+    }
+  }
+  quote_texts(root, text_types);
 }
 
 void read_data_type(const Node& node, std::vector<ast::TypeDeclaration>& into, Diagnostics& diagnostics) {
