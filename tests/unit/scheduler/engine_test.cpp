@@ -182,22 +182,28 @@ TEST_F(EngineThreads, SkipsAReleaseWhileTheBandIsStillBusy) {
   ASSERT_TRUE(sut->start(0).ok());
   run_until(*sut, [] { return g_calls > 3; });
   EXPECT_GT(block->modules()[1].overruns.load(), 0U);
-  EXPECT_EQ(block->modules()[1].overruns.load(), block->modules()[1].skipped.load());
+  // What was due while the machine stood still is skipped as well, and nobody's overrun.
+  const std::uint64_t others = block->modules()[1].skipped.load() - block->modules()[1].overruns.load();
+  EXPECT_LE(others, block->lost_ticks.load());
   EXPECT_EQ(block->modules()[0].overruns.load(), 0U);
 }
 
 TEST_F(EngineThreads, CatchesUpReleasesIfThePolicySaysSo) {
-  std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
-                               if (++g_calls == 1) {
-                                 std::this_thread::sleep_for(std::chrono::milliseconds(21));
-                               }
-                             })};
+  std::vector<Task> tasks = {
+      periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
+        if (++g_calls == 1) {  // held up for some of its periods, however long the machine takes for them
+          const int until = g_other + 12;
+          for (int ms = 0; g_other < until && ms < 10'000; ++ms) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          }
+        }
+      })};
   tasks[1].overrun = OverrunPolicy::CatchUp;
   auto sut = make(tasks, 2'000'000, 4'000'000, &system);
-  ASSERT_TRUE(sut->start(40).ok());
+  ASSERT_TRUE(sut->start(200).ok());
   sut->join();
   EXPECT_GE(block->modules()[1].overruns.load(), 3U);
-  EXPECT_GE(g_calls.load() + static_cast<int>(block->modules()[1].skipped.load()), 18);
+  EXPECT_GE(g_calls.load() + static_cast<int>(block->modules()[1].skipped.load()), 98);
 }
 
 #ifndef __SANITIZE_THREAD__
