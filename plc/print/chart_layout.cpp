@@ -11,11 +11,12 @@ namespace {
 class Layout {
  public:
   explicit Layout(const sfc::Chart& chart) : chart_(chart), nodes_(chart.steps.size() + chart.transitions.size()) {
-    for (std::size_t t = 0; t < chart.transitions.size(); ++t) {
-      for (const std::size_t step : chart.transitions[t].from) {
-        nodes_[step].next.push_back(chart.steps.size() + t);
+    std::size_t number = chart.steps.size();
+    for (const sfc::Transition& transition : chart.transitions) {
+      for (const std::size_t step : transition.from) {
+        nodes_[step].next.push_back(number);
       }
-      nodes_[chart.steps.size() + t].next = chart.transitions[t].to;
+      nodes_[number++].next = transition.to;
     }
   }
 

@@ -21,7 +21,7 @@ constexpr int kBar = 13;       // half the width of a transition
 constexpr int kBetween = 42;   // between rows: lines and branches
 constexpr int kBranch = 15;    // below a node its branch, above one its joint
 constexpr int kColumn = 36;    // between columns
-constexpr const char* kLine = "stroke=\"#1F2D3D\" stroke-width=\"1.6\" stroke-linecap=\"square\"";
+constexpr const char* kLine = R"(stroke="#1F2D3D" stroke-width="1.6" stroke-linecap="square")";
 
 int width_of(std::string_view text) {
   return kCharacter * graphic::text_width(text);
@@ -131,11 +131,11 @@ class Drawing {
     const int x = x_of(layout_.steps[i]);
     const int y = y_of(layout_.steps[i]);
     const int half = half_step(i);
-    box(x - half, y, 2 * half, kStep, "fill=\"#F2F6FB\" stroke=\"#2B4C7E\" stroke-width=\"1.6\"");
+    box(x - half, y, 2 * half, kStep, R"(fill="#F2F6FB" stroke="#2B4C7E" stroke-width="1.6")");
     if (chart_.steps[i].initial) {
-      box(x - half + 4, y + 4, 2 * half - 8, kStep - 8, "fill=\"none\" stroke=\"#2B4C7E\" stroke-width=\"1.2\"");
+      box(x - half + 4, y + 4, 2 * half - 8, kStep - 8, R"(fill="none" stroke="#2B4C7E" stroke-width="1.2")");
     }
-    text(x, y + kStep / 2 + 4, chart_.steps[i].name, "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#2B4C7E\"");
+    text(x, y + kStep / 2 + 4, chart_.steps[i].name, R"(text-anchor="middle" font-weight="bold" fill="#2B4C7E")");
     const auto lines = actions_of(i);
     if (lines.empty()) {
       return;
@@ -145,10 +145,10 @@ class Drawing {
     const int width = width_of_actions(lines, qualifiers);
     int top = y + (lines.size() == 1 ? (kStep - kAction) / 2 : 0);
     for (const graphic::ActionLine* each : lines) {
-      box(x + half + 24, top, width, kAction, "fill=\"#FFF8EC\" stroke=\"#8A4B08\"");
+      box(x + half + 24, top, width, kAction, R"(fill="#FFF8EC" stroke="#8A4B08")");
       line(x + half + 24 + qualifiers, top, x + half + 24 + qualifiers, top + kAction);
-      text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each), "text-anchor=\"middle\" fill=\"#8A4B08\"");
-      text(x + half + 24 + qualifiers + 8, top + 15, action_text(*each), "fill=\"#0B4A8F\"");
+      text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each), R"(text-anchor="middle" fill="#8A4B08")");
+      text(x + half + 24 + qualifiers + 8, top + 15, action_text(*each), R"(fill="#0B4A8F")");
       top += kAction;
     }
   }
@@ -220,14 +220,14 @@ class Drawing {
   void jump(int x, int y, const std::string& name) {
     line(x, y, x, y + 14);
     out_ += fmt::format("<path d=\"M{} {}h12l-6 8z\" fill=\"#1F2D3D\"/>\n", x - 6, y + 14);
-    text(x + 11, y + 22, name, "font-weight=\"bold\" fill=\"#2B4C7E\"");
+    text(x + 11, y + 22, name, R"(font-weight="bold" fill="#2B4C7E")");
   }
 
   void transition(std::size_t t) {
     const int x = x_of(layout_.transitions[t]);
     out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#1F2D3D\" stroke-width=\"4\"/>\n",
                         x - kBar, bar_of(t), x + kBar, bar_of(t));
-    text(x + kBar + 8, bar_of(t) + 4, condition_text(*chart_.transitions[t].element), "fill=\"#1F2D3D\"");
+    text(x + kBar + 8, bar_of(t) + 4, condition_text(*chart_.transitions[t].element), R"(fill="#1F2D3D")");
   }
 
   const sfc::Chart& chart_;
