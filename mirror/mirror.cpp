@@ -27,6 +27,7 @@ namespace indurop::mirror {
 namespace {
 
 constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: somebody else may have written
+constexpr std::int64_t kOthersNs = 500'000'000;
 constexpr std::int64_t kBulkLookNs = 20'000'000;
 constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that nobody tells
 
@@ -215,10 +216,14 @@ void Mirror::Impl::manage() {
   up.store(true, std::memory_order_release);
   wake_sender.wake();
   wake_bulk.wake();
+  std::int64_t others_due = 0;
   while (!stopping()) {
     take_catalogues();
-    look_for_other_releases();
     const std::int64_t now = rt::now_ns();
+    if (now >= others_due) {
+      others_due = now + kOthersNs;
+      look_for_other_releases();
+    }
     Schedule current;
     {
       const std::lock_guard<std::mutex> guard(schedule_mutex);
