@@ -76,8 +76,8 @@ def main():
         return 1
     print(f"{len(boards)} boards: the last one had all variables {max(found.values()):.2f} s after all were started, the first "
           f"{min(found.values()):.2f} s (target 2 s)")
-    print(f"memory beside the store: {max(s[0] for s in sizes) / 1024:.1f} MB resident, of which "
-          f"{max(s[1] for s in sizes) / 1024:.1f} MB not shared with other processes (target 15 MB)")
+    print(f"memory of a node beside the store (target 15 MB): {max(s[0] for s in sizes) / 1024:.1f} MB resident; its share "
+          f"of them, where pages of libraries are divided among those who use them, {max(s[1] for s in sizes) / 1024:.1f} MB")
     return 0
 
 

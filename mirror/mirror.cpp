@@ -26,6 +26,7 @@
 namespace indurop::mirror {
 namespace {
 
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: somebody else may have written
 constexpr std::int64_t kOthersNs = 500'000'000;
 constexpr std::int64_t kBulkLookNs = 20'000'000;
@@ -155,6 +156,7 @@ Status Mirror::Impl::run() {
   }
   rt::ThreadSettings thread;
   thread.fifo_priority = settings.fifo_priority;
+  thread.stack_bytes = kStackBytes;
   const auto launch = [&](const char* name, rt::Thread& into, auto body) -> Status {
     thread.name = name;
     auto started = rt::Thread::start(thread, [this, body] {
@@ -326,14 +328,14 @@ void Mirror::Impl::end() noexcept {
   joining.leave();
 }
 
-Result<Mirror> Mirror::start(const Settings& settings, const std::string& node, vars::Store& store,
+Result<Mirror> Mirror::start(Settings settings, const std::string& node, vars::Store& store,
                              const std::atomic<std::uint64_t>& tick) {
   auto file = vars::ShmFile::create(vars::mirror_file(node),
                                     mirror_block_size(settings.boards.size(), settings.incoming.size()));
   if (!file) {
     return file.error();
   }
-  auto impl = std::make_unique<Impl>(settings, store, tick, std::move(file).value());
+  auto impl = std::make_unique<Impl>(std::move(settings), store, tick, std::move(file).value());
   if (Status running = impl->run(); !running) {
     impl->end();
     return running.error();

@@ -22,7 +22,7 @@ class Mirror {
   // Makes the shared-memory file for tools and starts the mirror's threads; joining the network goes on by itself until
   // it succeeds. `store` and `tick` (number of the current basic period) are borrowed until the end. Not real-time
   // safe. Errors: NoSpace, PermissionDenied, System.
-  static Result<Mirror> start(const Settings& settings, const std::string& node, vars::Store& store,
+  static Result<Mirror> start(Settings settings, const std::string& node, vars::Store& store,
                               const std::atomic<std::uint64_t>& tick);
   Mirror(Mirror&&) noexcept;
   Mirror& operator=(Mirror&&) noexcept;

@@ -350,11 +350,14 @@ bool Node::start_modules() {
 }
 
 bool Node::start_schedule() {
+  if (mirror_settings_) {
+    name_writers(*mirror_settings_, config_, check_, *engine_);
+  }
+  check_ = {};  // not needed any more, and what is there now stays in memory
   store_->prefault();
   run_file_->prefault();
   // Used while starting, and by the threads that talk to other boards, which are not real-time.
-  constexpr std::array<std::string_view, 6> kNotNeeded{"libddsc",         "libcrypto",          "libssl",
-                                                       "libiceoryx_posh", "libiceoryx_binding", "libtinyxml2"};
+  constexpr std::array<std::string_view, 5> kNotNeeded{"libddsc", "libcrypto", "libssl", "libiceoryx", "libtinyxml2"};
   if (const Status locked = rt::lock_memory(kNotNeeded); locked) {
     run_->obtained.memory_locked = 1;
   } else if (obtained_.fifo != 0) {
@@ -418,8 +421,7 @@ bool Node::start_mirror() {
   const auto spin = options_.spin.value_or(config_.spin.value_or(deploy::SpinSetting{}));
   mirror_settings_->spin = !cores.empty() && spin.mode != deploy::SpinSetting::Mode::Off && obtained_.fifo != 0;
   mirror_settings_->cores = cores.empty() ? rt::allowed_cores() : cores;
-  name_writers(*mirror_settings_, config_, check_, *engine_);
-  auto started = mirror::Mirror::start(*mirror_settings_, options_.node, *store_, run_->tick);
+  auto started = mirror::Mirror::start(std::move(*mirror_settings_), options_.node, *store_, run_->tick);
   if (!started) {
     console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
     return fail(kFailed);

@@ -99,7 +99,8 @@ void let_go_of_free_heap() noexcept {
 }  // namespace
 
 Status lock_memory(std::span<const std::string_view> except) noexcept {
-  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) {
+  // What comes later is locked from its first use on: else memory that others ask for and never touch would be taken.
+  if (::mlockall(MCL_CURRENT) == 0 && ::mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
     let_go_of_free_heap();
     ::dl_iterate_phdr(&let_go, &except);
     return {};

@@ -11,8 +11,9 @@
 
 namespace indurop::rt {
 
-// Locks present and future memory of this process, but not code and constants of libraries whose path contains one of
-// `except`. Errors: PermissionDenied, NoSpace (the limit is too small).
+// Locks the memory of this process: what it has now, and what it gets later page by page with the first use. Not locked
+// are code and constants of libraries whose path contains one of `except`. Errors: PermissionDenied, NoSpace (the limit
+// is too small).
 Status lock_memory(std::span<const std::string_view> except = {}) noexcept;
 
 // Keeps the processors out of deep idle states while it lives (/dev/cpu_dma_latency held open at 0): halves the

@@ -2,6 +2,7 @@
 #include "rt/thread.h"
 
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -61,15 +62,8 @@ struct Start {
   std::function<void()> body;
 };
 
-// Touches the stack below the current frame once, so that no page fault happens there later.
-[[gnu::noinline]] void touch_stack(std::size_t bytes) noexcept {
-  constexpr std::size_t kPage = 4096;
-  volatile unsigned char here[kPage];
-  here[0] = 1;
-  if (bytes > 2 * kPage) {
-    touch_stack(bytes - kPage);
-  }
-  here[kPage - 1] = here[0];  // keeps the call above from becoming a tail call
+std::size_t page_bytes() noexcept {
+  return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 void* thread_entry(void* argument) {
@@ -82,7 +76,6 @@ void* thread_entry(void* argument) {
   if (!set_fifo(start->settings.fifo_priority) && start->settings.fifo_priority > 0) {
     (void)set_fifo(0);
   }
-  touch_stack(start->settings.stack_bytes / 4);
   start->body();
   return nullptr;
 }
@@ -151,12 +144,49 @@ void request_exact_timers() noexcept {
   ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
+// The page below the stack is a guard. What a real-time thread may use of it is touched once, so that no page fault
+// happens there later; the others take what they use.
+Stack::Stack(std::size_t bytes, bool touched) noexcept : bytes_(page_bytes() + bytes) {
+  void* const memory =
+      ::mmap(nullptr, bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) {
+    return;
+  }
+  memory_ = static_cast<std::uint8_t*>(memory);
+  (void)::mprotect(lowest(), bytes, PROT_READ | PROT_WRITE);
+  for (std::size_t at = 0; touched && at < bytes; at += page_bytes()) {
+    static_cast<volatile std::uint8_t*>(lowest())[at] = 0;
+  }
+}
+
+Stack::Stack(Stack&& other) noexcept : memory_(std::exchange(other.memory_, nullptr)), bytes_(other.bytes_) {}
+
+Stack& Stack::operator=(Stack&& other) noexcept {
+  std::swap(memory_, other.memory_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Stack::~Stack() {
+  if (memory_ != nullptr) {
+    ::munmap(memory_, bytes_);
+  }
+}
+
+std::uint8_t* Stack::lowest() const noexcept {
+  return memory_ + page_bytes();
+}
+
 Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void()> body) {
+  Thread thread;
+  thread.stack_ = Stack(settings.stack_bytes, settings.fifo_priority > 0);
+  if (!thread.stack_.ok()) {
+    return from_errno(errno, "create a thread's stack");
+  }
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
-  ::pthread_attr_setstacksize(&attributes, settings.stack_bytes);
+  ::pthread_attr_setstack(&attributes, thread.stack_.lowest(), settings.stack_bytes);
   auto start = std::make_unique<Start>(Start{settings, std::move(body)});
-  Thread thread;
   const int code = ::pthread_create(&thread.handle_, &attributes, thread_entry, start.get());
   ::pthread_attr_destroy(&attributes);
   if (code != 0) {
@@ -167,11 +197,13 @@ Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void(
   return thread;
 }
 
-Thread::Thread(Thread&& other) noexcept : handle_(other.handle_), running_(std::exchange(other.running_, false)) {}
+Thread::Thread(Thread&& other) noexcept
+    : stack_(std::move(other.stack_)), handle_(other.handle_), running_(std::exchange(other.running_, false)) {}
 
 Thread& Thread::operator=(Thread&& other) noexcept {
   if (this != &other) {
     join();
+    stack_ = std::move(other.stack_);
     handle_ = other.handle_;
     running_ = std::exchange(other.running_, false);
   }
@@ -185,6 +217,7 @@ Thread::~Thread() {
 void Thread::join() noexcept {
   if (std::exchange(running_, false)) {
     ::pthread_join(handle_, nullptr);
+    stack_ = {};
   }
 }
 

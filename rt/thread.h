@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,13 +43,33 @@ StackBounds own_stack() noexcept;
 void request_exact_timers() noexcept;
 
 struct ThreadSettings {
-  std::string name;       // at most 15 characters are shown by the system
-  int fifo_priority = 0;  // 0: normal scheduling
-  int core = -1;          // -1: not pinned
-  std::size_t stack_bytes = std::size_t{512} * 1024;
+  std::string name;                                   // at most 15 characters are shown by the system
+  int fifo_priority = 0;                              // 0: normal scheduling
+  int core = -1;                                      // -1: not pinned
+  std::size_t stack_bytes = std::size_t{512} * 1024;  // whole pages
 };
 
-// A thread that starts with its settings applied and its stack touched, and is joined by its destructor.
+// Memory for a thread's stack. Ours and not the C library's, which keeps the stacks of threads that have ended, and
+// locked memory would hold them for good.
+class Stack {
+ public:
+  Stack() = default;
+  Stack(std::size_t bytes, bool touched) noexcept;
+  Stack(Stack&& other) noexcept;
+  Stack& operator=(Stack&& other) noexcept;
+  Stack(const Stack&) = delete;
+  Stack& operator=(const Stack&) = delete;
+  ~Stack();
+  [[nodiscard]] bool ok() const noexcept { return memory_ != nullptr; }
+  [[nodiscard]] std::uint8_t* lowest() const noexcept;
+
+ private:
+  std::uint8_t* memory_ = nullptr;  // with the guard page
+  std::size_t bytes_ = 0;
+};
+
+// A thread that starts with its settings applied and, if it has a priority, its stack touched, and is joined by its
+// destructor.
 class Thread {
  public:
   Thread() = default;
@@ -66,6 +87,7 @@ class Thread {
   [[nodiscard]] pthread_t handle() const noexcept { return handle_; }
 
  private:
+  Stack stack_;  // given back once the thread has ended
   pthread_t handle_{};
   bool running_ = false;
 };

@@ -213,6 +213,7 @@ Status Engine::start_band_threads() {
   }
   rt::ThreadSettings settings;
   settings.name = "irp-watchdog";
+  settings.stack_bytes = std::size_t{128} * 1024;  // it only looks
   settings.fifo_priority = settings_.realtime ? kWatchdogPriority : 0;
   const auto allowed = rt::allowed_cores();
   // On another core, if there is one, its wake-ups cannot delay a tick.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Runs the chapter's modules and looks at the real-time threads from outside: how often they allocated (a preloaded
-counter) and which system calls they made (strace). Allowed are the sleep of the tick thread, the wake-ups it gives
-and the waits of the bands. Both are compared between a short and a long run, so what threads do when they begin and end
-cancels out."""
+counter), which system calls they made (strace), and how often a page was missing to them. Allowed are the sleep of the
+tick thread, the wake-ups it gives and the waits of the bands. The first two are compared between a short and a long run,
+so what threads do when they begin and end cancels out."""
 
 import argparse
 import collections
@@ -98,6 +98,31 @@ def system_calls(arguments, xml, folder, milliseconds):
     return counts
 
 
+def page_faults(arguments, xml, folder, milliseconds):
+    """Page faults of each real-time thread after the first tenth of the run; None if memory could not be locked."""
+    node = subprocess.Popen(node_command(arguments, xml, milliseconds), stdout=subprocess.DEVNULL,
+                            stderr=subprocess.PIPE, text=True, env=dict(os.environ, INDUROP_STATE_DIR=folder))
+    seen = collections.defaultdict(list)
+    locked = False
+    while node.poll() is None:
+        try:
+            with open(f"/proc/{node.pid}/status", encoding="utf-8") as status:
+                locked = locked or re.search(r"VmLck:\s+[1-9]", status.read()) is not None
+            for task in os.listdir(f"/proc/{node.pid}/task"):
+                with open(f"/proc/{node.pid}/task/{task}/stat", encoding="utf-8") as stat:
+                    name, rest = stat.read().split("(", 1)[1].rsplit(")", 1)
+                if re.match(r"irp-(tick|band|events)", name):
+                    fields = rest.split()
+                    seen[name].append(int(fields[7]) + int(fields[9]))  # minor and major
+        except (FileNotFoundError, ProcessLookupError):
+            pass  # it ends
+    if node.returncode != 0:
+        sys.exit(f"the node ended with {node.returncode}:\n{node.stderr.read()}")
+    if not any(name.startswith("irp-tick") and len(counts) >= 10 for name, counts in seen.items()):
+        sys.exit("no tick thread was seen: its page faults could not be counted")
+    return {name: counts[-1] - counts[len(counts) // 10] for name, counts in seen.items()} if locked else None
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", required=True)
@@ -124,6 +149,14 @@ def main():
             print(f"{name}: {short[name]} allocator calls in {SHORT} ticks, {long[name]} in {LONG}")
             if long[name] > short[name]:
                 print(f"  FAILED: {name} allocates while it runs")
+                failed = True
+        faults = page_faults(arguments, xml, folder, 3 * LONG)
+        if faults is None:
+            print("memory cannot be locked here: page faults were not counted")
+        for name, count in sorted((faults or {}).items()):
+            print(f"{name}: {count} page faults in about {3 * LONG} ticks")
+            if count > 0:
+                print(f"  FAILED: {name} touches memory that is not there")
                 failed = True
         if shutil.which("strace") is None or subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], check=False).returncode != 0:
             if failed:

@@ -2,14 +2,18 @@
 #include "rt/machine.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
+
+#include "rt/thread.h"
 
 namespace indurop::rt {
 namespace {
@@ -57,14 +61,73 @@ constexpr long kMegabyte = 1024;  // in kB
   std::_Exit(good ? 0 : 1);
 }
 
-TEST(Machine, What_was_freed_before_locking_takes_no_memory) {
+bool may_lock() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers lock no memory and have a heap of their own";
+  return false;  // sanitizers lock no memory and have a heap of their own
 #endif
   rlimit limit{};
   ::getrlimit(RLIMIT_MEMLOCK, &limit);
-  if (::geteuid() != 0 && limit.rlim_cur != RLIM_INFINITY) {
-    GTEST_SKIP() << "memory cannot be locked without root or an unlimited memlock";
+  return ::geteuid() == 0 || limit.rlim_cur == RLIM_INFINITY;
+}
+
+// Pages of the calling thread's stack that are in memory, and all of them but the guard's.
+struct StackPages {
+  std::size_t present = 0;
+  std::size_t all = 0;
+};
+StackPages stack_pages() {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const StackBounds stack = own_stack();
+  std::vector<unsigned char> there(stack.bytes / page);
+  StackPages pages{0, there.size()};
+  if (::mincore(const_cast<char*>(stack.lowest), stack.bytes, there.data()) == 0) {
+    pages.present =
+        static_cast<std::size_t>(std::count_if(there.begin(), there.end(), [](auto one) { return (one & 1U) != 0; }));
+  }
+  return pages;
+}
+
+// What a program takes that starts threads with large stacks before and after memory is locked.
+[[noreturn]] void lock_between_threads() {
+  constexpr std::size_t kLargeStack = 32U << 20U;
+  auto before = Thread::start({"before", 0, -1, kLargeStack}, [] {});
+  if (!before) {
+    std::_Exit(3);
+  }
+  before.value().join();
+  if (!lock_memory()) {
+    std::_Exit(2);
+  }
+  long resident = 0;
+  auto later = Thread::start({"later", 0, -1, kLargeStack}, [&resident] { resident = status_kb("RssAnon:"); });
+  later.value().join();
+  std::fprintf(stderr, "resident %ld kB\n", resident);
+  std::_Exit(resident > 0 && resident < 20 * kMegabyte ? 0 : 1);
+}
+
+TEST(Machine, Stacks_nobody_uses_take_no_locked_memory) {
+  if (!may_lock()) {
+    GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
+  }
+  EXPECT_EXIT(lock_between_threads(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(Thread, Stack_of_a_real_time_thread_is_there_before_it_runs) {
+  StackPages urgent;
+  StackPages normal;
+  {
+    auto one = Thread::start({"urgent", 1, -1, 1U << 20U}, [&urgent] { urgent = stack_pages(); });
+    auto other = Thread::start({"normal", 0, -1, 1U << 20U}, [&normal] { normal = stack_pages(); });
+    ASSERT_TRUE(one.ok() && other.ok());
+  }
+  EXPECT_GT(urgent.all, 200U);
+  EXPECT_EQ(urgent.present, urgent.all);
+  EXPECT_LT(normal.present, normal.all);
+}
+
+TEST(Machine, What_was_freed_before_locking_takes_no_memory) {
+  if (!may_lock()) {
+    GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
   }
   EXPECT_EXIT(lock_after_freeing(), ::testing::ExitedWithCode(0), "");
 }
