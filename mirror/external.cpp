@@ -13,6 +13,7 @@
 #include "rt/clock.h"
 #include "rt/signal_word.h"
 #include "rt/thread.h"
+#include "schema/ros_name.h"
 #include "vars/shm_file.h"
 
 namespace indurop::mirror {
@@ -51,6 +52,9 @@ struct External::Impl {
   bool open(dds_entity_t participant, std::string& problem);
   void close() noexcept;
   void look_for_readers() noexcept;
+  [[nodiscard]] std::string topic_name(const std::string& variable) const {
+    return settings.ros2 ? schema::ros_topic(variable) : external_topic(variable);
+  }
   std::int64_t serve(std::int64_t now_ns);
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
 
@@ -161,7 +165,7 @@ void External::Impl::look_for_readers() noexcept {
     }
   };
   for (const std::string& variable : directory.take_wishes()) {
-    open(external_topic(variable));
+    open(topic_name(variable));
   }
   take_all<dds_builtintopic_endpoint_t>(subscriptions.get(), [&](const auto& reader, const dds_sample_info_t& info) {
     const bool own = std::equal(std::begin(own_guid.v), std::end(own_guid.v), std::begin(reader.participant_key.v));

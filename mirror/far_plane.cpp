@@ -12,10 +12,12 @@
 #include "mirror/dds_setup.h"
 #include "mirror/external_directory.h"
 #include "mirror/external_type.h"
+#include "mirror/far_sources.h"
 #include "mirror/far_topic.h"
 #include "mirror/far_type.h"
 #include "rt/clock.h"
 #include "rt/signal_word.h"
+#include "schema/ros_name.h"
 
 namespace indurop::mirror {
 namespace {
@@ -40,15 +42,6 @@ bool is_own_topic(std::string_view topic) {
 }  // namespace
 
 struct FarPlane::Impl {
-  // A participant that shows variables.
-  struct Source {
-    std::string board;
-    std::string plant;
-    std::vector<std::string> boards;
-    schema::Schema schema;
-    std::set<std::string> writable;
-    std::uint64_t session = 0;
-  };
   struct Publication {
     Guid participant;
     std::string topic;
@@ -61,18 +54,16 @@ struct FarPlane::Impl {
   };
 
   bool open(const FarSettings& settings, std::string& problem);
-  void take_directories();
-  void take_directory(const indurop_wire_Directory& told, const dds_sample_info_t& info);
   void take_publications();
   void note(const dds_builtintopic_endpoint_t& told, const dds_sample_info_t& info);
   void look_at_strangers(std::int64_t now_ns);
   void describe(const Publication& publication, Strange& strange);
   // What was told about it; false if it is gone.
   bool with(const Publication& publication, const std::function<void(dds_builtintopic_endpoint_t&)>& use) const;
+  using Topics = std::multimap<std::string, const Publication*>;  // by name
+  void make_topic(const std::string& variable, FarTopic& topic, const Topics& topics);
   void make_topics();
-  void wish(const std::string& variable);
-  [[nodiscard]] const Source* source_of(const std::string& board) const;
-  FarTopic* topic_of(const std::string& variable);
+  void wish();
 
   rt::SignalWord wake;  // used by listeners until the readers are gone
   Participant joined;
@@ -80,14 +71,13 @@ struct FarPlane::Impl {
   Entity publications;
   Endpoint directories;
   Endpoint wishes;
-  std::map<Guid, Source> sources;                             // by participant
-  std::map<dds_instance_handle_t, Guid> speakers;             // of directories, by publication
-  std::map<std::string, std::string> known_boards;            // name -> plant, also those not heard
+  FarSources sources;
   std::map<Guid, Publication> published;                      // by endpoint
   std::map<Guid, std::int64_t> seen_ns;                       // participants, since when
   std::map<std::string, Strange> strangers;                   // by topic
   std::map<std::string, std::unique_ptr<FarTopic>> followed;  // by variable
   std::vector<std::string> wished;
+  std::size_t wishes_told = 0;
   std::uint64_t generation = 0;
 };
 
@@ -119,51 +109,6 @@ bool FarPlane::Impl::open(const FarSettings& settings, std::string& problem) {
     return false;
   }
   return true;
-}
-
-const FarPlane::Impl::Source* FarPlane::Impl::source_of(const std::string& board) const {
-  const auto found =
-      std::find_if(sources.begin(), sources.end(), [&](const auto& entry) { return entry.second.board == board; });
-  return found == sources.end() ? nullptr : &found->second;
-}
-
-void FarPlane::Impl::take_directories() {
-  take_all<indurop_wire_Directory>(directories.get(), [&](const auto& told, const dds_sample_info_t& info) {
-    if (info.valid_data) {
-      take_directory(told, info);
-    }
-    // Nobody of this name is left; who is only killed is missed after the lease.
-    if (info.instance_state != DDS_IST_ALIVE) {
-      const std::string board = told.board;
-      std::erase_if(sources, [&](const auto& entry) { return entry.second.board == board; });
-    }
-  });
-}
-
-void FarPlane::Impl::take_directory(const indurop_wire_Directory& told, const dds_sample_info_t& info) {
-  const auto participant = participant_of(directories.get(), info.publication_handle);
-  auto schema = schema::from_json(told.schema);
-  if (!participant || !schema) {
-    return;
-  }
-  Source source;
-  source.board = told.board;
-  source.plant = told.plant;
-  source.boards.assign(told.boards._buffer, told.boards._buffer + told.boards._length);
-  source.schema = std::move(schema).value();
-  source.writable.insert(told.writable._buffer, told.writable._buffer + told.writable._length);
-  source.session = told.session;
-  known_boards[source.board] = source.plant;
-  for (const std::string& other : source.boards) {
-    known_boards[other] = source.plant;
-  }
-  // An earlier run of the same board that ended without a word.
-  std::erase_if(sources, [&](const auto& entry) {
-    return entry.first != *participant && entry.second.board == source.board && entry.second.plant == source.plant &&
-           entry.second.session < source.session;
-  });
-  sources[*participant] = std::move(source);
-  ++generation;
 }
 
 void FarPlane::Impl::take_publications() {
@@ -238,7 +183,7 @@ void FarPlane::Impl::describe(const Publication& publication, Strange& strange) 
 
 void FarPlane::Impl::look_at_strangers(std::int64_t now_ns) {
   for (const auto& [endpoint, publication] : published) {
-    const bool board = sources.count(publication.participant) > 0;
+    const bool board = sources.at(publication.participant) != nullptr;
     const auto seen = seen_ns.find(publication.participant);
     if (board || seen == seen_ns.end() || now_ns - seen->second < kPresentNs ||
         strangers.count(publication.topic) > 0) {
@@ -249,30 +194,42 @@ void FarPlane::Impl::look_at_strangers(std::int64_t now_ns) {
   }
 }
 
-FarTopic* FarPlane::Impl::topic_of(const std::string& variable) {
-  const auto found = followed.find(variable);
-  return found == followed.end() ? nullptr : found->second.get();
+// A reader as soon as somebody publishes it, under its own name or that of ROS 2.
+void FarPlane::Impl::make_topic(const std::string& variable, FarTopic& topic, const Topics& topics) {
+  const dds_entity_t participant = joined.participant.get();
+  const auto [first, last] = topics.equal_range(external_topic(variable));
+  for (auto there = first; there != last && !topic.is_open(); ++there) {
+    (void)with(*there->second, [&](auto& told) { (void)topic.open(participant, told, wake); });
+  }
+  const auto [ros_first, ros_last] = topics.equal_range(schema::ros_topic(variable));
+  for (auto there = ros_first; there != ros_last && !topic.is_open(); ++there) {
+    const FarSources::Source* const board = sources.at(there->second->participant);
+    if (const schema::Variable* known = board != nullptr ? board->find(variable) : nullptr; known != nullptr) {
+      (void)with(*there->second, [&](auto& told) { (void)topic.open_ros(participant, told, *known, wake); });
+    }
+  }
 }
 
-// Readers of what is followed, as soon as somebody publishes it.
 void FarPlane::Impl::make_topics() {
+  Topics topics;
   for (const auto& [variable, topic] : followed) {
-    if (topic->is_open()) {
-      continue;
-    }
-    const std::string name = external_topic(variable);
-    const auto there =
-        std::find_if(published.begin(), published.end(), [&](const auto& entry) { return entry.second.topic == name; });
-    if (there != published.end()) {
-      (void)with(there->second,
-                 [&](dds_builtintopic_endpoint_t& told) { (void)topic->open(joined.participant.get(), told, wake); });
+    if (!topic->is_open()) {
+      if (topics.empty()) {
+        for (const auto& [endpoint, publication] : published) {
+          topics.emplace(publication.topic, &publication);
+        }
+      }
+      make_topic(variable, *topic, topics);
     }
   }
 }
 
 // Boards with many variables announce topics only to who asks for them.
-void FarPlane::Impl::wish(const std::string& variable) {
-  wished.push_back(variable);
+void FarPlane::Impl::wish() {
+  if (wishes_told == wished.size()) {
+    return;
+  }
+  wishes_told = wished.size();
   std::vector<char*> names;
   names.reserve(wished.size());
   for (std::string& name : wished) {
@@ -296,23 +253,24 @@ void FarPlane::look(std::int64_t deadline_ns) {
   impl_->wake.wait_until(deadline_ns);
   while (impl_->wake.try_wait()) {
   }
-  impl_->take_directories();
+  impl_->sources.take(impl_->directories.get());
   impl_->take_publications();
   impl_->look_at_strangers(rt::now_ns());
+  impl_->wish();
   impl_->make_topics();
 }
 
 std::vector<FarBoard> FarPlane::boards() const {
   std::vector<FarBoard> all;
-  for (const auto& [name, plant] : impl_->known_boards) {
-    all.push_back({name, plant, impl_->source_of(name) != nullptr});
+  for (const auto& [name, plant] : impl_->sources.boards()) {
+    all.push_back({name, plant, impl_->sources.of(name) != nullptr});
   }
   return all;
 }
 
 std::vector<FarVariable> FarPlane::variables() const {
   std::vector<FarVariable> all;
-  for (const auto& [participant, source] : impl_->sources) {
+  for (const auto& [participant, source] : impl_->sources.all()) {
     for (const schema::Variable& variable : source.schema.variables) {
       all.push_back({variable, source.board, source.writable.count(variable.name) > 0});
     }
@@ -329,16 +287,16 @@ std::vector<FarVariable> FarPlane::variables() const {
 }
 
 std::uint64_t FarPlane::generation() const noexcept {
-  return impl_->generation;
+  return impl_->generation + impl_->sources.generation();  // neither ever decreases
 }
 
 bool FarPlane::complete() const {
   const std::int64_t now = rt::now_ns();
   const bool all_present = std::all_of(impl_->seen_ns.begin(), impl_->seen_ns.end(), [&](const auto& entry) {
-    return impl_->sources.count(entry.first) > 0 || now - entry.second > kPresentNs;
+    return impl_->sources.at(entry.first) != nullptr || now - entry.second > kPresentNs;
   });
-  const bool all_heard = std::all_of(impl_->known_boards.begin(), impl_->known_boards.end(),
-                                     [&](const auto& entry) { return impl_->source_of(entry.first) != nullptr; });
+  const bool all_heard = std::all_of(impl_->sources.boards().begin(), impl_->sources.boards().end(),
+                                     [&](const auto& entry) { return impl_->sources.of(entry.first) != nullptr; });
   return !impl_->seen_ns.empty() && all_present && all_heard;
 }
 
@@ -357,32 +315,27 @@ void FarPlane::follow(const std::string& variable, const std::string& board) {
   if (topic == nullptr) {
     topic = std::make_unique<FarTopic>();
     if (!board.empty()) {
-      impl_->wish(variable);
+      impl_->wished.push_back(variable);
     }
-    impl_->make_topics();
   }
 }
 
 void FarPlane::take(const Use& use) {
   for (const auto& [variable, topic] : impl_->followed) {
     topic->take([&](const Guid& participant, std::span<const std::uint8_t> value) {
-      const auto source = impl_->sources.find(participant);
-      use(variable, source == impl_->sources.end() ? std::string{} : source->second.board, value);
+      const FarSources::Source* const source = impl_->sources.at(participant);
+      use(variable, source == nullptr ? std::string{} : source->board, value);
     });
   }
 }
 
 bool FarPlane::send(const std::string& variable, const std::string& board, std::span<const std::uint8_t> value) {
-  FarTopic* topic = impl_->topic_of(variable);
-  if (topic == nullptr) {
+  const auto topic = impl_->followed.find(variable);
+  if (topic == impl_->followed.end()) {
     return false;
   }
-  for (const auto& [participant, source] : impl_->sources) {
-    if (source.board == board) {
-      return topic->send(impl_->joined.participant.get(), participant, value);
-    }
-  }
-  return false;
+  const Guid* const participant = impl_->sources.participant_of(board);
+  return participant != nullptr && topic->second->send(impl_->joined.participant.get(), *participant, value);
 }
 
 }  // namespace indurop::mirror

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mirror/endpoint.h"
+#include "schema/ros_name.h"
 
 namespace indurop::mirror {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr std::int64_t kTypeNs = 500'000'000;  // for the answer to a question about a type
 constexpr std::int32_t kDepth = 64;            // values that may come between two looks
 constexpr std::size_t kMostSubscribers = 64;
+constexpr std::uint64_t kLargestKnown = 1U << 22U;  // what a board tells is not more than this
 
 struct EndpointDelete {
   void operator()(dds_builtintopic_endpoint_t* endpoint) const noexcept { dds_builtintopic_free_endpoint(endpoint); }
@@ -52,20 +54,36 @@ void FarTopic::close() noexcept {
   reader_.reset();
   topic_.reset();
   senders_.clear();
-  if (type_ != nullptr) {
-    (void)dds_delete_topic_descriptor(type_);
-    type_ = nullptr;
+  if (told_ != nullptr) {
+    (void)dds_delete_topic_descriptor(told_);
+    told_ = nullptr;
   }
+  known_.reset();
 }
 
 bool FarTopic::open(dds_entity_t participant, dds_builtintopic_endpoint_t& publication, rt::SignalWord& wake) {
   const dds_typeinfo_t* information = nullptr;
   if (dds_builtintopic_get_endpoint_type_info(&publication, &information) < 0 || information == nullptr ||
-      dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant, information, kTypeNs, &type_) < 0) {
-    type_ = nullptr;
+      dds_create_topic_descriptor(DDS_FIND_SCOPE_GLOBAL, participant, information, kTypeNs, &told_) < 0) {
+    told_ = nullptr;
     return false;
   }
-  topic_ = Entity(dds_create_topic(participant, type_, publication.topic_name, nullptr, nullptr));
+  return read(participant, publication, *told_, wake);
+}
+
+bool FarTopic::open_ros(dds_entity_t participant, dds_builtintopic_endpoint_t& publication,
+                        const schema::Variable& variable, rt::SignalWord& wake) {
+  if (variable.type.size() > kLargestKnown) {
+    return false;
+  }
+  known_.emplace(variable.type, schema::ros_type_name(variable));
+  return read(participant, publication, known_->descriptor(), wake);
+}
+
+bool FarTopic::read(dds_entity_t participant, const dds_builtintopic_endpoint_t& publication,
+                    const dds_topic_descriptor_t& type, rt::SignalWord& wake) {
+  size_ = type.m_size;
+  topic_ = Entity(dds_create_topic(participant, &type, publication.topic_name, nullptr, nullptr));
   const Listener listener =
       data_listener([](dds_entity_t /*reader*/, void* word) { static_cast<rt::SignalWord*>(word)->wake(); }, &wake);
   const Qos qos = reader_qos(publication);
@@ -93,12 +111,12 @@ void FarTopic::take(const std::function<void(const Guid& from, std::span<const s
       }
       sender = senders_.emplace(info.publication_handle, *participant).first;
     }
-    use(sender->second, {&sample, type_->m_size});
+    use(sender->second, {&sample, size_});
   });
 }
 
 bool FarTopic::send(dds_entity_t participant, const Guid& to, std::span<const std::uint8_t> value) {
-  if (!topic_.ok() || value.size() > type_->m_size) {
+  if (!topic_.ok() || value.size() > size_) {
     return false;
   }
   if (!writer_.ok()) {
@@ -115,7 +133,7 @@ bool FarTopic::send(dds_entity_t participant, const Guid& to, std::span<const st
   if (!listens) {
     return false;
   }
-  std::vector<std::uint64_t> sample((type_->m_size + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
+  std::vector<std::uint64_t> sample((size_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
   std::copy(value.begin(), value.end(), reinterpret_cast<std::uint8_t*>(sample.data()));
   return dds_write(writer_.get(), sample.data()) >= 0;
 }

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "mirror/entity.h"
+#include "mirror/plain_type.h"
 #include "rt/signal_word.h"
 
 namespace indurop::mirror {
@@ -33,6 +34,9 @@ class FarTopic {
   // Reads what `publication` publishes, under its own QoS. False: its type cannot be had now. `wake` is woken by
   // values.
   bool open(dds_entity_t participant, dds_builtintopic_endpoint_t& publication, rt::SignalWord& wake);
+  // The same where no type is told: the topic has that of `variable` under the name that it has in ROS 2.
+  bool open_ros(dds_entity_t participant, dds_builtintopic_endpoint_t& publication, const schema::Variable& variable,
+                rt::SignalWord& wake);
   [[nodiscard]] bool is_open() const noexcept { return reader_.ok(); }
   void close() noexcept;
 
@@ -42,7 +46,12 @@ class FarTopic {
   bool send(dds_entity_t participant, const Guid& to, std::span<const std::uint8_t> value);
 
  private:
-  dds_topic_descriptor_t* type_ = nullptr;
+  bool read(dds_entity_t participant, const dds_builtintopic_endpoint_t& publication,
+            const dds_topic_descriptor_t& type, rt::SignalWord& wake);
+
+  dds_topic_descriptor_t* told_ = nullptr;  // the type as the network tells it, or
+  std::optional<PlainType> known_;          // as a board does
+  std::size_t size_ = 0;                    // of a sample
   Entity topic_;
   Entity reader_;
   Entity writer_;

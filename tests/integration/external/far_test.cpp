@@ -65,8 +65,32 @@ TEST_F(Far, Setting_is_confirmed_by_the_board_and_only_what_the_manifest_lets) {
   EXPECT_CONTAINS(get("station::limit"), "400");
 }
 
-TEST_F(Far, Watch_goes_on_when_the_node_comes_back) {
-  Program& first = start_axis();
+// Their topics tell nothing about their types and have other names: only the board knows both.
+TEST_F(Far, Names_of_ROS_2_make_no_difference) {
+  start_axis(" ros2=\"on\"");
+  EXPECT_EQ(far({"get", "station::target"}).out, "100\n");
+  EXPECT_EQ(far({"get", "station::state.program"}).out, "\"pick and place\"\n");
+  EXPECT_EQ(far({"get", "station::state.force[1]"}).out, "9.5\n");
+  const Outcome vars = far({"vars", "-o", "json"});
+  ASSERT_EQ(vars.code, 0) << vars.err;
+  EXPECT_EQ(Json::parse(vars.out)["variables"].size(), 3U);
+  EXPECT_EQ(vars.err, "") << "no topic is left over as a stranger's";
+  EXPECT_CONTAINS(far({"typeof", "station::state"}).out, "HOLDING, MOVING, ARRIVED");
+  const Outcome hz = far({"hz", "station::state", "--once", "-o", "json"});
+  ASSERT_EQ(hz.code, 0) << hz.err;
+  EXPECT_GT(Json::parse(hz.out)["rate_hz"].get<double>(), 5);
+  const Outcome good = far({"set", "station::target", "42.5"});
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+  const Outcome closed = far({"set", "station::limit", "3"});
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_CONTAINS(closed.err, "does not let it be set from outside");
+}
+
+class FarReturn : public Far, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(FarReturn, Watch_goes_on_when_the_node_comes_back) {
+  Program& first = start_axis(GetParam());
   Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
                 environment());
   ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
@@ -74,12 +98,14 @@ TEST_F(Far, Watch_goes_on_when_the_node_comes_back) {
   ASSERT_EQ(first.wait(), 128 + SIGKILL);
   EXPECT_TRUE(watch.says("not heard: " + node()));
   const std::size_t before = lines(watch);
-  start_axis();
+  start_axis(GetParam());
   EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.err();
   EXPECT_TRUE(watch.says("all boards are heard again"));
   watch.signal(SIGINT);
   EXPECT_EQ(watch.wait(), 130);
 }
+
+INSTANTIATE_TEST_SUITE_P(Names, FarReturn, ::testing::Values("", " ros2=\"on\""));
 
 TEST_F(Far, Hz_counts_what_comes_over_the_network) {
   start_axis();
@@ -147,9 +173,36 @@ TEST_F(FarNetwork, A_machine_without_a_node_looks_and_sets) {
   Program& looks = on("b", {INDUROP_PROGRAM, "get", "station::target", "--remote"});
   EXPECT_EQ(looks.wait(), 0) << looks.err();
   EXPECT_EQ(looks.out(), "100\n");
+  Program& watch = on("b", {INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--remote"});
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
+  ASSERT_EQ(lab("unplug a"), 0);
+  EXPECT_TRUE(watch.says("not heard: " + node()));
+  ASSERT_EQ(lab("plug a"), 0);
+  EXPECT_TRUE(watch.says("all boards are heard again"));
+  const std::size_t before = lines(watch);
+  EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.err();
   Program& sets = on("b", {INDUROP_PROGRAM, "set", "station::target", "7", "--remote"});
   EXPECT_EQ(sets.wait(), 0) << sets.err();
   EXPECT_CONTAINS(get("station::target"), "7");
+}
+
+TEST_F(FarNetwork, Without_multicast_a_board_is_found_at_its_address) {
+  if (!up() || std::system("command -v iptables >/dev/null") != 0) {
+    GTEST_SKIP() << "network namespaces cannot be made here (root, iproute2 and iptables are needed)";
+  }
+  for (const char* machine : {"a", "b"}) {
+    Program& deaf = on(machine, {"iptables", "-A", "INPUT", "-d", "224.0.0.0/4", "-j", "DROP"});
+    ASSERT_EQ(deaf.wait(), 0) << deaf.err();
+  }
+  Program& axis = on("a", {NODE_PROGRAM, EXAMPLE_FOLDER "/module.xml", "--node", node()});
+  ASSERT_TRUE(wait_until_running(axis)) << axis.err();
+  ASSERT_TRUE(runs_reach("axis", 300));
+  Program& alone = on("b", {INDUROP_PROGRAM, "get", "station::target", "--remote", "--wait", "1s"});
+  EXPECT_EQ(alone.wait(), 6) << alone.out();
+  EXPECT_CONTAINS(alone.err(), "--peer");
+  Program& looks = on("b", {INDUROP_PROGRAM, "get", "station::target", "--remote", "--peer", "10.77.0.1"});
+  EXPECT_EQ(looks.wait(), 0) << looks.err();
+  EXPECT_EQ(looks.out(), "100\n");
 }
 
 }  // namespace

@@ -27,16 +27,17 @@ class Live : public NodeTest {
   static std::string domain() { return std::to_string(1 + ::getpid() % 200); }
 
   // The example's module.xml, on loopback and with a domain of its own.
-  std::string configuration(const std::string& types = EXAMPLE_FOLDER "/libstation_types.so") const {
+  std::string configuration(const std::string& types = EXAMPLE_FOLDER "/libstation_types.so",
+                            const std::string& attributes = "") const {
     return write("external.xml",
-                 "<root><external interface=\"lo\">" + domain() + "</external><types>" + types +
+                 "<root><external interface=\"lo\"" + attributes + ">" + domain() + "</external><types>" + types +
                      "</types><variable name=\"station::target\" external=\"write\"/><module><filename>" +
                      EXAMPLE_FOLDER +
                      "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
                      "</operationtype><period>1ms</period><priority>1</priority></module></root>");
   }
-  Program& start_axis() {
-    Program& program = start_file(configuration(), {"--node", node()});
+  Program& start_axis(const std::string& attributes = "") {
+    Program& program = start_file(configuration(EXAMPLE_FOLDER "/libstation_types.so", attributes), {"--node", node()});
     EXPECT_TRUE(wait_until_running(program)) << program.err();
     EXPECT_TRUE(wait_until([&] { return block() != nullptr && block()->network.load() == mirror::Network::Up; }))
         << (block() == nullptr ? "no external plane" : block()->problem.get());
@@ -122,11 +123,11 @@ class Network : public Live {
     programs_.push_back(std::make_unique<Program>(command, environment()));
     return *programs_.back();
   }
-
- private:
   int lab(const std::string& words) const {
     return std::system((std::string(LAB_PROGRAM) + " -l " + lab_ + " " + words).c_str());
   }
+
+ private:
   std::string lab_;
   bool up_ = false;
 };

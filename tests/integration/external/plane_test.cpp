@@ -22,6 +22,7 @@
 #include "mirror/external.h"
 #include "mirror/external_block.h"
 #include "mirror/external_type.h"
+#include "node_fixture.h"
 #include "program.h"
 #include "schema/elf.h"
 #include "vars/store.h"
@@ -69,6 +70,7 @@ class Plane : public ::testing::Test {
     settings.domain = domain();
     settings.one_host = true;
     settings.ros2 = ros2;
+    settings.board = node();
     for (const schema::Variable& variable : schema_.variables) {
       settings.variables.push_back(
           {variable.name, descriptor_of(variable), variable.name.find("wanted") != std::string::npos, 0});
@@ -354,6 +356,37 @@ TEST_F(Plane, Of_very_many_variables_the_topics_are_made_when_somebody_asks) {
   const dds_entity_t out = writer(kinds_wanted__desc, "kinds/wanted");
   ASSERT_TRUE(wait_until([&] { return matched(out); }));
 }
+
+class PlaneNames : public Plane, public ::testing::WithParamInterface<bool> {};
+
+TEST_P(PlaneNames, Of_very_many_variables_indurop_gets_those_it_asks_for_without_their_types) {
+  start(600, GetParam());
+  put("kinds::all", something());
+  put("kinds::more417", ::kinds::Inner{3, 0.5});
+  const auto far = [](std::vector<std::string> words) {
+    words.insert(words.begin(), INDUROP_PROGRAM);
+    words.insert(words.end(), {"--one-host", "--domain", std::to_string(domain())});
+    Program program(words, Environment{});
+    const int code = program.wait();
+    return Outcome{code, program.out(), program.err()};
+  };
+  EXPECT_EQ(far({"get", "kinds::more417.small"}).out, "3\n");
+  const Outcome all = far({"get", "kinds::all", "kinds::pair", "kinds::word", "-o", "csv"});
+  EXPECT_EQ(all.code, 0) << all.err;
+  for (const char* part :
+       {"4000000000", "-9223372036854775808", "18446744073709551615", "BLUE", "1234567", "0.25", "abc", "0.75"}) {
+    EXPECT_THAT(all.out, ::testing::HasSubstr(part));
+  }
+  const Outcome many = far({"get", "kinds::*", "-o", "csv"});
+  EXPECT_EQ(many.code, 0) << many.err;
+  EXPECT_GE(std::count(many.out.begin(), many.out.end(), '\n'), 609);
+  EXPECT_THAT(many.err, ::testing::Not(::testing::HasSubstr("no value")));
+  const Outcome set = far({"set", "kinds::wanted", "-7.5"});
+  EXPECT_EQ(set.code, 0) << set.err;
+  EXPECT_EQ(get<double>("kinds::wanted"), -7.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ros2, PlaneNames, ::testing::Bool());
 
 TEST_F(Plane, Somebody_who_wants_what_is_not_offered_is_named) {
   start();

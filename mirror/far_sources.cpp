@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/far_sources.h"
+
+#include <algorithm>
+
+#include "mirror/entity.h"
+
+namespace indurop::mirror {
+
+const schema::Variable* FarSources::Source::find(const std::string& variable) const {
+  const auto found = std::find_if(schema.variables.begin(), schema.variables.end(),
+                                  [&](const schema::Variable& one) { return one.name == variable; });
+  return found == schema.variables.end() ? nullptr : &*found;
+}
+
+void FarSources::take(dds_entity_t directories) {
+  take_all<indurop_wire_Directory>(directories, [&](const auto& told, const dds_sample_info_t& info) {
+    if (info.valid_data) {
+      take_one(directories, told, info);
+    }
+    // Nobody of this name is left; who is only killed is missed after the lease.
+    if (info.instance_state != DDS_IST_ALIVE) {
+      const std::string board = told.board;
+      std::erase_if(sources_, [&](const auto& entry) { return entry.second.board == board; });
+    }
+  });
+}
+
+void FarSources::take_one(dds_entity_t directories, const indurop_wire_Directory& told, const dds_sample_info_t& info) {
+  const auto participant = mirror::participant_of(directories, info.publication_handle);
+  auto schema = schema::from_json(told.schema);
+  if (!participant || !schema) {
+    return;
+  }
+  Source source{told.board, told.plant, std::move(schema).value(), {}, told.session};
+  source.writable.insert(told.writable._buffer, told.writable._buffer + told.writable._length);
+  boards_[source.board] = source.plant;
+  for (std::uint32_t i = 0; i < told.boards._length; ++i) {
+    boards_[told.boards._buffer[i]] = source.plant;
+  }
+  // An earlier run of the same board that ended without a word.
+  std::erase_if(sources_, [&](const auto& entry) {
+    return entry.first != *participant && entry.second.board == source.board && entry.second.plant == source.plant &&
+           entry.second.session < source.session;
+  });
+  sources_[*participant] = std::move(source);
+  ++generation_;
+}
+
+const FarSources::Source* FarSources::at(const Guid& participant) const {
+  const auto found = sources_.find(participant);
+  return found == sources_.end() ? nullptr : &found->second;
+}
+
+const Guid* FarSources::participant_of(const std::string& board) const {
+  const auto found =
+      std::find_if(sources_.begin(), sources_.end(), [&](const auto& entry) { return entry.second.board == board; });
+  return found == sources_.end() ? nullptr : &found->first;
+}
+
+const FarSources::Source* FarSources::of(const std::string& board) const {
+  const Guid* const participant = participant_of(board);
+  return participant == nullptr ? nullptr : at(*participant);
+}
+
+}  // namespace indurop::mirror
