@@ -10,7 +10,7 @@ namespace indurop::deploy {
 
 class BlobFetch {
  public:
-  static constexpr std::uint64_t kWindow = 2U << 20U;  // bytes under way at most
+  static constexpr std::uint64_t kWindow = 2U << 20U;
   static constexpr std::int64_t kPatienceNs = 500'000'000;
 
   struct Range {
@@ -19,8 +19,9 @@ class BlobFetch {
     bool restart = false;  // what was asked before is void
   };
 
-  // The first `have` of `size` bytes are there already.
-  BlobFetch(std::uint64_t size, std::uint64_t have) : size_(size), have_(have), asked_(have) {}
+  // The first `have` of `size` bytes are there already; at most `window` are under way.
+  BlobFetch(std::uint64_t size, std::uint64_t have, std::uint64_t window = kWindow)
+      : size_(size), have_(have), window_(window), asked_(have) {}
 
   // What to ask for now, if anything.
   std::optional<Range> ask(std::int64_t now_ns) {
@@ -30,12 +31,12 @@ class BlobFetch {
     const bool restart = !begun_ || now_ns - moved_ns_ > kPatienceNs;
     if (restart) {
       asked_ = have_;
-    } else if (asked_ == size_ || asked_ - have_ > kWindow / 2) {
+    } else if (asked_ == size_ || asked_ - have_ > window_ / 2) {
       return std::nullopt;
     }
     begun_ = true;
     moved_ns_ = now_ns;
-    const std::uint64_t until = size_ - have_ > kWindow ? have_ + kWindow : size_;
+    const std::uint64_t until = size_ - have_ > window_ ? have_ + window_ : size_;
     const Range range{asked_, until - asked_, restart};
     asked_ = until;
     return range;
@@ -57,6 +58,7 @@ class BlobFetch {
  private:
   std::uint64_t size_;
   std::uint64_t have_;
+  std::uint64_t window_;
   std::uint64_t asked_;
   bool begun_ = false;
   std::int64_t moved_ns_ = 0;

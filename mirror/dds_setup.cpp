@@ -78,9 +78,10 @@ std::string domain_configuration(const Settings& settings, const std::string& in
          // A lost last value is repaired within milliseconds, not 100.
          "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
          "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>" +
-         // Files: keep sending while the first pieces are being acknowledged.
+         // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
          (settings.known_ports
-              ? "<Watermarks><WhcHigh>4 MB</WhcHigh><WhcLow>1 MB</WhcLow><WhcHighInit>2 MB</WhcHighInit></Watermarks>"
+              ? "<SocketReceiveBufferSize max=\"4 MB\"/>"
+                "<Watermarks><WhcHigh>16 MB</WhcHigh><WhcLow>8 MB</WhcLow><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
               : "") +
          "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
 }

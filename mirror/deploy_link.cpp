@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <random>
@@ -12,6 +13,7 @@
 #include "mirror/dds_setup.h"
 #include "mirror/other_releases.h"
 #include "rt/clock.h"
+#include "rt/machine.h"
 #include "rt/signal_word.h"
 #include "schema/topic_name.h"
 
@@ -21,6 +23,7 @@ namespace {
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
 constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
+constexpr std::size_t kMostRoom = 2U << 20U;
 
 std::string topic_name(const std::string& what) {
   return schema::deploy_topics() + what;
@@ -208,7 +211,8 @@ std::unique_ptr<DeployLink> DeployLink::open(const LinkSettings& settings, std::
   return std::unique_ptr<DeployLink>(new DeployLink(std::move(impl)));
 }
 
-DeployLink::DeployLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+DeployLink::DeployLink(std::unique_ptr<Impl> impl)
+    : impl_(std::move(impl)), room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMostRoom)) {}
 DeployLink::~DeployLink() = default;
 
 void DeployLink::publish(const deploy::BoardReport& report) {

@@ -68,6 +68,8 @@ class DeployLink {
   std::vector<OrderNews> take_orders();
   std::vector<deploy::BlobRequest> take_requests();  // to this session
   std::vector<deploy::BlobChunk> take_chunks();
+  // Bytes of files that may be on their way to here, so that what comes at once finds room and is not lost.
+  [[nodiscard]] std::uint64_t room() const noexcept { return room_; }
 
   // Agents in the network whose protocol is another one, as far as they are known by now.
   std::vector<deploy::OtherAgent> other_agents();
@@ -83,6 +85,7 @@ class DeployLink {
   struct Impl;
   explicit DeployLink(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
+  std::uint64_t room_;
 };
 
 }  // namespace indurop::mirror

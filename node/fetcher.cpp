@@ -126,7 +126,7 @@ bool Fetcher::open_part(const Wanted& wanted) {
     }
   }
   (void)::lseek(part_, static_cast<off_t>(have), SEEK_SET);
-  blob_.emplace(wanted.size, have);
+  blob_.emplace(wanted.size, have, room_);
   return true;
 }
 
@@ -203,6 +203,7 @@ bool Fetcher::open_next() {
 }
 
 Fetcher::Result Fetcher::step(mirror::DeployLink& link, std::int64_t now_ns) {
+  room_ = link.room();
   bool ok = problem_.empty() && open_next();
   if (ok) {
     for (const deploy::BlobChunk& chunk : link.take_chunks()) {

@@ -63,6 +63,7 @@ class Fetcher {
   bool again_ = false;    // the part was damaged once already
   std::vector<Wanted> wanted_;
   std::size_t at_ = 0;
+  std::uint64_t room_ = 0;  // for what is under way
   int part_ = -1;
   std::optional<deploy::BlobFetch> blob_;
   std::optional<deploy::Digest> digest_;

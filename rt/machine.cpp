@@ -150,6 +150,10 @@ bool kernel_is_preempt_rt() noexcept {
   return ::uname(&name) == 0 && std::strstr(name.version, "PREEMPT_RT") != nullptr;
 }
 
+std::size_t largest_receive_buffer() noexcept {
+  return static_cast<std::size_t>(std::max(0L, read_number("/proc/sys/net/core/rmem_max", 0)));
+}
+
 int throttle_permille() noexcept {
   constexpr long kDefaultPeriodUs = 1'000'000;
   const long runtime = read_number("/proc/sys/kernel/sched_rt_runtime_us", -1);

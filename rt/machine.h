@@ -41,6 +41,8 @@ struct ClockSync {
   std::int64_t max_error_ns = 0;
 };
 ClockSync clock_sync() noexcept;
+// Bytes that wait in a socket at most (net.core.rmem_max); 0 if unknown.
+std::size_t largest_receive_buffer() noexcept;
 // Share of a core the kernel leaves to real-time threads, in 1/1000; 1000 if unlimited or unknown.
 int throttle_permille() noexcept;
 

@@ -38,6 +38,16 @@ TEST(BlobFetch, The_window_moves_on_when_half_of_it_has_come) {
   EXPECT_FALSE(more->restart);
 }
 
+TEST(BlobFetch, No_more_is_under_way_than_there_is_room_for) {
+  BlobFetch sut(1000, 0, 100);
+  EXPECT_EQ(sut.ask(0)->length, 100U);
+  ASSERT_TRUE(sut.take(0, 60, 0));
+  const auto more = sut.ask(0);
+  ASSERT_TRUE(more);
+  EXPECT_EQ(more->offset, 100U);
+  EXPECT_EQ(more->length, 60U);
+}
+
 TEST(BlobFetch, What_is_there_already_is_not_asked_for) {
   BlobFetch sut(100, 30);
   EXPECT_EQ(sut.ask(0)->offset, 30U);
