@@ -204,7 +204,8 @@ void FarPlane::Impl::make_topic(const std::string& variable, FarTopic& topic, co
   const auto [ros_first, ros_last] = topics.equal_range(schema::ros_topic(variable));
   for (auto there = ros_first; there != ros_last && !topic.is_open(); ++there) {
     const FarSources::Source* const board = sources.at(there->second->participant);
-    if (const schema::Variable* known = board != nullptr ? board->find(variable) : nullptr; known != nullptr) {
+    if (const schema::Variable* known = board == nullptr ? nullptr : schema::find_variable(board->schema, variable);
+        known != nullptr) {
       (void)with(*there->second, [&](auto& told) { (void)topic.open_ros(participant, told, *known, wake); });
     }
   }

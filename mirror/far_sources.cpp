@@ -7,12 +7,6 @@
 
 namespace indurop::mirror {
 
-const schema::Variable* FarSources::Source::find(const std::string& variable) const {
-  const auto found = std::find_if(schema.variables.begin(), schema.variables.end(),
-                                  [&](const schema::Variable& one) { return one.name == variable; });
-  return found == schema.variables.end() ? nullptr : &*found;
-}
-
 void FarSources::take(dds_entity_t directories) {
   take_all<indurop_wire_Directory>(directories, [&](const auto& told, const dds_sample_info_t& info) {
     if (info.valid_data) {

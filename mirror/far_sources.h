@@ -26,7 +26,6 @@ class FarSources {
     schema::Schema schema;
     std::set<std::string> writable;
     std::uint64_t session = 0;
-    [[nodiscard]] const schema::Variable* find(const std::string& variable) const;  // null: it does not have it
   };
 
   // Takes what this reader of directories has got.

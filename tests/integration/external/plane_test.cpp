@@ -18,11 +18,11 @@
 
 #include "kinds.h"
 #include "kinds_msgs.h"
+#include "live.h"
 #include "mirror/entity.h"
 #include "mirror/external.h"
 #include "mirror/external_block.h"
 #include "mirror/external_type.h"
-#include "node_fixture.h"
 #include "program.h"
 #include "schema/elf.h"
 #include "vars/store.h"
@@ -40,7 +40,7 @@ schema::Schema own_schema() {
 
 class Plane : public ::testing::Test {
  protected:
-  Plane() : schema_(own_schema()) {}
+  Plane() : schema_(own_schema()) { leave_the_network(); }
   ~Plane() override {
     if (participant_ > 0) {
       dds_delete(participant_);
