@@ -106,6 +106,7 @@ std::vector<OtherReleases::Speaker> OtherReleases::speakers() const {
     }
   }
   std::vector<Speaker> list;
+  list.reserve(all.size());
   for (auto& [key, speaker] : all) {
     list.push_back(std::move(speaker));
   }

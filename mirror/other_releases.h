@@ -38,7 +38,7 @@ class OtherReleases {
     std::string name;
   };
   struct Publication {
-    Guid participant;
+    Guid participant{};
     schema::TopicSpeaker topic;
   };
   bool take_participants();
