@@ -97,11 +97,13 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds_entity_t p
       sizes.push_back(inbox.size);
     }
     staging_.reset(sizes);
+    for (Port& port : ports_) {
+      port.newest_update = 0;
+    }
   }
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
     const auto stream = static_cast<Stream>(i);
-    ports_[i].newest_update = 0;
     ports_[i].reader = make_reader(participant, indurop_wire_Frame_desc, frames_topic(settings.plant, board_, stream),
                                    plane_qos(settings, stream), data_listener(&Receiver::on_data, &ports_[i]));
     if (!ports_[i].reader.ok()) {
