@@ -19,6 +19,8 @@ namespace {
 constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::int64_t kQuietNs = 200'000'000;  // nothing new for so long: that was all
 constexpr std::int64_t kSetNs = 3'000'000'000;
+constexpr std::int64_t kRepeatNs = 300'000'000;
+constexpr int kMostRepeats = 4;
 constexpr std::chrono::milliseconds kPoll{20};
 
 std::vector<std::string> silent(const std::vector<mirror::FarBoard>& boards) {
@@ -122,8 +124,12 @@ void FarValues::update() {
       plane_->follow(variable, known->second.owner);
     }
   }
-  if (order_ && !order_->sent) {
-    order_->sent = plane_->send(order_->variable, variables_.at(order_->variable).owner, order_->value);
+  // The board may come to know this writer after the writer knew the board: what was sent between is lost.
+  if (order_ && order_->repeats < kMostRepeats && order_->answer != order_->value && rt::now_ns() >= order_->next_ns &&
+      plane_->send(order_->variable, variables_.at(order_->variable).owner, order_->value)) {
+    order_->sent = true;
+    order_->next_ns = rt::now_ns() + kRepeatNs;
+    ++order_->repeats;
   }
   plane_->take([this](const std::string& variable, const std::string& board, std::span<const std::uint8_t> value) {
     value_came(variable, board, value);
@@ -256,7 +262,9 @@ std::string FarValues::set(const std::string& variable, std::span<const std::uin
                ? "the program that shows it is no board of InduRoP"
                : "its board does not let it be set from outside: external=\"write\" in the manifest";
   }
-  order_ = Order{variable, {value.begin(), value.end()}, false, false, {}};
+  order_.emplace();
+  order_->variable = variable;
+  order_->value.assign(value.begin(), value.end());
   const std::int64_t end = rt::now_ns() + kSetNs;
   const auto taken = [&] { return order_->shown && order_->answer == order_->value; };
   while (!taken() && !interrupted() && rt::now_ns() < end) {

@@ -58,7 +58,9 @@ class FarValues {
     std::string variable;
     std::vector<std::uint8_t> value;
     bool sent = false;
-    bool shown = false;  // the board has said something since
+    int repeats = 0;
+    std::int64_t next_ns = 0;  // to be sent then
+    bool shown = false;        // the board has said something since
     std::vector<std::uint8_t> answer;
   };
   FarValues(std::unique_ptr<mirror::FarPlane> plane, std::int64_t wait_ns)

@@ -24,6 +24,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kPatience = 20s;
 constexpr auto kUnderWay = 2s;  // a value from before may still come
+constexpr auto kAgain = 200ms;
 
 template <class Condition>
 bool wait_until(Condition condition) {
@@ -48,7 +49,7 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
   qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
   auto* const reader = participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic, qos);
 
-  // A value written before the axis listens would be lost.
+  // A value written before the axis listens is lost.
   fast::PublicationMatchedStatus listeners;
   const bool heard = wait_until([&] {
     writer->get_publication_matched_status(listeners);
@@ -61,13 +62,18 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
     return 1;
   }
   station::target_ value;
-  value.value(wanted);
-  writer->write(&value);
   const auto own = writer->get_instance_handle();
-  const auto written = std::chrono::steady_clock::now();
+  const auto began = std::chrono::steady_clock::now();
+  auto next = began;
   bool told = false;
   double now = -1;
   (void)wait_until([&] {
+    // We may know the axis before it knows us, so what it does not show is said again.
+    if (const auto time = std::chrono::steady_clock::now(); time >= next) {
+      value.value(wanted);
+      writer->write(&value);
+      next = time + kAgain;
+    }
     fast::SampleInfo info;
     while (reader->take_next_sample(&value, &info) == ReturnCode_t::RETCODE_OK) {
       if (info.valid_data && info.publication_handle != own) {
@@ -75,7 +81,7 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
         now = value.value();
       }
     }
-    return told && (now == wanted || std::chrono::steady_clock::now() - written > kUnderWay);
+    return told && (now == wanted || std::chrono::steady_clock::now() - began > kUnderWay);
   });
   if (!told) {
     std::fprintf(stderr, "the axis does not say what its target is now\n");
