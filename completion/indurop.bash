@@ -16,7 +16,7 @@ _indurop_xml() { COMPREPLY=($(compgen -f -X '!*.xml' -- "$cur") $(compgen -d -- 
 
 _indurop() {
   local cur prev verb word
-  local verbs="new check plan plc keys doctor run stop start restart reset clean status nodes ps vars get set watch chart hz typeof jitter overruns log deploy rollback history boards help"
+  local verbs="new check plan plc keys doctor run stop start restart reset clean status nodes ps vars get set force unforce forces watch chart hz typeof jitter overruns log deploy rollback history boards help"
   if declare -F _get_comp_words_by_ref >/dev/null; then
     _get_comp_words_by_ref -n : cur prev
   else
@@ -55,7 +55,7 @@ _indurop() {
       esac ;;
     keys)
       if [[ $prev == init ]]; then _indurop_xml; else _indurop_words "init add list renew revoke"; fi ;;
-    get | set | watch | vars | hz | typeof) _indurop_variables ;;
+    get | set | force | unforce | watch | vars | hz | typeof) _indurop_variables ;;
     chart) mapfile -t COMPREPLY < <(compgen -f -X '!*.csv' -- "$cur") ;;
     jitter | overruns | log | stop | start | restart) _indurop_modules ;;
     help) _indurop_words "$verbs" ;;

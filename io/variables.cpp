@@ -25,7 +25,7 @@ template <class T>
 void store_scalar(void* entry, std::uint64_t bits) noexcept {
   T value{};
   std::memcpy(&value, &bits, sizeof value);
-  __atomic_store_n(static_cast<T*>(entry), value, __ATOMIC_RELEASE);
+  detail::scalar_write(entry, value);
 }
 
 std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {

@@ -481,6 +481,7 @@ void Node::supervise() {
       break;
     }
     orders_->look(now);
+    forces_.look(*store_, console_);
     console_.report(now, false);
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {

@@ -18,6 +18,7 @@
 #include "node/console.h"
 #include "node/external_part.h"
 #include "node/failsafe.h"
+#include "node/force_watch.h"
 #include "node/module_library.h"
 #include "node/module_orders.h"
 #include "node/normal_threads.h"
@@ -82,6 +83,7 @@ class Node {
   int core_ = 0;
   scheduler::RunBlockSetup setup_;
   std::optional<vars::Store> store_;
+  ForceWatch forces_;
   std::optional<vars::RunFile> run_file_;
   scheduler::RunBlock* run_ = nullptr;
   bool previous_run_ended_well_ = false;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "runtime/process.h"
+#include "vars/forces.h"
 #include "vars/ring.h"
 #include "vars/together.h"
 
@@ -47,6 +48,10 @@ void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept {
 }
 void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept {
   indurop::vars::abort(*ring);
+}
+
+bool indurop_hold_scalar(void* entry) noexcept {
+  return indurop::vars::hold_scalar(entry);
 }
 
 void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,

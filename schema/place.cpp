@@ -316,6 +316,27 @@ Result<Place> find_place(const Schema& schema, std::string_view text, std::strin
   return Error{failure.code, 0, kWhere};
 }
 
+std::string name_at(const Variable& variable, std::uint32_t offset) {
+  std::string name = variable.name;
+  for (const Type* type = &variable.type;;) {
+    std::uint64_t stride = type->size();
+    for (const std::uint32_t dim : type->dims) {
+      stride /= dim;
+      name += fmt::format("[{}]", offset / stride);
+      offset = static_cast<std::uint32_t>(offset % stride);
+    }
+    const auto field = std::find_if(type->fields.begin(), type->fields.end(), [offset](const Field& f) {
+      return offset >= f.offset && offset - f.offset < f.type.size();
+    });
+    if (type->base != Base::Struct || field == type->fields.end()) {
+      return name;
+    }
+    name += "." + field->name;
+    offset -= field->offset;
+    type = &field->type;
+  }
+}
+
 const Variable* find_variable(const Schema& schema, std::string_view name) noexcept {
   const auto found = std::find_if(schema.variables.begin(), schema.variables.end(),
                                   [name](const Variable& v) { return v.name == name; });

@@ -5,6 +5,7 @@
 #include "deploy/reader.h"
 #include "rt/clock.h"
 #include "tools/external_view.h"
+#include "tools/force_view.h"
 #include "tools/interrupt.h"
 #include "tools/mirror_view.h"
 #include "tools/node_choice.h"
@@ -113,9 +114,14 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
   const NodeReport report = report_of(node, run);
   const auto mirror = view_mirror(node);
   const auto external = view_external(node);
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  const auto forces = store ? view_forces(*store) : std::vector<ForceView>();
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
+    }
+    if (!forces.empty()) {
+      context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
     }
     if (mirror) {
       for (const std::string& line : mirror_lines(*mirror, context.out)) {
@@ -131,6 +137,7 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
   }
   JsonValue head = json_of(report);
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
+  head["forces"] = json_of(forces);
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), std::move(head), "modules");
   return report.alive ? kOk : kUnreachable;

@@ -7,11 +7,11 @@ namespace indurop::tools {
 
 std::span<const Verb> all_verbs() {
   // In the order `indurop help` shows them.
-  static const std::array kVerbs{kNewVerb,    kCheckVerb,    kPlanVerb,    kPlcVerb,     kKeysVerb,     kDoctorVerb,
-                                 kRunVerb,    kStopVerb,     kStartVerb,   kRestartVerb, kResetVerb,    kCleanVerb,
-                                 kStatusVerb, kNodesVerb,    kVarsVerb,    kGetVerb,     kSetVerb,      kWatchVerb,
-                                 kChartVerb,  kHzVerb,       kTypeofVerb,  kJitterVerb,  kOverrunsVerb, kLogVerb,
-                                 kDeployVerb, kRollbackVerb, kHistoryVerb, kBoardsVerb};
+  static const std::array kVerbs{
+      kNewVerb,    kCheckVerb,    kPlanVerb,    kPlcVerb,    kKeysVerb,     kDoctorVerb,  kRunVerb,   kStopVerb,
+      kStartVerb,  kRestartVerb,  kResetVerb,   kCleanVerb,  kStatusVerb,   kNodesVerb,   kVarsVerb,  kGetVerb,
+      kSetVerb,    kForceVerb,    kUnforceVerb, kForcesVerb, kWatchVerb,    kChartVerb,   kHzVerb,    kTypeofVerb,
+      kJitterVerb, kOverrunsVerb, kLogVerb,     kDeployVerb, kRollbackVerb, kHistoryVerb, kBoardsVerb};
   return kVerbs;
 }
 

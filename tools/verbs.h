@@ -13,6 +13,8 @@ extern const Verb kCheckVerb;
 extern const Verb kCleanVerb;
 extern const Verb kDeployVerb;
 extern const Verb kDoctorVerb;
+extern const Verb kForceVerb;
+extern const Verb kForcesVerb;
 extern const Verb kGetVerb;
 extern const Verb kHistoryVerb;
 extern const Verb kHzVerb;
@@ -33,6 +35,7 @@ extern const Verb kStartVerb;
 extern const Verb kStatusVerb;
 extern const Verb kStopVerb;
 extern const Verb kTypeofVerb;
+extern const Verb kUnforceVerb;
 extern const Verb kVarsVerb;
 extern const Verb kWatchVerb;
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "vars/call_layout.h"
+#include "vars/forces.h"
 #include "vars/ring.h"
 
 namespace indurop::vars {
@@ -226,7 +227,7 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
       return no_locks;
     }
   }
-  if (!init_call_area(memory, plan.functions_offset, plan.schema)) {
+  if (!init_forces(header->forces) || !init_call_area(memory, plan.functions_offset, plan.schema)) {
     return no_locks;
   }
   return {};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
+#include <pthread.h>
 
 #include <atomic>
 #include <cstdint>
@@ -16,6 +17,20 @@ inline constexpr std::uint64_t kMagic = 0x31504f5255444e49ULL;  // "INDUROP1"
 inline constexpr std::size_t kMaxNodeName = 48;
 
 enum class BlockState : std::uint32_t { Building = 0, Ready = 1, Retired = 2 };
+
+// A part of a variable whose writers are ignored, see vars/forces.h.
+struct ForceSlot {
+  std::atomic<std::uint64_t> version;  // odd while it is filled
+  std::atomic<std::int64_t> entry;     // bytes from here to the variable's entry, 0: free
+  std::atomic<std::uint64_t> where;    // offset of the part << 32 | its size
+  std::atomic<std::uint64_t> value;    // first bytes of it
+  std::atomic<std::int64_t> until_ns;  // CLOCK_MONOTONIC, INT64_MAX: until it is let go
+};
+inline constexpr std::size_t kMostForces = 64;
+struct ForceTable {
+  pthread_mutex_t lock;  // robust, priority inheriting, process shared; for those who change the table
+  ForceSlot slots[kMostForces];
+};
 
 struct BlockHeader {
   std::atomic<std::uint64_t> magic;  // stored last, when the block is complete
@@ -36,6 +51,7 @@ struct BlockHeader {
   std::uint64_t
       functions_offset;  // area of vars/call_layout.h: call_area_size(schema) bytes, init_call_area() fills it
   char node_name[kMaxNodeName];
+  ForceTable forces;
 };
 
 struct DirectoryEntry {

@@ -10,6 +10,7 @@
 #include <array>
 
 #include "rt/shared_mutex.h"
+#include "vars/forces.h"
 
 namespace indurop::vars {
 
@@ -152,6 +153,9 @@ void* begin_edit(RingHeader& ring) noexcept {
 }
 
 void commit(RingHeader& ring) noexcept {
+  if (ring.forces_offset.load(std::memory_order_relaxed) != 0) [[unlikely]] {
+    hold_parts(ring, detail::slot(&ring, ring.seq.load(std::memory_order_relaxed) + 1, ring.slot_stride));
+  }
   ring.seq.store(ring.seq.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   rt::unlock(ring.lock);
 }

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "vars/forces.h"
+
 namespace indurop::vars {
 
 namespace {
@@ -16,6 +18,9 @@ void read_as(const std::byte* entry, std::uint32_t offset, std::span<std::uint8_
 
 template <class Word>
 void write_as(std::byte* entry, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
+  if (hold_scalar(entry)) {
+    return;
+  }
   auto* target = reinterpret_cast<Word*>(entry);
   Word old = __atomic_load_n(target, __ATOMIC_RELAXED);
   Word wanted = old;
@@ -23,6 +28,7 @@ void write_as(std::byte* entry, std::uint32_t offset, std::span<const std::uint8
     wanted = old;
     std::memcpy(reinterpret_cast<std::uint8_t*>(&wanted) + offset, from.data(), from.size());
   } while (!__atomic_compare_exchange_n(target, &old, wanted, true, __ATOMIC_ACQ_REL, __ATOMIC_RELAXED));
+  hold_scalar(entry);  // forced in between
 }
 
 }  // namespace

@@ -162,6 +162,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
       own_everything(*previous);
+      let_all_go(old, previous->index->directory);
       sign_in(old, generation);
       old.state.store(BlockState::Ready, std::memory_order_release);
       return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));
@@ -302,6 +303,36 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
   detail::copy_to_shared(slot + offset, from.data(), from.size());
   commit(ring);
   return {};
+}
+
+Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
+                    std::int64_t until_ns) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "force through a read-only view"};
+  }
+  Force what{&variable, offset, static_cast<std::uint32_t>(value.size()), 0, until_ns};
+  if (!impl_->contains(variable, offset, value.size()) || value.size() > sizeof what.value) {
+    return Error{Errc::OutOfRange, 0, "part of a variable to force"};
+  }
+  std::memcpy(&what.value, value.data(), value.size());
+  return vars::force(impl_->header(), what);
+}
+
+Status Store::let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "let go through a read-only view"};
+  }
+  return vars::let_go(impl_->header(), variable, offset);
+}
+
+void Store::let_overdue_go() noexcept {
+  if (impl_->file.mode() == Mode::ReadWrite) {
+    vars::let_overdue_go(impl_->header(), impl_->index.directory);
+  }
+}
+
+std::vector<Force> Store::forces() const {
+  return forces_of(impl_->header(), impl_->index.directory, rt::now_ns());
 }
 
 void Store::release_locks_of_this_thread() noexcept {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "schema/schema.h"
+#include "vars/forces.h"
 #include "vars/layout.h"
 #include "vars/shm_file.h"
 
@@ -66,6 +67,17 @@ class Store {
   // One commit, of the whole value or a part of it.
   // Errors: OutOfRange, Busy (lock not free in 5 ms: its holder is stopped), PermissionDenied (read-only).
   Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
+
+  // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until `until_ns` (CLOCK_MONOTONIC, kForever), whoever
+  // writes it; create() ends all forces. Not real-time safe.
+  // Errors: OutOfRange, InvalidArgument (size), NoSpace (kMostForces are held), Busy, PermissionDenied (read-only).
+  Status force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
+               std::int64_t until_ns) noexcept;
+  // Errors: NotFound (it is not forced), Busy, PermissionDenied (read-only).
+  Status let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept;
+  // Those whose time is over hold nothing, but cost their writers a look.
+  void let_overdue_go() noexcept;
+  [[nodiscard]] std::vector<Force> forces() const;
 
   // Frees writer locks that the calling thread holds, dropping unpublished versions: for a thread that was thrown
   // out of a module by a fault. Real-time safe. A thread that ends frees its locks too, so it may as well be ended.

@@ -73,8 +73,7 @@ template <class Tag, class T>
 INDUROP_ALWAYS_INLINE void store(std::uint32_t offset, const T& value) noexcept {
   record_access<Tag, kWrite>();
   if constexpr (Tag::kKind == abi::Kind::Scalar) {
-    T copy = value;
-    __atomic_store(static_cast<T*>(Tag::ref().entry), &copy, __ATOMIC_RELEASE);
+    scalar_write<T>(Tag::ref().entry, value);
   } else {
     ring_write(ring_of<Tag>(), offset, value);
   }
@@ -84,14 +83,7 @@ template <class Tag, class T, class Change>
 INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
   record_access<Tag, kRead | kWrite>();
   if constexpr (Tag::kKind == abi::Kind::Scalar) {
-    T* target = static_cast<T*>(Tag::ref().entry);
-    T old;
-    __atomic_load(target, &old, __ATOMIC_ACQUIRE);
-    T wanted = change(old);
-    while (!__atomic_compare_exchange(target, &old, &wanted, true, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
-      wanted = change(old);
-    }
-    return wanted;
+    return scalar_modify<T>(Tag::ref().entry, change);
   } else {
     return ring_modify<T, Tag::kSize>(ring_of<Tag>(), offset, change);
   }

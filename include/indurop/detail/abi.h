@@ -13,7 +13,7 @@
 
 namespace indurop::abi {
 
-inline constexpr std::uint32_t kVersion = 2;
+inline constexpr std::uint32_t kVersion = 3;
 
 enum class Kind : std::uint32_t {
   Scalar = 0,  // one value of 1, 2, 4 or 8 bytes, an atomic at the entry's first byte
@@ -42,9 +42,11 @@ struct RingHeader {
   std::atomic<std::int64_t> confirmed_ns;   // see confirmed_of()
   std::atomic<std::int64_t> update_offset;  // see update_offset_of()
   std::atomic<std::uint64_t> update_word;   // see update_word_of()
+  std::atomic<std::int64_t> forces_offset;  // see forces_offset_of()
+  std::uint64_t reserved[7];
 };
 static_assert(sizeof(pthread_mutex_t) <= 40, "store layout assumes glibc's 64-bit mutex or smaller");
-static_assert(sizeof(RingHeader) == 128 && std::is_standard_layout_v<RingHeader>);
+static_assert(sizeof(RingHeader) == 192 && std::is_standard_layout_v<RingHeader>);
 
 constexpr std::size_t slot_stride(std::size_t value_size) noexcept {
   return (value_size + kAlign - 1) / kAlign * kAlign;
@@ -82,6 +84,15 @@ inline std::atomic<std::uint64_t>& update_word_of(void* entry, Kind kind) noexce
     return static_cast<RingHeader*>(entry)->update_word;
   }
   return static_cast<std::atomic<std::uint64_t>*>(entry)[3];
+}
+
+// Bytes from the entry to the store's table of forces if a part of this variable may be in it; 0: none is. What is
+// written to a forced part is dropped.
+inline std::atomic<std::int64_t>& forces_offset_of(void* entry, Kind kind) noexcept {
+  if (kind == Kind::Ring) {
+    return static_cast<RingHeader*>(entry)->forces_offset;
+  }
+  return static_cast<std::atomic<std::int64_t>*>(entry)[4];
 }
 
 // One variable of several that are read together.
@@ -132,6 +143,9 @@ void* indurop_begin_write(indurop::abi::RingHeader* ring, std::uint32_t offset, 
 void* indurop_begin_edit(indurop::abi::RingHeader* ring) noexcept;
 void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept;
 void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept;
+
+// For a scalar that may be forced: true if it is, and then it has the forced value. Real-time safe.
+bool indurop_hold_scalar(void* entry) noexcept;
 
 // Copies part of the current version when the lock-free way failed 16 times. Real-time safe.
 void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,

@@ -51,6 +51,42 @@ INDUROP_ALWAYS_INLINE void copy_to_shared(void* to, const void* from, std::size_
 #endif
 }
 
+INDUROP_ALWAYS_INLINE bool is_forced(void* scalar) noexcept {
+  const auto& offset = abi::forces_offset_of(scalar, abi::Kind::Scalar);
+  return offset.load(std::memory_order_relaxed) != 0 && indurop_hold_scalar(scalar);
+}
+
+// Looks before, so that a forced value is not even briefly another one, and after, because it may have been forced in
+// between: who forces it makes sure that this second look sees it (vars/forces.cpp), so no barrier is needed here.
+template <class T>
+INDUROP_ALWAYS_INLINE void scalar_write(void* entry, T value) noexcept {
+  if (is_forced(entry)) [[unlikely]] {
+    return;
+  }
+  __atomic_store(static_cast<T*>(entry), &value, __ATOMIC_RELEASE);
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+  static_cast<void>(is_forced(entry));
+}
+
+// The new value, or the forced one. `change` may be called more than once.
+template <class T, class Change>
+INDUROP_ALWAYS_INLINE T scalar_modify(void* entry, Change change) noexcept {
+  T* target = static_cast<T*>(entry);
+  T old;
+  __atomic_load(target, &old, __ATOMIC_ACQUIRE);
+  if (is_forced(entry)) [[unlikely]] {
+    __atomic_load(target, &old, __ATOMIC_ACQUIRE);
+    return old;
+  }
+  T wanted = change(old);
+  while (!__atomic_compare_exchange(target, &old, &wanted, true, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
+    wanted = change(old);
+  }
+  std::atomic_signal_fence(std::memory_order_seq_cst);
+  static_cast<void>(is_forced(entry));
+  return wanted;
+}
+
 INDUROP_ALWAYS_INLINE unsigned char* slot(abi::RingHeader* ring, std::uint64_t seq, std::size_t stride) noexcept {
   return reinterpret_cast<unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
 }

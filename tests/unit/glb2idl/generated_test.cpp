@@ -79,6 +79,9 @@ void indurop_commit_write(RingHeader* ring) noexcept {
   ring->seq.fetch_add(1);
 }
 void indurop_abort_write(RingHeader* /*ring*/) noexcept {}
+bool indurop_hold_scalar(void* /*entry*/) noexcept {
+  return false;
+}
 void indurop_read_slow(const RingHeader* /*ring*/, void* /*to*/, std::uint32_t /*offset*/,
                        std::uint32_t /*length*/) noexcept {}
 void indurop_index_fault(const char* variable, std::uint64_t /*index*/, std::uint64_t /*bound*/) {

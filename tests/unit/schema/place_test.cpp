@@ -141,5 +141,15 @@ TEST_F(Place_of_a_name, Empty_schema_has_nothing) {
   EXPECT_FALSE(find_place({}, "joints", message).ok());
 }
 
+TEST_F(Place_of_a_name, And_the_name_of_a_place) {
+  for (const char* name : {"knu::Robot::tick", "knu::Robot::joints[9].y", "plant::grid[1][2]", "tool.n",
+                           "tool.poses[3].p.at[2]", "tool.poses[1].p.label"}) {
+    std::string message;
+    const auto place = find_place(schema_, std::string("::") + name, message);
+    ASSERT_TRUE(place.ok()) << message;
+    EXPECT_EQ(name_at(*place->variable, place->offset), name);
+  }
+}
+
 }  // namespace
 }  // namespace indurop::schema

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/force_view.h"
+
+#include <fmt/format.h>
+
+#include "rt/clock.h"
+#include "tools/units.h"
+#include "tools/variables.h"
+
+namespace indurop::tools {
+
+std::vector<ForceView> view_forces(const vars::Store& store) {
+  std::vector<ForceView> views;
+  const std::int64_t now = rt::now_ns();
+  for (const vars::Force& force : store.forces()) {
+    const schema::Variable& variable = store.schema().variables[force.variable->schema_index];
+    const std::string name = schema::name_at(variable, force.offset);
+    std::string message;
+    const auto place = schema::find_place(store.schema(), "::" + name, message);
+    if (!place) {
+      continue;  // not a place anybody can have forced by its name
+    }
+    std::vector<std::uint8_t> bytes(force.size);
+    std::memcpy(bytes.data(), &force.value, force.size);
+    views.push_back({name, schema::format_value(place->type, bytes), raw_value(place->type, bytes),
+                     force.until_ns == vars::kForever ? vars::kForever : force.until_ns - now, force});
+  }
+  return views;
+}
+
+std::string force_line(const std::vector<ForceView>& forces) {
+  constexpr std::size_t kShown = 3;
+  std::string line;
+  for (std::size_t i = 0; i < forces.size() && i < kShown; ++i) {
+    const ForceView& one = forces[i];
+    line += fmt::format("{}{} = {}", i == 0 ? "" : ", ", one.name, one.value);
+    line += one.left_ns == vars::kForever ? "" : fmt::format(" ({} left)", human_age(one.left_ns));
+  }
+  return forces.size() > kShown ? line + fmt::format(" and {} more", forces.size() - kShown) : line;
+}
+
+JsonValue json_of(const std::vector<ForceView>& forces) {
+  JsonValue list = JsonValue::array();
+  for (const ForceView& one : forces) {
+    list.push_back({{"name", one.name},
+                    {"value", one.raw},
+                    {"left_ns", one.left_ns == vars::kForever ? JsonValue() : JsonValue(one.left_ns)}});
+  }
+  return list;
+}
+
+}  // namespace indurop::tools
