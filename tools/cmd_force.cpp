@@ -131,6 +131,9 @@ int forces(Context& context) {
                Cell(forever ? "until unforced" : human_age(one.left_ns), forever ? JsonValue() : JsonValue(one.left_ns),
                     Style::None)});
   }
+  if (table.empty() && context.format == Format::Table) {
+    context.out.note("nothing is forced");
+  }
   print_table(context, table, {{"node", context.node}}, "forces");
   return kOk;
 }

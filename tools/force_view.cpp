@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+
 #include "rt/clock.h"
 #include "tools/units.h"
 #include "tools/variables.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/output.h"
+#include "tools/table.h"
 #include "vars/store.h"
 
 namespace indurop::tools {

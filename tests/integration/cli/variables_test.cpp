@@ -80,6 +80,35 @@ TEST_F(WithNode, Set_keeps_to_declared_ranges_of_variables_and_fields) {
   EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
 }
 
+TEST_F(WithNode, Force_holds_what_the_node_writes_until_unforce) {
+  ASSERT_EQ(indurop({"force", "tick=7", "joints[1].y", "-0.5"}).code, 2) << "two ways of writing assignments";
+  ASSERT_EQ(indurop({"force", "tick=7", "joints[1].y=-0.5"}).code, 0);
+  EXPECT_EQ(indurop({"get", "tick"}).out, "7\n");
+  EXPECT_THAT(indurop({"forces", "-o", "csv"}).out, HasSubstr("knu::Robot::tick,7,\nknu::Robot::joints[1].y,-0.5,\n"));
+  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["forces"][0]["name"], "knu::Robot::tick");
+  EXPECT_THAT(indurop({"status"}).out, HasSubstr("forced    knu::Robot::tick = 7, knu::Robot::joints[1].y = -0.5"));
+  const auto set = indurop({"set", "joints[1]", "{x: 1}"});
+  EXPECT_EQ(set.code, 1);
+  EXPECT_THAT(set.err, HasSubstr("indurop unforce 'knu::Robot::joints[1]'"));
+  EXPECT_EQ(indurop({"unforce", "joints"}).code, 0) << "all parts of it";
+  EXPECT_EQ(indurop({"set", "joints[1].y", "2"}).code, 0);
+  EXPECT_EQ(indurop({"get", "joints[1].y"}).out, "2\n");
+  EXPECT_EQ(indurop({"unforce", "--all"}).code, 0);
+  EXPECT_THAT(indurop({"forces"}).err, HasSubstr("nothing is forced"));
+}
+
+TEST_F(WithNode, Force_explains_what_cannot_be_forced) {
+  EXPECT_THAT(indurop({"force", "joints[1]={x: 1}"}).err, HasSubstr("force its numbers one by one"));
+  EXPECT_EQ(indurop({"force", "station::name=\"a\""}).code, 1);
+  EXPECT_EQ(indurop({"force", "gain", "11"}).code, 1) << "outside of its declared range";
+  EXPECT_EQ(indurop({"unforce"}).code, 2);
+  EXPECT_EQ(indurop({"unforce", "nix"}).code, 1);
+  kill_node();
+  const auto dead = indurop({"force", "gain", "2"});
+  EXPECT_EQ(dead.code, 6);
+  EXPECT_THAT(dead.err, HasSubstr("forces are for a node that runs"));
+}
+
 TEST_F(WithNode, Set_explains_what_is_no_assignment) {
   EXPECT_EQ(indurop({"set", "gain"}).code, 2);
   EXPECT_EQ(indurop({"set", "gain=1", "mode"}).code, 2);
