@@ -2,7 +2,6 @@
 #include "node/force_watch.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "rt/clock.h"
 
@@ -18,16 +17,8 @@ const vars::Force* find(const std::vector<vars::Force>& in, const vars::Force& w
   return found == in.end() ? nullptr : &*found;
 }
 
-std::string name_of(const vars::Store& store, const vars::Force& force) {
-  return schema::name_at(store.schema().variables[force.variable->schema_index], force.offset);
-}
-
-std::string value_of(const vars::Store& store, const vars::Force& force, const std::string& name) {
-  std::vector<std::uint8_t> bytes(force.size);
-  std::memcpy(bytes.data(), &force.value, force.size);
-  std::string message;
-  const auto place = schema::find_place(store.schema(), "::" + name, message);
-  return place ? schema::format_value(place->type, bytes) : "?";
+schema::Part part_of(const vars::Store& store, const vars::Force& force) {
+  return schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
 }
 
 std::string time_of(const vars::Force& force) {
@@ -44,13 +35,13 @@ void ForceWatch::look(vars::Store& store, Console& console) {
   for (const vars::Force& one : now) {
     const vars::Force* before = find(known_, one);
     if (before == nullptr || before->value != one.value || before->until_ns != one.until_ns) {
-      const std::string name = name_of(store, one);
-      console.warning("{} is forced to {} {}", name, value_of(store, one, name), time_of(one));
+      const schema::Part part = part_of(store, one);
+      console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()), time_of(one));
     }
   }
   for (const vars::Force& one : known_) {
     if (find(now, one) == nullptr) {
-      console.info("{} is no longer forced", name_of(store, one));
+      console.info("{} is no longer forced", part_of(store, one).name);
       store.let_overdue_go();
     }
   }

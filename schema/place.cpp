@@ -316,24 +316,25 @@ Result<Place> find_place(const Schema& schema, std::string_view text, std::strin
   return Error{failure.code, 0, kWhere};
 }
 
-std::string name_at(const Variable& variable, std::uint32_t offset) {
-  std::string name = variable.name;
-  for (const Type* type = &variable.type;;) {
-    std::uint64_t stride = type->size();
-    for (const std::uint32_t dim : type->dims) {
+Part part_at(const Variable& variable, std::uint32_t offset) {
+  Part part{variable.name, variable.type};
+  for (;;) {
+    std::uint64_t stride = part.type.size();
+    for (const std::uint32_t dim : part.type.dims) {
       stride /= dim;
-      name += fmt::format("[{}]", offset / stride);
+      part.name += fmt::format("[{}]", offset / stride);
       offset = static_cast<std::uint32_t>(offset % stride);
     }
-    const auto field = std::find_if(type->fields.begin(), type->fields.end(), [offset](const Field& f) {
+    part.type.dims.clear();
+    const auto field = std::find_if(part.type.fields.begin(), part.type.fields.end(), [offset](const Field& f) {
       return offset >= f.offset && offset - f.offset < f.type.size();
     });
-    if (type->base != Base::Struct || field == type->fields.end()) {
-      return name;
+    if (part.type.base != Base::Struct || field == part.type.fields.end()) {
+      return part;
     }
-    name += "." + field->name;
+    part.name += "." + field->name;
     offset -= field->offset;
-    type = &field->type;
+    part.type = Type(field->type);
   }
 }
 

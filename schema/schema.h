@@ -157,8 +157,12 @@ struct Place {
 // `message` then says what and what to do, with the nearest name.
 Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message);
 
-// Full name of what lies at a byte of the variable, "knu::Robot::joints[1].y"; as far down as there are names.
-std::string name_at(const Variable& variable, std::uint32_t offset);
+// What lies at a byte of the variable, "knu::Robot::joints[1].y" and its type; as far down as there are names.
+struct Part {
+  std::string name;
+  Type type;
+};
+Part part_at(const Variable& variable, std::uint32_t offset);
 
 // Value to text and back. format: numbers shortest form, enums by name, text quoted, arrays [a, b], structs {x: 1}.
 // parse accepts the same, plus 0/1 for bool, hex integers, numbers for enums, JSON's quoted field names, and text and

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 #include "rt/clock.h"
 #include "tools/units.h"
 #include "tools/variables.h"
@@ -15,17 +13,9 @@ std::vector<ForceView> view_forces(const vars::Store& store) {
   std::vector<ForceView> views;
   const std::int64_t now = rt::now_ns();
   for (const vars::Force& force : store.forces()) {
-    const schema::Variable& variable = store.schema().variables[force.variable->schema_index];
-    const std::string name = schema::name_at(variable, force.offset);
-    std::string message;
-    const auto place = schema::find_place(store.schema(), "::" + name, message);
-    if (!place) {
-      continue;  // not a place anybody can have forced by its name
-    }
-    std::vector<std::uint8_t> bytes(force.size);
-    std::memcpy(bytes.data(), &force.value, force.size);
-    views.push_back({name, schema::format_value(place->type, bytes), raw_value(place->type, bytes),
-                     force.until_ns == vars::kForever ? vars::kForever : force.until_ns - now, force});
+    const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
+    views.push_back({part.name, schema::format_value(part.type, force.bytes()), raw_value(part.type, force.bytes()),
+                     force.until_ns == vars::kForever ? vars::kForever : force.until_ns - now});
   }
   return views;
 }

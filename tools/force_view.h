@@ -16,7 +16,6 @@ struct ForceView {
   std::string value;     // as get prints it
   JsonValue raw;         // for JSON
   std::int64_t left_ns;  // vars::kForever: until it is let go
-  vars::Force force;     // points into the store
 };
 
 std::vector<ForceView> view_forces(const vars::Store& store);

@@ -25,6 +25,9 @@ struct Force {
   std::uint32_t size = 0;     // 1, 2, 4 or 8
   std::uint64_t value = 0;    // its first `size` bytes
   std::int64_t until_ns = 0;  // CLOCK_MONOTONIC, or kForever
+  [[nodiscard]] std::span<const std::uint8_t> bytes() const noexcept {
+    return {reinterpret_cast<const std::uint8_t*>(&value), size};
+  }
 };
 
 // False if the system has no robust locks.

@@ -147,7 +147,9 @@ TEST_F(Place_of_a_name, And_the_name_of_a_place) {
     std::string message;
     const auto place = find_place(schema_, std::string("::") + name, message);
     ASSERT_TRUE(place.ok()) << message;
-    EXPECT_EQ(name_at(*place->variable, place->offset), name);
+    const Part part = part_at(*place->variable, place->offset);
+    EXPECT_EQ(part.name, name);
+    EXPECT_EQ(canonical(part.type), canonical(place->type));
   }
 }
 
