@@ -4,39 +4,18 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "glb2idl/compiler.h"
 #include "glb2idl/emit.h"
+#include "tests/golden/golden.h"
 
 namespace indurop::glb2idl {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
-
-void expect_file(const fs::path& path, const std::string& text) {
-  if (std::getenv("INDUROP_UPDATE_GOLDEN") != nullptr) {
-    if (text.empty()) {
-      fs::remove(path);
-    } else {
-      std::ofstream(path, std::ios::binary) << text;
-    }
-    return;
-  }
-  EXPECT_EQ(text.empty(), !fs::exists(path)) << path;
-  EXPECT_EQ(slurp(path), text) << path;
-}
+using golden::expect_file;
+using golden::slurp;
 
 // All packages in one file.
 void expect_ros2(const fs::path& folder, const RosPackages& sut) {
@@ -95,18 +74,7 @@ TEST_P(Golden, Schema_in_the_header_can_be_read_back) {
   }
 }
 
-std::vector<std::string> cases() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(GLB2IDL_GOLDEN)) {
-    if (fs::exists(entry.path() / "in.glb")) {
-      names.push_back(entry.path().filename().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(GLB2IDL_GOLDEN, "in.glb")), [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::glb2idl

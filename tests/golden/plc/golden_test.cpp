@@ -5,38 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "plc/front/compiler.h"
+#include "tests/golden/golden.h"
 
 namespace indurop::plc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
-
-void expect_file(const fs::path& path, const std::string& text) {
-  if (std::getenv("INDUROP_UPDATE_GOLDEN") != nullptr) {
-    if (text.empty()) {
-      fs::remove(path);
-    } else {
-      std::ofstream(path, std::ios::binary) << text;
-    }
-    return;
-  }
-  EXPECT_EQ(text.empty(), !fs::exists(path)) << path;
-  EXPECT_EQ(slurp(path), text) << path;
-}
+using golden::expect_file;
+using golden::slurp;
 
 // Compiles in.st as `program`, with the names as if the folder were the current one.
 Compiled compile_case(const fs::path& folder, const std::string& program) {
@@ -76,18 +55,7 @@ TEST_P(Golden, A_program_cut_off_anywhere_does_no_harm) {
   }
 }
 
-std::vector<std::string> cases() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PLC_GOLDEN)) {
-    if (entry.is_directory()) {
-      names.push_back(entry.path().filename().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLC_GOLDEN, "in.st")), [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::plc

@@ -5,40 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "plc/plcopen/read_project.h"
 #include "plc/print/print.h"
 #include "plc/print/st_text.h"
+#include "tests/golden/golden.h"
 
 namespace indurop::plc {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string slurp(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
-
-void expect_file(const fs::path& path, const std::string& text) {
-  if (std::getenv("INDUROP_UPDATE_GOLDEN") != nullptr) {
-    if (text.empty()) {
-      fs::remove(path);
-    } else {
-      std::ofstream(path, std::ios::binary) << text;
-    }
-    return;
-  }
-  EXPECT_EQ(text.empty(), !fs::exists(path)) << path;
-  EXPECT_EQ(slurp(path), text) << path;
-}
+using golden::expect_file;
+using golden::slurp;
 
 class Golden : public ::testing::TestWithParam<std::string> {};
 
@@ -110,18 +90,7 @@ TEST_P(Golden, A_damaged_file_is_read_to_errors_or_a_program) {
   EXPECT_LT(drawn, kFiles);
 }
 
-std::vector<std::string> cases() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PLCOPEN_GOLDEN)) {
-    if (fs::exists(entry.path() / "in.xml")) {
-      names.push_back(entry.path().filename().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLCOPEN_GOLDEN, "in.xml")), [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::plc

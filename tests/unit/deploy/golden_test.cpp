@@ -5,45 +5,28 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "deploy/plan.h"
 #include "deploy/plant.h"
 #include "deploy/reader.h"
+#include "tests/golden/golden.h"
 
 namespace indurop::deploy {
 namespace {
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
-std::vector<std::string> cases() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(GOLDEN_DEPLOY)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 class Golden : public testing::TestWithParam<std::string> {
  protected:
   void compare(const std::string& name, const std::string& sut) {
     const std::filesystem::path file = folder() / ("expected." + name);
-    if (std::getenv("INDUROP_UPDATE_GOLDEN") != nullptr) {
+    if (golden::updating()) {
       if (std::filesystem::exists(file) || (name != "svg" && name != "csv")) {
         std::ofstream(file, std::ios::binary) << sut;
       }
       return;
     }
     if (std::filesystem::exists(file)) {
-      EXPECT_EQ(sut, contents(file)) << file;
+      EXPECT_EQ(sut, golden::slurp(file)) << file;
     } else {
       EXPECT_TRUE(name == "svg" || name == "csv") << file << " is missing";
     }
@@ -83,7 +66,7 @@ std::string text(const std::vector<Diagnostic>& diagnostics) {
 // `Kind`: Config or Plant.
 template <class Kind>
 void Golden::run() {
-  auto read_file = read(contents(folder() / "in.xml"), Kind{});
+  auto read_file = read(golden::slurp(folder() / "in.xml"), Kind{});
   if (!read_file.ok()) {
     compare("err", text(read_file.diagnostics));
     return;
@@ -110,7 +93,8 @@ TEST_P(Golden, Is_as_expected) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Deploy, Golden, testing::ValuesIn(cases()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Deploy, Golden, testing::ValuesIn(golden::cases(GOLDEN_DEPLOY, "in.xml")),
+                         [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::deploy
