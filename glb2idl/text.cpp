@@ -40,22 +40,6 @@ std::optional<unsigned> take_number(std::string_view& text, unsigned base, std::
   return used == 0 || value > 0xFF ? std::nullopt : std::optional<unsigned>(value);
 }
 
-// Number of single changes (insert, remove, replace) between two words.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const std::size_t replaced = diagonal + (a[i] == b[k] ? 0 : 1);
-      diagonal = row[k + 1];
-      row[k + 1] = std::min({row[k] + 1, row[k + 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
 }  // namespace
 
 std::optional<std::string> decode_quoted(std::string_view quoted) {
@@ -127,6 +111,21 @@ std::string join_names(std::span<const std::string> parts, std::string_view betw
   return out;
 }
 
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t replaced = diagonal + (a[i] == b[k] ? 0 : 1);
+      diagonal = row[k + 1];
+      row[k + 1] = std::min({row[k] + 1, row[k + 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t kLongest = 64;
   std::string best;
@@ -135,7 +134,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     if (word.size() > kLongest || candidate.size() > kLongest) {
       continue;
     }
-    const std::size_t changes = distance(lower(word), lower(candidate));
+    const std::size_t changes = edits(lower(word), lower(candidate));
     if (changes <= least && (best.empty() || changes < least)) {
       least = changes;
       best = candidate;
