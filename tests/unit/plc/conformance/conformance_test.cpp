@@ -3,75 +3,44 @@
 // user's would be, loaded, and run scan by scan in a time made here; then the expectations it has counted are looked
 // at.
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
-#include <cstdlib>
+#include <chrono>
 #include <string>
 
-namespace {
-
-constexpr std::int64_t kPeriod = 10'000'000;
-std::int64_t g_release_ns = 987'654'321'000;
-
-// A node named "local" may be running on this machine; a generated header looks for it at priority 101.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wprio-ctor-dtor"
-[[gnu::constructor(100)]] void keep_away_from_others() {
-  ::setenv("INDUROP_NODE", "rttest-none", 0);
-}
-#pragma GCC diagnostic pop
-
-}  // namespace
-
-// The modules find this one before that of libindurop.so.
-std::int64_t irp::release_ns() noexcept {
-  return g_release_ns;
-}
+#include "tests/unit/plc/program/module.h"
 
 namespace {
 
-class Module {
+using indurop::testing::PlcModule;
+
+// One of the programs, in a time that begins somewhere and goes on from scan to scan.
+class Program {
  public:
-  explicit Module(const std::string& program)
-      : handle_(::dlopen((PLC_MODULES "/" + program + ".so").c_str(), RTLD_NOW | RTLD_LOCAL)) {
-    if (handle_ == nullptr) {
-      ADD_FAILURE() << ::dlerror();
-      return;
-    }
-    auto* describe =
-        reinterpret_cast<void (*)(indurop::ModuleDescriptor*)>(::dlsym(handle_, "indurop_module_describe"));
-    describe(&descriptor_);
+  explicit Program(const std::string& name) : module_(name) {
     conformance::checks = 0;
     conformance::failed = 0;
     conformance::first_failed = "";
     conformance::scans = 0;
     conformance::finished = false;
   }
-  ~Module() {
-    if (handle_ != nullptr) {
-      ::dlclose(handle_);
-    }
+  void scan() {
+    module_.scan(now_);
+    now_ += std::chrono::milliseconds(10);
   }
-  Module(const Module&) = delete;
-  Module& operator=(const Module&) = delete;
-
-  void scan() const {
-    descriptor_.run();
-    g_release_ns += kPeriod;
-  }
+  [[nodiscard]] std::string fault() const { return module_.fault(); }
 
  private:
-  void* handle_;
-  indurop::ModuleDescriptor descriptor_;
+  PlcModule module_;
+  std::chrono::nanoseconds now_{987'654'321'000};
 };
 
 class PlcConformance : public testing::TestWithParam<const char*> {};
 
 TEST_P(PlcConformance, Every_expectation_of_the_program_is_met) {
-  const Module sut(GetParam());
+  Program sut(GetParam());
   constexpr int kMostScans = 20;
   while (!HasFailure() && !conformance::finished && conformance::scans < kMostScans) {
     sut.scan();
@@ -85,14 +54,10 @@ INSTANTIATE_TEST_SUITE_P(Programs, PlcConformance, testing::Values(PLC_PROGRAMS)
                          [](const auto& program) { return std::string(program.param); });
 
 std::string fault_of(int which) {
-  const Module sut("faults");
+  const Program sut("faults");
   conformance::which = which;
-  try {
-    sut.scan();
-  } catch (const std::exception& fault) {
-    return fault.what();
-  }
-  return "no fault";
+  const std::string fault = sut.fault();
+  return fault.empty() ? "no fault" : fault;
 }
 
 TEST(PlcFaults, Name_their_place) {
