@@ -2,15 +2,9 @@
 #include "deploy/text.h"
 
 #include "schema/nearest.h"
+#include "schema/utf8.h"
 
 namespace indurop::deploy {
-namespace {
-
-bool continues(char c) noexcept {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80;
-}
-
-}  // namespace
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kShown = 60;
@@ -53,32 +47,10 @@ std::string enumerate(const std::vector<std::string>& names, std::size_t most) {
   return text;
 }
 
-std::size_t utf8_length(std::string_view text) noexcept {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-  if (length == 0 || length > text.size()) {
-    return 0;
-  }
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80) {
-      return 0;
-    }
-  }
-  const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool beyond = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
-  return overlong || beyond ? 0 : length;
-}
-
 std::size_t characters(std::string_view text) noexcept {
   std::size_t count = 0;
   for (const char c : text) {
-    count += continues(c) ? 0U : 1U;
+    count += schema::continues_utf8(c) ? 0U : 1U;
   }
   return count;
 }
@@ -89,7 +61,7 @@ std::string shortened(std::string_view text, std::size_t most) {
   }
   std::size_t end = 0;
   for (std::size_t kept = 0; end < text.size(); ++end) {
-    if (!continues(text[end]) && ++kept == most) {
+    if (!schema::continues_utf8(text[end]) && ++kept == most) {
       break;
     }
   }

@@ -18,8 +18,6 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 // "a", "a and b", "a, b and c"; beyond `most` "a, b, c and 4 more".
 std::string enumerate(const std::vector<std::string>& names, std::size_t most = 6);
 
-// Length in bytes of the valid UTF-8 character at the start of `text`, which is not empty; 0 if there is none.
-std::size_t utf8_length(std::string_view text) noexcept;
 // Number of characters, not bytes.
 std::size_t characters(std::string_view text) noexcept;
 // At most `most` characters, the last an ellipsis if some were cut off.

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "deploy/text.h"
+#include "schema/utf8.h"
 
 namespace indurop::deploy {
 namespace {
@@ -62,7 +63,7 @@ class Scanner {
       ++pos_;
       return;
     }
-    const std::size_t length = utf8_length(xml_.substr(pos_));
+    const std::size_t length = schema::utf8_length(xml_.substr(pos_));
     if (length == 0) {
       stop(here(), "this is not UTF-8; save the file in the encoding UTF-8");
       return;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "glb2idl/text.h"
+#include "schema/nearest.h"
 
 namespace indurop::glb2idl {
 
@@ -42,7 +43,7 @@ std::optional<Value> Context::constant(const ast::Path& path) {
     error(path.at, fmt::format("'{}' is no constant, only constants and numbers have a value here", shown));
   } else if (found == nullptr && !is_broken(path)) {
     const auto known = scope.names(Symbol::Kind::Constant, file);
-    const std::string near = nearest(path.parts.back(), known);
+    const std::string near = schema::nearest(path.parts.back(), known);
     error(path.at, near.empty() ? fmt::format("'{}' is not known here, declare it above with #define or const", shown)
                                 : fmt::format("'{}' is not known here, did you mean '{}'?", shown, near));
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "glb2idl/text.h"
+#include "schema/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -206,7 +207,7 @@ std::optional<ast::Expression> ExpressionParser::text() {
   while (in_.peek().kind == TokenKind::Text && (more() || result.spelling.empty())) {
     const Token& token = in_.take();
     auto decoded = decode_quoted(token.text);
-    if (!decoded || decoded->find('\0') != std::string::npos || first_invalid_utf8(*decoded)) {
+    if (!decoded || decoded->find('\0') != std::string::npos || schema::first_invalid_utf8(*decoded)) {
       in_.error(token.at, "a text is UTF-8 without NUL; escapes are \\n \\t \\r \\\" \\' \\\\ \\xHH, correct it");
       return std::nullopt;
     }

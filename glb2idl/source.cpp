@@ -13,35 +13,12 @@
 #include <system_error>
 #include <utility>
 
+#include "schema/utf8.h"
+
 namespace indurop::glb2idl {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-bool is_continuation(char c) noexcept {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
-
-// Length of the well-formed UTF-8 character at `at`, 0 if there is none.
-std::size_t utf8_length(std::string_view text, std::size_t at) noexcept {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  if (lead < 0x80) {
-    return 1;
-  }
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || at + length > text.size()) {
-    return 0;
-  }
-  for (std::size_t i = 1; i < length; ++i) {
-    if (!is_continuation(text[at + i])) {
-      return 0;
-    }
-  }
-  const auto second = static_cast<unsigned char>(text[at + 1]);
-  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-  const bool beyond = (lead == 0xED && second > 0x9F) || (lead == 0xF4 && second > 0x8F);
-  return overlong || beyond ? 0 : length;
-}
 
 // Closes a file descriptor at the end of its scope.
 class OpenFile {
@@ -110,7 +87,7 @@ LineColumn Sources::place_of(Span at) const noexcept {
   const std::uint32_t line = line_of(at);
   const std::string_view before =
       std::string_view(source.text).substr(source.lines[line - 1], at.offset - source.lines[line - 1]);
-  const auto continuation = std::count_if(before.begin(), before.end(), is_continuation);
+  const auto continuation = std::count_if(before.begin(), before.end(), schema::continues_utf8);
   return {line, static_cast<std::uint32_t>(before.size() - static_cast<std::size_t>(continuation) + 1)};
 }
 
@@ -162,17 +139,6 @@ ReadResult read_source_file(const std::string& path) {
   std::error_code failed;
   const std::filesystem::path canonical = std::filesystem::canonical(path, failed);
   return {std::move(text), failed ? path : canonical.string(), ""};
-}
-
-std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text, at);
-    if (length == 0) {
-      return at;
-    }
-    at += length;
-  }
-  return std::nullopt;
 }
 
 }  // namespace indurop::glb2idl

@@ -64,7 +64,4 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20U;
 // Reads from the file system; regular files up to kMaxFileBytes.
 [[nodiscard]] ReadResult read_source_file(const std::string& path);
 
-// Offset of the first byte that is not UTF-8, if any.
-[[nodiscard]] std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept;
-
 }  // namespace indurop::glb2idl

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "glb2idl/source.h"
+#include "schema/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> characters(std::string_view line) {
     const std::string_view one = line.substr(i, length);
     const auto first = static_cast<unsigned char>(one[0]);
     const bool control = (first < 0x20 && first != '\t') || first == 0x7F || one.starts_with("\xC2\x80");
-    out.emplace_back(control || first_invalid_utf8(one) ? "?" : std::string(one));
+    out.emplace_back(control || schema::first_invalid_utf8(one) ? "?" : std::string(one));
     i += length;
   }
   return out;

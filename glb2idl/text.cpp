@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
-
 namespace indurop::glb2idl {
 namespace {
 
@@ -109,38 +106,6 @@ std::string join_names(std::span<const std::string> parts, std::string_view betw
     out += part;
   }
   return out;
-}
-
-std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const std::size_t replaced = diagonal + (a[i] == b[k] ? 0 : 1);
-      diagonal = row[k + 1];
-      row[k + 1] = std::min({row[k] + 1, row[k + 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest(std::string_view word, std::span<const std::string> candidates) {
-  constexpr std::size_t kLongest = 64;
-  std::string best;
-  std::size_t least = word.size() / 3 + 1;
-  for (const std::string& candidate : candidates) {
-    if (word.size() > kLongest || candidate.size() > kLongest) {
-      continue;
-    }
-    const std::size_t changes = edits(lower(word), lower(candidate));
-    if (changes <= least && (best.empty() || changes < least)) {
-      least = changes;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 std::string comment_line(std::string_view text) {

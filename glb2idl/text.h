@@ -21,12 +21,6 @@ namespace indurop::glb2idl {
 
 [[nodiscard]] std::string join_names(std::span<const std::string> parts, std::string_view between);
 
-// Number of single changes (insert, remove, replace) between two words.
-[[nodiscard]] std::size_t edits(std::string_view a, std::string_view b);
-
-// The candidate most like `word`, empty if none is near.
-[[nodiscard]] std::string nearest(std::string_view word, std::span<const std::string> candidates);
-
 // For a comment that ends with its line: no line breaks, no backslash at the end.
 [[nodiscard]] std::string comment_line(std::string_view text);
 

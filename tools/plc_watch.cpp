@@ -108,7 +108,7 @@ class Ladder {
 
   [[nodiscard]] bool bit(const plc::LiveProgram& program, std::size_t number) const {
     const auto& bytes = source_.values()[flow_.at(&program)].bytes;
-    return (bytes[number / 8] >> (number % 8) & 1U) != 0;
+    return (static_cast<unsigned>(bytes[number / 8]) >> (number % 8) & 1U) != 0;
   }
 
   [[nodiscard]] plc::graphic::Live live(const plc::LiveProgram& program) const {

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "schema/utf8.h"
+
 namespace indurop::tools {
 namespace {
 
@@ -22,27 +24,6 @@ std::string three_digits(double value) {
     return fmt::format("{:.0f}", value);
   }
   return value >= 9.995 ? fmt::format("{:.1f}", value) : fmt::format("{:.2f}", value);
-}
-
-// Length of a valid UTF-8 sequence at text[i], 0 if there is none.
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto lead = static_cast<unsigned char>(text[i]);
-  std::size_t length = 1;
-  if (lead >= 0x80) {
-    length = lead >= 0xF0 && lead < 0xF5 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC2 ? 2 : 0;
-    if (lead >= 0xF5) {
-      length = 0;
-    }
-  }
-  if (length == 0 || i + length > text.size()) {
-    return 0;
-  }
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80) {
-      return 0;
-    }
-  }
-  return length;
 }
 
 }  // namespace
@@ -121,7 +102,7 @@ std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(text, i);
+    const std::size_t length = schema::utf8_length(text.substr(i));
     const auto lead = static_cast<unsigned char>(text[i]);
     // C1 controls (U+0080..U+009F) are two bytes beginning with C2.
     const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
