@@ -42,11 +42,14 @@ install-deps: ## install the Debian packages of packages.txt that are missing
 
 sanitize: asan-ubsan tsan ## tests under ASan + UBSan, then under TSan
 
+# Reports go to files: else those of processes that a test starts, and does not look at, would be lost.
+asan-ubsan tsan: reports = build-$(@:-ubsan=)/reports
 asan-ubsan tsan:
 	@.ci/install-deps build test
 	@cmake --preset $@ --log-level=WARNING >/dev/null
 	@cmake --build --preset $@ -j $(JOBS)
-	@ctest --preset $@ -j $(JOBS)
+	@rm -rf $(reports) && mkdir -m 1777 $(reports)
+	@ctest --preset $@ -j $(JOBS); code=$$?; cat $(reports)/* 2>/dev/null && code=1; exit $$code
 
 tidy: with-tests ## clang-tidy over all sources
 	@$(CTEST) -L tidy

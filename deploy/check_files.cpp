@@ -53,7 +53,7 @@ std::string missing_hint(const std::filesystem::path& file, const std::string& e
   std::error_code ignored;
   const std::filesystem::path folder = file.parent_path();
   if (!std::filesystem::is_directory(folder, ignored)) {
-    return "; there is no folder " + in_quotes(folder.string());
+    return "; there is no folder " + path_in_quotes(folder.string());
   }
   constexpr std::size_t kMostEntries = 10'000;
   std::vector<std::string> names;
@@ -65,7 +65,7 @@ std::string missing_hint(const std::filesystem::path& file, const std::string& e
   }
   std::sort(names.begin(), names.end());
   const std::string near = schema::nearest(file.filename().string(), names);
-  return near.empty() ? "; build it, or correct " + element : "; did you mean " + in_quotes(near) + "?";
+  return near.empty() ? "; build it, or correct " + element : "; did you mean " + path_in_quotes(near) + "?";
 }
 
 bool is_script(const std::filesystem::path& file) {
@@ -122,8 +122,10 @@ class FileCheck {
   }
 
  private:
-  void error(const std::string& text) { report_.error(place_, in_quotes(module_.file_as_written) + " " + text); }
-  void warning(const std::string& text) { report_.warning(place_, in_quotes(module_.file_as_written) + " " + text); }
+  void error(const std::string& text) { report_.error(place_, path_in_quotes(module_.file_as_written) + " " + text); }
+  void warning(const std::string& text) {
+    report_.warning(place_, path_in_quotes(module_.file_as_written) + " " + text);
+  }
 
   void check_abi() {
     if (facts_.file.abi == schema::kMixedAbi) {
@@ -207,7 +209,7 @@ void check_same_machine(CheckContext& context) {
   for (std::size_t i = 0; i < facts.size(); ++i) {
     if (facts[i].file.machine != 0 && facts[i].file.machine != first->file.machine) {
       const Module& other = modules[static_cast<std::size_t>(first - facts.begin())];
-      context.report.error(modules[i].places.file, in_quotes(modules[i].file_as_written) + " is built for " +
+      context.report.error(modules[i].places.file, path_in_quotes(modules[i].file_as_written) + " is built for " +
                                                        machine_name(facts[i].file.machine) + ", " + other.name +
                                                        " of the same board for " + machine_name(first->file.machine) +
                                                        "; build both for the board");
@@ -233,7 +235,7 @@ void check_functions(CheckContext& context) {
 }  // namespace
 
 std::string unreadable_file(const Error& failure, const NamedFile& file, bool search) {
-  const std::string name = in_quotes(file.as_written);
+  const std::string name = path_in_quotes(file.as_written);
   if (failure.code == Errc::NotFound) {
     return "no such file: " + name + (search ? missing_hint(file.path, file.element) : "");
   }

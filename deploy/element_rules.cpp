@@ -118,7 +118,7 @@ std::optional<Nanos> duration_of(const Element& element, bool zero_allowed, Repo
 bool is_file_name(const Element& element, const std::string& text, Report& report) {
   const std::string last = std::filesystem::path(text).filename().string();
   if (last.empty() || last == "." || last == "..") {
-    report.error(element.text_place, in_quotes(text) + " is a directory; give the file in it");
+    report.error(element.text_place, path_in_quotes(text) + " is a directory; give the file in it");
     return false;
   }
   if (text.find_first_of("\r\n\t") != std::string::npos) {

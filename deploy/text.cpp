@@ -11,6 +11,18 @@ std::string in_quotes(std::string_view text) {
   return "'" + shortened(text, kShown) + "'";
 }
 
+std::string path_in_quotes(std::string_view path) {
+  constexpr std::size_t kShown = 300;
+  if (path.size() <= kShown) {
+    return "'" + std::string(path) + "'";
+  }
+  path.remove_prefix(path.size() - kShown);
+  while (!path.empty() && schema::continues_utf8(path.front())) {
+    path.remove_prefix(1);
+  }
+  return "'\u2026" + std::string(path) + "'";
+}
+
 std::string meant(std::string_view name, const std::vector<std::string>& known) {
   constexpr std::size_t kLongestName = 100;
   constexpr std::size_t kShortestPart = 3;

@@ -11,6 +11,8 @@ namespace indurop::deploy {
 
 // Text as users wrote it, in quotes, shortened if long.
 std::string in_quotes(std::string_view text);
+// Of a path the end counts: shortened, if very long, at its beginning.
+std::string path_in_quotes(std::string_view path);
 // The known name somebody who wrote `name` may have meant: nearest by letters, or one that contains it; empty if none.
 std::string meant(std::string_view name, const std::vector<std::string>& known);
 // "; did you mean 'period'?" or, if nothing is near, "; known are: a, b, c".

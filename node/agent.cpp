@@ -107,7 +107,7 @@ class Agent {
     if (problem.empty()) {
       console_.info("board {}: resuming deployment {} of plant {}", options_.board, deploy::shown_id(committed.current),
                     committed.plant);
-      process_.want(state_.manifest(committed.current));
+      process_.want(state_.manifest(committed.current), committed.current);
     } else {
       console_.error("the committed deployment cannot be resumed: {}", problem);
     }
@@ -244,7 +244,7 @@ class Agent {
       case Do::Switch:
         console_.info("deployment {}: switching", deploy::shown_id(order.deployment));
         held_before_ = process_.held();
-        process_.want(deployment_.manifest(order.deployment));
+        process_.want(deployment_.manifest(order.deployment), order.deployment);
         break;
       case Do::Commit:
         commit(order);
@@ -271,7 +271,8 @@ class Agent {
   }
 
   void go_back(const deploy::Order& order) {
-    process_.want(deployment_.manifest(state_.committed().current));
+    const std::string& before = state_.committed().current;
+    process_.want(deployment_.manifest(before), before);
     if (!held_before_.empty()) {
       process_.hold(held_before_);
     }

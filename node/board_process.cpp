@@ -69,8 +69,9 @@ void BoardProcess::leave() noexcept {
   pid_ = -1;
 }
 
-void BoardProcess::want(const std::filesystem::path& manifest) {
+void BoardProcess::want(const std::filesystem::path& manifest, const std::string& deployment) {
   wanted_ = manifest;
+  deployment_ = deployment;
   restarts_.clear();
   deaths_ = 0;
   start_ns_ = 0;
@@ -92,7 +93,8 @@ void BoardProcess::hold(const std::string& reason) {
 
 void BoardProcess::release() {
   const std::filesystem::path same = wanted_;
-  want(same);
+  const std::string id = deployment_;
+  want(same, id);
 }
 
 bool BoardProcess::adopt() {
@@ -120,7 +122,7 @@ void BoardProcess::launch(std::int64_t now_ns) {
   (void)::fcntl(ends[0], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETFL, O_NONBLOCK);
   (void)::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
-  std::vector<std::string> words{own_program(), wanted_.string(), "--board", board_};
+  std::vector<std::string> words{own_program(), wanted_.string(), "--board", board_, "--deployment", deployment_};
   words.insert(words.end(), arguments_.begin(), arguments_.end());
   std::vector<char*> raw;
   for (std::string& word : words) {

@@ -31,8 +31,8 @@ class BoardProcess {
   BoardProcess& operator=(const BoardProcess&) = delete;
   ~BoardProcess();
 
-  // What should run from now on; empty: nothing. The same again: a node that has failed gets a new chance.
-  void want(const std::filesystem::path& manifest);
+  // What should run from now on, and its id; empty: nothing. The same again: a node that has failed gets a new chance.
+  void want(const std::filesystem::path& manifest, const std::string& deployment);
   // The node is ended and stays down until release() or want(); `reason` is what people are told.
   void hold(const std::string& reason);
   void release();
@@ -76,6 +76,7 @@ class BoardProcess {
   std::vector<std::string> arguments_;
   Console& console_;
   std::filesystem::path wanted_;
+  std::string deployment_;  // its id
   std::filesystem::path running_;
   std::string held_;
   pid_t pid_ = -1;

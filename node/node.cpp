@@ -226,6 +226,7 @@ bool Node::make_memory() {
   }
   store_ = std::move(store).value();
   setup_ = make_run_setup(config_, check_, options_.node, {core_, obtained_.fifo != 0});
+  setup_.deployment = options_.deployment;
   auto file = vars::RunFile::create(options_.node, scheduler::run_block_size(setup_));
   if (!file) {
     console_.error(

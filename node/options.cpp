@@ -54,6 +54,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   auto* board = app.add_option("--board", options.board, "board of the plant to be")->check(check_node);
   app.add_flag("--one-host", options.one_host, "all boards of the plant run on this host: stay on loopback")
       ->needs(board);
+  app.add_option("--deployment", options.deployment, "id that indurop status shows (given by the agent)")->needs(board);
   auto* agent = app.add_flag("--agent", options.agent, "stay and run what indurop deploy sends to this board")
                     ->needs(board)
                     ->excludes(config);

@@ -27,6 +27,7 @@ struct Options {
   std::filesystem::path config;
   std::string node = "local";
   std::string board;                      // of the plant that `config` is; empty: a module.xml
+  std::string deployment;                 // id of what the agent runs; empty: started by hand
   bool one_host = false;                  // all boards of the plant run on this host
   std::optional<deploy::Nanos> duration;  // empty: until stopped
   std::filesystem::path report;           // empty: none

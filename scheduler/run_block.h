@@ -15,7 +15,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 3;
+inline constexpr std::uint32_t kRunAbi = 4;
 inline constexpr std::size_t kNameLength = 96;
 inline constexpr std::size_t kTextLength = 160;
 
@@ -178,6 +178,7 @@ struct RunBlock {
   std::uint64_t total_size;
   char node_name[48];
   char config_file[256];
+  char deployment[72];  // id of what was deployed; empty: the node was started by hand
   std::atomic<std::int32_t> node_pid;
   std::uint64_t node_start_time;  // field 22 of /proc/PID/stat
   std::int64_t started_wall_ns;   // CLOCK_REALTIME

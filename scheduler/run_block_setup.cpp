@@ -102,6 +102,7 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   block.total_size = at.total;
   copy_text(block.node_name, setup.node_name);
   copy_text(block.config_file, setup.config_file);
+  copy_text(block.deployment, setup.deployment);
   block.basic_period_ns = setup.basic_period_ns;
   block.macro_period_ns = setup.macro_period_ns;
   block.slot_count = setup.slot_count;

@@ -30,6 +30,7 @@ struct ModuleSetup {
 struct RunBlockSetup {
   std::string node_name;
   std::string config_file;
+  std::string deployment;
   std::int64_t basic_period_ns = 0;
   std::int64_t macro_period_ns = 0;
   std::uint64_t slot_count = 0;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "deploy/deployment_words.h"
 #include "deploy/reader.h"
 #include "rt/clock.h"
 #include "tools/units.h"
@@ -19,6 +20,7 @@ NodeReport report_of(const std::string& node, const RunView& run) {
   report.state = report.alive || ended ? to_text(state) : "killed";
   report.pid = block.node_pid.load(kRelaxed);
   report.config_file = fixed_text(block.config_file);
+  report.deployment = fixed_text(block.deployment);
   report.stop_reason = fixed_text(block.stop_reason);
   report.basic_period_ns = block.basic_period_ns;
   report.macro_period_ns = block.macro_period_ns;
@@ -59,6 +61,9 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
     }
   }
   lines.push_back(first + "  " + printable(report.config_file));
+  if (!report.deployment.empty()) {
+    lines.push_back("  deployed  " + deploy::shown_id(report.deployment));
+  }
   if (!report.stop_reason.empty()) {
     lines.push_back("  reason    " + printable(report.stop_reason));
   }
@@ -86,6 +91,7 @@ JsonValue json_of(const NodeReport& report) {
           {"state", report.state},
           {"pid", report.alive ? JsonValue(report.pid) : JsonValue()},
           {"config_file", report.config_file},
+          {"deployment", report.deployment.empty() ? JsonValue() : JsonValue(report.deployment)},
           {"stop_reason", report.stop_reason},
           {"uptime_ns", report.uptime_ns},
           {"basic_period_ns", report.basic_period_ns},

@@ -17,6 +17,7 @@ struct NodeReport {
   std::string state;  // "running", or "not running" after a kill
   std::int32_t pid = 0;
   std::string config_file;
+  std::string deployment;  // empty: none
   std::string stop_reason;
   std::int64_t basic_period_ns = 0;
   std::int64_t macro_period_ns = 0;

@@ -44,6 +44,12 @@ TEST_F(Orders, Stop_and_start_a_module_of_one_board_only) {
   EXPECT_EQ(module_state("b"), "running");
 }
 
+TEST_F(Orders, The_node_tells_what_was_deployed) {
+  start_plant();
+  EXPECT_EQ(indurop_here({"status", "--node", board("a"), "-o", "json"}).json()["deployment"], id_);
+  EXPECT_THAT(indurop_here({"status", "--node", board("a")}).out, HasSubstr("deployed  " + id_.substr(0, 12)));
+}
+
 TEST_F(Orders, A_board_stopped_by_order_stays_down_until_it_is_ordered_to_start) {
   start_plant();
   const pid_t first = vars::running_node(board("b"));

@@ -45,6 +45,9 @@ TEST_F(CheckFiles, Missing_file_is_told_with_the_nearest_name) {
               ElementsAre(AllOf(HasSubstr("module.xml:2:19: error: no such file: 'contrl.so'"),
                                 HasSubstr("did you mean 'control.so'?"))));
   EXPECT_THAT(check_lines(periodic("build/control.so", "1ms", 1)), ElementsAre(HasSubstr("there is no folder")));
+  const std::string deep = "/" + std::string(240, 'f') + "/" + std::string(90, 'g') + "/";
+  EXPECT_THAT(check_lines(periodic(deep + "control.so", "1ms", 1)),
+              ElementsAre(HasSubstr("g/control.so'; there is no folder '\u2026f")));
   EXPECT_THAT(check_lines(periodic("x.so", "1ms", 1)), ElementsAre(HasSubstr("build it, or correct <filename>")));
 }
 

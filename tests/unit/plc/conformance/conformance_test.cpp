@@ -79,7 +79,7 @@ TEST(PlcFaults, Name_their_place) {
 }
 
 TEST(PlcFaults, A_scan_that_faults_writes_nothing) {
-  const Module sut("faults");
+  Program sut("faults");
   conformance::which = 0;
   sut.scan();
   conformance::which = 1;
