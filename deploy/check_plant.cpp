@@ -81,7 +81,7 @@ class PlantCheckRun {
     check_agreement(views, report);
     resolve_rules(plant_.variables, schema_, report);
     check_external_rules(plant_.variables, plant_.external_domain && !plant_.types.empty(), uses, report);
-    result_.routes = find_routes(context, result_.owners);
+    result_.routes = find_routes(context, result_);
     add_owners_of_the_rest();
     std::set<std::string> set_by_hand;
     for (const VariableRule& rule : plant_.variables) {

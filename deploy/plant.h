@@ -72,6 +72,7 @@ struct PlantCheck {
   // Board, into Plant::boards, whose value counts: of every variable of the plant; of those nobody writes the first
   // board that has it.
   std::map<std::string, std::size_t> owners;
+  std::map<std::string, std::vector<std::size_t>> standbys;  // boards that compute the variable too, if any
   [[nodiscard]] bool ok() const noexcept;
 };
 

@@ -24,7 +24,7 @@ struct PlantContext {
 const VariableRule* rule_for(const Plant& plant, const std::string& variable);
 
 // Which board owns each variable that has a writer, and which boards need it.
-std::vector<Route> find_routes(PlantContext& context, std::map<std::string, std::size_t>& owners);
+std::vector<Route> find_routes(PlantContext& context, PlantCheck& result);
 // Are the boards' keys there, and theirs; of an open plant that it is open.
 void check_security(const Plant& plant, const CheckOptions& options, Report& report);
 // How old values are that come from other boards. Fills Route::oldest.

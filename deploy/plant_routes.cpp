@@ -27,8 +27,12 @@ std::vector<User> only_on(const std::vector<User>& users, std::size_t board, boo
 
 class RouteFinder {
  public:
-  RouteFinder(PlantContext& context, std::map<std::string, std::size_t>& owners)
-      : context_(context), uses_(context.uses), report_(context.report), owners_(owners) {}
+  RouteFinder(PlantContext& context, PlantCheck& result)
+      : context_(context),
+        uses_(context.uses),
+        report_(context.report),
+        owners_(result.owners),
+        standbys_(result.standbys) {}
 
   std::vector<Route> find() {
     for (const auto& [name, users] : uses_.variables()) {
@@ -135,6 +139,9 @@ class RouteFinder {
       route.best_effort = rule->best_effort;
     }
     owners_[name] = owner;
+    if (!standbys.empty()) {
+      standbys_[name] = standbys;
+    }
     if (!route.readers.empty()) {
       travelling_.insert(name);
       routes_.push_back(std::move(route));
@@ -184,6 +191,7 @@ class RouteFinder {
   Report& report_;
   std::vector<Route> routes_;
   std::map<std::string, std::size_t>& owners_;
+  std::map<std::string, std::vector<std::size_t>>& standbys_;
   std::set<std::string> travelling_;
   std::set<std::pair<std::string, std::size_t>> arriving_;  // on which boards
 };
@@ -196,8 +204,8 @@ const VariableRule* rule_for(const Plant& plant, const std::string& variable) {
   return found == plant.variables.end() ? nullptr : &*found;
 }
 
-std::vector<Route> find_routes(PlantContext& context, std::map<std::string, std::size_t>& owners) {
-  return RouteFinder(context, owners).find();
+std::vector<Route> find_routes(PlantContext& context, PlantCheck& result) {
+  return RouteFinder(context, result).find();
 }
 
 }  // namespace indurop::deploy

@@ -45,12 +45,14 @@ Settings network_of(const ExternalSettings& external) {
 }  // namespace
 
 struct External::Impl {
-  Impl(const ExternalSettings& wanted, vars::Store& store, vars::ShmFile&& memory);
+  Impl(const ExternalSettings& wanted, vars::Store& store, const MirrorBlock* plant, vars::ShmFile&& memory);
   Status run();
   void end() noexcept;
   void work();
   bool open(dds_entity_t participant, std::string& problem);
   void close() noexcept;
+  void describe();
+  void look_who_leads(std::int64_t now_ns);
   void look_for_readers() noexcept;
   [[nodiscard]] std::string topic_name(const std::string& variable) const {
     return settings.ros2 ? schema::ros_topic(variable) : external_topic(variable);
@@ -73,7 +75,8 @@ struct External::Impl {
   rt::Thread thread;
 };
 
-External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, vars::ShmFile&& memory)
+External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, const MirrorBlock* plant,
+                     vars::ShmFile&& memory)
     : settings(wanted),
       file(std::move(memory)),
       block(*reinterpret_cast<ExternalBlock*>(file.data())),
@@ -84,26 +87,35 @@ External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, vars::S
   shown.plant = settings.plant;
   shown.board = settings.board;
   shown.boards = settings.boards;
-  schema::Schema types;
   for (const Exported& exported : settings.variables) {
     const auto* entry = store.find(abi::fnv1a64(exported.variable.data(), exported.variable.size()));
     if (entry == nullptr || exported.type == nullptr ||
         !descriptor_problem(exported.type, store.schema().variables[entry->schema_index]).empty()) {
       continue;
     }
-    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, settings.ros2, block, wake));
+    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, settings.ros2, block, wake, plant));
     block.writable += exported.writable ? 1U : 0U;
-    types.variables.push_back(store.schema().variables[entry->schema_index]);
-    types.variables.back().initial.clear();
-    if (exported.writable) {
-      shown.writable.push_back(exported.variable);
-    }
   }
-  shown.schema = schema::to_json(types);
   block.abi = kExternalAbi;
   block.domain = settings.domain;
   block.topics = static_cast<std::uint32_t>(topics.size());
   block.magic.store(kExternalMagic, std::memory_order_release);
+}
+
+// For the directory: what counts on this board.
+void External::Impl::describe() {
+  schema::Schema types;
+  shown.writable.clear();
+  for (const auto& topic : topics) {
+    if (topic->leads()) {
+      types.variables.push_back(topic->variable());
+      types.variables.back().initial.clear();
+      if (topic->is_writable()) {
+        shown.writable.push_back(topic->variable().name);
+      }
+    }
+  }
+  shown.schema = schema::to_json(types);
 }
 
 Status External::Impl::run() {
@@ -138,6 +150,7 @@ bool External::Impl::open(dds_entity_t participant, std::string& problem) {
       return false;
     }
   }
+  describe();
   return directory.open(participant, shown, !eager, problem);
 }
 
@@ -175,8 +188,23 @@ void External::Impl::look_for_readers() noexcept {
   });
 }
 
+void External::Impl::look_who_leads(std::int64_t now_ns) {
+  bool changed = false;
+  for (const auto& topic : topics) {
+    changed = topic->look_who_leads(now_ns) || changed;
+  }
+  std::string problem;
+  if (changed) {
+    describe();
+    if (!directory.tell(shown, problem)) {
+      block.problem.set(problem);
+    }
+  }
+}
+
 // One look at everything; when the next one is due.
 std::int64_t External::Impl::serve(std::int64_t now_ns) {
+  look_who_leads(now_ns);
   look_for_readers();
   std::int64_t next = now_ns + kLookNs;
   std::uint32_t read = 0;
@@ -223,12 +251,13 @@ void External::Impl::end() noexcept {
   joining.leave();
 }
 
-Result<External> External::start(const ExternalSettings& settings, const std::string& node, vars::Store& store) {
+Result<External> External::start(const ExternalSettings& settings, const std::string& node, vars::Store& store,
+                                 const MirrorBlock* plant) {
   auto file = vars::ShmFile::create(vars::external_file(node), sizeof(ExternalBlock));
   if (!file) {
     return file.error();
   }
-  auto impl = std::make_unique<Impl>(settings, store, std::move(file).value());
+  auto impl = std::make_unique<Impl>(settings, store, plant, std::move(file).value());
   if (Status running = impl->run(); !running) {
     impl->end();
     return running.error();

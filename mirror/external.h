@@ -10,6 +10,7 @@
 #include <string>
 
 #include "mirror/external_settings.h"
+#include "mirror/mirror_block.h"
 #include "vars/store.h"
 
 namespace indurop::mirror {
@@ -17,9 +18,11 @@ namespace indurop::mirror {
 class External {
  public:
   // Makes the shared-memory file for tools and starts the thread; joining the network goes on by itself until it
-  // succeeds. `store` is borrowed until the end. Variables the store does not hold are left out. Not real-time safe.
+  // succeeds. `store` and `plant` (null: no board of a plant) are borrowed until the end. Variables the store does not
+  // hold are left out. Not real-time safe.
   // Errors: NoSpace, PermissionDenied, System.
-  static Result<External> start(const ExternalSettings& settings, const std::string& node, vars::Store& store);
+  static Result<External> start(const ExternalSettings& settings, const std::string& node, vars::Store& store,
+                                const MirrorBlock* plant);
   External(External&&) noexcept;
   External& operator=(External&&) noexcept;
   External(const External&) = delete;

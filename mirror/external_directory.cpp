@@ -55,6 +55,10 @@ bool ExternalDirectory::open(dds_entity_t participant, const Content& content, b
       return false;
     }
   }
+  return tell(content, problem);
+}
+
+bool ExternalDirectory::tell(const Content& content, std::string& problem) {
   indurop_wire_Directory out{};
   auto boards = pointers_to(content.boards);
   auto writable = pointers_to(content.writable);

@@ -23,6 +23,8 @@ class ExternalDirectory {
   };
   // False, and `problem` says why, if it cannot be had. `asked`: somebody may ask for topics.
   bool open(dds_entity_t participant, const Content& content, bool asked, std::string& problem);
+  // In place of what was told before.
+  bool tell(const Content& content, std::string& problem);
   void close() noexcept;
   // Variables that somebody wants to read.
   std::vector<std::string> take_wishes();

@@ -15,6 +15,9 @@ struct Exported {
   const void* type = nullptr;  // dds_topic_descriptor_t of its IDL type, valid until the end
   bool writable = false;       // whoever writes the topic sets the variable
   std::int64_t every_ns = 0;   // published at most this often, 0: kExternalEveryNs
+  // Boards of the plant that have it too (<standby>): it is shown by the one that has served longest, as the plant's
+  // readers decide.
+  std::vector<std::string> rivals = {};
 };
 inline constexpr std::int64_t kExternalEveryNs = 10'000'000;
 inline constexpr std::int64_t kExternalFastestNs = 1'000'000;

@@ -33,7 +33,7 @@ dds_topic_descriptor_t renamed(const dds_topic_descriptor_t& type, const std::st
 }  // namespace
 
 ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
-                             ExternalBlock& block, rt::SignalWord& wake)
+                             ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant)
     : store_(store),
       entry_(entry),
       ros_type_(ros2 ? schema::ros_type_name(variable()) : std::string{}),
@@ -42,6 +42,7 @@ ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& ent
       wake_(wake),
       topic_name_(ros2 ? schema::ros_topic(exported.variable) : external_topic(exported.variable)),
       writable_(exported.writable),
+      lead_(plant, exported.rivals),
       texts_(holds_text(variable().type)),
       every_ns_(exported.every_ns > 0 ? std::max(exported.every_ns, kExternalFastestNs) : kExternalEveryNs),
       sent_(entry.value_size),
@@ -151,7 +152,19 @@ bool ExternalTopic::write(std::int64_t now_ns) noexcept {
   return true;
 }
 
+bool ExternalTopic::look_who_leads(std::int64_t now_ns) noexcept {
+  if (!lead_.look(now_ns)) {
+    return false;
+  }
+  again_ = true;
+  due_ns_ = 0;
+  return true;
+}
+
 std::int64_t ExternalTopic::publish(std::int64_t now_ns) noexcept {
+  if (!leads()) {
+    return std::numeric_limits<std::int64_t>::max();
+  }
   const int readers = readers_.load(std::memory_order_acquire);
   if (readers > known_readers_) {
     again_ = true;

@@ -11,6 +11,7 @@
 #include "mirror/endpoint.h"
 #include "mirror/external_block.h"
 #include "mirror/external_settings.h"
+#include "mirror/lead.h"
 #include "rt/signal_word.h"
 #include "schema/schema.h"
 #include "vars/store.h"
@@ -22,7 +23,7 @@ class ExternalTopic {
  public:
   // The variable is known to the store. `ros2`: names of ROS 2. `wake` is for what came from outside.
   ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
-                ExternalBlock& block, rt::SignalWord& wake);
+                ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant);
   ExternalTopic(const ExternalTopic&) = delete;
   ExternalTopic& operator=(const ExternalTopic&) = delete;
 
@@ -33,13 +34,18 @@ class ExternalTopic {
   [[nodiscard]] bool is_open() const noexcept { return writer_.ok(); }
   void close() noexcept;
 
-  // Publishes if it is time and there is a reason to. When to come back at the latest.
+  // Whether this board's value counts may have changed: true if it has.
+  bool look_who_leads(std::int64_t now_ns) noexcept;
+  [[nodiscard]] bool leads() const noexcept { return lead_.ours(); }
+  // Publishes if it is time and there is a reason to, and this board leads. When to come back at the latest.
   std::int64_t publish(std::int64_t now_ns) noexcept;
   // Takes over the newest value from outside.
   void receive() noexcept;
   // What the listeners noticed since the last call; empty: nothing.
   std::string complaint();
 
+  [[nodiscard]] const schema::Variable& variable() const;
+  [[nodiscard]] bool is_writable() const noexcept { return writable_; }
   [[nodiscard]] const std::string& topic_name() const noexcept { return topic_name_; }
   [[nodiscard]] bool is_read() const noexcept { return readers_.load(std::memory_order_acquire) > 0; }
   [[nodiscard]] std::int64_t every_ns() const noexcept { return every_ns_; }
@@ -49,7 +55,6 @@ class ExternalTopic {
   bool refresh() noexcept;
   bool write(std::int64_t now_ns) noexcept;
   void take_over(const std::uint8_t* sample) noexcept;
-  [[nodiscard]] const schema::Variable& variable() const;
 
   vars::Store& store_;
   const vars::DirectoryEntry& entry_;
@@ -60,6 +65,7 @@ class ExternalTopic {
   rt::SignalWord& wake_;
   std::string topic_name_;
   bool writable_;
+  Lead lead_;
   bool texts_;
   std::int64_t every_ns_;
 

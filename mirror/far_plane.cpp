@@ -321,6 +321,13 @@ void FarPlane::follow(const std::string& variable, const std::string& board) {
   }
 }
 
+void FarPlane::reopen(const std::string& variable) {
+  const auto topic = impl_->followed.find(variable);
+  if (topic != impl_->followed.end()) {
+    topic->second->close();
+  }
+}
+
 void FarPlane::take(const Use& use) {
   for (const auto& [variable, topic] : impl_->followed) {
     topic->take([&](const Guid& participant, std::span<const std::uint8_t> value) {

@@ -56,6 +56,8 @@ class FarPlane {
 
   // Reads this variable from now on; again and again without harm. An empty board: of a program that is none.
   void follow(const std::string& variable, const std::string& board);
+  // What is followed has another type now.
+  void reopen(const std::string& variable);
   // Hands over the values that have come since.
   using Use = std::function<void(const std::string& variable, const std::string& board, std::span<const std::uint8_t>)>;
   void take(const Use& use);

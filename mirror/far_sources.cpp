@@ -16,6 +16,7 @@ void FarSources::take(dds_entity_t directories) {
     if (info.instance_state != DDS_IST_ALIVE) {
       const std::string board = told.board;
       std::erase_if(sources_, [&](const auto& entry) { return entry.second.board == board; });
+      ++generation_;
     }
   });
 }

@@ -131,6 +131,7 @@ Status Mirror::Impl::run() {
   copy_name(block.plant, settings.plant);
   copy_name(block.board, settings.board);
   block.domain = settings.domain;
+  block.session.store(session, std::memory_order_relaxed);
   for (std::size_t i = 0; i < settings.boards.size(); ++i) {
     copy_name(block.peers()[i].name, settings.boards[i]);
   }
@@ -355,6 +356,10 @@ Mirror::~Mirror() {
 
 void Mirror::notify() noexcept {
   impl_->wake_sender.wake();
+}
+
+const MirrorBlock& Mirror::block() const noexcept {
+  return impl_->block;
 }
 
 void Mirror::announce(const Schedule& schedule) noexcept {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "mirror/mirror_block.h"
 #include "mirror/schedule.h"
 #include "mirror/settings.h"
 #include "vars/store.h"
@@ -32,6 +33,9 @@ class Mirror {
 
   // Something may have changed in the store: looks and sends soon. Real-time safe, any thread.
   void notify() noexcept;
+
+  // What tools are shown; lives as long as the mirror. Any thread.
+  [[nodiscard]] const MirrorBlock& block() const noexcept;
 
   // The schedule has begun: for comparison with other boards'.
   void announce(const Schedule& schedule) noexcept;

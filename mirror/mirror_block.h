@@ -15,7 +15,7 @@
 namespace indurop::mirror {
 
 inline constexpr std::uint64_t kMirrorMagic = 0x314d5255444e4931ULL;  // "1INDURM1"
-inline constexpr std::uint32_t kMirrorAbi = 2;
+inline constexpr std::uint32_t kMirrorAbi = 3;
 inline constexpr std::size_t kBoardName = 48;
 inline constexpr std::size_t kProblemText = 240;
 
@@ -73,6 +73,7 @@ struct PeerRecord {
   char name[kBoardName];
   std::uint32_t wanted;  // variables this board reads from it
   std::atomic<PeerState> state;
+  std::atomic<std::uint64_t> session;       // of its run, see MirrorBlock
   std::atomic<std::int64_t> heard_ns;       // CLOCK_MONOTONIC of its last frame, 0: none
   std::atomic<std::uint64_t> frames;        // taken over
   std::atomic<std::uint64_t> values;        // written to the store because they differed
@@ -107,6 +108,8 @@ struct MirrorBlock {
   std::uint32_t outgoing;  // variables sent
   std::uint32_t parts;     // frames they need
   std::uint32_t incoming;  // variables received
+  std::atomic<std::uint64_t>
+      session;  // CLOCK_REALTIME of the start of this run; whoever has the smallest has served longest
   std::atomic<Network> network;
   std::atomic<std::uint64_t> updates;  // times something was sent
   std::atomic<std::uint64_t> frames;

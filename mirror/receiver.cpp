@@ -101,6 +101,7 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds_entity_t p
       port.newest_update = 0;
     }
   }
+  record_.session.store(session_, std::memory_order_relaxed);
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
     const auto stream = static_cast<Stream>(i);

@@ -22,12 +22,14 @@ std::string some_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-void ExternalPart::add(const std::vector<deploy::VariableRule>& rules, const std::string& variable) {
+void ExternalPart::add(const std::vector<deploy::VariableRule>& rules, const std::string& variable,
+                       std::vector<std::string> rivals) {
   const auto rule = std::find_if(rules.begin(), rules.end(), [&](const auto& r) { return r.name == variable; });
   if (rule == rules.end()) {
-    settings_.variables.push_back({variable});
+    settings_.variables.push_back({.variable = variable, .rivals = std::move(rivals)});
   } else if (rule->external != External::Off) {
-    settings_.variables.push_back({variable, nullptr, rule->external == External::Write, rule->every.count()});
+    settings_.variables.push_back(
+        {variable, nullptr, rule->external == External::Write, rule->every.count(), std::move(rivals)});
   }
 }
 
@@ -52,8 +54,16 @@ void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantChec
     }
   }
   for (const auto& [variable, owner] : check.owners) {
-    if (owner == board) {
-      add(plant.variables, variable);
+    std::vector<std::size_t> having{owner};
+    if (const auto standbys = check.standbys.find(variable); standbys != check.standbys.end()) {
+      having.insert(having.end(), standbys->second.begin(), standbys->second.end());
+    }
+    if (std::erase(having, board) > 0) {
+      std::vector<std::string> rivals;
+      for (const std::size_t other : having) {
+        rivals.push_back(plant.boards[other].name);
+      }
+      add(plant.variables, variable, std::move(rivals));
     }
   }
 }
@@ -106,7 +116,8 @@ void ExternalPart::find_types(const schema::Schema& schema, Console& console) {
   }
 }
 
-void ExternalPart::start(const std::string& node, vars::Store& store, std::vector<int> cores, Console& console) {
+void ExternalPart::start(const std::string& node, vars::Store& store, const mirror::MirrorBlock* plant,
+                         std::vector<int> cores, Console& console) {
   (void)vars::remove_shm_file(vars::external_file(node));  // of an earlier run
   if (!wanted_) {
     return;
@@ -114,7 +125,7 @@ void ExternalPart::start(const std::string& node, vars::Store& store, std::vecto
   find_types(store.schema(), console);
   settings_.cores = std::move(cores);
   settings_.board = node;
-  auto started = mirror::External::start(settings_, node, store);
+  auto started = mirror::External::start(settings_, node, store, plant);
   if (!started) {
     console.error(
         "other tools do not see the variables: {}: {}", started.error().where,

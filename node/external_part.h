@@ -18,17 +18,20 @@ namespace indurop::node {
 
 class ExternalPart {
  public:
-  // Of a board of a plant: the variables it owns. `board`: index into plant.boards.
+  // Of a board of a plant: the variables it owns or stands by for. `board`: index into plant.boards.
   void configure(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board, bool one_host);
   // Of a module.xml: all variables.
   void configure(const deploy::Config& config, const deploy::CheckResult& check);
 
-  // Loads the types and starts. `store` is borrowed until stop(). `cores`: the threads may run on.
-  void start(const std::string& node, vars::Store& store, std::vector<int> cores, Console& console);
+  // Loads the types and starts. `store` and `plant` (null: none) are borrowed until stop(). `cores`: the threads may
+  // run on.
+  void start(const std::string& node, vars::Store& store, const mirror::MirrorBlock* plant, std::vector<int> cores,
+             Console& console);
   void stop() noexcept { external_.reset(); }
 
  private:
-  void add(const std::vector<deploy::VariableRule>& rules, const std::string& variable);
+  void add(const std::vector<deploy::VariableRule>& rules, const std::string& variable,
+           std::vector<std::string> rivals = {});
   void find_types(const schema::Schema& schema, Console& console);
 
   bool wanted_ = false;

@@ -383,7 +383,7 @@ bool Node::start_schedule() {
   if (!start_mirror()) {
     return false;
   }
-  external_.start(options_.node, *store_, cores_without_modules(), console_);
+  external_.start(options_.node, *store_, mirror_ ? &mirror_->block() : nullptr, cores_without_modules(), console_);
   if (const Status started = engine_->start(ticks); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return fail(kFailed);

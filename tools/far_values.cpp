@@ -153,18 +153,24 @@ void FarValues::value_came(const std::string& variable, const std::string& board
   }
 }
 
-// Boards that are gone keep their variables: the last values stay, and go on when the board is back.
+// Boards that are gone keep their variables: the last values stay, and go on when the board is back, or come from
+// another one that shows them now (a standby).
 void FarValues::rebuild(const std::vector<mirror::FarVariable>& variables) {
+  const auto shows = [&](const std::string& variable, const std::string& board) {
+    return std::any_of(variables.begin(), variables.end(),
+                       [&](const auto& seen) { return seen.board == board && seen.declared.name == variable; });
+  };
   bool other = !store_;
   for (const mirror::FarVariable& seen : variables) {
     auto& known = variables_[seen.declared.name];
-    const bool replaced =
-        known.boards.empty() || (known.owner == seen.board && known.declared.type_hash != seen.declared.type_hash);
-    if (known.boards.empty()) {
+    const bool first = known.boards.empty();
+    if (first || (known.owner != seen.board && !known.chosen && !shows(seen.declared.name, known.owner))) {
       known.owner = seen.board;
     }
+    const bool replaced = first || (known.owner == seen.board && known.declared.type_hash != seen.declared.type_hash);
     if (replaced) {
       known.declared = seen.declared;
+      plane_->reopen(seen.declared.name);
       known.declared.kind = abi::Kind::Ring;  // numbers what comes
       other = true;
     }
@@ -225,6 +231,7 @@ std::string FarValues::prefer(const std::string& pattern, const std::string& boa
   for (auto& [name, known] : variables_) {
     if (known.boards.count(board) > 0 && (name == pattern || schema::glob_match(pattern, name))) {
       known.owner = board;
+      known.chosen = true;
       any = true;
     }
   }

@@ -53,6 +53,7 @@ class FarValues {
     schema::Variable declared;
     std::map<std::string, bool> boards;  // that show it, and whether they let it be set
     std::string owner;
+    bool chosen = false;  // the owner, by the user
   };
   struct Order {
     std::string variable;

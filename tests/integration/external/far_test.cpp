@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "live.h"
+#include "vars/store.h"
 
 namespace indurop::test {
 namespace {
@@ -107,6 +108,23 @@ TEST_P(FarReturn, Watch_goes_on_when_the_node_comes_back) {
 
 INSTANTIATE_TEST_SUITE_P(Names, FarReturn, ::testing::Values("", " ros2=\"on\""));
 
+TEST_F(Far, Watch_goes_on_when_the_node_comes_back_with_another_type) {
+  Program& first = start_axis();
+  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
+                environment());
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
+  first.kill();
+  ASSERT_EQ(first.wait(), 128 + SIGKILL);
+  EXPECT_TRUE(watch.says("not heard: " + node()));
+  Program& second = start_file(configuration(STRANGE_TYPES, "", STRANGE_AXIS), {"--node", node()});
+  ASSERT_TRUE(wait_until_running(second)) << second.err();
+  const std::size_t before = lines(watch);
+  EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.out() << watch.err();
+  EXPECT_EQ(far({"get", "station::state.position"}).out, "1.5\n");
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 130);
+}
+
 TEST_F(Far, Hz_counts_what_comes_over_the_network) {
   start_axis();
   const Outcome sut = far({"hz", "station::state", "--once", "-o", "json"});
@@ -144,6 +162,59 @@ TEST_F(Far, Boards_that_are_not_heard_are_named) {
   EXPECT_EQ(heard.code, 0) << heard.err;
   EXPECT_EQ(heard.out, "true\n");
   EXPECT_CONTAINS(heard.err, "not heard within 2.0 s: absent");
+}
+
+// Two boards that run the axis, one of them as standby.
+class FarStandby : public Far {
+ protected:
+  ~FarStandby() override {
+    for (const auto& program : programs_) {
+      program->kill();
+      (void)program->wait();
+    }
+    (void)vars::remove_node(backup());
+  }
+  std::string backup() const { return node() + "-backup"; }
+  std::string plant() const {
+    return write("plant.xml", "<plant name=\"" + node() + "\"><domain>" + std::to_string(1 + (::getpid() + 1) % 200) +
+                                  "</domain><external>" + domain() +
+                                  "</external><types>" EXAMPLE_FOLDER "/libstation_types.so</types><board name=\"" +
+                                  node() +
+                                  "\"><module><filename>" EXAMPLE_FOLDER
+                                  "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
+                                  "</operationtype><period>1ms</period><priority>1</priority><standby>" +
+                                  backup() + "</standby></module></board><board name=\"" + backup() + "\"/></plant>");
+  }
+  Program& run_board(const std::string& board) {
+    return start_file(plant(), {"--node", board, "--board", board, "--one-host", "-q"});
+  }
+  bool shown_by(const std::string& board) const { return far({"get", "station::state.cycle@" + board}).code == 0; }
+  std::uint64_t cycle() const {
+    return std::strtoull(far({"get", "station::state.cycle", "--wait", "3s"}).out.c_str(), nullptr, 10);
+  }
+};
+
+TEST_F(FarStandby, What_it_computes_is_shown_by_the_board_that_leads) {
+  Program& first = run_board(node());
+  ASSERT_TRUE(wait_until([&] { return cycle() > 2000; })) << first.err();
+  Program& second = run_board(backup());
+  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
+                environment());
+  ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err() << second.err();
+  EXPECT_TRUE(shown_by(node()));
+  EXPECT_FALSE(shown_by(backup())) << "it has served less";
+  first.kill();
+  ASSERT_EQ(first.wait(), 128 + SIGKILL);
+  ASSERT_TRUE(wait_until([&] { return shown_by(backup()); }));
+  const std::size_t before = lines(watch);
+  EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.out() << watch.err();
+  EXPECT_GT(cycle(), 0U);
+  Program& again = run_board(node());
+  ASSERT_TRUE(wait_until([&] { return run() != nullptr && run()->tick.load() > 2000; })) << again.err();
+  EXPECT_TRUE(shown_by(backup()));
+  EXPECT_FALSE(shown_by(node())) << "the lead is not taken back";
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait(), 130);
 }
 
 TEST_F(Far, Topics_of_a_program_that_is_no_board_are_shown_by_their_types) {

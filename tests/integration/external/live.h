@@ -38,12 +38,12 @@ class Live : public NodeTest {
 
   // The example's module.xml, on loopback and with a domain of its own.
   std::string configuration(const std::string& types = EXAMPLE_FOLDER "/libstation_types.so",
-                            const std::string& attributes = "") const {
+                            const std::string& attributes = "",
+                            const std::string& axis = EXAMPLE_FOLDER "/axis.so") const {
     return write("external.xml",
                  "<root><external interface=\"lo\"" + attributes + ">" + domain() + "</external><types>" + types +
-                     "</types><variable name=\"station::target\" external=\"write\"/><module><filename>" +
-                     EXAMPLE_FOLDER +
-                     "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
+                     "</types><variable name=\"station::target\" external=\"write\"/><module><filename>" + axis +
+                     "</filename><moduletype>thread</moduletype><operationtype>periodic"
                      "</operationtype><period>1ms</period><priority>1</priority></module></root>");
   }
   Program& start_axis(const std::string& attributes = "") {

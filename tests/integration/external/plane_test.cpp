@@ -75,7 +75,7 @@ class Plane : public ::testing::Test {
       settings.variables.push_back(
           {variable.name, descriptor_of(variable), variable.name.find("wanted") != std::string::npos, 0});
     }
-    auto started = mirror::External::start(settings, node(), *store_);
+    auto started = mirror::External::start(settings, node(), *store_, nullptr);
     ASSERT_TRUE(started.ok());
     sut_ = std::move(started).value();
     auto file = vars::ShmFile::open(vars::external_file(node()), vars::Mode::ReadOnly);
