@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/thread.h"
 
+#include <link.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -64,6 +65,22 @@ struct Start {
 
 std::size_t page_bytes() noexcept {
   return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Thread-local variables of the program and its libraries lie at the upper end of each stack, and room that the C
+// library keeps for those of libraries that are loaded later (less than a page). In whole pages.
+std::size_t thread_local_bytes() noexcept {
+  std::size_t bytes = page_bytes();
+  (void)::dl_iterate_phdr(
+      [](dl_phdr_info* library, std::size_t /*size*/, void* sum) {
+        for (int i = 0; i < library->dlpi_phnum; ++i) {
+          const auto& segment = library->dlpi_phdr[i];
+          *static_cast<std::size_t*>(sum) += segment.p_type == PT_TLS ? segment.p_memsz + segment.p_align : 0;
+        }
+        return 0;
+      },
+      &bytes);
+  return (bytes + page_bytes() - 1) / page_bytes() * page_bytes();
 }
 
 void* thread_entry(void* argument) {
@@ -179,13 +196,14 @@ std::uint8_t* Stack::lowest() const noexcept {
 
 Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void()> body) {
   Thread thread;
-  thread.stack_ = Stack(settings.stack_bytes, settings.fifo_priority > 0);
+  const std::size_t stack_bytes = settings.stack_bytes + thread_local_bytes();
+  thread.stack_ = Stack(stack_bytes, settings.fifo_priority > 0);
   if (!thread.stack_.ok()) {
     return from_errno(errno, "create a thread's stack");
   }
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
-  ::pthread_attr_setstack(&attributes, thread.stack_.lowest(), settings.stack_bytes);
+  ::pthread_attr_setstack(&attributes, thread.stack_.lowest(), stack_bytes);
   auto start = std::make_unique<Start>(Start{settings, std::move(body)});
   const int code = ::pthread_create(&thread.handle_, &attributes, thread_entry, start.get());
   ::pthread_attr_destroy(&attributes);
