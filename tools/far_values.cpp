@@ -164,7 +164,8 @@ void FarValues::rebuild(const std::vector<mirror::FarVariable>& variables) {
   for (const mirror::FarVariable& seen : variables) {
     auto& known = variables_[seen.declared.name];
     const bool first = known.boards.empty();
-    if (first || (known.owner != seen.board && !known.chosen && !shows(seen.declared.name, known.owner))) {
+    const bool stands_in = !seen.board.empty() && known.owner != seen.board && !known.chosen;
+    if (first || (stands_in && !shows(seen.declared.name, known.owner))) {
       known.owner = seen.board;
     }
     const bool replaced = first || (known.owner == seen.board && known.declared.type_hash != seen.declared.type_hash);

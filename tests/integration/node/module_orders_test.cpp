@@ -35,7 +35,7 @@ TEST_F(ModuleOrders, A_stopped_module_leaves_its_place_empty_and_its_failsafe_va
   EXPECT_EQ(module("out").state.load(), ModuleState::Stopped);
   EXPECT_EQ(value<std::int32_t>("nt::output"), -7);
   EXPECT_TRUE(rests("out", "counter"));
-  EXPECT_EQ(module("out").skipped.load(), 0U);
+  EXPECT_LE(module("out").skipped.load(), run()->lost_ticks.load()) << "beside periods that nobody had";
   EXPECT_TRUE(sut.prints("stop called\n"));
   EXPECT_CONTAINS(indurop({"status", "--node", node()}).out, "stopped");
 
