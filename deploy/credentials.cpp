@@ -143,7 +143,7 @@ bool add_revoked(X509_CRL* list, const std::string& serial, const ASN1_TIME* whe
   const Serial value(is_number ? ::BN_to_ASN1_INTEGER(number.get(), nullptr) : nullptr);
   Revoked entry(::X509_REVOKED_new());
   if (value == nullptr || entry == nullptr || ::X509_REVOKED_set_serialNumber(entry.get(), value.get()) != 1 ||
-      ::X509_REVOKED_set_revocationDate(entry.get(), const_cast<ASN1_TIME*>(when)) != 1 ||
+      ::X509_REVOKED_set_revocationDate(entry.get(), const_cast<ASN1_TIME*>(when)) != 1 ||  // NOLINT: only copied
       ::X509_CRL_add0_revoked(list, entry.get()) != 1) {
     return false;
   }

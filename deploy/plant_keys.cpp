@@ -219,15 +219,15 @@ KeyListing listing_of(Role role, const fs::path& folder, const std::string& auth
 
 }  // namespace
 
-ParticipantKeys::ParticipantKeys(const fs::path& where)
-    : folder(where),
-      authority(where / kAuthority),
-      certificate(where / kIdentity),
-      key(where / kIdentityKey),
-      governance(where / kGovernance),
-      permissions(where / kPermissions),
-      revoked(where / kRevoked),
-      deploy_key(where / kDeployPublic) {}
+ParticipantKeys::ParticipantKeys(const fs::path& in)
+    : folder(in),
+      authority(in / kAuthority),
+      certificate(in / kIdentity),
+      key(in / kIdentityKey),
+      governance(in / kGovernance),
+      permissions(in / kPermissions),
+      revoked(in / kRevoked),
+      deploy_key(in / kDeployPublic) {}
 
 std::string PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
   std::error_code error;

@@ -15,7 +15,7 @@ namespace indurop::deploy {
 
 // What one participant shows to the others, and what it judges them by.
 struct ParticipantKeys {
-  explicit ParticipantKeys(const std::filesystem::path& folder);
+  explicit ParticipantKeys(const std::filesystem::path& in);
   std::filesystem::path folder;
   std::filesystem::path authority;
   std::filesystem::path certificate;

@@ -209,7 +209,7 @@ class CppWriter {
     schema::Type type;
     type.base = base;
     std::array<std::uint8_t, 8> bytes{};
-    const float single = static_cast<float>(value.real);
+    const auto single = static_cast<float>(value.real);
     if (base == Base::Float) {
       std::memcpy(bytes.data(), &single, sizeof single);
     } else if (base == Base::Double) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <unordered_set>
@@ -27,7 +28,7 @@ Words split(const char* text) {
 
 // Keywords of C and C++.
 const Words& keywords() {
-  static const Words words = split(
+  static const Words kWords = split(
       "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t class "
       "co_await co_return co_yield compl concept const const_cast consteval constexpr constinit continue "
       "decltype default delete do double dynamic_cast else enum explicit export extern false float for friend goto "
@@ -35,24 +36,24 @@ const Words& keywords() {
       "protected public register reinterpret_cast requires restrict return short signed sizeof static static_assert "
       "static_cast struct switch template this thread_local throw true try typedef typeid typename typeof union "
       "unsigned using virtual void volatile wchar_t while xor xor_eq ");
-  return words;
+  return kWords;
 }
 
 // Keywords of OMG IDL 4.2; compilers compare them without regard to case.
 const Words& idl_keywords() {
-  static const Words words = split(
+  static const Words kWords = split(
       "abstract alias any attribute bitfield bitmask bitset boolean case char component connector const consumes "
       "context custom default double emits enum eventtype exception factory false finder fixed float getraises home "
       "import in inout int16 int32 int64 int8 interface local long manages map mirrorport module multiple native "
       "object octet oneway out port porttype primarykey private provides public publishes raises readonly sequence "
       "setraises short string struct supports switch true truncatable typedef typeid typename typeprefix uint16 "
       "uint32 uint64 uint8 union unsigned uses valuebase valuetype void wchar wstring ");
-  return words;
+  return kWords;
 }
 
 // Macros of the headers that modules include; no declaration of such a name gets past the preprocessor.
 const Words& macros() {
-  static const Words words = split(
+  static const Words kWords = split(
       "ADJ_ESTERROR ADJ_FREQUENCY ADJ_MAXERROR ADJ_MICRO ADJ_NANO ADJ_OFFSET ADJ_OFFSET_SINGLESHOT ADJ_OFFSET_SS_READ "
       "ADJ_SETOFFSET ADJ_STATUS ADJ_TAI ADJ_TICK ADJ_TIMECONST AIO_PRIO_DELTA_MAX ATOMIC_BOOL_LOCK_FREE "
       "ATOMIC_CHAR16_T_LOCK_FREE ATOMIC_CHAR32_T_LOCK_FREE ATOMIC_CHAR8_T_LOCK_FREE ATOMIC_CHAR_LOCK_FREE "
@@ -133,23 +134,23 @@ const Words& macros() {
       "pthread_cleanup_pop pthread_cleanup_pop_restore_np pthread_cleanup_push pthread_cleanup_push_defer_np "
       "sa_handler sa_sigaction sched_priority sigev_notify_attributes sigev_notify_function sigmask stderr stdin "
       "stdout strdupa strndupa unix ");
-  return words;
+  return kWords;
 }
 
 // Types of the C library: the same name in a namespace becomes ambiguous after `using namespace`.
 const Words& system_types() {
-  static const Words words = split(
+  static const Words kWords = split(
       "DIR FILE blkcnt_t blksize_t byte caddr_t char8_t clock_t clockid_t daddr_t dev_t div_t double_t errno_t "
       "error_t fd_set float_t fpos_t gid_t id_t ino_t intmax_t intptr_t jmp_buf key_t ldiv_t locale_t loff_t "
       "max_align_t mode_t nlink_t nullptr_t off_t pid_t ptrdiff_t quad_t register_t sem_t siginfo_t sigset_t size_t "
       "ssize_t stack_t suseconds_t time_t timer_t u_char u_int u_long u_short uid_t uint uintmax_t uintptr_t ulong "
       "useconds_t ushort va_list wint_t ");
-  return words;
+  return kWords;
 }
 
 // What stands outside of all namespaces already: the C library, our namespaces, the functions of a module.
 const Words& global_names() {
-  static const Words words = split(
+  static const Words kWords = split(
       "abort abs accept access acct acos acosh alarm alloca asctime asin asinh atan atan2 atanh atexit atof atoi "
       "atol basename bind brk bsearch calloc cbrt ceil channel chdir chmod chown chroot clearerr clock clone close "
       "condition confstr connect copysign cos cosh creat crypt ctime daemon daylight dds difftime div dprintf "
@@ -171,7 +172,7 @@ const Words& global_names() {
       "symlink sync syscall sysconf syslog system tan tanh tcgetpgrp tee tempnam tgamma time timegm times timezone "
       "tmpfile tmpnam toascii tolower toupper trunc truncate ttyname tzname tzset ualarm umask uname ungetc unlink "
       "unshare usleep utime vfork vhangup vprintf wait waitid waitpid warn warnx write y0 y1 yn ");
-  return words;
+  return kWords;
 }
 
 // Members that every generated struct shape has.
@@ -183,12 +184,7 @@ constexpr std::size_t kLongest = 100;
 
 template <std::size_t N>
 bool has(const std::array<std::string_view, N>& list, std::string_view name) noexcept {
-  for (const std::string_view one : list) {
-    if (one == name) {
-      return true;
-    }
-  }
-  return false;
+  return std::find(list.begin(), list.end(), name) != list.end();
 }
 
 std::optional<std::string> form_objection(std::string_view name, NameRole role) {

@@ -43,7 +43,7 @@ Qos link_qos(bool state) {
 
 // Samples are only read, and copied before dds_write returns.
 char* text_of(const std::string& text) {
-  return const_cast<char*>(text.c_str());
+  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast): C has no const here
 }
 
 class Names {
@@ -134,7 +134,7 @@ struct DeployLink::Impl {
   Endpoint writer(const dds_topic_descriptor_t& type, const std::string& topic, bool state);
 
   std::uint64_t self = 0;
-  rt::SignalWord wake;  // used by listeners until the readers are gone
+  rt::SignalWord wake{};  // used by listeners until the readers are gone
   Participant joined;
   OtherReleases others;
   Endpoint boards_out;
@@ -292,7 +292,7 @@ DeployLink::Sent DeployLink::send(std::uint64_t requester, const deploy::BlobChu
   out.blob = text_of(chunk.blob);
   out.offset = chunk.offset;
   out.missing = chunk.missing;
-  out.data._buffer = const_cast<std::uint8_t*>(chunk.data.data());
+  out.data._buffer = const_cast<std::uint8_t*>(chunk.data.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
   out.data._length = out.data._maximum = static_cast<std::uint32_t>(chunk.data.size());
   const dds_return_t code = dds_write(writer.get(), &out);
   return code == DDS_RETCODE_TIMEOUT ? Sent::Later : code < 0 ? Sent::Failed : Sent::Yes;

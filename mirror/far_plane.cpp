@@ -43,7 +43,7 @@ bool is_own_topic(std::string_view topic) {
 
 struct FarPlane::Impl {
   struct Publication {
-    Guid participant;
+    Guid participant{};
     std::string topic;
     dds_instance_handle_t instance = 0;  // of the reader of publications, which keeps what was told
   };
@@ -65,9 +65,9 @@ struct FarPlane::Impl {
   void make_topics();
   void wish();
 
-  rt::SignalWord wake;  // used by listeners until the readers are gone
+  rt::SignalWord wake{};  // used by listeners until the readers are gone
   Participant joined;
-  Guid own;
+  Guid own{};
   Entity publications;
   Endpoint directories;
   Endpoint wishes;
@@ -185,8 +185,7 @@ void FarPlane::Impl::look_at_strangers(std::int64_t now_ns) {
   for (const auto& [endpoint, publication] : published) {
     const bool board = sources.at(publication.participant) != nullptr;
     const auto seen = seen_ns.find(publication.participant);
-    if (board || seen == seen_ns.end() || now_ns - seen->second < kPresentNs ||
-        strangers.count(publication.topic) > 0) {
+    if (board || seen == seen_ns.end() || now_ns - seen->second < kPresentNs || strangers.contains(publication.topic)) {
       continue;
     }
     describe(publication, strangers[publication.topic]);
@@ -273,7 +272,7 @@ std::vector<FarVariable> FarPlane::variables() const {
   std::vector<FarVariable> all;
   for (const auto& [participant, source] : impl_->sources.all()) {
     for (const schema::Variable& variable : source.schema.variables) {
-      all.push_back({variable, source.board, source.writable.count(variable.name) > 0});
+      all.push_back({variable, source.board, source.writable.contains(variable.name)});
     }
   }
   for (const auto& [topic, strange] : impl_->strangers) {
@@ -329,10 +328,10 @@ void FarPlane::reopen(const std::string& variable) {
 }
 
 void FarPlane::take(const Use& use) {
-  for (const auto& [variable, topic] : impl_->followed) {
-    topic->take([&](const Guid& participant, std::span<const std::uint8_t> value) {
+  for (const auto& followed : impl_->followed) {
+    followed.second->take([&](const Guid& participant, std::span<const std::uint8_t> value) {
       const FarSources::Source* const source = impl_->sources.at(participant);
-      use(variable, source == nullptr ? std::string{} : source->board, value);
+      use(followed.first, source == nullptr ? std::string{} : source->board, value);
     });
   }
 }

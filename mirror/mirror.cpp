@@ -99,9 +99,9 @@ struct Mirror::Impl {
   Joining joining;
   std::atomic<bool> up{false};
   std::atomic<bool> stop{false};
-  rt::SignalWord wake_manager;
-  rt::SignalWord wake_sender;
-  rt::SignalWord wake_bulk;
+  rt::SignalWord wake_manager{};
+  rt::SignalWord wake_sender{};
+  rt::SignalWord wake_bulk{};
   rt::Thread manager;
   rt::Thread prompt;
   rt::Thread bulk;

@@ -48,8 +48,8 @@ class SharedText {
     for (int i = 0; i < kTries; ++i) {
       const std::uint32_t before = version_.load(std::memory_order_acquire);
       std::string copy;
-      for (std::size_t k = 0; k < kProblemText; ++k) {
-        const char c = text_[k].load(std::memory_order_relaxed);
+      for (const std::atomic<char>& letter : text_) {
+        const char c = letter.load(std::memory_order_relaxed);
         if (c == '\0') {
           break;
         }

@@ -13,15 +13,13 @@
 namespace indurop::node {
 
 // Documented exit codes, the same for all programs.
-enum ExitCode : int {
-  kOk = 0,
-  kFailed = 1,
-  kUsage = 2,
-  kCheckFailed = 4,
-  kNoRealTime = 7,
-  kSchemaMismatch = 8,
-  kInterrupted = 130,
-};
+inline constexpr int kOk = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kUsage = 2;
+inline constexpr int kCheckFailed = 4;
+inline constexpr int kNoRealTime = 7;
+inline constexpr int kSchemaMismatch = 8;
+inline constexpr int kInterrupted = 130;
 
 struct Options {
   std::filesystem::path config;

@@ -79,7 +79,7 @@ class Band {
  private:
   void release(const Release& release) noexcept;
   void overrun(const Release& release) noexcept;
-  void skip(std::uint64_t count) noexcept;
+  void skip(std::uint64_t releases) noexcept;
   void release_process(TaskState& state, const Release& release) noexcept;
   void account_process(TaskState& state) noexcept;
   void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns, std::int64_t basic_ns) noexcept;

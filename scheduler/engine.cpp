@@ -281,7 +281,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
     const std::int64_t late = spinner.wait_until(planned) - planned;
-    const std::uint64_t lost = static_cast<std::uint64_t>(late / basic);
+    const auto lost = static_cast<std::uint64_t>(late / basic);
     tick += lost;
     if (ticks != 0 && tick >= ticks) {
       end_run(core, ticks, ticks - (tick - lost));

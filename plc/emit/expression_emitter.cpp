@@ -275,7 +275,7 @@ std::string ExpressionEmitter::user_call(const Expression& expression) const {
       const auto& initial = one.parameter->declared->initial;
       text = given ? value(*one.argument->value, *one.type)
                    : fmt::format("{}({})", cpp_type(*one.type), cpp_initial(*one.type, initial ? &*initial : nullptr));
-    } else if (one.parameter->section == ast::Section::InOut) {
+    } else if (one.parameter->section == ast::Section::InOut && given) {
       text = raw(*one.argument->value);
     } else if (!given) {
       text = fmt::format("iec::scratch<{}>()", cpp_type(*one.type));

@@ -15,7 +15,6 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-using graphic::Connection;
 using graphic::Element;
 using graphic::Pin;
 using graphic::Storage;

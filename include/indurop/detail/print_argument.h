@@ -56,10 +56,8 @@ PrintArgument print_argument(const T& value) noexcept {
     return text_argument(text == nullptr ? "(null)" : text);
   } else if constexpr (std::is_convertible_v<const T&, std::string_view>) {
     return text_argument(value);
-  } else if constexpr (std::is_pointer_v<Plain> && std::is_object_v<std::remove_pointer_t<Plain>>) {
-    result.kind = PrintArgument::Kind::Pointer;
-    result.as_pointer = value;
-  } else if constexpr (std::is_same_v<Plain, void*> || std::is_same_v<Plain, const void*> ||
+  } else if constexpr ((std::is_pointer_v<Plain> && std::is_object_v<std::remove_pointer_t<Plain>>) ||
+                       std::is_same_v<Plain, void*> || std::is_same_v<Plain, const void*> ||
                        std::is_null_pointer_v<Plain>) {
     result.kind = PrintArgument::Kind::Pointer;
     result.as_pointer = value;
