@@ -294,7 +294,7 @@ void AgentState::collect_garbage() {
   const auto clean = [](const fs::path& folder, const std::set<std::string>& wanted) {
     std::error_code error;
     for (fs::directory_iterator at(folder, error), end; at != end; at.increment(error)) {
-      if (wanted.count(at->path().filename().string()) == 0) {
+      if (!wanted.contains(at->path().filename().string())) {
         std::error_code ignored;
         fs::remove_all(at->path(), ignored);
       }

@@ -106,12 +106,9 @@ bool Processes::launch(Child& child) {
 }
 
 bool Processes::ready() const noexcept {
-  for (const Child& child : children_) {
-    if (run_.modules()[child.index].state.load(std::memory_order_acquire) == ModuleState::Starting) {
-      return false;
-    }
-  }
-  return true;
+  return std::none_of(children_.begin(), children_.end(), [this](const Child& child) {
+    return run_.modules()[child.index].state.load(std::memory_order_acquire) == ModuleState::Starting;
+  });
 }
 
 bool Processes::supervise(std::int64_t now_ns) {

@@ -25,8 +25,10 @@ using vars::CallState;
 
 constexpr std::int64_t kLookNs = 5'000'000;  // how often a waiting caller looks whether the server lives
 
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): what a thread keeps from call to call
 [[gnu::tls_model("initial-exec")]] thread_local CallSlot* t_slot = nullptr;  // held by this thread
 [[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_first = 0;   // where this thread looks first
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 // Ok: somebody serves it. NotFound: nobody. Dead: the server died and no other has come.
 Errc look_for_server(CallFunction& function) noexcept {

@@ -40,6 +40,7 @@ struct Served {
   int tries = 0;
 };
 
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): what a thread serves
 [[gnu::tls_model("initial-exec")]] thread_local const std::vector<Served>* t_served = nullptr;
 
 }  // namespace
@@ -70,7 +71,8 @@ const FunctionOffer* offer_of_this_server(std::uint64_t name_hash) noexcept {
 // One thread serving the functions of one file.
 class FunctionServers::Server {
  public:
-  Server(const void* owner, std::uint32_t module, std::vector<FunctionOffer*> offers) : owner_(owner), module_(module) {
+  Server(const void* owner, std::uint32_t module, const std::vector<FunctionOffer*>& offers)
+      : owner_(owner), module_(module) {
     own_wake_.init(false);
     for (FunctionOffer* offer : offers) {
       served_.push_back({offer, nullptr, 0});
@@ -272,7 +274,7 @@ class FunctionServers::Server {
   CallSlot* working_ = nullptr;
   std::uint64_t working_sequence_ = 0;
   const FunctionOffer* working_offer_ = nullptr;
-  rt::SignalWord own_wake_;
+  rt::SignalWord own_wake_{};
   rt::Thread thread_;
 };
 

@@ -23,7 +23,6 @@ namespace {
 namespace runtime = indurop::runtime;
 namespace schema = indurop::schema;
 using indurop::Errc;
-using indurop::Error;
 using indurop::Status;
 
 constexpr std::int64_t kRetryNs = 100'000'000;  // how often a handle without a node looks for it

@@ -9,6 +9,7 @@ namespace indurop::runtime {
 namespace {
 
 // Initial-exec: found at a fixed place, never allocated at first use.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): which module a thread runs
 [[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_module = kNoModule;
 
 }  // namespace

@@ -38,7 +38,7 @@ class MessageReader {
     std::uint64_t ticket = 0;
     std::int64_t since_ns = 0;
   };
-  bool next_of(std::uint32_t ring, Message& message, std::int64_t now_ns);
+  bool next_of(std::uint32_t index, Message& message, std::int64_t now_ns);
 
   scheduler::RunBlock& run_;
   std::vector<Stuck> stuck_;

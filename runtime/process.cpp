@@ -15,7 +15,7 @@
 
 namespace indurop::runtime {
 
-constinit Hot hot;
+constinit Hot hot;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): there is one process
 
 namespace {
 
@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kKeptMappings = 4;
 
 template <class T>
-T* keep(std::deque<std::unique_ptr<T>>& all, T&& newest) {
+T* keep(std::deque<std::unique_ptr<T>>& all, T newest) {
   all.push_back(std::make_unique<T>(std::move(newest)));
   if (all.size() > kKeptMappings) {
     all.pop_front();

@@ -30,7 +30,7 @@ struct Hot {
   std::atomic<scheduler::RunBlock*> run{nullptr};
   std::atomic<std::uint32_t> process_module{0xFFFFFFFF};  // kNoModule
 };
-extern constinit Hot hot;
+extern constinit Hot hot;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): there is one process
 
 // INDUROP_NODE, else "local".
 std::string default_node();

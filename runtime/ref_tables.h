@@ -33,9 +33,9 @@ class RefTables {
 
  private:
   struct Table {
-    abi::Ref* refs;
-    std::uint32_t count;
-    std::uint32_t times;               // one for each source file of the module that includes the header
+    abi::Ref* refs = nullptr;
+    std::uint32_t count = 0;
+    std::uint32_t times = 0;           // one for each source file of the module that includes the header
     std::optional<ModuleFacts> facts;  // read when first needed
   };
   void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);

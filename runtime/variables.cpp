@@ -56,8 +56,8 @@ bool indurop_hold_scalar(void* entry) noexcept {
 
 void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint32_t offset,
                        std::uint32_t length) noexcept {
-  indurop::vars::read_slow(const_cast<indurop::abi::RingHeader&>(*ring), to, offset,
-                           length);  // NOLINT: mapped writable
+  auto& writable = const_cast<indurop::abi::RingHeader&>(*ring);  // NOLINT(*-const-cast): mapped writable
+  indurop::vars::read_slow(writable, to, offset, length);
 }
 
 bool indurop_read_together(indurop::abi::Piece* pieces, std::uint32_t count) noexcept {

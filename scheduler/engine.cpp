@@ -45,7 +45,7 @@ Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSetting
     states_.push_back(std::move(state));
   }
   build_bands(std::move(periodic), std::move(sporadic));
-  gated_ = !settings_.realtime || cores_.size() > 1;
+  gated_ = !settings_.realtime || cores_.size() > 1;  // NOLINT(*-prefer-member-initializer): the bands make cores_
   connect_predecessors();
 }
 

@@ -107,7 +107,7 @@ Result<PeriodTable> make_period_table(std::span<const PeriodicItem> items) {
   }
   table.basic_period = Nanos{basic};
   table.macro_period = Nanos{macro};
-  table.slot_count = static_cast<std::uint64_t>(macro / basic);
+  table.slot_count = static_cast<std::uint64_t>(macro / basic);  // NOLINT(*DivideZero): a divisor of positive periods
 
   table.order.resize(items.size());
   std::iota(table.order.begin(), table.order.end(), 0U);

@@ -20,7 +20,7 @@ inline void relax() noexcept {
 }  // namespace
 
 Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
-    : clock_(clock), mode_(settings.mode), limit_(period_ns / 2), quantile_(kFirstGuess), margin_(0) {
+    : clock_(clock), mode_(settings.mode), limit_(period_ns / 2), quantile_(kFirstGuess) {
   if (mode_ == SpinMode::Auto) {
     margin_ = std::min(kFirstGuess, limit_);
   } else if (mode_ == SpinMode::Fixed) {

@@ -33,7 +33,7 @@ class Spinner {
   SpinMode mode_;
   std::int64_t limit_;
   std::int64_t quantile_;
-  std::int64_t margin_;
+  std::int64_t margin_ = 0;
 };
 
 }  // namespace indurop::scheduler

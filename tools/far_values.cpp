@@ -189,7 +189,10 @@ Status FarValues::renew_store() {
   }
   const std::string name = fmt::format("far-{}-{}", ::getpid(), ++stores_);
   auto fresh = vars::Store::create(name, schema);
-  auto view = fresh ? vars::Store::attach(name, vars::Mode::ReadOnly) : std::move(fresh);
+  if (!fresh) {
+    return fresh.error();
+  }
+  auto view = vars::Store::attach(name, vars::Mode::ReadOnly);
   (void)vars::remove_shm_file(vars::block_file(name));  // only this process has it
   if (!view) {
     return view.error();
@@ -230,7 +233,7 @@ std::string FarValues::prefer(const std::string& pattern, const std::string& boa
   const std::lock_guard<std::mutex> guard(mutex_);
   bool any = false;
   for (auto& [name, known] : variables_) {
-    if (known.boards.count(board) > 0 && (name == pattern || schema::glob_match(pattern, name))) {
+    if (known.boards.contains(board) && (name == pattern || schema::glob_match(pattern, name))) {
       known.owner = board;
       known.chosen = true;
       any = true;
@@ -278,7 +281,7 @@ std::string FarValues::set(const std::string& variable, std::span<const std::uin
   while (!taken() && !interrupted() && rt::now_ns() < end) {
     news_.wait_for(lock, kPoll);
   }
-  const Order order = std::move(*order_);
+  const FarOrder order = std::move(*order_);
   order_.reset();
   if (order.shown && order.answer == order.value) {
     return {};

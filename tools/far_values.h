@@ -23,6 +23,17 @@
 
 namespace indurop::tools {
 
+// A value on its way to a board.
+struct FarOrder {
+  std::string variable;
+  std::vector<std::uint8_t> value;
+  bool sent = false;
+  int repeats = 0;
+  std::int64_t next_ns = 0;  // to be sent then
+  bool shown = false;        // the board has said something since
+  std::vector<std::uint8_t> answer;
+};
+
 class FarValues {
  public:
   // Joins the network and looks who shows what, as long as `context.far` says. Null after an error message; `code` is
@@ -55,15 +66,6 @@ class FarValues {
     std::string owner;
     bool chosen = false;  // the owner, by the user
   };
-  struct Order {
-    std::string variable;
-    std::vector<std::uint8_t> value;
-    bool sent = false;
-    int repeats = 0;
-    std::int64_t next_ns = 0;  // to be sent then
-    bool shown = false;        // the board has said something since
-    std::vector<std::uint8_t> answer;
-  };
   FarValues(std::unique_ptr<mirror::FarPlane> plane, std::int64_t wait_ns)
       : plane_(std::move(plane)), wait_ns_(wait_ns) {}
   bool gather(Context& context);
@@ -86,7 +88,7 @@ class FarValues {
   std::vector<std::string> hidden_;
   std::set<std::string> followed_;
   std::set<std::string> arrived_;
-  std::optional<Order> order_;
+  std::optional<FarOrder> order_;
   std::optional<vars::Store> store_;  // filled
   std::optional<vars::Store> view_;   // not handed out yet
   std::uint64_t stores_ = 0;

@@ -57,8 +57,7 @@ class Ladder {
 
   [[nodiscard]] std::vector<std::string> lines() const {
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < programs_.size(); ++i) {
-      const plc::LiveProgram& program = programs_[i];
+    for (const plc::LiveProgram& program : programs_) {
       for (std::size_t n = 0; n < program.pictures.size(); ++n) {
         if (request_.rung == 0 || request_.rung == program.sheet.networks[n].number) {
           network(program, n, lines);

@@ -64,6 +64,7 @@ pid_t read_holder(int file) noexcept {
   text[length] = '\0';
   int pid = 0;
   unsigned long long start_time = 0;
+  // NOLINTNEXTLINE(cert-err34-c): a number that is too large is no living process either
   if (std::sscanf(text, "%d %llu", &pid, &start_time) != 2 || !process_alive(pid, start_time)) {
     return 0;
   }

@@ -88,7 +88,7 @@ Result<Bytes> read_all(const std::filesystem::path& path) {
     return os_error(errno, "open the file of retained values");
   }
   Bytes bytes;
-  std::array<std::uint8_t, 65536> part;
+  std::array<std::uint8_t, 65536> part{};
   while (true) {
     const ssize_t count = ::read(file.get(), part.data(), part.size());
     if (count == 0) {

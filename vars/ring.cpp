@@ -27,7 +27,7 @@ struct Span {
 };
 
 Span load_dirty(const RingHeader& ring, std::uint64_t version) noexcept {
-  DirtyRange range;
+  DirtyRange range{};
   __atomic_load(&ring.dirty[version % kSlots], &range, __ATOMIC_RELAXED);
   const std::uint64_t begin = std::min(range.offset, ring.value_size);
   return {begin, std::min<std::uint64_t>(std::uint64_t{range.offset} + range.length, ring.value_size)};

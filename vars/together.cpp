@@ -6,6 +6,7 @@
 
 #include <indurop/detail/access.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -78,28 +79,18 @@ bool still_there(const abi::Piece& piece) noexcept {
 }
 
 bool copy_all(std::span<abi::Piece> pieces) noexcept {
-  for (abi::Piece& piece : pieces) {
-    if (!copy(piece)) {
-      return false;
-    }
+  if (!std::all_of(pieces.begin(), pieces.end(), copy)) {
+    return false;
   }
   std::atomic_thread_fence(std::memory_order_acquire);
-  for (const abi::Piece& piece : pieces) {
-    if (!still_there(piece)) {
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(pieces.begin(), pieces.end(), still_there);
 }
 
 // Values that were there together belong together unless their board says, or cannot say, otherwise.
 bool belong_together(std::span<const abi::Piece> pieces) noexcept {
-  for (const abi::Piece& piece : pieces) {
-    if (pieces.size() > 1 && (piece.update_offset == abi::kAlone || (piece.update & abi::kPartial) != 0)) {
-      return false;
-    }
-  }
-  return true;
+  return pieces.size() < 2 || std::none_of(pieces.begin(), pieces.end(), [](const abi::Piece& piece) {
+           return piece.update_offset == abi::kAlone || (piece.update & abi::kPartial) != 0;
+         });
 }
 
 void copy_each(std::span<abi::Piece> pieces) noexcept {

@@ -200,7 +200,7 @@ class Implementation {
 }  // namespace detail
 }  // namespace indurop
 
-#define INDUROP_JOIN_(a, b) a##b
+#define INDUROP_JOIN_(a, b) a##b  // NOLINT(readability-identifier-naming): the second step of the other
 #define INDUROP_JOIN(a, b) INDUROP_JOIN_(a, b)
 
 // Makes `code` (a function, or a captureless lambda) the implementation of the shared function `shared`: at namespace

@@ -56,13 +56,13 @@ int printf(const char* format, const Argument&... arguments) noexcept {
 //   VersionMismatch  the node is of another version; exits with code 8
 //   Busy          another living process is enrolled for this module; waitPeriod() exits with code 1
 //   PermissionDenied, Corrupt, InvalidArgument, System: the same
-int initPeriodExe();
+int initPeriodExe();  // NOLINT(readability-identifier-naming): the chapter's name (Figure 8)
 
 // Ends the current run and sleeps until the node releases the next one. True: run now. False: the node asks this
 // process to end; should it wait once more all the same (`while (1)`), it is ended here by exit(). A process outlives
 // its node: it goes on waiting and enrols again with the next node of the name. Real-time safe except for the sleep;
 // one thread only.
-bool waitPeriod();
+bool waitPeriod();  // NOLINT(readability-identifier-naming): likewise
 
 // Binds this process's shared variables to `node` now; "" = INDUROP_NODE, else "local". Done by itself when the program
 // is loaded, if the node exists by then, and by initPeriodExe(). A program that does neither calls this, again after a

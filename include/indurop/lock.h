@@ -80,15 +80,15 @@ requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
   static_assert(((sizeof(typename Variable::whole_type) == Variable::tag_type::kSize) && ...),
                 "lock whole variables, not parts of them");
   (detail::record_access<typename Variable::tag_type, detail::kRead | detail::kWrite>(), ...);
-  constexpr std::size_t n = sizeof...(Variable);
-  std::array<detail::Pending, n> pending{
+  constexpr std::size_t kCount = sizeof...(Variable);
+  std::array<detail::Pending, kCount> pending{
       detail::Pending{detail::ring_of<typename Variable::tag_type>(), nullptr, Variable::tag_type::ref().name}...};
-  std::array<detail::Pending*, n> order{};
-  for (std::size_t i = 0; i < n; ++i) {
+  std::array<detail::Pending*, kCount> order{};
+  for (std::size_t i = 0; i < kCount; ++i) {
     order[i] = &pending[i];
   }
   std::sort(order.begin(), order.end(), [](const auto* a, const auto* b) { return a->ring < b->ring; });
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < kCount; ++i) {
     order[i]->version = indurop_begin_edit(order[i]->ring);
     if (order[i]->version == nullptr) {
       for (std::size_t k = 0; k < i; ++k) {
@@ -97,7 +97,7 @@ requires(sizeof...(Variable) > 0 && (detail::Shape<Variable> && ...))
       indurop_lock_fault(order[i]->name);
     }
   }
-  if constexpr (n == 1) {
+  if constexpr (kCount == 1) {
     using Only = std::tuple_element_t<0, std::tuple<Variable...>>;
     return Locked<typename Only::whole_type>(pending[0].ring, pending[0].version);
   } else {

@@ -103,6 +103,9 @@ INDUROP_ALWAYS_INLINE T modify(std::uint32_t offset, Change change) noexcept {
     return ::indurop::detail::valid<Tag>();                      \
   }
 
+// Assigning to a proxy writes the variable, and they look like the standard library's containers.
+// NOLINTBEGIN(cert-dcl21-cpp, cert-oop54-cpp, *assign*, readability-identifier-naming)
+
 // A number, bool or enum. Reading and assigning are one atomic access; +=, ++ and their kin are one atomic
 // read-modify-write, `x = x + 1` is two accesses as in C. Real-time safe, any thread, any process.
 template <class Tag, class T, std::uint32_t Offset>
@@ -285,6 +288,7 @@ struct ArrayRef {
     return get() == other.get();
   }
 };
+// NOLINTEND(cert-dcl21-cpp, cert-oop54-cpp, *assign*, readability-identifier-naming)
 
 // The members every generated struct shape has besides its fields; it names its Place `indurop_place`, so that a
 // field may have any name. A whole struct is read, assigned and compared in one access.

@@ -13,12 +13,12 @@ using ast::Expression;
 using ast::Statement;
 
 const Type& boolean() {
-  static const Type type = [] {
+  static const Type kType = [] {
     Type made;
     made.elementary = Elementary::Bool;
     return made;
   }();
-  return type;
+  return kType;
 }
 
 }  // namespace

@@ -17,16 +17,16 @@ class StatementEmitter {
   void list(const ast::Body& body);
 
  private:
-  void statement(const ast::Statement& statement);
-  void assign(const ast::Statement& statement);
+  void statement(const ast::Statement& one);
+  void assign(const ast::Statement& one);
   void call(const ast::Expression& call);
   void block_call(const ast::Expression& call);
-  void if_statement(const ast::Statement& statement);
-  void case_statement(const ast::Statement& statement);
-  void for_statement(const ast::Statement& statement);
-  void counted_loop(const ast::Statement& statement, std::int64_t step);
-  void general_loop(const ast::Statement& statement);
-  void leave(const ast::Statement& statement, const std::string& how);
+  void if_statement(const ast::Statement& one);
+  void case_statement(const ast::Statement& one);
+  void for_statement(const ast::Statement& one);
+  void counted_loop(const ast::Statement& one, std::int64_t step);
+  void general_loop(const ast::Statement& one);
+  void leave(const ast::Statement& one, const std::string& how);
   void comment(const std::string& text);
   [[nodiscard]] std::string condition(const ast::Expression& expression) const;
   // Runs `body` only if the call's EN is true, and gives ENO.

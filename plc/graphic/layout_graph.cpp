@@ -161,7 +161,7 @@ class Builder {
     }
   }
 
-  void target(Ends sources, End end) {
+  void target(Ends sources, const End& end) {
     if (!sources.empty()) {
       std::sort(sources.begin(), sources.end());
       sources.erase(std::unique(sources.begin(), sources.end()), sources.end());

@@ -13,7 +13,7 @@
 
 namespace indurop::detail {
 
-struct PrintArgument {
+struct PrintArgument {  // NOLINT(cppcoreguidelines-pro-type-member-init): a union has one value
   enum class Kind : std::uint32_t { Signed, Unsigned, Real, Text, Pointer };
   Kind kind = Kind::Signed;
   std::uint32_t size = 0;  // bytes of an integer after C's promotion; characters of a text
