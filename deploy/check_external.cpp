@@ -16,7 +16,7 @@ void check_type_libraries(const TypeFiles& named, Report& report) {
     if (!read) {
       report.error(named.type_places[i], unreadable_file(read.error(), {named.types[i], written, "<types>"}, true));
     } else if (!read.value().shared_object) {
-      report.error(named.type_places[i], in_quotes(written) +
+      report.error(named.type_places[i], path_in_quotes(written) +
                                              " is a program, not a library of types; name the lib..._types.so that "
                                              "indurop_add_glb(... TYPES) builds");
     }

@@ -51,7 +51,7 @@ void check_agreement(std::span<const BoardView> boards, Report& report);
 void check_use(const Uses& uses, const std::set<std::string>& set_by_hand, Report& report);
 
 // Are the files there, and libraries.
-void check_type_libraries(const TypeFiles& types, Report& report);
+void check_type_libraries(const TypeFiles& named, Report& report);
 // Brings the names in the rules to full names; removes rules for variables that do not exist.
 void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, Report& report);
 // What rules say about tools of others. `shown`: there is an external plane. After resolve_rules().

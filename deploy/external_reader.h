@@ -24,7 +24,7 @@ std::string optional_attribute(const Element& element, const char* name,
 // What ros2="on" or "off" of an <external> says.
 bool has_ros2_names(const Element& element, Report& report);
 // One <types>.
-void read_type_file(const Element& element, const std::filesystem::path& folder, TypeFiles& types, Report& report);
+void read_type_file(const Element& element, const std::filesystem::path& folder, TypeFiles& named, Report& report);
 // One <variable> that may have these attributes. Empty after an error, or a second one for the same variable.
 std::optional<VariableRule> read_rule(const Element& element, const std::vector<std::string>& attributes,
                                       FirstPlaces& rules, Report& report);

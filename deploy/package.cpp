@@ -84,12 +84,12 @@ std::string problem_of(const Package& package) {
   }
   for (const std::string& path : paths) {
     for (auto folder = std::filesystem::path(path).parent_path(); !folder.empty(); folder = folder.parent_path()) {
-      if (paths.count(folder.string()) != 0) {
+      if (paths.contains(folder.string())) {
         return fmt::format("{} is both a file and a folder", folder.string());
       }
     }
   }
-  if (paths.count(package.manifest) == 0) {
+  if (!paths.contains(package.manifest)) {
     return "the manifest is not among its files";
   }
   return package.plant.empty() || package.boards.empty() ? "it names no plant or no boards" : "";

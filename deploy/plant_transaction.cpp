@@ -17,7 +17,7 @@ bool same_progress(const BoardReport& a, const BoardReport& b) {
 }  // namespace
 
 PlantTransaction::PlantTransaction(Order order, std::int64_t patience_ns, std::int64_t now_ns)
-    : order_(std::move(order)), patience_ns_(patience_ns), moved_ns_(now_ns), ending_ns_(0) {
+    : order_(std::move(order)), patience_ns_(patience_ns), moved_ns_(now_ns) {
   order_.step = Step::Prepare;
 }
 
@@ -107,7 +107,7 @@ bool PlantTransaction::wound_up() {
   unconfirmed_.clear();
   for (const std::string& board : order_.boards) {
     const auto found = reports_.find(board);
-    if (found == reports_.end() || gone_.count(board) > 0) {
+    if (found == reports_.end() || gone_.contains(board)) {
       // Nobody waits for it to go back: it does so by itself. A commit may still reach it.
       if (order_.step == Step::Commit) {
         unconfirmed_.push_back(board);

@@ -62,8 +62,8 @@ class PlantTransaction {
 
   Order order_;
   std::int64_t patience_ns_;
-  std::int64_t moved_ns_;   // when something happened last
-  std::int64_t ending_ns_;  // when Commit or Abort was said
+  std::int64_t moved_ns_;       // when something happened last
+  std::int64_t ending_ns_ = 0;  // when Commit or Abort was said
   bool switched_ = false;
   bool finished_ = false;
   Verdict verdict_ = Verdict::Open;

@@ -44,7 +44,7 @@ void BlobServer::look_up(Waiting& waiting, const std::string& name) const {
 }
 
 bool BlobServer::read(const Waiting& waiting, deploy::BlobChunk& chunk, std::uint64_t length) const {
-  const std::size_t most = static_cast<std::size_t>(std::min<std::uint64_t>(length, DeployLink::kChunk));
+  const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(length, DeployLink::kChunk));
   if (waiting.file < 0) {
     const std::string part =
         chunk.offset < waiting.blob.text.size() ? waiting.blob.text.substr(chunk.offset, most) : std::string{};

@@ -50,7 +50,8 @@ void Collector::copy_differing(Group& group) const noexcept {
 // False: they are in a run.
 bool Collector::collect_group(Group& group, std::int64_t now_ns) const noexcept {
   const std::uint64_t before = group.writers == nullptr ? 0 : group.writers->runs();
-  const bool patient = group.waiting_since_ns == 0 || now_ns - group.waiting_since_ns < group.writers->patience_ns;
+  const bool patient = group.writers == nullptr || group.waiting_since_ns == 0 ||
+                       now_ns - group.waiting_since_ns < group.writers->patience_ns;
   if (before % 2 != 0 && patient) {
     return false;
   }

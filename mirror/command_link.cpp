@@ -5,6 +5,7 @@
 
 #include "mirror/deploy_link.h"
 #include "mirror/endpoint.h"
+#include "mirror/lent.h"
 #include "rt/signal_word.h"
 #include "schema/topic_name.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr std::int32_t kDepth = 16;
 constexpr std::int64_t kBlockNs = 100'000'000;
-
-// Samples are only read, and copied before dds_write returns.
-char* text_of(const std::string& text) {
-  return const_cast<char*>(text.c_str());
-}
 
 }  // namespace
 
@@ -51,25 +47,25 @@ std::unique_ptr<CommandLink> CommandLink::open(DeployLink& link, CommandSide sid
 void CommandLink::send(const deploy::Command& command) {
   indurop_deploy_Command out{};
   out.commander = command.commander;
-  out.host = text_of(command.host);
-  out.board = text_of(command.board);
+  out.host = lent(command.host);
+  out.board = lent(command.board);
   out.agent = command.agent;
-  out.plant = text_of(command.plant);
+  out.plant = lent(command.plant);
   out.action = static_cast<std::uint8_t>(command.action);
-  out.target = text_of(command.module);
+  out.target = lent(command.module);
   out.nonce = command.nonce;
-  out.signature = text_of(command.signature);
+  out.signature = lent(command.signature);
   (void)dds_write(impl_->out.get(), &out);
 }
 
 void CommandLink::send(const deploy::CommandReply& reply) {
   indurop_deploy_Reply out{};
   out.commander = reply.commander;
-  out.board = text_of(reply.board);
+  out.board = lent(reply.board);
   out.agent = reply.agent;
   out.nonce = reply.nonce;
   out.outcome = static_cast<std::uint8_t>(reply.outcome);
-  out.text = text_of(reply.text);
+  out.text = lent(reply.text);
   (void)dds_write(impl_->out.get(), &out);
 }
 

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "mirror/dds_setup.h"
+#include "mirror/lent.h"
 #include "mirror/other_releases.h"
 #include "rt/clock.h"
 #include "rt/machine.h"
@@ -41,16 +42,11 @@ Qos link_qos(bool state) {
                    .dispose_at_end = true});
 }
 
-// Samples are only read, and copied before dds_write returns.
-char* text_of(const std::string& text) {
-  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast): C has no const here
-}
-
 class Names {
  public:
   explicit Names(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
-      pointers_.push_back(text_of(name));
+      pointers_.push_back(lent(name));
     }
   }
   template <class Sequence>
@@ -218,29 +214,29 @@ DeployLink::~DeployLink() = default;
 void DeployLink::publish(const deploy::BoardReport& report) {
   indurop_deploy_BoardReport out{};
   Names members(report.members);
-  out.board = text_of(report.board);
+  out.board = lent(report.board);
   out.agent = report.agent;
-  out.host = text_of(report.host);
-  out.release = text_of(report.release);
+  out.host = lent(report.host);
+  out.release = lent(report.release);
   out.generation = report.generation;
-  out.plant = text_of(report.plant);
-  out.current = text_of(report.current);
+  out.plant = lent(report.plant);
+  out.current = lent(report.current);
   out.current_size = report.current_size;
-  out.previous = text_of(report.previous);
+  out.previous = lent(report.previous);
   members.put(out.members);
   out.deployer = report.deployer;
-  out.deployer_host = text_of(report.deployer_host);
-  out.proposed = text_of(report.proposed);
+  out.deployer_host = lent(report.deployer_host);
+  out.proposed = lent(report.proposed);
   out.phase = static_cast<std::uint8_t>(report.phase);
   out.stage = static_cast<std::uint8_t>(report.stage);
   out.files = report.files;
   out.files_done = report.files_done;
   out.bytes = report.bytes;
   out.bytes_done = report.bytes_done;
-  out.message = text_of(report.message);
-  out.grant = text_of(report.grant);
+  out.message = lent(report.message);
+  out.grant = lent(report.grant);
   out.refused = report.refused;
-  out.refusal = text_of(report.refusal);
+  out.refusal = lent(report.refusal);
   out.node = static_cast<std::uint8_t>(report.node);
   out.tick = report.tick;
   out.lost_ticks = report.lost_ticks;
@@ -254,9 +250,9 @@ void DeployLink::publish(const deploy::Order& order) {
   indurop_deploy_Order out{};
   Names boards(order.boards);
   out.deployer = order.deployer;
-  out.host = text_of(order.host);
-  out.plant = text_of(order.plant);
-  out.deployment = text_of(order.deployment);
+  out.host = lent(order.host);
+  out.plant = lent(order.plant);
+  out.deployment = lent(order.deployment);
   out.size = order.size;
   out.generation = order.generation;
   boards.put(out.boards);
@@ -264,13 +260,13 @@ void DeployLink::publish(const deploy::Order& order) {
   out.said_at_ns = order.said_at_ns;
   out.switch_at_ns = order.switch_at_ns;
   out.health_ns = order.health_ns;
-  out.grant = text_of(order.grant);
-  out.signature = text_of(order.signature);
+  out.grant = lent(order.grant);
+  out.signature = lent(order.signature);
   (void)dds_write(impl_->orders_out.get(), &out);
 }
 
 void DeployLink::request(const deploy::BlobRequest& request) {
-  const indurop_deploy_Request out{request.requester, request.source, text_of(request.blob),
+  const indurop_deploy_Request out{request.requester, request.source, lent(request.blob),
                                    request.offset,    request.length, request.restart};
   (void)dds_write(impl_->requests_out.get(), &out);
 }
@@ -289,10 +285,10 @@ DeployLink::Sent DeployLink::send(std::uint64_t requester, const deploy::BlobChu
   }
   indurop_deploy_Chunk out{};
   out.source = chunk.source;
-  out.blob = text_of(chunk.blob);
+  out.blob = lent(chunk.blob);
   out.offset = chunk.offset;
   out.missing = chunk.missing;
-  out.data._buffer = const_cast<std::uint8_t*>(chunk.data.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  out.data._buffer = lent(chunk.data.data());
   out.data._length = out.data._maximum = static_cast<std::uint32_t>(chunk.data.size());
   const dds_return_t code = dds_write(writer.get(), &out);
   return code == DDS_RETCODE_TIMEOUT ? Sent::Later : code < 0 ? Sent::Failed : Sent::Yes;

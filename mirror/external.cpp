@@ -71,7 +71,7 @@ struct External::Impl {
   ExternalDirectory::Content shown;
   Joining joining;
   std::atomic<bool> stop{false};
-  rt::SignalWord wake;
+  rt::SignalWord wake{};
   rt::Thread thread;
 };
 

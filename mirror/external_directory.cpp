@@ -3,6 +3,7 @@
 
 #include <wire.h>
 
+#include "mirror/lent.h"
 #include "rt/clock.h"
 #include "schema/topic_name.h"
 
@@ -11,16 +12,11 @@ namespace {
 
 constexpr std::int32_t kWishes = 64;  // tools that ask at the same time
 
-// Samples are only read, and copied before dds_write returns.
-char* text_of(const std::string& text) {
-  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast): C has no const here
-}
-
 std::vector<char*> pointers_to(const std::vector<std::string>& names) {
   std::vector<char*> pointers;
   pointers.reserve(names.size());
   for (const std::string& name : names) {
-    pointers.push_back(text_of(name));
+    pointers.push_back(lent(name));
   }
   return pointers;
 }
@@ -62,11 +58,11 @@ bool ExternalDirectory::tell(const Content& content, std::string& problem) {
   indurop_wire_Directory out{};
   auto boards = pointers_to(content.boards);
   auto writable = pointers_to(content.writable);
-  out.board = text_of(content.board);
+  out.board = lent(content.board);
   out.session = static_cast<std::uint64_t>(rt::wall_ns());
-  out.plant = text_of(content.plant);
+  out.plant = lent(content.plant);
   lend(out.boards, boards);
-  out.schema = text_of(content.schema);
+  out.schema = lent(content.schema);
   lend(out.writable, writable);
   const dds_return_t written = dds_write(writer_.get(), &out);
   if (written < 0) {

@@ -67,6 +67,7 @@ struct Mirror::Impl {
             settings, [this](dds_entity_t participant, std::string& why) { return open(participant, why); },
             [this] { close(); }) {}
 
+  void make_receivers();
   Status run();
   void end() noexcept;
   void manage();
@@ -122,6 +123,24 @@ Landing* Mirror::Impl::landing_of(const std::string& variable) {
   return landings.back().get();
 }
 
+// One per board, with what is read from it.
+void Mirror::Impl::make_receivers() {
+  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
+    std::vector<Landing*> from_it;
+    for (const Incoming& in : settings.incoming) {
+      if (in.owner != settings.boards[i]) {
+        continue;
+      }
+      if (Landing* landing = landing_of(in.variable); landing != nullptr) {
+        from_it.push_back(landing);
+        block.variables()[block.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
+                                               static_cast<std::uint32_t>(i), 0};
+      }
+    }
+    receivers.push_back(std::make_unique<Receiver>(settings.boards[i], from_it, landings_mutex, block.peers()[i]));
+  }
+}
+
 Status Mirror::Impl::run() {
   wake_manager.init(false);
   wake_sender.init(false);
@@ -137,20 +156,7 @@ Status Mirror::Impl::run() {
   }
   sender = std::make_unique<Sender>(store, settings, session, block);
   beacons = std::make_unique<Beacons>(settings, session, block);
-  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
-    std::vector<Landing*> from_it;
-    for (const Incoming& in : settings.incoming) {
-      if (in.owner != settings.boards[i]) {
-        continue;
-      }
-      if (Landing* landing = landing_of(in.variable); landing != nullptr) {
-        from_it.push_back(landing);
-        block.variables()[block.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
-                                               static_cast<std::uint32_t>(i), 0};
-      }
-    }
-    receivers.push_back(std::make_unique<Receiver>(settings.boards[i], from_it, landings_mutex, block.peers()[i]));
-  }
+  make_receivers();
   block.magic.store(kMirrorMagic, std::memory_order_release);
   if (Status published = file.publish(); !published) {
     return published;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mirror/dds_setup.h"
+#include "mirror/lent.h"
 #include "rt/clock.h"
 
 namespace indurop::mirror {
@@ -104,16 +105,14 @@ void Sender::publish_catalogue() noexcept {
   for (std::uint32_t number = 0; number < parts_.size(); ++number) {
     const Outbox& out = parts_[number];
     for (std::size_t i = 0; i < out.content.size(); ++i) {
-      // The sample is only read, and copied before dds_write returns.
       const vars::DirectoryEntry& entry = *out.content[i];
       const std::string& name = store_.schema().variables[entry.schema_index].name;
-      entries.push_back(
-          {const_cast<char*>(name.c_str()), entry.type_hash, number, out.part.content[i].offset, entry.value_size});
+      entries.push_back({lent(name), entry.type_hash, number, out.part.content[i].offset, entry.value_size});
     }
   }
   indurop_wire_Catalogue sample{};
   sample.board = board_.data();
-  sample.release = const_cast<char*>(kRelease);
+  sample.release = lent(kRelease);
   sample.session = session_;
   sample.layout = layout_;
   sample.entries._length = sample.entries._maximum = static_cast<std::uint32_t>(entries.size());

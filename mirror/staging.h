@@ -26,7 +26,7 @@ class Staging {
   // A frame of update number `update`. `sum`: of the numbers of the last updates of all parts, this update included.
   // A part is sent whole whenever something in it changed, so equal sums mean that nothing is missing: no number here
   // can be larger than the sender's.
-  Verdict arrived(std::uint32_t part, std::uint64_t update, std::uint64_t sum, std::span<const std::uint8_t> data,
+  Verdict arrived(std::uint32_t number, std::uint64_t update, std::uint64_t sum, std::span<const std::uint8_t> data,
                   std::int64_t now_ns);
 
   // Calls `use(part, data)` for everything that waits, and nothing does any more.

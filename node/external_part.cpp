@@ -39,7 +39,7 @@ void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantChec
     return;
   }
   wanted_ = true;
-  types_ = plant;
+  types_ = static_cast<const deploy::TypeFiles&>(plant);
   settings_.plant = plant.name;
   settings_.domain = *plant.external_domain;
   settings_.ros2 = plant.external_ros2;
@@ -74,7 +74,7 @@ void ExternalPart::configure(const deploy::Config& config, const deploy::CheckRe
     return;
   }
   wanted_ = true;
-  types_ = plane;
+  types_ = static_cast<const deploy::TypeFiles&>(plane);
   settings_.domain = *plane.domain;
   settings_.ros2 = plane.ros2;
   settings_.interface_name = plane.interface_name;

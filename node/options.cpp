@@ -39,6 +39,7 @@ deploy::SpinSetting to_spin(const std::string& text) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a list
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
   std::string duration;

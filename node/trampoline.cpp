@@ -17,8 +17,6 @@
 #include "rt/thread.h"
 #include "runtime/host.h"
 
-extern char** environ;
-
 namespace indurop::node {
 namespace {
 

@@ -30,7 +30,7 @@ const char* reason(Errc code) noexcept {
 
 }  // namespace
 
-call_error::call_error(const char* function, Errc code) noexcept : code_(code), text_{} {
+call_error::call_error(const char* function, Errc code) noexcept : code_(code) {
   std::snprintf(text_, sizeof text_, "%s: %s", function, reason(code));
 }
 

@@ -38,7 +38,7 @@ class [[gnu::visibility("default")]] call_error : public std::exception {  // NO
 
  private:
   Errc code_;
-  char text_[160];
+  char text_[160] = {};
 };
 
 namespace detail {

@@ -52,7 +52,8 @@ static_assert(offsetof(ModuleDescriptor, abi) == 4, "size and ABI stay where the
 extern "C" {
 // Every thread module that uses INDUROP_MODULE defines it. The caller sets `size`; no more than that is written, and
 // `size` and `abi` tell afterwards what the module was built with. Calls nothing of the module.
-[[gnu::visibility("default")]] void indurop_module_describe(indurop::ModuleDescriptor* indurop_to_);
+// NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): the macro's cannot clash with names of a module
+[[gnu::visibility("default")]] void indurop_module_describe(indurop::ModuleDescriptor* descriptor);
 }
 
 namespace indurop::detail {
