@@ -79,16 +79,16 @@ int run(tools::Context& context, std::vector<std::string> names, int hz) {
   if (names.empty()) {
     names.emplace_back("*");
   }
-  int code = tools::kOk;
+  int code = kOk;
   tools::WatchSource source(context.node, std::move(names));
   if (!source.open(context, code)) {
     return code;
   }
   if (!publishable(context, source)) {
-    return tools::kUsage;
+    return kUsage;
   }
   if (!only_one(context, source.node())) {
-    return tools::kFailed;
+    return kFailed;
   }
   tools::be_gentle(source.node());
   return supervise(context, source, hz);
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? tools::kOk : tools::kUsage;
+    return app.exit(error) == 0 ? kOk : kUsage;
   }
   return gateway::run(context, std::move(names), hz);
 }

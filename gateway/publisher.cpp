@@ -116,7 +116,7 @@ int publish(tools::Context& context, tools::WatchSource& source, int hz) {
     report_memory(context, full, memory_reported);
     tools::wait_until(start + period);
   }
-  return tools::kOk;
+  return kOk;
 }
 
 }  // namespace indurop::gateway

@@ -85,7 +85,7 @@ class Supervisor {
     }
     // An orderly end also without the parent: a killed publisher may leave a lock in RouDi's memory.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    std::exit(getppid() == parent ? publish(context_, source_, hz_) : tools::kOk);
+    std::exit(getppid() == parent ? publish(context_, source_, hz_) : kOk);
   }
 
   void look_after_worker() {
@@ -136,7 +136,7 @@ class Supervisor {
                     "variable ({}, {} bytes) has to fit into a memory pool of RouDi, and there are publishers for {} "
                     "variables on the whole machine: select fewer with a GLOB",
                     kHopeless, largest->item.name, largest->bytes.size(), most_topics()));
-    return tools::kFailed;
+    return kFailed;
   }
 
   void end_worker() {

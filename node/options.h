@@ -9,17 +9,9 @@
 #include <string>
 
 #include "deploy/config.h"
+#include "deploy/exit_code.h"
 
 namespace indurop::node {
-
-// Documented exit codes, the same for all programs.
-inline constexpr int kOk = 0;
-inline constexpr int kFailed = 1;
-inline constexpr int kUsage = 2;
-inline constexpr int kCheckFailed = 4;
-inline constexpr int kNoRealTime = 7;
-inline constexpr int kSchemaMismatch = 8;
-inline constexpr int kInterrupted = 130;
 
 struct Options {
   std::filesystem::path config;

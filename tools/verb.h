@@ -13,19 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "deploy/exit_code.h"
 #include "mirror/far_plane.h"
 #include "tools/output.h"
 #include "tools/table.h"
 
 namespace indurop::tools {
-
-// Exit codes of all InduRoP programs.
-inline constexpr int kOk = 0;
-inline constexpr int kFailed = 1;
-inline constexpr int kUsage = 2;
-inline constexpr int kCheckFailed = 4;
-inline constexpr int kUnreachable = 6;
-inline constexpr int kSchemaMismatch = 8;
 
 enum class Format { Table, Json, Csv, Svg };
 
