@@ -173,7 +173,7 @@ class Lexer {
     const char c = peek();
     do {
       ++at_;
-    } while (at_ < text_.size() && (static_cast<unsigned char>(peek()) & 0xC0U) == 0x80U);
+    } while (at_ < text_.size() && schema::continues_utf8(peek()));
     if (c == '\0') {
       diagnostics_.error(span(from, at_), "a NUL byte, is this a text file?");
       while (peek() == '\0' && at_ < text_.size()) {

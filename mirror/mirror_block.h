@@ -108,8 +108,8 @@ struct MirrorBlock {
   std::uint32_t outgoing;  // variables sent
   std::uint32_t parts;     // frames they need
   std::uint32_t incoming;  // variables received
-  std::atomic<std::uint64_t>
-      session;  // CLOCK_REALTIME of the start of this run; whoever has the smallest has served longest
+  // CLOCK_REALTIME of the start of this run; whoever has the smallest has served longest.
+  std::atomic<std::uint64_t> session;
   std::atomic<Network> network;
   std::atomic<std::uint64_t> updates;  // times something was sent
   std::atomic<std::uint64_t> frames;

@@ -18,6 +18,14 @@ class Far : public Live {
     words.insert(words.end(), {"--one-host", "--domain", domain()});
     return indurop(words);
   }
+  // Prints a line each time it sees another value.
+  Program& watch_cycle() {
+    programs_.push_back(
+        std::make_unique<Program>(std::vector<std::string>{INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz",
+                                                           "20", "--one-host", "--domain", domain()},
+                                  environment()));
+    return *programs_.back();
+  }
 };
 
 TEST_F(Far, Values_are_read_by_name_in_the_forms_that_a_local_node_has) {
@@ -92,8 +100,7 @@ class FarReturn : public Far, public ::testing::WithParamInterface<const char*> 
 
 TEST_P(FarReturn, Watch_goes_on_when_the_node_comes_back) {
   Program& first = start_axis(GetParam());
-  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
-                environment());
+  Program& watch = watch_cycle();
   ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
   first.kill();
   ASSERT_EQ(first.wait(), 128 + SIGKILL);
@@ -110,8 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Names, FarReturn, ::testing::Values("", " ros2=\"on\"")
 
 TEST_F(Far, Watch_goes_on_when_the_node_comes_back_with_another_type) {
   Program& first = start_axis();
-  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
-                environment());
+  Program& watch = watch_cycle();
   ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err();
   first.kill();
   ASSERT_EQ(first.wait(), 128 + SIGKILL);
@@ -198,8 +204,7 @@ TEST_F(FarStandby, What_it_computes_is_shown_by_the_board_that_leads) {
   Program& first = run_board(node());
   ASSERT_TRUE(wait_until([&] { return cycle() > 2000; })) << first.err();
   Program& second = run_board(backup());
-  Program watch({INDUROP_PROGRAM, "watch", "station::state.cycle", "--hz", "20", "--one-host", "--domain", domain()},
-                environment());
+  Program& watch = watch_cycle();
   ASSERT_TRUE(wait_until([&] { return lines(watch) > 3; })) << watch.err() << second.err();
   EXPECT_TRUE(shown_by(node()));
   EXPECT_FALSE(shown_by(backup())) << "it has served less";
