@@ -3,10 +3,11 @@
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
-# On a shared integration machine ($CI is set there) a test that failed gets a second try; both are in the log.
+# On a shared integration machine ($CI is set there) a test that failed gets a second try; `make test` lists these tests and
+# those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test soak check-deps install-deps sanitize asan-ubsan tsan tidy format bench install clean help
+.PHONY: all with-tests demo test soak fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench docs install clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -18,7 +19,7 @@ without_tests = $(if $(wildcard build/CMakeCache.txt),,-DINDUROP_BUILD_TESTS=OFF
 with-tests:
 	@.ci/install-deps build test
 	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
-	@cmake --build --preset release -j $(JOBS)
+	@cmake --build --preset release -j $(JOBS) --target all fuzz_targets
 
 demo: ## install what is missing, build, run the chapter's example, a plant of two boards, the robot cell
 	@.ci/install-deps build
@@ -28,10 +29,15 @@ demo: ## install what is missing, build, run the chapter's example, a plant of t
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
-	@$(CTEST) -LE 'tidy|soak'
+	@$(CTEST) -LE 'tidy|soak' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
+	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log || code=1; exit $$code
 
 soak: with-tests ## the store read 10^9 times and its processes killed for minutes
 	@$(CTEST) -L soak
+
+T ?= 10m
+fuzz: with-tests ## all fuzz targets for T each (T=90s, 10m, 2h); findings stay in build/tests/fuzz
+	@tests/fuzz/fuzz.sh build $(T) $(JOBS)
 
 check-deps:
 	@missing=$$(.ci/install-deps --list build); if [ -n "$$missing" ]; then \
@@ -62,6 +68,11 @@ bench: ## compare with cyclictest, raw globals and futexes; prints ratios
 	@cmake --preset bench --log-level=WARNING >/dev/null
 	@cmake --build --preset bench -j $(JOBS)
 	@cmake --build --preset bench --target run-bench
+
+docs: ## API pages of the public headers, in build/docs/html/index.html
+	@.ci/install-deps docs
+	@mkdir -p build
+	@INDUROP_VERSION=$$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
 
 install: all ## install to PREFIX (default /usr/local)
 	@cmake --install build --prefix "$(PREFIX)"

@@ -50,7 +50,7 @@ class Boards:
     def __enter__(self):
         subprocess.run([*self.lab, "up", "a", "b"], check=True)
         self.agent = subprocess.Popen(
-            [*self.lab, "exec", "a", f"{self.bin}/indurop-node", "--agent", "--board", "a", "-q"],
+            [*self.lab, "exec", "a", f"{self.bin}/indurop-agent", "--board", "a", "-q"],
             env={**os.environ, "INDUROP_STATE_DIR": os.path.join(self.folder, "state")})
         return self
 

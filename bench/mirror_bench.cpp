@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "mirror/mirror.h"
-#include "mirror/mirror_block.h"
+#include "mirror/frames/mirror.h"
+#include "mirror/frames/mirror_block.h"
 #include "rt/clock.h"
 #include "rt/thread.h"
 #include "vars/shm_file.h"
@@ -45,12 +45,12 @@ schema::Schema make_schema(std::uint32_t bytes, int count) {
 mirror::Settings make_settings(bool writer, int domain, const schema::Schema& schema) {
   mirror::Settings settings;
   settings.plant = "bench";
-  settings.board = writer ? "writer" : "reader";
+  settings.network.board = writer ? "writer" : "reader";
   settings.boards = {writer ? "reader" : "writer"};
-  settings.domain = domain;
+  settings.network.domain = domain;
   settings.spin = true;
   settings.cores = {rt::allowed_cores().front()};  // as a node does: not on the core of the modules
-  settings.fifo_priority = rt::set_fifo(1).ok() ? 1 : 0;
+  settings.network.fifo_priority = rt::set_fifo(1).ok() ? 1 : 0;
   (void)rt::set_fifo(0);
   for (const schema::Variable& v : schema.variables) {
     if (writer) {

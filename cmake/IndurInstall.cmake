@@ -22,7 +22,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/InduRoPConfig.cmake.in
   INSTALL_DESTINATION ${indurop_package_dir} PATH_VARS indurop_modules indurop_programs indurop_xsd)
 set(indurop_modules ${PROJECT_SOURCE_DIR}/cmake/IndurModules.cmake)
 set(indurop_programs ${PROJECT_BINARY_DIR}/bin)
-set(indurop_xsd ${PROJECT_SOURCE_DIR}/deploy/module.xsd)
+set(indurop_xsd ${PROJECT_SOURCE_DIR}/config/xml/module.xsd)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/InduRoPConfig.cmake.in
   ${PROJECT_BINARY_DIR}/InduRoPConfig.cmake
   INSTALL_DESTINATION ${PROJECT_BINARY_DIR} INSTALL_PREFIX ${PROJECT_BINARY_DIR}
@@ -41,12 +41,3 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${indurop_share_dir
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/LICENSE
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
-
-# The service of a board names its programs in full, so it is written when the place is known.
-install(CODE "
-  set(INDUROP_PROGRAMS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR})
-  set(INDUROP_DOCS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR})
-  configure_file(${PROJECT_SOURCE_DIR}/systemd/indurop-node@.service.in
-    \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/systemd/system/indurop-node@.service @ONLY)")
-install(FILES ${PROJECT_SOURCE_DIR}/systemd/indurop.sysusers DESTINATION lib/sysusers.d RENAME indurop.conf)
-install(FILES ${PROJECT_SOURCE_DIR}/systemd/60-indurop.rules DESTINATION lib/udev/rules.d)

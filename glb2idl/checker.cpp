@@ -53,7 +53,7 @@ class Checker {
   void operator()(const ast::Define& found) {
     auto value = context_.evaluate(found.value);
     if (value && value->kind == Value::Kind::Duration) {
-      context_.error(found.value.at, "a time is no constant, write it where it is used");
+      context_.error(found.value.at, "a time is not a constant, write it where it is used");
       value.reset();
     }
     add_constant(found.name, std::move(value), std::nullopt, found.description, true);

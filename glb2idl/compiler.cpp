@@ -25,7 +25,7 @@ class Compiler {
  public:
   explicit Compiler(const FileReader& read)
       : read_(read),
-        diagnostics_(sources_),
+        diagnostics_(sources_, out_.diagnostics),
         scope_(diagnostics_),
         context_{sources_, diagnostics_, scope_, out_.program} {}
 
@@ -38,7 +38,7 @@ class Compiler {
       check_schemas();
     }
     out_.ok = !diagnostics_.failed();
-    out_.messages = diagnostics_.render();
+    diagnostics_.finish();
     return std::move(out_);
   }
 
@@ -114,7 +114,7 @@ class Compiler {
   std::optional<std::string> stem_of(const std::string& path, std::optional<Span> from) {
     const std::string name = path.substr(path.rfind('/') + 1);
     if (!name.ends_with(kExtension) || name.size() == kExtension.size()) {
-      report(from, fmt::format("'{}' is no .glb file, rename it to end with .glb", path));
+      report(from, fmt::format("'{}' is not a .glb file, rename it to end with .glb", path));
       return std::nullopt;
     }
     std::string stem = name.substr(0, name.size() - kExtension.size());
@@ -166,9 +166,9 @@ class Compiler {
 
   const FileReader& read_;
   Sources sources_;
+  Compilation out_;
   Diagnostics diagnostics_;
   Scope scope_;
-  Compilation out_;
   Context context_;
   std::vector<std::uint32_t> open_;                           // files being read, outermost first
   std::map<std::uint32_t, std::size_t> units_;                // file -> unit

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "glb2idl/program.h"
 #include "glb2idl/source.h"
 
@@ -13,9 +14,9 @@ namespace indurop::glb2idl {
 
 struct Compilation {
   bool ok = false;
-  std::string messages;            // all errors, ready to print
-  std::vector<std::string> files;  // every file that was read, includes too
-  Program program;                 // complete if ok
+  std::vector<base::Diagnostic> diagnostics;  // all errors, as people read them: by file and place
+  std::vector<std::string> files;             // every file that was read, includes too
+  Program program;                            // complete if ok
 };
 
 // Compiles `inputs` and everything they include. Never throws on bad input.

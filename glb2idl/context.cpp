@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/nearest.h"
 #include "glb2idl/text.h"
-#include "schema/nearest.h"
 
 namespace indurop::glb2idl {
 
@@ -40,10 +40,10 @@ std::optional<Value> Context::constant(const ast::Path& path) {
   }
   const std::string shown = join_names(path.parts, "::");
   if (found != nullptr && found->kind != Symbol::Kind::Broken) {
-    error(path.at, fmt::format("'{}' is no constant, only constants and numbers have a value here", shown));
+    error(path.at, fmt::format("'{}' is not a constant, only constants and numbers have a value here", shown));
   } else if (found == nullptr && !is_broken(path)) {
     const auto known = scope.names(Symbol::Kind::Constant, file);
-    const std::string near = schema::nearest(path.parts.back(), known);
+    const std::string near = base::nearest(path.parts.back(), known);
     error(path.at, near.empty() ? fmt::format("'{}' is not known here, declare it above with #define or const", shown)
                                 : fmt::format("'{}' is not known here, did you mean '{}'?", shown, near));
   }

@@ -186,7 +186,7 @@ std::optional<ast::TypeSpec> DeclarationParser::base_type() {
   if (!base) {
     const bool long_double = contains(words, "long") && contains(words, "double");
     in_.error(result.at, long_double ? "long double differs between machines, use double"
-                                     : "these words are no type together, use a type such as int32_t or double");
+                                     : "these words together are not a type, use a type such as int32_t or double");
     return std::nullopt;
   }
   result.base = *base;

@@ -28,7 +28,7 @@ std::string Descriptions::find(const TokenReader& in, std::size_t begin) const {
 std::string Descriptions::above(Span first) const {
   const std::string& path = sources_.file(file_).path;
   const std::string_view file_name = std::string_view(path).substr(path.rfind('/') + 1);
-  std::uint32_t line = sources_.line_of(first);
+  int line = sources_.line_of(first);
   std::string text;
   auto i = std::lower_bound(comments_.begin(), comments_.end(), first.offset, lies_before);
   while (i != comments_.begin()) {

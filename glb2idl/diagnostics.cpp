@@ -1,55 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages with source line and caret.
-
 #include "glb2idl/diagnostics.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
-#include "glb2idl/source_line.h"
+#include "base/source_line.h"
 
 namespace indurop::glb2idl {
-void Diagnostics::add(std::optional<Span> at, std::string text) {
-  const auto same = [&](const Message& m) {
-    return m.text == text && m.at.has_value() == at.has_value() &&
-           (!at || (m.at->file == at->file && m.at->offset == at->offset));
-  };
-  if (std::any_of(messages_.begin(), messages_.end(), same) || errors_++ >= kLimit) {
+
+void Diagnostics::error(Span at, std::string text) {
+  if (all_.full()) {
+    all_.error({}, std::move(text));  // only counted: lines are not searched for what nobody will see
     return;
   }
-  messages_.push_back({at, std::move(text)});
+  const base::SourcePlace place = sources_.place_of(at);
+  base::Diagnostic one{base::Diagnostic::Severity::Error, sources_.file(at.file).path, place, std::move(text)};
+  one.picture =
+      base::picture_of_line(sources_.line_text(at.file, place.line), static_cast<std::size_t>(place.column), at.length);
+  all_.add(std::move(one));
 }
 
 std::string Diagnostics::place(Span at) const {
   return fmt::format("{}:{}", sources_.file(at.file).path, sources_.line_of(at));
 }
 
-std::string Diagnostics::render() const {
-  std::vector<const Message*> sorted;
-  for (const Message& m : messages_) {
-    sorted.push_back(&m);
+void Diagnostics::finish() {
+  std::vector<std::string> files{""};
+  for (std::uint32_t i = 0; i < sources_.size(); ++i) {
+    files.push_back(sources_.file(i).path);
   }
-  const auto key = [](const Message* m) {
-    return m->at ? std::pair<std::int64_t, std::uint32_t>(m->at->file, m->at->offset)
-                 : std::pair<std::int64_t, std::uint32_t>(-1, 0);
-  };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Message* a, const Message* b) { return key(a) < key(b); });
-  std::string out;
-  for (const Message* m : sorted) {
-    if (!m->at) {
-      out += fmt::format("glb2idl: error: {}\n", m->text);
-      continue;
-    }
-    const LineColumn place = sources_.place_of(*m->at);
-    out += fmt::format("{}:{}:{}: error: {}\n", sources_.file(m->at->file).path, place.line, place.column, m->text);
-    out += picture_of_line(sources_.line_text(m->at->file, place.line), place.column, m->at->length);
-  }
-  if (errors_ > kLimit) {
-    out += fmt::format("glb2idl: error: too many errors, the first {} are shown\n", kLimit);
-  }
-  return out;
+  base::sort_by_file(out_, files);
+  all_.add_summary(out_);
 }
 
 }  // namespace indurop::glb2idl

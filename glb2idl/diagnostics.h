@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects the messages of one compilation and prints them as "file:line:col: error: what, what to do" with the
-// source line and a caret below.
+// Errors about .glb texts. Only what this language has of its own: places are stretches of one of several texts and
+// become lines and columns here, with a picture of the line.
 
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "glb2idl/source.h"
 
 namespace indurop::glb2idl {
@@ -17,30 +16,25 @@ class Diagnostics {
  public:
   static constexpr std::size_t kLimit = 100;
 
-  explicit Diagnostics(const Sources& sources) : sources_(sources) {}
+  // Both are borrowed. Errors are appended to `out`.
+  Diagnostics(const Sources& sources, std::vector<base::Diagnostic>& out)
+      : sources_(sources), all_({}, out, kLimit), out_(out) {}
 
-  // Beyond kLimit errors nothing more is kept.
-  void error(Span at, std::string text) { add(at, std::move(text)); }
+  void error(Span at, std::string text);
   // About the command line or a whole file, without a place.
-  void error(std::string text) { add(std::nullopt, std::move(text)); }
+  void error(std::string text) { all_.error({}, std::move(text)); }
 
-  [[nodiscard]] bool failed() const noexcept { return errors_ != 0; }
-  [[nodiscard]] std::size_t errors() const noexcept { return errors_; }
-  // Ordered by file and place.
-  [[nodiscard]] std::string render() const;
+  [[nodiscard]] bool failed() const noexcept { return all_.failed(); }
+  [[nodiscard]] std::size_t errors() const noexcept { return all_.errors(); }
+  // To be called once, behind the last: orders them, those about no file first, then by file and place.
+  void finish();
   // "knuRobot.glb:3", for texts that refer to another place.
   [[nodiscard]] std::string place(Span at) const;
 
  private:
-  struct Message {
-    std::optional<Span> at;
-    std::string text;
-  };
-  void add(std::optional<Span> at, std::string text);
-
   const Sources& sources_;
-  std::vector<Message> messages_;
-  std::size_t errors_ = 0;
+  base::Diagnostics all_;
+  std::vector<base::Diagnostic>& out_;
 };
 
 }  // namespace indurop::glb2idl

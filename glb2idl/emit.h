@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "glb2idl/program.h"
 
 namespace indurop::glb2idl {
@@ -31,11 +32,11 @@ struct Output {
 // All of these for all units, and indurop/generated.h last.
 [[nodiscard]] std::vector<Output> emit_all(const Program& program);
 
-// Packages of ROS 2 messages for the same bytes, one folder each. `problems`: all names that ROS 2 cannot have, ready
-// to print; empty if there are none.
+// Packages of ROS 2 messages for the same bytes, one folder each. `problems`: all names that ROS 2 cannot have; empty
+// if there are none.
 struct RosPackages {
   std::vector<Output> outputs;
-  std::string problems;
+  std::vector<base::Diagnostic> problems;
 };
 [[nodiscard]] RosPackages emit_ros2(const Program& program);
 

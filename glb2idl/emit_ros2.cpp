@@ -197,7 +197,9 @@ ament_package()
                        name, find, messages, depend);
   }
 
-  void complain(const std::string& text) { out_.problems += fmt::format("{}: error: {}\n", unit_->path, text); }
+  void complain(std::string text) {
+    out_.problems.push_back({base::Diagnostic::Severity::Error, unit_->path, {}, std::move(text)});
+  }
 
   RosPackages& out_;
   const Unit* unit_ = nullptr;

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "base/utf8.h"
 #include "glb2idl/text.h"
-#include "schema/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -144,14 +144,7 @@ std::optional<ast::Expression> ExpressionParser::primary() {
   ast::Expression result;
   result.at = token.at;
   if (token.kind == TokenKind::Number) {
-    in_.take();
-    result.spelling = token.text;
-    const Token& unit = in_.peek();
-    if (unit.kind == TokenKind::Identifier && !unit.newline_before && is_time_unit(unit.text)) {
-      result.spelling += unit.text;
-      result.at = join(token.at, in_.take().at);
-    }
-    return result;
+    return number();
   }
   if (token.kind == TokenKind::Text) {
     return text();
@@ -199,6 +192,20 @@ std::optional<ast::Expression> ExpressionParser::primary() {
   return std::nullopt;
 }
 
+// With the unit of time that may follow at once.
+ast::Expression ExpressionParser::number() {
+  ast::Expression result;
+  const Token& token = in_.take();
+  result.at = token.at;
+  result.spelling = token.text;
+  const Token& unit = in_.peek();
+  if (unit.kind == TokenKind::Identifier && !unit.newline_before && is_time_unit(unit.text)) {
+    result.spelling += unit.text;
+    result.at = join(token.at, in_.take().at);
+  }
+  return result;
+}
+
 // Neighbouring texts are one, as in C.
 std::optional<ast::Expression> ExpressionParser::text() {
   ast::Expression result;
@@ -207,7 +214,7 @@ std::optional<ast::Expression> ExpressionParser::text() {
   while (in_.peek().kind == TokenKind::Text && (more() || result.spelling.empty())) {
     const Token& token = in_.take();
     auto decoded = decode_quoted(token.text);
-    if (!decoded || decoded->find('\0') != std::string::npos || schema::first_invalid_utf8(*decoded)) {
+    if (!decoded || decoded->find('\0') != std::string::npos || base::first_invalid_utf8(*decoded)) {
       in_.error(token.at, "a text is UTF-8 without NUL; escapes are \\n \\t \\r \\\" \\' \\\\ \\xHH, correct it");
       return std::nullopt;
     }

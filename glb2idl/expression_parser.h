@@ -32,6 +32,7 @@ class ExpressionParser {
   std::optional<ast::Expression> binary(int level);
   std::optional<ast::Expression> unary();
   std::optional<ast::Expression> primary();
+  ast::Expression number();
   std::optional<ast::Expression> text();
   std::optional<ast::Initializer> nested_initializer();
   bool count_operator(Span at);

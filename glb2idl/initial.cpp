@@ -25,7 +25,7 @@ std::optional<std::string> convert_enum(Value& value, const schema::Type& type) 
                      std::any_of(type.enumerators.begin(), type.enumerators.end(),
                                  [&](const schema::Enumerator& e) { return e.value == value.integer; });
   if (!known) {
-    return fmt::format("{} is no value of {}, use one of its names", to_text(value), type.name);
+    return fmt::format("{} is not a value of {}, use one of its names", to_text(value), type.name);
   }
   return std::nullopt;
 }
@@ -204,7 +204,7 @@ std::optional<Limits> limits_of(Base base) noexcept {
 std::optional<std::string> convert(Value& value, const schema::Type& type) {
   if (type.base == Base::Text) {
     if (value.kind != Value::Kind::Text) {
-      return fmt::format("{} is no text, write it in quotes", to_text(value));
+      return fmt::format("{} is not a text, write it in quotes", to_text(value));
     }
     if (value.text.size() >= type.text_size) {
       return fmt::format("this text has {} bytes but char[{}] holds at most {}, shorten it or enlarge the array",
@@ -213,7 +213,7 @@ std::optional<std::string> convert(Value& value, const schema::Type& type) {
     return std::nullopt;
   }
   if (!value.is_number()) {
-    return fmt::format("{} is no number, {} needs one", value.kind == Value::Kind::Text ? "a text" : "a time",
+    return fmt::format("{} is not a number, {} needs one", value.kind == Value::Kind::Text ? "a text" : "a time",
                        schema::display_name(type));
   }
   if (type.base == Base::Enum) {
@@ -227,7 +227,7 @@ std::optional<std::string> convert(Value& value, const schema::Type& type) {
   if (value.kind == Value::Kind::Real) {
     constexpr double kExact = 9e15;
     if (value.real != std::floor(value.real) || std::fabs(value.real) > kExact) {
-      return fmt::format("{} is no whole number, {} needs one", to_text(value), schema::display_name(type));
+      return fmt::format("{} is not a whole number, {} needs one", to_text(value), schema::display_name(type));
     }
     value.integer = static_cast<Wide>(value.real);
   }

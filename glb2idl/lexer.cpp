@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-#include "schema/utf8.h"
+#include "base/utf8.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -84,7 +84,7 @@ class Lexer {
       at_ = text_.size();
       return;
     }
-    if (const auto bad = schema::first_invalid_utf8(text_)) {
+    if (const auto bad = base::first_invalid_utf8(text_)) {
       diagnostics_.error(span(*bad, *bad + 1), "this is not UTF-8, save the file as UTF-8");
     }
   }
@@ -173,7 +173,7 @@ class Lexer {
     const char c = peek();
     do {
       ++at_;
-    } while (at_ < text_.size() && schema::continues_utf8(peek()));
+    } while (at_ < text_.size() && base::continues_utf8(peek()));
     if (c == '\0') {
       diagnostics_.error(span(from, at_), "a NUL byte, is this a text file?");
       while (peek() == '\0' && at_ < text_.size()) {
@@ -181,7 +181,7 @@ class Lexer {
       }
     } else if (static_cast<unsigned char>(c) < 0x80) {
       diagnostics_.error(span(from, at_), "this character has no meaning here, remove it");
-    } else if (!schema::first_invalid_utf8(text_.substr(from, at_ - from))) {
+    } else if (!base::first_invalid_utf8(text_.substr(from, at_ - from))) {
       diagnostics_.error(span(from, from + 1),
                          "only ASCII letters, digits and '_' outside of comments and texts, replace it");
     }
@@ -202,8 +202,8 @@ class Lexer {
     found.first_line = sources_.line_of(span(from, from));
     found.own_line = !line_used_;
     const std::string_view body = text_.substr(from + 2, end - std::min(end, from + 2));
-    found.last_line = found.first_line + static_cast<std::uint32_t>(std::count(body.begin(), body.end(), '\n'));
-    found.text = schema::first_invalid_utf8(body) ? std::string() : clean(body);
+    found.last_line = found.first_line + static_cast<int>(std::count(body.begin(), body.end(), '\n'));
+    found.text = base::first_invalid_utf8(body) ? std::string() : clean(body);
     std::erase_if(found.text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
     at_ = std::min(text_.size(), block ? end + 2 : end);
     if (block && found.last_line > found.first_line) {

@@ -27,8 +27,8 @@ struct Token {
 
 struct Comment {
   std::uint32_t offset = 0;
-  std::uint32_t first_line = 0;
-  std::uint32_t last_line = 0;
+  int first_line = 0;
+  int last_line = 0;
   bool own_line = false;  // nothing but the comment before it on its line
   std::string text;       // cleaned: no comment marks, one line, blanks collapsed
 };

@@ -52,6 +52,7 @@ const Words& idl_keywords() {
 }
 
 // Macros of the headers that modules include; no declaration of such a name gets past the preprocessor.
+// Long: a list.
 const Words& macros() {
   static const Words kWords = split(
       "ADJ_ESTERROR ADJ_FREQUENCY ADJ_MAXERROR ADJ_MICRO ADJ_NANO ADJ_OFFSET ADJ_OFFSET_SINGLESHOT ADJ_OFFSET_SS_READ "

@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "base/nearest.h"
 #include "glb2idl/initial.h"
 #include "glb2idl/text.h"
-#include "schema/nearest.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -50,7 +50,7 @@ class Reader {
       rule = one.name == annotation.name.text ? &one : rule;
     }
     if (rule == nullptr) {
-      const std::string near = schema::nearest(annotation.name.text, known);
+      const std::string near = base::nearest(annotation.name.text, known);
       context_.error(annotation.at, near.empty() ? fmt::format("there is no annotation '@{}', known are @{}",
                                                                annotation.name.text, join_names(known, ", @"))
                                                  : fmt::format("there is no annotation '@{}', did you mean '@{}'?",

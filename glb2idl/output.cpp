@@ -3,16 +3,13 @@
 
 #include "glb2idl/output.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <system_error>
+
+#include "base/read_file.h"
+#include "base/replace_file.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -20,31 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 bool holds(const fs::path& path, std::string_view text) {
-  std::error_code failed;
-  if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) != text.size() || failed) {
-    return false;
-  }
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return in.good() && content.view() == text;
+  const auto content = base::read_file(path, text.size());
+  return content && *content == text;
 }
 
-std::string failure(const fs::path& path, int number) {
-  return fmt::format("cannot write '{}': {}, check the folder and its rights", path.string(),
-                     std::generic_category().message(number));
-}
-
-// 0, or errno.
-int write_bytes(int fd, std::string_view text) noexcept {
-  while (!text.empty()) {
-    const ssize_t written = ::write(fd, text.data(), text.size());
-    if (written < 0 && errno != EINTR) {
-      return errno;
-    }
-    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-  }
-  return 0;
+std::string failure(const fs::path& path, const std::string& reason) {
+  return fmt::format("cannot write '{}': {}, check the folder and its rights", path.string(), reason);
 }
 
 }  // namespace
@@ -58,27 +36,11 @@ std::string write_file(const std::string& path, std::string_view text) {
   if (target.has_parent_path()) {
     fs::create_directories(target.parent_path(), failed);
     if (failed) {
-      return failure(target.parent_path(), failed.value());
+      return failure(target.parent_path(), failed.message());
     }
   }
-  const std::string temporary = fmt::format("{}.{}.tmp", path, ::getpid());
-  constexpr mode_t kMode = 0666;  // less the user's umask
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kMode);
-  if (fd < 0) {
-    return failure(target, errno);
-  }
-  int error = write_bytes(fd, text);
-  if (::close(fd) != 0 && error == 0) {
-    error = errno;
-  }
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
-    error = errno;
-  }
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    return failure(target, error);
-  }
-  return {};
+  const auto written = base::replace_file(target, text, base::Durable::No);
+  return written ? std::string{} : failure(target, written.error().text);
 }
 
 std::string write_all(const std::string& folder, const std::vector<Output>& outputs) {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/source_place.h"
+
 namespace indurop::glb2idl {
 
 // A stretch of text in one file.
@@ -22,12 +24,6 @@ struct Span {
 
 // From the beginning of `first` to the end of `last`, both in the same file.
 [[nodiscard]] Span join(Span first, Span last) noexcept;
-
-// Line and column from 1. Columns count characters, not bytes.
-struct LineColumn {
-  std::uint32_t line = 1;
-  std::uint32_t column = 1;
-};
 
 struct SourceFile {
   std::string path;                  // as the user wrote it, for messages
@@ -43,9 +39,9 @@ class Sources {
   [[nodiscard]] std::size_t size() const noexcept { return files_.size(); }
   [[nodiscard]] std::optional<std::uint32_t> find(std::string_view identity) const noexcept;
 
-  [[nodiscard]] std::uint32_t line_of(Span at) const noexcept;  // from 1
-  [[nodiscard]] LineColumn place_of(Span at) const noexcept;
-  [[nodiscard]] std::string_view line_text(std::uint32_t file, std::uint32_t line) const noexcept;
+  [[nodiscard]] int line_of(Span at) const noexcept;  // from 1
+  [[nodiscard]] base::SourcePlace place_of(Span at) const noexcept;
+  [[nodiscard]] std::string_view line_text(std::uint32_t file, int line) const noexcept;
 
  private:
   std::deque<SourceFile> files_;  // never moves a text that tokens refer to

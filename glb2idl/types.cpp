@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/nearest.h"
 #include "glb2idl/notes.h"
 #include "glb2idl/text.h"
 #include "glb2idl/type_words.h"
-#include "schema/nearest.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -174,13 +174,13 @@ std::optional<schema::Type> TypeBuilder::named(const ast::TypeSpec& spec) {
     return type;
   }
   if (found != nullptr && found->kind != Symbol::Kind::Broken) {
-    context_.error(spec.at, fmt::format("'{}' is no type, a type was expected here", shown));
+    context_.error(spec.at, fmt::format("'{}' is not a type, a type was expected here", shown));
   } else if (found == nullptr && !context_.is_broken(spec.path)) {
     const std::string_view substitute = substitute_for(spec.path.parts.front());
     std::vector<std::string> known = context_.scope.names(Symbol::Kind::Type, context_.file);
     known.insert(known.end(), type_names().begin(), type_names().end());
     const std::string near =
-        substitute.empty() ? schema::nearest(spec.path.parts.back(), known) : std::string(substitute);
+        substitute.empty() ? base::nearest(spec.path.parts.back(), known) : std::string(substitute);
     context_.error(spec.at, near.empty()
                                 ? fmt::format("there is no type '{}', declare it above or include its file", shown)
                             : substitute.empty() ? fmt::format("there is no type '{}', did you mean '{}'?", shown, near)

@@ -13,7 +13,7 @@ constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // makes any seed a go
 
 }  // namespace
 
-AxisModel::AxisModel(const deploy::IoAxis& axis) noexcept
+AxisModel::AxisModel(const config::IoAxis& axis) noexcept
     : inertia_(axis.inertia),
       damping_(axis.damping),
       most_torque_(axis.torque),

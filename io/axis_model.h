@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 
 namespace indurop::io {
 
@@ -23,7 +23,7 @@ class AxisModel {
   static constexpr std::int64_t kStepNs = 125'000;
   static constexpr double kStep = 125e-6;  // the same in seconds
 
-  explicit AxisModel(const deploy::IoAxis& axis) noexcept;
+  explicit AxisModel(const config::IoAxis& axis) noexcept;
 
   // One step with the loops closed.
   void drive(const AxisReference& reference) noexcept;

@@ -32,7 +32,7 @@ std::int32_t wrapped(std::int64_t counts) noexcept {
 
 }  // namespace
 
-Cia402Drive::Cia402Drive(const deploy::IoAxis& axis) noexcept
+Cia402Drive::Cia402Drive(const config::IoAxis& axis) noexcept
     : axis_(axis), model_(axis), last_counts_(model_.read_encoder()) {
   start_over();
 }

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "io/axis_model.h"
 #include "io/axis_profile.h"
 #include "io/cia402_state.h"
@@ -42,7 +42,7 @@ struct DriveFeedback {
 
 class Cia402Drive {
  public:
-  explicit Cia402Drive(const deploy::IoAxis& axis) noexcept;
+  explicit Cia402Drive(const config::IoAxis& axis) noexcept;
 
   // The next period: takes the command at its beginning, returns what the drive sends at its end.
   DriveFeedback step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept;
@@ -64,7 +64,7 @@ class Cia402Drive {
   [[nodiscard]] std::uint16_t mode_bits(const DriveCommand& command) const noexcept;
   [[nodiscard]] DriveFeedback feedback(const DriveCommand& command) noexcept;
 
-  deploy::IoAxis axis_;
+  config::IoAxis axis_;
   AxisModel model_;
   DriveStateMachine machine_;
   AxisProfile profile_;  // the reference, its positions as the model has them

@@ -9,7 +9,7 @@
 
 namespace indurop::io {
 
-Cia402Driver::Object Cia402Driver::object_of(const deploy::IoPoint& point) {
+Cia402Driver::Object Cia402Driver::object_of(const config::IoPoint& point) {
   constexpr std::array<std::pair<std::string_view, Object>, 7> kNames{{{"error", Object::Error},
                                                                        {"status", Object::Status},
                                                                        {"control", Object::Control},
@@ -25,13 +25,13 @@ Cia402Driver::Object Cia402Driver::object_of(const deploy::IoPoint& point) {
   return Object::Position;
 }
 
-Cia402Driver::Cia402Driver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
-                           std::span<const deploy::IoPoint> inputs)
+Cia402Driver::Cia402Driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+                           std::span<const config::IoPoint> inputs)
     : drive_(device.axis) {
-  for (const deploy::IoPoint& point : outputs) {
+  for (const config::IoPoint& point : outputs) {
     outputs_.push_back(object_of(point));
   }
-  for (const deploy::IoPoint& point : inputs) {
+  for (const config::IoPoint& point : inputs) {
     inputs_.push_back(object_of(point));
   }
 }

@@ -12,8 +12,8 @@ namespace indurop::io {
 
 class Cia402Driver final : public Driver {
  public:
-  Cia402Driver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
-               std::span<const deploy::IoPoint> inputs);
+  Cia402Driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+               std::span<const config::IoPoint> inputs);
 
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
   bool open() override { return true; }
@@ -23,7 +23,7 @@ class Cia402Driver final : public Driver {
 
  private:
   enum class Object { Error, Status, Control, Mode, Position, Velocity, Torque };
-  static Object object_of(const deploy::IoPoint& point);
+  static Object object_of(const config::IoPoint& point);
 
   std::vector<Object> outputs_;
   std::vector<Object> inputs_;

@@ -5,28 +5,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 #include <utility>
+
+#include "base/read_file.h"
 
 namespace indurop::io {
 
-std::unique_ptr<CsvDriver> CsvDriver::make(const deploy::IoDevice& device, std::span<const deploy::IoPoint> inputs,
+std::unique_ptr<CsvDriver> CsvDriver::make(const config::IoDevice& device, std::span<const config::IoPoint> inputs,
                                            std::string& problem) {
   const std::string file = device.csv.file.string();
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) {
-    problem = fmt::format("{}: error: cannot be read: {}", file, std::strerror(errno));
+  const auto text = base::read_file(file);
+  if (!text) {
+    problem = fmt::format("{}: error: cannot be read: {}", file, text.error().text);
     return nullptr;
   }
   std::vector<std::string> problems;
-  CsvTable table = read_csv(text.str(), file, problems);
+  CsvTable table = read_csv(*text, file, problems);
   std::vector<std::size_t> columns;
-  for (const deploy::IoPoint& point : inputs) {
+  for (const config::IoPoint& point : inputs) {
     const auto found = std::find(table.columns.begin(), table.columns.end(), point.at);
     if (found == table.columns.end() && problems.empty()) {
       problems.push_back(fmt::format("{}:1:1: error: there is no column '{}'; there are {}", file, point.at,

@@ -14,7 +14,7 @@ namespace indurop::io {
 class CsvDriver final : public Driver {
  public:
   // Null if the file cannot be read or lacks a column; `problem` says what, one line each.
-  static std::unique_ptr<CsvDriver> make(const deploy::IoDevice& device, std::span<const deploy::IoPoint> inputs,
+  static std::unique_ptr<CsvDriver> make(const config::IoDevice& device, std::span<const config::IoPoint> inputs,
                                          std::string& problem);
   // `columns`: that of each point.
   CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop);

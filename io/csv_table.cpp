@@ -8,6 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "base/text.h"
+
 namespace indurop::io {
 namespace {
 
@@ -18,13 +20,6 @@ struct Cell {
   std::string text;
   std::size_t column;  // from 1
 };
-
-std::string_view trimmed(std::string_view text) {
-  constexpr const char* kSpace = " \t\r";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  return first == std::string_view::npos ? std::string_view{}
-                                         : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
 
 class Reader {
  public:
@@ -39,7 +34,7 @@ class Reader {
       const std::size_t end = text.find('\n');
       const std::string_view line = text.substr(0, end);
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-      const std::string_view content = trimmed(line);
+      const std::string_view content = base::trimmed(line);
       if (content.empty() || content.front() == '#') {
         continue;
       }
@@ -76,7 +71,7 @@ class Reader {
       }
     }
     for (Cell& cell : cells) {
-      cell.text = trimmed(cell.text);
+      cell.text = base::trimmed(cell.text);
     }
     return cells;
   }

@@ -8,16 +8,16 @@ namespace indurop::io {
 
 using Outcome = Driver::Outcome;
 
-std::vector<DeviceImage::Point> DeviceImage::points_of(std::span<const deploy::BoundPoint> bound) {
+std::vector<DeviceImage::Point> DeviceImage::points_of(std::span<const config::BoundPoint> bound) {
   std::vector<Point> points;
-  for (const deploy::BoundPoint& b : bound) {
+  for (const config::BoundPoint& b : bound) {
     points.push_back(
         {{b.variable.type.base, b.point.scale, b.point.offset}, b.point.output ? b.point.stop : b.point.bad_value});
   }
   return points;
 }
 
-DeviceImage::DeviceImage(std::span<const deploy::BoundPoint> inputs, std::span<const deploy::BoundPoint> outputs)
+DeviceImage::DeviceImage(std::span<const config::BoundPoint> inputs, std::span<const config::BoundPoint> outputs)
     : inputs_(points_of(inputs)),
       outputs_(points_of(outputs)),
       input_samples_(inputs.size()),

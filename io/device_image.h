@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "io/driver.h"
 #include "io/sample.h"
 #include "io/scaling.h"
@@ -35,7 +35,7 @@ using OutputImage = std::vector<std::uint64_t>;
 class DeviceImage {
  public:
   // The points of each direction in their order.
-  DeviceImage(std::span<const deploy::BoundPoint> inputs, std::span<const deploy::BoundPoint> outputs);
+  DeviceImage(std::span<const config::BoundPoint> inputs, std::span<const config::BoundPoint> outputs);
 
   // What outputs are told. Hold: their stop value if they have one; the others are not sent.
   enum class Outputs { Unknown, Fresh, Hold };
@@ -50,7 +50,7 @@ class DeviceImage {
     Scaling scaling;
     std::optional<double> other;  // value of a bad input, stop value of an output
   };
-  static std::vector<Point> points_of(std::span<const deploy::BoundPoint> bound);
+  static std::vector<Point> points_of(std::span<const config::BoundPoint> bound);
   void take_outputs(const OutputImage& outputs, Outputs how) noexcept;
   void give_inputs() noexcept;
   void judge(Driver::Outcome outcome) noexcept;

@@ -9,16 +9,16 @@ namespace indurop::io {
 
 std::unique_ptr<Dispatcher> Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema,
                                              Phase phase, std::vector<std::string>& problems) {
-  deploy::ReadIo read = deploy::read_io_config(file);
-  const auto bound = deploy::bind_io(read.config, schema, read.diagnostics);
-  for (const deploy::Diagnostic& diagnostic : read.diagnostics) {
-    problems.push_back(deploy::to_string(diagnostic));
+  config::ReadIo read = config::read_io_config(file);
+  const auto bound = config::bind_io(read.config, schema, read.diagnostics);
+  for (const base::Diagnostic& diagnostic : read.diagnostics) {
+    problems.push_back(base::to_string(diagnostic));
   }
   if (!read.ok()) {
     return nullptr;
   }
   std::unique_ptr<Dispatcher> made(new Dispatcher);  // NOLINT: the constructor is private
-  for (const deploy::BoundDevice& device : bound) {
+  for (const config::BoundDevice& device : bound) {
     made->add(device, phase, file, problems);
   }
   return problems.empty() ? std::move(made) : nullptr;
@@ -35,13 +35,13 @@ std::optional<Dispatcher::Report> Dispatcher::report_to(const std::optional<sche
   return Report{variables_.add_write(*variable), variable->type.base};
 }
 
-void Dispatcher::add(const deploy::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
+void Dispatcher::add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
                      std::vector<std::string>& problems) {
-  std::vector<deploy::BoundPoint> inputs;
-  std::vector<deploy::BoundPoint> outputs;
-  std::vector<deploy::IoPoint> input_points;
-  std::vector<deploy::IoPoint> output_points;
-  for (const deploy::BoundPoint& b : bound.points) {
+  std::vector<config::BoundPoint> inputs;
+  std::vector<config::BoundPoint> outputs;
+  std::vector<config::IoPoint> input_points;
+  std::vector<config::IoPoint> output_points;
+  for (const config::BoundPoint& b : bound.points) {
     if (phase == (b.point.output ? Phase::Inputs : Phase::Outputs)) {
       continue;  // the other module's
     }
@@ -51,13 +51,13 @@ void Dispatcher::add(const deploy::BoundDevice& bound, Phase phase, const std::f
   if (inputs.empty() && outputs.empty()) {
     return;
   }
-  const bool shareable = bound.device.driver == deploy::IoDriver::ModbusTcp;
+  const bool shareable = bound.device.driver == config::IoDriver::ModbusTcp;
   if (!shareable && outputs.size() + inputs.size() != bound.points.size()) {
     problems.push_back(
         fmt::format("{}:{}:{}: error: the inputs and outputs of {} device {} cannot be split among two "
                     "modules; give the module that runs it a file of its own, without phase",
                     file.string(), bound.device.place.line, bound.device.place.column,
-                    deploy::name_of(bound.device.driver), bound.device.name));
+                    config::name_of(bound.device.driver), bound.device.name));
     return;
   }
   std::string problem;
@@ -69,11 +69,11 @@ void Dispatcher::add(const deploy::BoundDevice& bound, Phase phase, const std::f
   Line& line = lines_.emplace_back();
   line.device = bound.device;
   line.driver = std::move(driver);
-  for (const deploy::BoundPoint& b : inputs) {
+  for (const config::BoundPoint& b : inputs) {
     line.to.push_back(variables_.add_write(b.variable));
     line.input_qualities.push_back(report_to(b.quality));
   }
-  for (const deploy::BoundPoint& b : outputs) {
+  for (const config::BoundPoint& b : outputs) {
     line.from.push_back(variables_.add_read(b.variable));
     line.output_qualities.push_back(report_to(b.quality));
   }

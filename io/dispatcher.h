@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "io/device_image.h"
 #include "io/exchange_thread.h"
 #include "io/variables.h"
@@ -48,7 +48,7 @@ class Dispatcher {
   };
   // One device with the variables of its points, as numbers in `variables_`.
   struct Line {
-    deploy::IoDevice device;
+    config::IoDevice device;
     std::unique_ptr<Driver> driver;
     std::optional<DeviceImage> in_tick;
     std::unique_ptr<ExchangeThread> thread;  // if it is not in the tick
@@ -61,7 +61,7 @@ class Dispatcher {
     std::optional<Report> errors;
   };
   Dispatcher() = default;
-  void add(const deploy::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
+  void add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
            std::vector<std::string>& problems);
   std::optional<Report> report_to(const std::optional<schema::Place>& variable);
   void take(Line& line, OutputImage& into) noexcept;

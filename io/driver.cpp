@@ -9,15 +9,15 @@
 
 namespace indurop::io {
 
-std::unique_ptr<Driver> make_driver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
-                                    std::span<const deploy::IoPoint> inputs, std::string& problem) {
+std::unique_ptr<Driver> make_driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+                                    std::span<const config::IoPoint> inputs, std::string& problem) {
   switch (device.driver) {
-    case deploy::IoDriver::ModbusTcp:
-    case deploy::IoDriver::ModbusRtu:
+    case config::IoDriver::ModbusTcp:
+    case config::IoDriver::ModbusRtu:
       return std::make_unique<ModbusDriver>(device, outputs, inputs);
-    case deploy::IoDriver::Cia402:
+    case config::IoDriver::Cia402:
       return std::make_unique<Cia402Driver>(device, outputs, inputs);
-    case deploy::IoDriver::Csv:
+    case config::IoDriver::Csv:
       return CsvDriver::make(device, inputs, problem);
   }
   return nullptr;

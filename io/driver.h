@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "io/sample.h"
 
 namespace indurop::io {
@@ -43,7 +43,7 @@ class Driver {
 
 // The driver for a device with these points. Empty, and `problem` says why, if the configuration cannot work: a file
 // that is not there, for example. One line per problem. Not real-time safe.
-std::unique_ptr<Driver> make_driver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
-                                    std::span<const deploy::IoPoint> inputs, std::string& problem);
+std::unique_ptr<Driver> make_driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+                                    std::span<const config::IoPoint> inputs, std::string& problem);
 
 }  // namespace indurop::io

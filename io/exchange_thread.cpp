@@ -15,7 +15,7 @@ constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 
 }  // namespace
 
-ExchangeThread::ExchangeThread(const deploy::IoDevice& device, Driver& driver, DeviceImage image)
+ExchangeThread::ExchangeThread(const config::IoDevice& device, Driver& driver, DeviceImage image)
     : device_(device), driver_(driver), image_(std::move(image)), pause_(device.retry) {
   outputs_.fill(OutputImage(image_.current().outputs.size()));
   inputs_.fill(image_.current());

@@ -21,7 +21,7 @@ namespace indurop::io {
 class ExchangeThread {
  public:
   // `device` and `driver` are borrowed. Nothing runs before start().
-  ExchangeThread(const deploy::IoDevice& device, Driver& driver, DeviceImage image);
+  ExchangeThread(const config::IoDevice& device, Driver& driver, DeviceImage image);
   ExchangeThread(const ExchangeThread&) = delete;
   ExchangeThread& operator=(const ExchangeThread&) = delete;
   ~ExchangeThread();
@@ -49,7 +49,7 @@ class ExchangeThread {
   void say(Quality now, Clock::time_point when);
   bool wait_until(Clock::time_point when);
 
-  const deploy::IoDevice& device_;
+  const config::IoDevice& device_;
   Driver& driver_;
   DeviceImage image_;
   TripleBuffer<OutputImage> outputs_;

@@ -15,9 +15,9 @@
 namespace indurop::io {
 namespace {
 
-using deploy::IoDriver;
-using deploy::IoPoint;
-using deploy::IoTable;
+using config::IoDriver;
+using config::IoPoint;
+using config::IoTable;
 
 static_assert(kMostReadRegisters == MODBUS_MAX_READ_REGISTERS && kMostWrittenRegisters == MODBUS_MAX_WRITE_REGISTERS);
 static_assert(kMostReadBits == MODBUS_MAX_READ_BITS && kMostWrittenBits == MODBUS_MAX_WRITE_BITS);
@@ -56,7 +56,7 @@ void ModbusDriver::Free::operator()(modbus_t* context) const noexcept {
   modbus_free(context);
 }
 
-ModbusDriver::ModbusDriver(const deploy::IoDevice& device, std::span<const IoPoint> outputs,
+ModbusDriver::ModbusDriver(const config::IoDevice& device, std::span<const IoPoint> outputs,
                            std::span<const IoPoint> inputs)
     : device_(device),
       outputs_(outputs.begin(), outputs.end()),
@@ -76,7 +76,7 @@ bool ModbusDriver::open() {
     }
     context_.reset(modbus_new_tcp_pi(device_.address.c_str(), port.c_str()));
   } else {
-    const deploy::IoSerial& serial = device_.serial;
+    const config::IoSerial& serial = device_.serial;
     context_.reset(modbus_new_rtu(device_.address.c_str(), serial.baud, serial.parity, kDataBits, serial.stop_bits));
   }
   if (context_ == nullptr) {
@@ -128,7 +128,7 @@ ModbusDriver::Reply ModbusDriver::judge(const ModbusRequest& request, bool is_wr
     return Reply::Good;
   }
   const std::string what = fmt::format(
-      "{} {} {}{} of unit {}", is_write ? "writing" : "reading", deploy::name_of(request.table), request.first,
+      "{} {} {}{} of unit {}", is_write ? "writing" : "reading", config::name_of(request.table), request.first,
       request.count > 1 ? fmt::format("..{}", request.first + request.count - 1) : "", request.unit);
   problem_ = fmt::format("{}: {}{}", what, error == ETIMEDOUT ? "no answer in time" : modbus_strerror(error),
                          is_refusal(error) ? "; the device has no such point, check its at" : "");
@@ -159,7 +159,7 @@ int ModbusDriver::write_registers(const ModbusRequest& request, std::span<Sample
   for (const std::size_t i : request.points) {
     const IoPoint& point = outputs_[i];
     const auto at =
-        std::span(registers_).subspan(point.address.number - request.first, deploy::registers_of(point.type));
+        std::span(registers_).subspan(point.address.number - request.first, config::registers_of(point.type));
     if (!encode(form_of(point), outputs[i].value, at)) {
       outputs[i].quality = Quality::OutOfRange;
     }
@@ -179,7 +179,7 @@ ModbusDriver::Reply ModbusDriver::write(const ModbusRequest& request, std::span<
   if (!connection_lost_ && is_awake(request)) {
     modbus_set_slave(context_.get(), request.unit);
     reply = judge(request, true,
-                  deploy::is_bits(request.table) ? write_bits(request, outputs) : write_registers(request, outputs));
+                  config::is_bits(request.table) ? write_bits(request, outputs) : write_registers(request, outputs));
   }
   for (const std::size_t i : request.points) {
     if (reply != Reply::Good) {
@@ -193,12 +193,12 @@ void ModbusDriver::read_values(const ModbusRequest& request, std::span<Sample> i
   for (const std::size_t i : request.points) {
     const IoPoint& point = inputs_[i];
     const std::size_t at = point.address.number - request.first;
-    if (deploy::is_bits(request.table)) {
+    if (config::is_bits(request.table)) {
       inputs[i].value = bits_[at];
     } else if (point.address.bit >= 0) {
       inputs[i].value = static_cast<unsigned>(registers_[at]) >> static_cast<unsigned>(point.address.bit) & 1U;
     } else {
-      inputs[i].value = decode(form_of(point), std::span(registers_).subspan(at, deploy::registers_of(point.type)));
+      inputs[i].value = decode(form_of(point), std::span(registers_).subspan(at, config::registers_of(point.type)));
     }
     inputs[i].quality = Quality::Good;
   }

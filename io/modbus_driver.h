@@ -15,8 +15,8 @@ namespace indurop::io {
 
 class ModbusDriver final : public Driver {
  public:
-  ModbusDriver(const deploy::IoDevice& device, std::span<const deploy::IoPoint> outputs,
-               std::span<const deploy::IoPoint> inputs);
+  ModbusDriver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+               std::span<const config::IoPoint> inputs);
 
   [[nodiscard]] bool in_tick() const noexcept override { return false; }
   bool open() override;
@@ -40,9 +40,9 @@ class ModbusDriver final : public Driver {
   // True if the request may be made: its unit has not been silent in this exchange.
   [[nodiscard]] bool is_awake(const ModbusRequest& request) const;
 
-  deploy::IoDevice device_;
-  std::vector<deploy::IoPoint> outputs_;
-  std::vector<deploy::IoPoint> inputs_;
+  config::IoDevice device_;
+  std::vector<config::IoPoint> outputs_;
+  std::vector<config::IoPoint> inputs_;
   std::vector<ModbusRequest> writes_;
   std::vector<ModbusRequest> reads_;
   std::unique_ptr<modbus_t, Free> context_;

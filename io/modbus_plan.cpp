@@ -7,7 +7,7 @@
 namespace indurop::io {
 namespace {
 
-using deploy::IoPoint;
+using config::IoPoint;
 
 struct Limits {
   std::uint32_t bits;
@@ -16,7 +16,7 @@ struct Limits {
 };
 
 std::uint32_t end_of(const IoPoint& point) {
-  return point.address.number + deploy::registers_of(point.type);
+  return point.address.number + config::registers_of(point.type);
 }
 
 std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& limits) {
@@ -32,7 +32,7 @@ std::vector<ModbusRequest> plan(std::span<const IoPoint> points, const Limits& l
   std::vector<ModbusRequest> requests;
   for (const std::size_t i : order) {
     const IoPoint& point = points[i];
-    const std::uint32_t most = deploy::is_bits(point.address.table) ? limits.bits : limits.registers;
+    const std::uint32_t most = config::is_bits(point.address.table) ? limits.bits : limits.registers;
     ModbusRequest* last = requests.empty() ? nullptr : &requests.back();
     const std::uint32_t last_end = last != nullptr ? std::uint32_t{last->first} + last->count : 0;
     const bool joins = last != nullptr && last->unit == point.unit && last->table == point.address.table &&

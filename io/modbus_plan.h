@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 
 namespace indurop::io {
 
 struct ModbusRequest {
   int unit = 1;
-  deploy::IoTable table = deploy::IoTable::Holding;
+  config::IoTable table = config::IoTable::Holding;
   std::uint16_t first = 0;
   std::uint16_t count = 0;
   std::vector<std::size_t> points;  // indices, by address
@@ -26,7 +26,7 @@ inline constexpr std::uint32_t kMostReadBits = 2000;
 inline constexpr std::uint32_t kMostWrittenBits = 1968;
 
 // Up to `gap` places between two points may be read along. Nothing is ever written that is no point.
-std::vector<ModbusRequest> plan_reads(std::span<const deploy::IoPoint> points, int gap);
-std::vector<ModbusRequest> plan_writes(std::span<const deploy::IoPoint> points);
+std::vector<ModbusRequest> plan_reads(std::span<const config::IoPoint> points, int gap);
+std::vector<ModbusRequest> plan_writes(std::span<const config::IoPoint> points);
 
 }  // namespace indurop::io

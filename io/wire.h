@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <span>
 
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "io/sample.h"
 
 namespace indurop::io {
 
-using deploy::WireType;
+using config::WireType;
 
 // "abcd" is the order of Modbus: high word first, high byte of each word first.
 struct WireForm {
@@ -20,7 +20,7 @@ struct WireForm {
   bool swap_bytes = false;
 };
 
-// `registers` has deploy::registers_of(form.type) words.
+// `registers` has config::registers_of(form.type) words.
 Number decode(const WireForm& form, std::span<const std::uint16_t> registers) noexcept;
 // False, and the nearest possible value was written, if the number does not fit; nothing is written of a NaN that the
 // wire's type cannot say.

@@ -42,11 +42,6 @@ std::string describe(const scheduler::RunBlock& run, const scheduler::OverrunEnt
 
 }  // namespace
 
-void Console::line(std::string_view kind, std::string_view text) const {
-  std::fflush(stdout);
-  fmt::print(stderr, "indurop-node[{}]: {}{}\n", node_, kind, text);
-}
-
 void Console::watch(scheduler::RunBlock& run) {
   run_ = &run;
   seen_.assign(run.module_count, Seen{});

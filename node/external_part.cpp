@@ -5,13 +5,14 @@
 #include <cstring>
 #include <utility>
 
-#include "mirror/external_type.h"
+#include "mirror/external/external_type.h"
+#include "node/plant_part.h"
 #include "vars/shm_file.h"
 
 namespace indurop::node {
 namespace {
 
-using External = deploy::VariableRule::External;
+using External = config::VariableRule::External;
 
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 3;
@@ -22,7 +23,7 @@ std::string some_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-void ExternalPart::add(const std::vector<deploy::VariableRule>& rules, const std::string& variable,
+void ExternalPart::add(const std::vector<config::VariableRule>& rules, const std::string& variable,
                        std::vector<std::string> rivals) {
   const auto rule = std::find_if(rules.begin(), rules.end(), [&](const auto& r) { return r.name == variable; });
   if (rule == rules.end()) {
@@ -33,25 +34,23 @@ void ExternalPart::add(const std::vector<deploy::VariableRule>& rules, const std
   }
 }
 
-void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board,
+void ExternalPart::configure(const config::Plant& plant, const config::PlantCheck& check, std::size_t board,
                              bool one_host) {
   if (!plant.external_domain || plant.types.empty()) {
     return;
   }
   wanted_ = true;
-  types_ = static_cast<const deploy::TypeFiles&>(plant);
+  types_ = static_cast<const config::TypeFiles&>(plant);
   settings_.plant = plant.name;
-  settings_.domain = *plant.external_domain;
+  settings_.network = network_settings(plant, board);
+  settings_.network.domain = *plant.external_domain;
+  settings_.network.one_host = one_host;
+  if (const std::string& own = plant.boards[board].address; !own.empty()) {
+    settings_.network.peers.push_back(own);  // tools on this board
+  }
   settings_.ros2 = plant.external_ros2;
-  settings_.interface_name = plant.boards[board].interface_name;
-  settings_.address = plant.boards[board].address;
-  settings_.multicast = plant.multicast;
-  settings_.one_host = one_host;
-  for (const deploy::Board& other : plant.boards) {
+  for (const config::Board& other : plant.boards) {
     settings_.boards.push_back(other.name);
-    if (!other.address.empty()) {
-      settings_.peers.push_back(other.address);
-    }
   }
   for (const auto& [variable, owner] : check.owners) {
     std::vector<std::size_t> having{owner};
@@ -68,16 +67,16 @@ void ExternalPart::configure(const deploy::Plant& plant, const deploy::PlantChec
   }
 }
 
-void ExternalPart::configure(const deploy::Config& config, const deploy::CheckResult& check) {
-  const deploy::ExternalPlane& plane = config.external;
+void ExternalPart::configure(const config::Config& config, const config::CheckResult& check) {
+  const config::ExternalPlane& plane = config.external;
   if (!plane.domain || plane.types.empty()) {
     return;
   }
   wanted_ = true;
-  types_ = static_cast<const deploy::TypeFiles&>(plane);
-  settings_.domain = *plane.domain;
+  types_ = static_cast<const config::TypeFiles&>(plane);
+  settings_.network.domain = *plane.domain;
   settings_.ros2 = plane.ros2;
-  settings_.interface_name = plane.interface_name;
+  settings_.network.interface_name = plane.interface_name;
   for (const schema::Variable& variable : check.schema.variables) {
     add(plane.variables, variable.name);
   }
@@ -124,7 +123,7 @@ void ExternalPart::start(const std::string& node, vars::Store& store, const mirr
   }
   find_types(store.schema(), console);
   settings_.cores = std::move(cores);
-  settings_.board = node;
+  settings_.network.board = node;
   auto started = mirror::External::start(settings_, node, store, plant);
   if (!started) {
     console.error(
@@ -136,7 +135,7 @@ void ExternalPart::start(const std::string& node, vars::Store& store, const mirr
   const auto settable = std::count_if(settings_.variables.begin(), settings_.variables.end(),
                                       [](const mirror::Exported& exported) { return exported.writable; });
   console.info("{} variables for other tools in DDS domain {}, {} of them can be set", settings_.variables.size(),
-               settings_.domain, settable);
+               settings_.network.domain, settable);
 }
 
 }  // namespace indurop::node

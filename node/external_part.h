@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "deploy/plant.h"
-#include "mirror/external.h"
+#include "config/check/check_plant.h"
+#include "mirror/external/external.h"
 #include "node/console.h"
 #include "node/type_library.h"
 #include "vars/store.h"
@@ -19,9 +19,9 @@ namespace indurop::node {
 class ExternalPart {
  public:
   // Of a board of a plant: the variables it owns or stands by for. `board`: index into plant.boards.
-  void configure(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board, bool one_host);
+  void configure(const config::Plant& plant, const config::PlantCheck& check, std::size_t board, bool one_host);
   // Of a module.xml: all variables.
-  void configure(const deploy::Config& config, const deploy::CheckResult& check);
+  void configure(const config::Config& config, const config::CheckResult& check);
 
   // Loads the types and starts. `store` and `plant` (null: none) are borrowed until stop(). `cores`: the threads may
   // run on.
@@ -30,13 +30,13 @@ class ExternalPart {
   void stop() noexcept { external_.reset(); }
 
  private:
-  void add(const std::vector<deploy::VariableRule>& rules, const std::string& variable,
+  void add(const std::vector<config::VariableRule>& rules, const std::string& variable,
            std::vector<std::string> rivals = {});
   void find_types(const schema::Schema& schema, Console& console);
 
   bool wanted_ = false;
   mirror::ExternalSettings settings_;
-  deploy::TypeFiles types_;
+  config::TypeFiles types_;
   TypeLibraries libraries_;
   std::optional<mirror::External> external_;  // ends before its types are gone
 };

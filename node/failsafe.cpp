@@ -3,9 +3,9 @@
 
 namespace indurop::node {
 
-FailSafe::FailSafe(vars::Store& store, const deploy::Config& config) : store_(store), writes_(config.modules.size()) {
+FailSafe::FailSafe(vars::Store& store, const config::Config& config) : store_(store), writes_(config.modules.size()) {
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
-    for (const deploy::FailSafe& declared : config.modules[i].failsafe) {
+    for (const config::FailSafe& declared : config.modules[i].failsafe) {
       std::string message;
       const auto place = schema::find_place(store.schema(), declared.variable, message);
       if (!place) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/config.h"
+#include "config/model/config.h"
 #include "vars/store.h"
 
 namespace indurop::node {
@@ -16,7 +16,7 @@ namespace indurop::node {
 class FailSafe {
  public:
   // Values that do not resolve are left out: check_config has refused them before. Not real-time safe.
-  FailSafe(vars::Store& store, const deploy::Config& config);
+  FailSafe(vars::Store& store, const config::Config& config);
   // Writes all values of the module. Real-time safe.
   void apply(std::size_t module) noexcept;
 

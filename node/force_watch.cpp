@@ -24,7 +24,7 @@ schema::Part part_of(const vars::Store& store, const vars::Force& force) {
 std::string time_of(const vars::Force& force) {
   const std::int64_t left = force.until_ns - rt::now_ns();
   return force.until_ns == vars::kForever
-             ? "until it is let go (indurop unforce)"
+             ? "until it is released (indurop unforce)"
              : fmt::format("for {:.1f} s", static_cast<double>(left) / static_cast<double>(rt::kNanosPerSecond));
 }
 

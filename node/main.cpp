@@ -1,28 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop-node: the scheduler node of one board.
 
-#include <cstdlib>
-#include <string_view>
+#include <unistd.h>
 
-#include "node/agent.h"
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "base/exit_code.h"
 #include "node/node.h"
 #include "node/options.h"
 #include "node/trampoline.h"
 
+namespace {
+
+// Until releases before 0.2 are gone: `indurop-node --agent` was what is indurop-agent now.
+int become_agent(char** argv) {
+  std::vector<char*> words;
+  for (char** word = argv; *word != nullptr; ++word) {
+    if (std::string_view(*word) != "--agent") {
+      words.push_back(*word);
+    }
+  }
+  words.push_back(nullptr);
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "indurop-agent";
+  ::execv(program.c_str(), words.data());
+  std::fprintf(stderr, "indurop-node: error: cannot start %s: %s\n", program.c_str(), std::strerror(errno));
+  return indurop::kFailed;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == indurop::node::kTrampolineFlag) {
     return indurop::node::become_module(argc, argv);
+  }
+  if (std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--agent"; })) {
+    return become_agent(argv);
   }
   int exit_code = 0;
   const auto options = indurop::node::parse_options(argc, argv, exit_code);
   if (!options) {
     return exit_code;
   }
-  if (options->agent) {
-    return indurop::node::run_agent(*options);
-  }
   // Modules that look for their node by name, through a channel for example, are to find this one.
   ::setenv("INDUROP_NODE", options->node.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): before any thread
-  indurop::node::Node node(*options);
-  return node.run();
+  return indurop::node::run_node(*options);
 }

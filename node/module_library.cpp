@@ -44,30 +44,28 @@ Function symbol(void* handle, const char* plain, const char* mangled) {
 
 }  // namespace
 
-bool ModuleLibrary::load(const std::filesystem::path& file, bool own_copy, std::string& problem) {
+Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& file, bool own_copy) {
   std::string path = file.string();
   if (own_copy) {
     copy_ = copy_to_memory(file);
     if (copy_ < 0) {
-      problem = fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno));
-      return false;
+      return base::Problem{fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno))};
     }
     path = fmt::format("/proc/self/fd/{}", copy_);
   }
   handle_ = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle_ == nullptr) {
     const char* reason = ::dlerror();
-    problem = fmt::format(
+    return base::Problem{fmt::format(
         "cannot load the module: {}; if a symbol is undefined, link the library that defines it into the module",
-        reason != nullptr ? reason : "unknown reason");
-    return false;
+        reason != nullptr ? reason : "unknown reason")};
   }
   find_functions();
   if (functions_.run == nullptr) {
-    problem = "the module has no run function: add INDUROP_MODULE(run = &::yourFunction) or define `void run()`";
-    return false;
+    return base::Problem{
+        "the module has no run function: add INDUROP_MODULE(run = &::yourFunction) or define `void run()`"};
   }
-  return true;
+  return {};
 }
 
 void ModuleLibrary::find_functions() {

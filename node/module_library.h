@@ -5,9 +5,11 @@
 #pragma once
 
 #include <indurop/module.h>
+#include <indurop/result.h>
 
 #include <filesystem>
-#include <string>
+
+#include "base/problem.h"
 
 namespace indurop::node {
 
@@ -15,8 +17,7 @@ class ModuleLibrary {
  public:
   ModuleLibrary() = default;
   // `own_copy`: loads a private copy, for a second module from the same file. Runs the module's static constructors.
-  // False: `problem` says what and what to do.
-  bool load(const std::filesystem::path& file, bool own_copy, std::string& problem);
+  Result<void, base::Problem> load(const std::filesystem::path& file, bool own_copy);
   ModuleLibrary(ModuleLibrary&& other) noexcept;
   ModuleLibrary& operator=(ModuleLibrary&& other) noexcept;
   ModuleLibrary(const ModuleLibrary&) = delete;

@@ -26,7 +26,7 @@ struct NormalThreads::Normal {
   rt::Thread thread;
 };
 
-NormalThreads::NormalThreads(const deploy::Config& config, scheduler::RunBlock& run,
+NormalThreads::NormalThreads(const config::Config& config, scheduler::RunBlock& run,
                              const std::vector<ModuleLibrary>& libraries, const scheduler::Hooks& hooks)
     : config_(config), run_(run), libraries_(libraries), hooks_(hooks) {}
 
@@ -36,7 +36,7 @@ NormalThreads::~NormalThreads() {
 
 void NormalThreads::start() {
   for (std::uint32_t i = 0; i < config_.modules.size(); ++i) {
-    const deploy::Module& module = config_.modules[i];
+    const config::Module& module = config_.modules[i];
     if (module.type == scheduler::ModuleType::Thread && module.operation == scheduler::Operation::NonReal) {
       (void)launch(i);
     }

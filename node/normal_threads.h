@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "deploy/config.h"
+#include "config/model/config.h"
 #include "node/module_library.h"
 #include "rt/thread.h"
 #include "scheduler/runner.h"
@@ -17,7 +17,7 @@ namespace indurop::node {
 
 class NormalThreads {
  public:
-  NormalThreads(const deploy::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
+  NormalThreads(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
                 const scheduler::Hooks& hooks);
   ~NormalThreads();
   NormalThreads(const NormalThreads&) = delete;
@@ -38,7 +38,7 @@ class NormalThreads {
   Normal* find(std::uint32_t module) noexcept;
   void loop(Normal& normal) noexcept;
 
-  const deploy::Config& config_;
+  const config::Config& config_;
   scheduler::RunBlock& run_;
   const std::vector<ModuleLibrary>& libraries_;
   scheduler::Hooks hooks_;

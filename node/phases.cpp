@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/phases.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <string_view>
 
 #include "rt/clock.h"
+#include "scheduler/execution_order.h"
 
 namespace indurop::node {
 namespace {
@@ -32,20 +32,14 @@ struct Phases::Call {
   rt::Thread thread;
 };
 
-Phases::Phases(const deploy::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
-               Console& console, StopSignal& signals, const scheduler::Hooks& hooks)
+Phases::Phases(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
+               Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks)
     : config_(config), run_(run), libraries_(libraries), console_(console), signals_(signals), hooks_(hooks) {}
 
 bool Phases::call_all(const char* phase, void (*ModuleDescriptor::*function)()) {
-  std::vector<std::uint32_t> order(config_.modules.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return config_.modules[a].priority < config_.modules[b].priority;
-  });
   bool ok = true;
-  for (const std::uint32_t i : order) {
+  for (const std::uint32_t i : scheduler::execution_order(
+           config_.modules.size(), [this](std::uint32_t module) { return config_.modules[module].priority; })) {
     const bool stopped = run_.modules()[i].state.load() == scheduler::ModuleState::Stopped;
     if (auto* wanted = libraries_[i].functions().*function; wanted != nullptr && !stopped) {
       ok = call(i, phase, wanted) && ok;

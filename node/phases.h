@@ -7,22 +7,22 @@
 #include <memory>
 #include <vector>
 
-#include "deploy/config.h"
+#include "base/stop_signal.h"
+#include "config/model/config.h"
 #include "node/console.h"
 #include "node/module_library.h"
-#include "node/stop_signal.h"
 #include "scheduler/runner.h"
 
 namespace indurop::node {
 
 class Phases {
  public:
-  Phases(const deploy::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
-         Console& console, StopSignal& signals, const scheduler::Hooks& hooks);
+  Phases(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
+         Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks);
 
   // Calls one function of every thread module that has it, by priority. False if any of them failed: those modules are
   // marked as faulted, with the reason.
-  // Modules stopped by order have had their stop() and are left out.
+  // Modules stopped by command have had their stop() and are left out.
   bool call_all(const char* phase, void (*ModuleDescriptor::*function)());
 
   // One call on a thread of its own, for whoever has other things to do meanwhile.
@@ -39,11 +39,11 @@ class Phases {
  private:
   bool call(std::uint32_t index, const char* phase, void (*function)());
 
-  const deploy::Config& config_;
+  const config::Config& config_;
   scheduler::RunBlock& run_;
   const std::vector<ModuleLibrary>& libraries_;
   Console& console_;
-  StopSignal& signals_;
+  base::StopSignal& signals_;
   scheduler::Hooks hooks_;
   scheduler::SystemClock clock_;
 };

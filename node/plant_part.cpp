@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "deploy/plant_keys.h"
+#include "keys/plant_keys.h"
 
 namespace indurop::node {
 
@@ -11,28 +11,28 @@ namespace {
 
 constexpr std::int64_t kPatienceNs = 1'000'000'000;
 
-mirror::Security security_of(const std::filesystem::path& folder) {
+dds::Security security_of(const std::filesystem::path& folder) {
   if (folder.empty()) {
     return {};
   }
-  const deploy::ParticipantKeys keys(folder);
+  const keys::ParticipantKeys keys(folder);
   return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
           keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
 }
 
-const scheduler::Band* band_of(const std::string& module, const deploy::Config& config,
+const scheduler::Band* band_of(const std::string& module, const config::Config& config,
                                const scheduler::Engine& engine) {
   const auto found = std::find_if(config.modules.begin(), config.modules.end(),
-                                  [&](const deploy::Module& known) { return known.name == module; });
+                                  [&](const config::Module& known) { return known.name == module; });
   return found == config.modules.end() ? nullptr
                                        : engine.band_of(static_cast<std::uint32_t>(found - config.modules.begin()));
 }
 
 // Null if nobody writes the variable, several bands do, or something that is in no band.
-const scheduler::Band* writer_of(const std::string& variable, const deploy::Config& config,
-                                 const deploy::CheckResult& check, const scheduler::Engine& engine) {
+const scheduler::Band* writer_of(const std::string& variable, const config::Config& config,
+                                 const config::CheckResult& check, const scheduler::Engine& engine) {
   const auto use = std::find_if(check.uses.begin(), check.uses.end(),
-                                [&](const deploy::VariableUse& known) { return known.name == variable; });
+                                [&](const config::VariableUse& known) { return known.name == variable; });
   if (use == check.uses.end() || use->writers.empty()) {
     return nullptr;
   }
@@ -44,26 +44,35 @@ const scheduler::Band* writer_of(const std::string& variable, const deploy::Conf
 
 }  // namespace
 
-mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::PlantCheck& check, std::size_t board) {
-  const deploy::Board& own = plant.boards[board];
-  mirror::Settings settings;
-  settings.plant = plant.name;
+dds::NetworkSettings network_settings(const config::Plant& plant, std::size_t board) {
+  const config::Board& own = plant.boards[board];
+  dds::NetworkSettings settings;
   settings.board = own.name;
-  settings.domain = plant.domain;
   settings.interface_name = own.interface_name;
   settings.address = own.address;
   settings.multicast = plant.multicast;
-  settings.security = security_of(deploy::keys_folder(plant, own.name));
-  settings.lease_ns = plant.lease.count();
-  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
-    if (i != board) {
-      settings.boards.push_back(plant.boards[i].name);
-      if (!plant.boards[i].address.empty()) {
-        settings.peers.push_back(plant.boards[i].address);
-      }
+  for (const config::Board& other : plant.boards) {
+    if (&other != &own && !other.address.empty()) {
+      settings.peers.push_back(other.address);
     }
   }
-  for (const deploy::Route& route : check.routes) {
+  return settings;
+}
+
+mirror::Settings mirror_settings(const config::Plant& plant, const config::PlantCheck& check, std::size_t board) {
+  const config::Board& own = plant.boards[board];
+  mirror::Settings settings;
+  settings.plant = plant.name;
+  settings.network = network_settings(plant, board);
+  settings.network.domain = plant.domain;
+  settings.network.security = security_of(config::keys_folder(plant, own.name));
+  settings.network.lease_ns = plant.lease.count();
+  for (const config::Board& other : plant.boards) {
+    if (&other != &own) {
+      settings.boards.push_back(other.name);
+    }
+  }
+  for (const config::Route& route : check.routes) {
     const bool stands_by = std::find(route.standbys.begin(), route.standbys.end(), board) != route.standbys.end();
     if (route.owner == board || stands_by) {
       settings.outgoing.push_back({route.variable, route.every.count(), route.best_effort});
@@ -77,7 +86,7 @@ mirror::Settings mirror_settings(const deploy::Plant& plant, const deploy::Plant
   return settings;
 }
 
-void name_writers(mirror::Settings& settings, const deploy::Config& config, const deploy::CheckResult& check,
+void name_writers(mirror::Settings& settings, const config::Config& config, const config::CheckResult& check,
                   const scheduler::Engine& engine) {
   std::vector<const scheduler::Band*> bands;
   for (mirror::Outgoing& out : settings.outgoing) {

@@ -34,7 +34,7 @@ std::string describe(int status) {
 
 }  // namespace
 
-Processes::Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
+Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
                      Console& console, FailSafe& failsafe)
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
@@ -172,14 +172,14 @@ void Processes::died(Child& child, int status, std::int64_t now_ns) {
 }
 
 void Processes::plan_restart(Child& child, std::int64_t now_ns) {
-  const deploy::Restart& rule = child.module->restart;
+  const config::Restart& rule = child.module->restart;
   while (!child.restarts.empty() && now_ns - child.restarts.front() > rule.window.count()) {
     child.restarts.pop_front();
   }
   scheduler::ModuleRecord& module = record(child);
   if (child.restarts.size() >= rule.max) {
     module.state.store(ModuleState::Faulted, std::memory_order_release);
-    if (rule.escalate == deploy::Restart::Escalate::StopNode) {
+    if (rule.escalate == config::Restart::Escalate::StopNode) {
       reason_ = fmt::format("process module {} died {} times within {} s (escalate stop-node)", module.name,
                             child.restarts.size() + 1, rule.window.count() / rt::kNanosPerSecond);
     } else {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "deploy/config.h"
+#include "config/model/config.h"
 #include "node/console.h"
 #include "node/failsafe.h"
 #include "scheduler/run_block.h"
@@ -20,7 +20,7 @@ namespace indurop::node {
 
 class Processes {
  public:
-  Processes(const deploy::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
+  Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
             FailSafe& failsafe);
   ~Processes();
   Processes(const Processes&) = delete;
@@ -44,14 +44,14 @@ class Processes {
  private:
   struct Child {
     std::uint32_t index;
-    const deploy::Module* module;
+    const config::Module* module;
     pid_t pid = -1;
     std::int64_t restart_at_ns = 0;
     std::deque<std::int64_t> restarts;  // times of those within the window
     bool killed_for_budget = false;
     bool warned = false;  // that it does not expect its signal
     std::int64_t launched_ns = 0;
-    bool stopping = false;  // by order
+    bool stopping = false;  // by command
     std::int64_t stop_ns = 0;
   };
   Child* find(std::uint32_t module) noexcept;

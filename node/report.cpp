@@ -3,42 +3,41 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
+#include "base/json.h"
+#include "base/replace_file.h"
 #include "scheduler/quantile.h"
 #include "scheduler/words.h"
 
 namespace indurop::node {
 namespace {
 
-using nlohmann::ordered_json;
+using base::Json;
 
-ordered_json to_json(const scheduler::Distribution& distribution) {
+Json to_json(const scheduler::Distribution& distribution) {
   const scheduler::Summary s = scheduler::summarize(distribution);
   return {{"min", s.min}, {"mean", s.mean}, {"p50", s.p50}, {"p99", s.p99}, {"p99_9", s.p99_9}, {"max", s.max}};
 }
 
-ordered_json module_json(const scheduler::ModuleRecord& module) {
-  ordered_json json = {{"name", module.name},
-                       {"type", to_text(module.type)},
-                       {"operation", to_text(module.operation)},
-                       {"period_ns", module.period_ns},
-                       {"priority", module.priority},
-                       {"runs", module.runs.load()},
-                       {"skipped", module.skipped.load()},
-                       {"overruns", module.overruns.load()},
-                       {"deadline_misses", module.deadline_misses.load()},
-                       {"jitter_ns", to_json(module.jitter)},
-                       {"exec_ns", to_json(module.exec)},
-                       {"response_ns", to_json(module.response)},
-                       {"latency_ns", to_json(module.latency)},
-                       {"state", to_text(module.state.load())},
-                       {"faults", module.faults.load()},
-                       {"restarts", module.restarts.load()},
-                       {"lost_messages", module.lost_messages.load()}};
+Json module_json(const scheduler::ModuleRecord& module) {
+  Json json{{"name", module.name},
+            {"type", to_text(module.type)},
+            {"operation", to_text(module.operation)},
+            {"period_ns", module.period_ns},
+            {"priority", module.priority},
+            {"runs", module.runs.load()},
+            {"skipped", module.skipped.load()},
+            {"overruns", module.overruns.load()},
+            {"deadline_misses", module.deadline_misses.load()},
+            {"jitter_ns", to_json(module.jitter)},
+            {"exec_ns", to_json(module.exec)},
+            {"response_ns", to_json(module.response)},
+            {"latency_ns", to_json(module.latency)},
+            {"state", to_text(module.state.load())},
+            {"faults", module.faults.load()},
+            {"restarts", module.restarts.load()},
+            {"lost_messages", module.lost_messages.load()}};
   if (module.faults.load() > 0) {
     json["last_fault"] = {{"text", module.last_fault}, {"tick", module.fault_tick.load()}};
   }
@@ -53,45 +52,38 @@ double microseconds(std::int64_t ns) noexcept {
 
 std::string report_json(const scheduler::RunBlock& run) {
   const scheduler::Obtained& got = run.obtained;
-  ordered_json json = {{"schema_version", 1},
-                       {"node", run.node_name},
-                       {"config", run.config_file},
-                       {"basic_period_ns", run.basic_period_ns},
-                       {"macro_period_ns", run.macro_period_ns},
-                       {"ticks", run.tick.load()},
-                       {"lost_ticks", run.lost_ticks.load()},
-                       {"stop_reason", run.stop_reason},
-                       {"rt",
-                        {{"fifo", got.fifo != 0},
-                         {"priority", got.tick_priority},
-                         {"core", got.tick_core},
-                         {"pinned", got.pinned != 0},
-                         {"memory_locked", got.memory_locked != 0},
-                         {"cpu_dma_latency", got.cpu_dma_latency != 0},
-                         {"preempt_rt", got.preempt_rt != 0},
-                         {"throttle_permille", got.throttle_permille},
-                         {"spin_margin_ns", run.spin_margin_ns.load()},
-                         {"why", got.why}}},
-                       {"tick_lateness_ns", to_json(run.tick_lateness)},
-                       {"modules", ordered_json::array()}};
+  Json json{{"schema_version", 1},
+            {"node", run.node_name},
+            {"config", run.config_file},
+            {"basic_period_ns", run.basic_period_ns},
+            {"macro_period_ns", run.macro_period_ns},
+            {"ticks", run.tick.load()},
+            {"lost_ticks", run.lost_ticks.load()},
+            {"stop_reason", run.stop_reason},
+            {"rt",
+             {{"fifo", got.fifo != 0},
+              {"priority", got.tick_priority},
+              {"core", got.tick_core},
+              {"pinned", got.pinned != 0},
+              {"memory_locked", got.memory_locked != 0},
+              {"cpu_dma_latency", got.cpu_dma_latency != 0},
+              {"preempt_rt", got.preempt_rt != 0},
+              {"throttle_permille", got.throttle_permille},
+              {"spin_margin_ns", run.spin_margin_ns.load()},
+              {"why", got.why}}},
+            {"tick_lateness_ns", to_json(run.tick_lateness)},
+            {"modules", Json::array()}};
   for (std::uint32_t i = 0; i < run.module_count; ++i) {
     json["modules"].push_back(module_json(run.modules()[i]));
   }
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json.dump(2) + "\n";
 }
 
-bool write_report(const scheduler::RunBlock& run, const std::filesystem::path& file, std::string& problem) {
-  const std::string text = report_json(run);
-  const std::string temporary = file.string() + ".tmp";
-  std::FILE* out = std::fopen(temporary.c_str(), "w");
-  bool ok = out != nullptr && std::fwrite(text.data(), 1, text.size(), out) == text.size();
-  ok = out != nullptr && std::fclose(out) == 0 && ok;
-  ok = ok && std::rename(temporary.c_str(), file.c_str()) == 0;
-  if (!ok) {
-    problem = fmt::format("cannot write the report {}: {}", file.string(), std::strerror(errno));
-    std::remove(temporary.c_str());
+Result<void, base::Problem> write_report(const scheduler::RunBlock& run, const std::filesystem::path& file) {
+  if (const auto written = base::replace_file(file, report_json(run), base::Durable::No); !written) {
+    return base::Problem{fmt::format("cannot write the report {}: {}", file.string(), written.error().text)};
   }
-  return ok;
+  return {};
 }
 
 std::string summary_table(const scheduler::RunBlock& run) {

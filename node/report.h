@@ -3,16 +3,19 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <filesystem>
 #include <string>
 
+#include "base/problem.h"
 #include "scheduler/run_block.h"
 
 namespace indurop::node {
 
 std::string report_json(const scheduler::RunBlock& run);
-// False: `problem` says why. The file is written whole or not at all.
-bool write_report(const scheduler::RunBlock& run, const std::filesystem::path& file, std::string& problem);
+// The file is written whole or not at all.
+Result<void, base::Problem> write_report(const scheduler::RunBlock& run, const std::filesystem::path& file);
 std::string summary_table(const scheduler::RunBlock& run);
 
 }  // namespace indurop::node

@@ -10,11 +10,11 @@ using scheduler::Operation;
 
 // A module that never returns is a fault even if nobody gave it a budget.
 constexpr int kDefaultBudgetPeriods = 10;
-constexpr deploy::Nanos kSmallestDefaultBudget = std::chrono::milliseconds(5);
-constexpr deploy::Nanos kSporadicBudget = std::chrono::seconds(1);
+constexpr base::Nanos kSmallestDefaultBudget = std::chrono::milliseconds(5);
+constexpr base::Nanos kSporadicBudget = std::chrono::seconds(1);
 
-deploy::Nanos budget_of(const deploy::Module& module) {
-  if (module.budget == deploy::kNoBudget) {
+base::Nanos budget_of(const config::Module& module) {
+  if (module.budget == config::kNoBudget) {
     return {};
   }
   if (module.budget.count() > 0) {
@@ -25,7 +25,7 @@ deploy::Nanos budget_of(const deploy::Module& module) {
              : kSporadicBudget;
 }
 
-scheduler::ModuleSetup module_setup(const deploy::Module& module, const Placement& placement) {
+scheduler::ModuleSetup module_setup(const config::Module& module, const Placement& placement) {
   scheduler::ModuleSetup setup;
   setup.name = module.name;
   setup.file = module.file.string();
@@ -43,7 +43,7 @@ scheduler::ModuleSetup module_setup(const deploy::Module& module, const Placemen
   } else {
     setup.core = module.core;
   }
-  for (const deploy::Property& property : module.properties) {
+  for (const config::Property& property : module.properties) {
     setup.properties.emplace_back(property.name, property.value);
   }
   return setup;
@@ -51,10 +51,10 @@ scheduler::ModuleSetup module_setup(const deploy::Module& module, const Placemen
 
 }  // namespace
 
-scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const deploy::CheckResult& check,
+scheduler::RunBlockSetup make_run_setup(const config::Config& config, const config::CheckResult& check,
                                         const std::string& node, const Placement& placement) {
   // Without periodic modules the event handler still needs a beat.
-  constexpr deploy::Nanos kIdlePeriod = std::chrono::milliseconds(1);
+  constexpr base::Nanos kIdlePeriod = std::chrono::milliseconds(1);
   scheduler::RunBlockSetup setup;
   setup.node_name = node;
   setup.config_file = std::filesystem::absolute(config.file).string();
@@ -62,17 +62,17 @@ scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const depl
   setup.basic_period_ns = (empty ? kIdlePeriod : check.table.basic_period).count();
   setup.macro_period_ns = (empty ? kIdlePeriod : check.table.macro_period).count();
   setup.slot_count = static_cast<std::uint64_t>(setup.macro_period_ns / setup.basic_period_ns);
-  for (const deploy::Module& module : config.modules) {
+  for (const config::Module& module : config.modules) {
     setup.modules.push_back(module_setup(module, placement));
   }
   return setup;
 }
 
-std::vector<scheduler::Task> make_tasks(const deploy::Config& config, const scheduler::RunBlockSetup& setup,
+std::vector<scheduler::Task> make_tasks(const config::Config& config, const scheduler::RunBlockSetup& setup,
                                         int default_core) {
   std::vector<scheduler::Task> tasks;
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
-    const deploy::Module& module = config.modules[i];
+    const config::Module& module = config.modules[i];
     if (module.operation == Operation::NonReal) {
       continue;
     }

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "deploy/check.h"
+#include "config/check/check.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/task.h"
 
@@ -16,11 +16,11 @@ struct Placement {
   bool realtime = true;  // without real-time rights nothing is pinned
 };
 
-scheduler::RunBlockSetup make_run_setup(const deploy::Config& config, const deploy::CheckResult& check,
+scheduler::RunBlockSetup make_run_setup(const config::Config& config, const config::CheckResult& check,
                                         const std::string& node, const Placement& placement);
 
 // One task per periodic and sporadic module; run and condition of thread modules are left empty.
-std::vector<scheduler::Task> make_tasks(const deploy::Config& config, const scheduler::RunBlockSetup& setup,
+std::vector<scheduler::Task> make_tasks(const config::Config& config, const scheduler::RunBlockSetup& setup,
                                         int default_core);
 
 }  // namespace indurop::node

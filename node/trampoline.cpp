@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -13,7 +12,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
+#include "base/spawn.h"
 #include "rt/thread.h"
 #include "runtime/host.h"
 
@@ -30,15 +31,6 @@ std::vector<std::string> environment_for(const Launch& what) {
   }
   result.push_back("INDUROP_NODE=" + what.node);
   result.push_back("INDUROP_MODULE=" + what.module);
-  return result;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> result;
-  for (std::string& text : texts) {
-    result.push_back(text.data());
-  }
-  result.push_back(nullptr);
   return result;
 }
 
@@ -66,27 +58,11 @@ Result<pid_t> launch(const Launch& what) {
   std::vector<std::string> words = {"indurop-node", kTrampolineFlag, std::to_string(::getpid()),
                                     std::to_string(what.core), what.file};
   words.insert(words.end(), what.arguments.begin(), what.arguments.end());
-  std::vector<std::string> variables = environment_for(what);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  sigset_t none;
-  ::sigemptyset(&none);
-  sigset_t all;
-  ::sigfillset(&all);
-  ::posix_spawnattr_setsigmask(&attributes, &none);
-  ::posix_spawnattr_setsigdefault(&attributes, &all);
-  ::posix_spawnattr_setpgroup(&attributes, 0);  // Ctrl-C in the terminal is for the node alone
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  pid_t process = -1;
-  const auto argument_pointers = pointers(words);
-  const auto variable_pointers = pointers(variables);
-  const int code = ::posix_spawn(&process, "/proc/self/exe", nullptr, &attributes, argument_pointers.data(),
-                                 variable_pointers.data());
-  ::posix_spawnattr_destroy(&attributes);
-  if (code != 0) {
-    return Error{Errc::System, code, "start a process module"};
-  }
-  return process;
+  return base::spawn({.words = std::move(words),
+                      .program = "/proc/self/exe",
+                      .environment = environment_for(what),
+                      .group = base::Launch::Group::Own,  // Ctrl-C in the terminal is for the node alone
+                      .fresh_signals = true});
 }
 
 int become_module(int argc, char** argv) {

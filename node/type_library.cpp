@@ -12,7 +12,7 @@ TypeLibraries::~TypeLibraries() {
   }
 }
 
-void TypeLibraries::load(const deploy::TypeFiles& files, std::vector<std::string>& problems) {
+void TypeLibraries::load(const config::TypeFiles& files, std::vector<std::string>& problems) {
   for (std::size_t i = 0; i < files.types.size(); ++i) {
     void* handle = ::dlopen(files.types[i].c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {

@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "deploy/config.h"
+#include "config/model/config.h"
 
 namespace indurop::node {
 
 class TypeLibraries {
  public:
   TypeLibraries() = default;
+  TypeLibraries(TypeLibraries&&) noexcept = default;
+  TypeLibraries& operator=(TypeLibraries&&) = delete;
   TypeLibraries(const TypeLibraries&) = delete;
   TypeLibraries& operator=(const TypeLibraries&) = delete;
   ~TypeLibraries();
 
   // Libraries that cannot be loaded are left out and told in `problems`.
-  void load(const deploy::TypeFiles& files, std::vector<std::string>& problems);
+  void load(const config::TypeFiles& files, std::vector<std::string>& problems);
 
   struct Found {
     const void* descriptor = nullptr;  // valid as long as the libraries are loaded; null: nobody has it

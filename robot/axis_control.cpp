@@ -34,8 +34,10 @@ LineLimits AxisControl::limits(double hardness) const noexcept {
 
 void AxisControl::sense(const DriveIn& in) noexcept {
   measured_ = in.position / scale_.counts_per_radian;
+  placed_anew_ = state_ == AxisState::Homing;
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
     motion_.reset({measured_, 0, 0});  // a drive without power is where it is
+    placed_anew_ = true;
     if (busy()) {
       fail(ErrorCode::Drive, 1);
     } else if (state_ != AxisState::ErrorStop) {

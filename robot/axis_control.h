@@ -28,6 +28,10 @@ class AxisControl {
   void move(double seconds) noexcept;
   // Follows the group.
   void follow(const LineState& state) noexcept;
+  // Is commanded to be here, whatever it was doing.
+  void put(const LineState& state) noexcept { motion_.reset(state); }
+  // The drive has not followed since the last period: the commanded position may be anywhere.
+  [[nodiscard]] bool placed_anew() const noexcept { return placed_anew_; }
   // Stands still where it is commanded to be: the group's motion has ended.
   void rest() noexcept { motion_.reset({motion_.state().position, 0, 0}); }
   // What the drive is told.
@@ -73,6 +77,7 @@ class AxisControl {
   double measured_ = 0;
   bool want_power_ = false;
   bool homed_ = true;
+  bool placed_anew_ = true;
   bool first_ = true;    // before the first request was looked at
   bool active_ = false;  // a request is on its way
   double waited_ = 0;    // s, for power or home

@@ -16,7 +16,7 @@ const char* to_string(ErrorCode code) noexcept {
     case ErrorCode::Job:
       return "there is no such job";
     case ErrorCode::Value:
-      return "a value is no number or out of its range";
+      return "a value is not a number or is out of range";
     case ErrorCode::Unreachable:
       return "the target is out of reach";
     case ErrorCode::JointLimit:
@@ -41,6 +41,10 @@ const char* to_string(ErrorCode code) noexcept {
       return "an axis does not know where it is, home it first";
     case ErrorCode::Aborted:
       return "a later command took over";
+    case ErrorCode::Acceleration:
+      return "the way would need a joint to accelerate harder than it can";
+    case ErrorCode::Jerk:
+      return "the way would need a joint to change its acceleration faster than it can";
   }
   return "unknown error";
 }

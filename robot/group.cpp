@@ -29,7 +29,9 @@ Group::Group(GroupParts parts)
   const AxisControl::Scale scale{settings.counts_per_turn / (2 * kPi), settings.gear};
   for (int i = 0; i < kAxes; ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
-    axes_[at(i)].set_up(parts_.arm.axis(i), limits, scale, settings.absolute);
+    const Axis& axis = parts_.arm.axis(i);
+    axes_[at(i)].set_up(axis, limits, scale, settings.absolute);
+    gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }
 
@@ -62,6 +64,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   follower_.set_override(sane ? in.speed_override / 100 : 0);
   follower_.set_hold(in.hold);
   run_state(signals);
+  pass_gates();
   for (int i = 0; i < kAxes; ++i) {
     out.drives[at(i)] = axes_[at(i)].command(in.drives[at(i)], quick_stop_);
   }
@@ -110,20 +113,59 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   error_axis_ = axis;
   planning_ = false;
   enabling_ = false;
-  const bool path = !follower_.idle() && on_path_ && code == ErrorCode::Emergency;
-  if (path) {
-    follower_.stop(hardness);
-  } else {
-    follower_.reset(commanded());
-    on_path_ = false;
-  }
-  for (AxisControl& a : axes_) {
-    if (a.state() != AxisState::SynchronizedMotion || !path) {
-      a.fail(code, hardness);
-    }
-  }
   state_ = GroupState::Stopping;
   to_error_ = true;
+  hardness_ = hardness;
+  if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency) {
+    follower_.stop(hardness);
+    for (AxisControl& a : axes_) {
+      if (a.state() != AxisState::SynchronizedMotion) {
+        a.fail(code, hardness);
+      }
+    }
+  } else {
+    leave_path(code, hardness);
+  }
+}
+
+// The gates know speed and acceleration of the axes as their drives do, so they can brake whatever went wrong before.
+void Group::leave_path(ErrorCode code, double hardness) noexcept {
+  follower_.reset(commanded());
+  on_path_ = false;
+  braking_ = true;
+  hardness_ = hardness;
+  for (AxisControl& a : axes_) {
+    a.fail(code, hardness);
+  }
+}
+
+// Nothing reaches a drive but through here.
+void Group::pass_gates() noexcept {
+  for (int i = 0; i < kAxes; ++i) {
+    if (axes_[at(i)].placed_anew()) {
+      gates_[at(i)].stand(axes_[at(i)].commanded().position);
+    }
+  }
+  for (int i = 0; i < kAxes && !braking_; ++i) {
+    const ErrorCode code = gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
+    if (code != ErrorCode::Ok && to_error_) {
+      leave_path(error_, hardness_);  // the first error is what the user has to know
+    } else if (code != ErrorCode::Ok) {
+      trip(code, i + 1, 1);
+    }
+  }
+  for (int i = 0; i < kAxes; ++i) {
+    if (braking_) {
+      gates_[at(i)].brake(hardness_);
+      axes_[at(i)].put(gates_[at(i)].state());
+    } else {
+      gates_[at(i)].pass(axes_[at(i)].commanded().position);
+    }
+  }
+  if (std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); })) {
+    braking_ = false;
+    hardness_ = state_ == GroupState::Stopping ? hardness_ : 1;
+  }
 }
 
 void Group::motion_failed(Fault fault, int source) noexcept {

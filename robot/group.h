@@ -9,6 +9,7 @@
 #include "robot/axis_control.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
+#include "robot/set_point_gate.h"
 
 namespace indurop::robot {
 
@@ -46,6 +47,8 @@ class Group final : public Controller, private MotionPort {
   void sense(const Inputs& in) noexcept;
   void watch(const Inputs& in) noexcept;
   void trip(ErrorCode code, int axis, double hardness) noexcept;
+  void leave_path(ErrorCode code, double hardness) noexcept;
+  void pass_gates() noexcept;
   void run_state(Signals& signals) noexcept;
   void run_enabling() noexcept;
   void run_homing() noexcept;
@@ -75,6 +78,7 @@ class Group final : public Controller, private MotionPort {
   Follower follower_;
   JobRunner job_;
   std::array<AxisControl, kAxes> axes_;
+  std::array<SetPointGate, kAxes> gates_;
   double period_ = 0.01;  // s
   int places_per_period_ = 8;
 
@@ -84,6 +88,8 @@ class Group final : public Controller, private MotionPort {
   bool to_error_ = false;     // what ends Stopping is ErrorStop
   bool to_disabled_ = false;  // or Disabled
   bool on_path_ = true;       // the stop goes along the path; else each axis stops by itself
+  bool braking_ = false;      // the gates bring the axes to rest
+  double hardness_ = 1;       // of the stop in progress
   bool enabling_ = false;
   bool quick_stop_ = false;
   bool planning_ = false;

@@ -139,8 +139,9 @@ bool JobParser::numbers(int count, double* to, const char* what) {
   for (int i = 0; i < count; ++i) {
     accept(",");
     if (peek().kind != JobToken::Kind::Number || !std::isfinite(peek().value)) {
-      error(peek(), "expected " + std::to_string(count) + " numbers: " + what + "; found " + shown(peek()) +
-                        " as number " + std::to_string(i + 1));
+      error(peek(), count == 1 ? std::string("expected ") + what + ", found " + shown(peek())
+                               : "expected " + std::to_string(count) + " numbers: " + what + "; found " +
+                                     shown(peek()) + " as number " + std::to_string(i + 1));
       return false;
     }
     to[i] = take().value;

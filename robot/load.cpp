@@ -2,10 +2,11 @@
 // Loading the robot task: files, settings, and everything that is wrong with them at once.
 
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
+#include "base/read_file.h"
 #include "robot/group.h"
 #include "robot/urdf.h"
 
@@ -16,23 +17,18 @@ namespace {
 constexpr std::size_t kMostBytes = 4U << 20U;
 
 std::optional<std::string> text_of(const std::string& path, const char* what, std::vector<std::string>& errors) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
-  if (file) {
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  auto text = base::read_file(path, kMostBytes);
+  if (text) {
+    return std::move(*text);
   }
-  // A folder opens, but cannot be read.
-  if (!file.is_open() || file.bad() || (file.fail() && !file.eof())) {
-    errors.push_back(path + ":1:1: error: this " + what +
-                     " cannot be read; names begin at the folder of the module.xml");
-    return std::nullopt;
-  }
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMostBytes) {
-    errors.push_back(path + ":1:1: error: this " + what + " has more than 4 MiB");
-    return std::nullopt;
-  }
-  return text;
+  using Kind = base::FileProblem::Kind;
+  const base::FileProblem& problem = text.error();
+  errors.push_back(path + ":1:1: error: this " + what +
+                   (problem.kind == Kind::TooLarge ? " has more than 4 MiB"
+                    : problem.kind == Kind::System
+                        ? " cannot be read; names begin at the folder of the module.xml"
+                        : " cannot be read: " + problem.text + "; names begin at the folder of the module.xml"));
+  return std::nullopt;
 }
 
 void check_settings(const Settings& s, std::vector<std::string>& errors) {

@@ -48,41 +48,69 @@ double shared(double limit, double part) noexcept {
 
 }  // namespace
 
+namespace {
+
+// How fast joint angles change along a path: absolute derivatives by the place on it.
+Rates rates_at(const Joints* places, int count, int i, double spacing) noexcept {
+  const int k = std::clamp(i, 1, count - 1);
+  const int m = std::clamp(i, 1, count - 2);
+  const Joints bend = places[m + 2] - 3 * places[m + 1] + 3 * places[m] - places[m - 1];
+  return {(places[i + 1] - places[i]).cwiseAbs() / spacing,
+          (places[k + 1] - 2 * places[k] + places[k - 1]).cwiseAbs() / (spacing * spacing),
+          bend.cwiseAbs() / (spacing * spacing * spacing)};
+}
+
+// Shares of a joint's acceleration and jerk that go into keeping to a bent path; the rest is for changes of speed.
+constexpr double kBending = 1 - Planner::kShareOfBraking;
+constexpr double kBendingJerk = 0.6;
+constexpr double kMixedJerk = 0.2;
+constexpr double kSpeed = 0.98;  // the fastest place lies between two that were looked at
+
+double velocity_for(const Rates& rates, const JointLimits& joints, double most) noexcept {
+  for (int a = 0; a < kAxes; ++a) {
+    most = std::min({most, shared(kSpeed * joints.velocity[a], rates.first[a]),
+                     std::sqrt(shared(kBending * joints.acceleration[a], rates.second[a])),
+                     std::cbrt(shared(kBendingJerk * joints.jerk[a], rates.third[a]))});
+  }
+  return most;
+}
+
+// `limits.velocity` is what the path is followed with.
+void leave_for_changes(const Rates& rates, const JointLimits& joints, LineLimits& limits) noexcept {
+  const double v = limits.velocity;
+  for (int a = 0; a < kAxes; ++a) {
+    const double left = joints.acceleration[a] - rates.second[a] * v * v;
+    limits.acceleration = std::min({limits.acceleration, shared(left, rates.first[a]),
+                                    shared(kMixedJerk / 3 * joints.jerk[a], rates.second[a] * v)});
+    limits.jerk = std::min(limits.jerk, shared((1 - kBendingJerk - kMixedJerk) * joints.jerk[a], rates.first[a]));
+  }
+}
+
+// Whether a singular position, where `volume` is 0, may lie between places i and i + 1: if it goes on as before and
+// behind them, it comes down to a third.
+bool may_be_singular(const double* volume, int count, int i) noexcept {
+  const double here = std::abs(volume[i]);
+  const double next = std::abs(volume[i + 1]);
+  const double before = std::abs(volume[std::max(i - 1, 0)]);
+  const double behind = std::abs(volume[std::min(i + 2, count)]);
+  const double fall = std::max({before - here, behind - next, std::abs(next - here)});
+  return volume[i] * volume[i + 1] <= 0 || here + next - fall < 2.0 / 3 * std::min(here, next);
+}
+
+double pace(const Rates& rates, const JointLimits& joints) noexcept {
+  return rates.first.cwiseQuotient(joints.velocity).maxCoeff();
+}
+
+}  // namespace
+
 LineLimits limits_along(const Joints* places, int count, double spacing, const JointLimits& joints,
                         const LineLimits& most) noexcept {
-  // Shares of a joint's acceleration and jerk that go into keeping to a bent path; the rest is for changes of speed.
-  constexpr double kBending = 1 - Planner::kShareOfBraking;
-  constexpr double kBendingJerk = 0.6;
-  constexpr double kMixedJerk = 0.2;
-  const auto rates = [&](int i, Joints& first, Joints& second, Joints& third) {
-    const int k = std::clamp(i, 1, count - 1);
-    const int m = std::clamp(i, 1, count - 2);
-    first = (places[i + 1] - places[i]).cwiseAbs() / spacing;
-    second = (places[k + 1] - 2 * places[k] + places[k - 1]).cwiseAbs() / (spacing * spacing);
-    third =
-        (places[m + 2] - 3 * places[m + 1] + 3 * places[m] - places[m - 1]).cwiseAbs() / (spacing * spacing * spacing);
-  };
-  Joints first;
-  Joints second;
-  Joints third;
   LineLimits result = most;
   for (int i = 0; i < count; ++i) {
-    rates(i, first, second, third);
-    for (int a = 0; a < kAxes; ++a) {
-      result.velocity = std::min({result.velocity, shared(joints.velocity[a], first[a]),
-                                  std::sqrt(shared(kBending * joints.acceleration[a], second[a])),
-                                  std::cbrt(shared(kBendingJerk * joints.jerk[a], third[a]))});
-    }
+    result.velocity = velocity_for(rates_at(places, count, i, spacing), joints, result.velocity);
   }
-  const double v = result.velocity;
   for (int i = 0; i < count; ++i) {
-    rates(i, first, second, third);
-    for (int a = 0; a < kAxes; ++a) {
-      const double left = joints.acceleration[a] - second[a] * v * v;
-      result.acceleration = std::min(
-          {result.acceleration, shared(left, first[a]), shared(kMixedJerk / 3 * joints.jerk[a], second[a] * v)});
-      result.jerk = std::min(result.jerk, shared((1 - kBendingJerk - kMixedJerk) * joints.jerk[a], first[a]));
-    }
+    leave_for_changes(rates_at(places, count, i, spacing), joints, result);
   }
   return result;
 }
@@ -112,6 +140,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   segment_.source = command.source;
   count_ = 0;
   next_ = 1;
+  windows_ = noted_ = 0;
   const bool sane = command.speed > 0 && command.speed <= 1 && command.tool_speed >= 0 && command.zone >= 0;
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
@@ -201,27 +230,8 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   const double finest = std::max(s.way, 0.3 * angle) / kSpacing;
   count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, kMost);
   samples_[0] = s.from;
-}
-
-// Between two places with different postures the path goes through a singular position. That can be harmless, if the
-// joints go through it as if it were not there; only a closer look tells.
-Fault Planner::look_closer(double from, double to, const Joints& start) noexcept {
-  constexpr int kParts = 64;
-  const double spacing = (to - from) / kParts;
-  Joints q = start;
-  for (int i = 1; i <= kParts; ++i) {
-    const Joints last = q;
-    if (const Reach reach = places_.on(segment_, from + spacing * i, last, q); reach != Reach::Ok) {
-      return {code_of(reach)};
-    }
-    Eigen::Index axis = 0;
-    const double pace = (q - last).cwiseAbs().cwiseQuotient(joints_.velocity).maxCoeff(&axis) / spacing;
-    segment_.limits.velocity = std::min(segment_.limits.velocity, shared(1, pace));
-    if (pace * kSlowest > 1) {
-      return {ErrorCode::Singular, static_cast<int>(axis) + 1};
-    }
-  }
-  return {};
+  volumes_[0] = volume(s.from);
+  wanted_ = s.limits.velocity;
 }
 
 Fault Planner::check_next() noexcept {
@@ -233,13 +243,81 @@ Fault Planner::check_next() noexcept {
     return {code_of(reach)};
   }
   here = found.q;
+  volumes_[static_cast<std::size_t>(next_)] = volume(here);
   Eigen::Index axis = 0;
   if ((here - before).cwiseAbs().maxCoeff(&axis) > kJump) {
     return {ErrorCode::Singular, static_cast<int>(axis) + 1};
   }
-  const bool turned_over = next_ > 1 && found.posture != posture_;
-  posture_ = found.posture;
-  return turned_over ? look_closer(spacing * (next_ - 1), spacing * next_, before) : Fault{};
+  return {};
+}
+
+// 0 in singular positions, and with another sign on their other side.
+double Planner::volume(const Joints& q) const noexcept {
+  return places_.arm().jacobian(q).determinant();
+}
+
+// What is to be looked at closer: where joints are near a limit, and where their pace grows so fast that it may have a
+// peak between two places.
+void Planner::choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
+                             int depth) noexcept {
+  constexpr double kNear = 0.4;  // of a limit
+  double before = pace(rates_at(places, count, 0, spacing), joints_);
+  for (int i = 0; i < count && windows_ < static_cast<int>(window_.size()); ++i) {
+    const Rates rates = rates_at(places, count, i, spacing);
+    const double now = pace(rates, joints_);
+    const double next = pace(rates_at(places, count, std::min(i + 1, count - 1), spacing), joints_);
+    const double most = std::max({before, now, next});
+    const double growth = most / std::max(std::min({before, now, next}), 1e-9);
+    const double v = segment_.limits.velocity;
+    const bool near = velocity_for(rates, joints_, HUGE_VAL) * kNear < v;
+    if (may_be_singular(volumes, count, i) || (growth > (near ? 1.15 : 1.5) && most * v > 0.1)) {
+      window_[static_cast<std::size_t>(windows_++)] = {from + spacing * i, spacing, places[i], places[i + 1], depth};
+    }
+    before = now;
+  }
+}
+
+Fault Planner::look_closer() noexcept {
+  constexpr int kDeepest = 3;
+  const Window window = window_[static_cast<std::size_t>(--windows_)];
+  std::array<Joints, kParts + 1> places;
+  std::array<double, kParts + 1> volumes;
+  places[0] = window.start;
+  volumes[0] = volume(places[0]);
+  const double spacing = window.length / kParts;
+  for (int i = 1; i <= kParts; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (const Reach reach = places_.on(segment_, window.from + spacing * i, places[k - 1], places[k]);
+        reach != Reach::Ok) {
+      return {code_of(reach)};
+    }
+    volumes[k] = volume(places[k]);
+  }
+  Eigen::Index axis = 0;
+  if ((places[kParts] - window.end).cwiseAbs().maxCoeff(&axis) > 1e-6) {
+    return {ErrorCode::Singular, static_cast<int>(axis) + 1};  // a closer look comes out in another posture
+  }
+  Rates most;
+  for (int i = 0; i < kParts; ++i) {
+    const Rates rates = rates_at(places.data(), kParts, i, spacing);
+    most = {most.first.cwiseMax(rates.first), most.second.cwiseMax(rates.second), most.third.cwiseMax(rates.third)};
+  }
+  note(most);
+  if (window.depth < kDeepest) {
+    choose_windows(places.data(), volumes.data(), kParts, window.from, spacing, window.depth + 1);
+  }
+  return {};
+}
+
+// More than fit are summed up in the last one, which can only make the path slower.
+void Planner::note(const Rates& rates) noexcept {
+  segment_.limits.velocity = velocity_for(rates, joints_, segment_.limits.velocity);
+  if (noted_ < static_cast<int>(rates_.size())) {
+    rates_[static_cast<std::size_t>(noted_++)] = rates;
+    return;
+  }
+  Rates& last = rates_.back();
+  last = {last.first.cwiseMax(rates.first), last.second.cwiseMax(rates.second), last.third.cwiseMax(rates.third)};
 }
 
 Fault Planner::check(int places) noexcept {
@@ -247,14 +325,27 @@ Fault Planner::check(int places) noexcept {
     if (const Fault fault = check_next(); !fault.ok()) {
       return fault;
     }
+    if (next_ == count_) {
+      const double spacing = segment_.length / count_;
+      for (int i = 0; i < count_; ++i) {
+        note(rates_at(samples_.data(), count_, i, spacing));
+      }
+      choose_windows(samples_.data(), volumes_.data(), count_, 0, spacing, 0);
+    }
+  }
+  for (; places > 0 && next_ > count_ && windows_ > 0; places -= kParts) {
+    if (const Fault fault = look_closer(); !fault.ok()) {
+      return fault;
+    }
   }
   if (!done() || count_ == 0) {
     return {};
   }
-  const double wanted = segment_.limits.velocity;
   segment_.to = samples_[static_cast<std::size_t>(count_)];
-  segment_.limits = limits_along(samples_.data(), count_, segment_.length / count_, joints_, segment_.limits);
-  return {segment_.limits.velocity < std::min(kSlowest, wanted) ? ErrorCode::Singular : ErrorCode::Ok};
+  for (int i = 0; i < noted_; ++i) {
+    leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
+  }
+  return {segment_.limits.velocity < std::min(kSlowest, wanted_) ? ErrorCode::Singular : ErrorCode::Ok};
 }
 
 Fault Planner::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {

@@ -11,6 +11,13 @@
 
 namespace indurop::robot {
 
+// How fast joint angles change along a path, in rad per s at full speed: absolute first, second and third derivatives.
+struct Rates {
+  Joints first = Joints::Zero();
+  Joints second = Joints::Zero();
+  Joints third = Joints::Zero();
+};
+
 class Planner {
  public:
   // Of a joint's acceleration, at least, in a blend; the rest goes into keeping to the bend.
@@ -25,7 +32,7 @@ class Planner {
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
   // Singular.
   Fault check(int places) noexcept;
-  [[nodiscard]] bool done() const noexcept { return next_ > count_; }
+  [[nodiscard]] bool done() const noexcept { return next_ > count_ && windows_ == 0; }
   // Complete when done().
   [[nodiscard]] const Segment& segment() const noexcept { return segment_; }
 
@@ -42,7 +49,11 @@ class Planner {
 
   Fault resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
-  Fault look_closer(double from, double to, const Joints& start) noexcept;
+  Fault look_closer() noexcept;
+  [[nodiscard]] double volume(const Joints& q) const noexcept;
+  void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
+                      int depth) noexcept;
+  void note(const Rates& rates) noexcept;
   Fault make_circle(const Vec3& mid) noexcept;
   void measure_joint_motion(double speed) noexcept;
   void measure_tool_motion(const MoveCommand& command) noexcept;
@@ -52,9 +63,23 @@ class Planner {
   ToolLimits tool_;
   Segment segment_;
   Samples samples_{};
+  std::array<double, kMost + 1> volumes_{};
   int count_ = 0;  // places after the first
   int next_ = 1;
-  std::uint8_t posture_ = 0;  // at the last place
+  // Stretches that are looked at closer before the path is known.
+  struct Window {
+    double from = 0;
+    double length = 0;
+    Joints start;
+    Joints end;
+    int depth = 0;
+  };
+  static constexpr int kParts = 8;  // of a stretch
+  std::array<Window, 256> window_{};
+  int windows_ = 0;
+  std::array<Rates, 3 * kMost> rates_{};
+  int noted_ = 0;
+  double wanted_ = 1;  // part of full speed, before the joints were asked
 };
 
 // Limits of the speed along a path that keep the joints' limits, given the joint angles at `count` + 1 equally spaced

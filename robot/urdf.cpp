@@ -133,7 +133,7 @@ std::optional<ArmModel> Reader::read() {
     said = listener.said;
   }
   if (model == nullptr) {
-    error(0, "this is no URDF of a robot: " + (said.empty() ? "it cannot be read" : said));
+    error(0, "this is not the URDF of a robot: " + (said.empty() ? "it cannot be read" : said));
     return std::nullopt;
   }
   const std::size_t before = errors_.size();

@@ -95,7 +95,7 @@ Status Enrolment::begin() {
 Enrolment::Outcome Enrolment::enrol(Again again) {
   if (!vars::valid_node_name(node_)) {
     return {Errc::InvalidArgument,
-            fmt::format("INDUROP_NODE is '{}', which is no node name ([A-Za-z0-9_-], at most 40)", node_)};
+            fmt::format("INDUROP_NODE is '{}', which is not a valid node name ([A-Za-z0-9_-], at most 40)", node_)};
   }
   auto mapping = RunMapping::open(node_);
   if (!mapping) {

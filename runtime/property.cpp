@@ -13,6 +13,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/text.h"
 #include "runtime/host.h"
 #include "runtime/process.h"
 
@@ -48,11 +49,6 @@ std::string_view take_text(std::string_view& from) {
   const std::string_view text = from.substr(0, end);
   from.remove_prefix(end + 1);
   return text;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r\n");
-  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
 bool complain(const char* name, std::string_view text, std::string_view expected) {
@@ -99,7 +95,7 @@ bool property_signed(const char* name, std::int64_t min, std::int64_t max, std::
   if (text == nullptr) {
     return false;
   }
-  std::string_view digits = trimmed(text);
+  std::string_view digits = indurop::base::trimmed(text);
   const bool negative = digits.starts_with('-');
   digits.remove_prefix(negative || digits.starts_with('+') ? 1 : 0);
   std::uint64_t magnitude = 0;
@@ -117,7 +113,7 @@ bool property_unsigned(const char* name, std::uint64_t max, std::uint64_t& value
   if (text == nullptr) {
     return false;
   }
-  std::string_view digits = trimmed(text);
+  std::string_view digits = indurop::base::trimmed(text);
   digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
   std::uint64_t parsed = 0;
   if (!parse_unsigned(digits, parsed) || parsed > max) {
@@ -132,7 +128,7 @@ bool property_real(const char* name, double& value) {
   if (text == nullptr) {
     return false;
   }
-  std::string_view digits = trimmed(text);
+  std::string_view digits = indurop::base::trimmed(text);
   digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
   double parsed = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), parsed);
@@ -148,7 +144,7 @@ bool property_bool(const char* name, bool& value) {
   if (text == nullptr) {
     return false;
   }
-  const std::string_view word = trimmed(text);
+  const std::string_view word = indurop::base::trimmed(text);
   for (const std::string_view yes : {"true", "1", "on", "yes"}) {
     if (word == yes) {
       value = true;

@@ -26,6 +26,7 @@ Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<Task
       hooks_(hooks),
       trace_(trace),
       runner_(block, clock, hooks, trace, tasks_.size()),
+      basic_period_ns_(basic_period_ns),
       period_ticks_(static_cast<std::uint64_t>(plan.period_ns / basic_period_ns)),
       offset_ticks_(static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)),
       next_due_(offset_ticks_) {
@@ -65,7 +66,7 @@ void Band::skip(std::uint64_t releases) noexcept {
   }
 }
 
-void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t basic_period_ns) noexcept {
+void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns) noexcept {
   if (tick >= next_due_) {
     const std::uint64_t due_count = (tick - next_due_) / period_ticks_ + 1;
     const std::uint64_t latest = next_due_ + (due_count - 1) * period_ticks_;
@@ -74,7 +75,7 @@ void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t b
       skip(due_count - 1);
     }
     if (any_enabled()) {
-      release({latest, epoch_ns + static_cast<std::int64_t>(latest) * basic_period_ns});
+      release({latest, epoch_ns + static_cast<std::int64_t>(latest) * basic_period_ns_});
     }
   }
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
@@ -190,7 +191,7 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
   slot.wake.wake();
 }
 
-void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost, std::int64_t basic_ns) noexcept {
+void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost) noexcept {
   if (lost > 0) {
     if (plan_.overrun == OverrunPolicy::CatchUp) {
       const std::uint64_t over = owed_ + lost > kBacklog ? owed_ + lost - kBacklog : 0;
@@ -202,8 +203,8 @@ void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t
   }
   released_.store(released_.load(kRelaxed) + 1, std::memory_order_seq_cst);
   runner_.run(tasks_, tick, release_ns);
-  find_inline_overrun(tick, release_ns, basic_ns);
-  for (; owed_ > 0 && clock_.now() < release_ns + basic_ns; --owed_) {
+  find_inline_overrun(tick, release_ns);
+  for (; owed_ > 0 && clock_.now() < release_ns + basic_period_ns_; --owed_) {
     runner_.run(tasks_, tick, release_ns);
   }
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
@@ -211,8 +212,8 @@ void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
 }
 
-void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns, std::int64_t basic_ns) noexcept {
-  const std::int64_t next = release_ns + basic_ns;
+void Band::find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept {
+  const std::int64_t next = release_ns + basic_period_ns_;
   std::size_t i = 0;
   while (i < tasks_.size() && runner_.times(i).end_ns <= next) {
     ++i;
@@ -251,9 +252,11 @@ bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {
     if (!before.due(tick)) {
       continue;
     }
-    // The nearest one that is due suffices: it waited for those before it.
-    poll = before.plan_.kind == BandKind::Process;
-    return before.decided_tick_.load(std::memory_order_seq_cst) > tick && !before.busy();
+    // All of them: two of equal priority on two cores do not wait for one another.
+    if (before.decided_tick_.load(std::memory_order_seq_cst) <= tick || before.busy()) {
+      poll = before.plan_.kind == BandKind::Process;
+      return false;
+    }
   }
   return true;
 }

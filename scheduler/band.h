@@ -39,13 +39,13 @@ class Band {
 
   // Tick thread: does what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
   // counted as skipped.
-  void release_due(std::uint64_t tick, std::int64_t epoch_ns, std::int64_t basic_period_ns) noexcept;
+  void release_due(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
 
   // Tick thread, at the end of the run: counts as skipped what was due in ticks before `end_tick` that never began.
   void miss_due(std::uint64_t end_tick) noexcept;
 
-  // Tick thread, inline band only: runs here and now. `lost` = ticks that never began.
-  void run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost, std::int64_t basic_ns) noexcept;
+  // Tick thread, only bands that run in it: here and now. `lost` = ticks that never began.
+  void run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost) noexcept;
 
   // Band thread: body. Returns when stop() was called.
   void loop() noexcept;
@@ -82,7 +82,7 @@ class Band {
   void skip(std::uint64_t releases) noexcept;
   void release_process(TaskState& state, const Release& release) noexcept;
   void account_process(TaskState& state) noexcept;
-  void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns, std::int64_t basic_ns) noexcept;
+  void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept;
   void apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept;
   void record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept;
   [[nodiscard]] bool busy() const noexcept;
@@ -97,6 +97,7 @@ class Band {
   Hooks hooks_;
   CoreTrace& trace_;
   Runner runner_;
+  std::int64_t basic_period_ns_;
   std::uint64_t period_ticks_;
   std::uint64_t offset_ticks_;
   std::uint64_t next_due_;

@@ -3,13 +3,23 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+
+#include "scheduler/execution_order.h"
 
 namespace indurop::scheduler {
 namespace {
 
-bool joins(const BandPlan& band, const Task& last, const Task& task) noexcept {
-  return band.kind != BandKind::Process && task.type == ModuleType::Thread && band.core == task.core &&
+// `before`: the bands so far, the last of them is the one to join. A module of equal priority on another core may run
+// at the same time as the front of that band but has to be done before one of a lower priority.
+bool joins(std::span<const BandPlan> before, std::span<const Task> tasks, const Task& task) noexcept {
+  const BandPlan& band = before.back();
+  const Task& last = tasks[band.tasks.back()];
+  const int front = tasks[band.tasks.front()].priority;
+  const bool passes_other =
+      task.priority != front && std::any_of(before.begin(), before.end(), [&](const BandPlan& other) {
+        return other.core != band.core && tasks[other.tasks.back()].priority == front;
+      });
+  return !passes_other && band.kind != BandKind::Process && task.type == ModuleType::Thread && band.core == task.core &&
          band.period_ns == task.period_ns && band.offset_ns == task.offset_ns && band.overrun == task.overrun &&
          last.type == ModuleType::Thread;
 }
@@ -22,7 +32,7 @@ void decide_inline(std::vector<BandPlan>& bands, std::span<const Task> tasks, st
         std::none_of(before.begin(), before.end(), [&](const BandPlan& b) { return b.core == band.core; });
     const int priority = tasks[band.tasks.front()].priority;
     const bool waits_for_other = std::any_of(before.begin(), before.end(), [&](const BandPlan& b) {
-      return b.core != band.core && tasks[b.tasks.back()].priority < priority;
+      return b.core != band.core && tasks[b.tasks.front()].priority < priority;
     });
     if (band.kind == BandKind::Thread && first_on_core && !waits_for_other && band.period_ns == basic_period_ns &&
         band.offset_ns == 0) {
@@ -34,14 +44,11 @@ void decide_inline(std::vector<BandPlan>& bands, std::span<const Task> tasks, st
 }  // namespace
 
 std::vector<BandPlan> make_bands(std::span<const Task> periodic, std::int64_t basic_period_ns) {
-  std::vector<std::uint32_t> order(periodic.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return periodic[a].priority < periodic[b].priority; });
   std::vector<BandPlan> bands;
-  for (const std::uint32_t i : order) {
+  for (const std::uint32_t i :
+       execution_order(periodic.size(), [&](std::uint32_t task) { return periodic[task].priority; })) {
     const Task& task = periodic[i];
-    if (!bands.empty() && joins(bands.back(), periodic[bands.back().tasks.back()], task)) {
+    if (!bands.empty() && joins(bands, periodic, task)) {
       bands.back().tasks.push_back(i);
       continue;
     }

@@ -13,11 +13,17 @@
 namespace indurop::scheduler {
 
 enum class BandKind {
-  Inline,   // runs in the core's tick thread: the top band, if it is released in every basic period
-  Thread,   // one FIFO thread
-  Process,  // one process module
-  Handler,  // the event handler: sporadic modules, after everything periodic
+  Inline,     // runs in the core's tick thread: the top band, if it is released in every basic period
+  AfterBase,  // likewise, right behind it on the primary core: sporadic modules that are not to wait
+  Thread,     // one FIFO thread
+  Process,    // one process module
+  Handler,    // the event handler: sporadic modules, after everything periodic
 };
+
+// Such a band has no thread of its own and never waits: it is done before its core's tick thread releases the others.
+constexpr bool in_tick_thread(BandKind kind) noexcept {
+  return kind == BandKind::Inline || kind == BandKind::AfterBase;
+}
 
 struct BandPlan {
   BandKind kind = BandKind::Thread;

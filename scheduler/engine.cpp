@@ -2,7 +2,8 @@
 #include "scheduler/engine.h"
 
 #include <algorithm>
-#include <array>
+
+#include "scheduler/execution_order.h"
 
 namespace indurop::scheduler {
 namespace {
@@ -12,8 +13,20 @@ constexpr std::int64_t kLeadNs = 2'000'000;  // between creating the threads and
 constexpr std::int64_t kWatchdogFastest = 1'000'000;
 constexpr std::int64_t kWatchdogSlowest = 10'000'000;
 
-bool by_priority(const TaskState* a, const TaskState* b) noexcept {
-  return a->task.priority < b->task.priority;
+// Whole basic periods, at least three of them, in which the tick threads wake up and nothing is run.
+std::int64_t warm_up_ns(std::int64_t basic_period_ns) noexcept {
+  return std::max<std::int64_t>(kWarmUpNs / basic_period_ns, 3) * basic_period_ns;
+}
+
+// What a band has to find done when it starts. Event handling waits for everything periodic; what is handled right
+// after the base modules does not wait for others, nor they for it.
+bool comes_before(const Band& other, const Band& band) noexcept {
+  if (other.plan().kind == BandKind::AfterBase || band.plan().kind == BandKind::AfterBase) {
+    return false;
+  }
+  return band.plan().kind == BandKind::Handler || other.tasks().empty() ||
+         other.tasks().front()->task.priority < band.tasks().front()->task.priority ||
+         other.plan().core == band.plan().core;
 }
 
 }  // namespace
@@ -22,8 +35,8 @@ struct Engine::Core {
   int number = 0;
   bool primary = false;
   CoreTrace trace;
-  Band* inline_band = nullptr;
-  std::vector<Band*> bands;  // released by this core's tick thread, execution order
+  std::vector<Band*> here;      // run in this core's tick thread, execution order
+  std::vector<Band*> released;  // by this core's tick thread, execution order
 };
 
 Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
@@ -44,7 +57,8 @@ Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSetting
     }
     states_.push_back(std::move(state));
   }
-  build_bands(std::move(periodic), std::move(sporadic));
+  build_periodic(periodic);
+  build_sporadic(sporadic);
   gated_ = !settings_.realtime || cores_.size() > 1;  // NOLINT(*-prefer-member-initializer): the bands make cores_
   connect_predecessors();
 }
@@ -65,7 +79,20 @@ Engine::Core& Engine::core(int number) {
   return *cores_.back();
 }
 
-void Engine::build_bands(std::vector<TaskState*> periodic, std::vector<TaskState*> sporadic) {
+void Engine::add_band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes) {
+  Core& home = core(plan.core);
+  for (const TaskState* state : tasks) {
+    state->record->fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
+  }
+  for (const TaskState* state : processes) {
+    state->record->fifo_priority = settings_.realtime ? kSporadicProcessPriority : 0;
+  }
+  bands_.push_back(std::make_unique<Band>(plan, std::move(tasks), std::move(processes), block_, clock_, hooks_,
+                                          home.trace, settings_.basic_period_ns));
+  (in_tick_thread(plan.kind) ? home.here : home.released).push_back(bands_.back().get());
+}
+
+void Engine::build_periodic(const std::vector<TaskState*>& periodic) {
   std::vector<Task> plain;
   plain.reserve(periodic.size());
   for (const TaskState* state : periodic) {
@@ -75,46 +102,32 @@ void Engine::build_bands(std::vector<TaskState*> periodic, std::vector<TaskState
     std::vector<TaskState*> members;
     for (const std::uint32_t i : plan.tasks) {
       members.push_back(periodic[i]);
-      periodic[i]->record->fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
     }
-    Core& home = core(plan.core);
-    bands_.push_back(std::make_unique<Band>(plan, std::move(members), std::vector<TaskState*>{}, block_, clock_, hooks_,
-                                            home.trace, settings_.basic_period_ns));
-    home.bands.push_back(bands_.back().get());
-    if (plan.kind == BandKind::Inline) {
-      home.inline_band = bands_.back().get();
-    }
+    add_band(plan, std::move(members));
   }
-  std::stable_sort(sporadic.begin(), sporadic.end(), by_priority);
-  build_sporadic(sporadic);
 }
 
 void Engine::build_sporadic(const std::vector<TaskState*>& sporadic) {
   std::vector<TaskState*> early;
   std::vector<TaskState*> threads;
   std::vector<TaskState*> processes;
-  for (TaskState* state : sporadic) {
-    const bool process = state->task.type == ModuleType::Process;
-    (process ? processes : state->task.after_base ? early : threads).push_back(state);
-    const int level = process ? kSporadicProcessPriority : state->task.after_base ? kTickPriority : kHandlerPriority;
-    state->record->fifo_priority = settings_.realtime ? level : 0;
+  for (const std::uint32_t i :
+       execution_order(sporadic.size(), [&](std::uint32_t task) { return sporadic[task]->task.priority; })) {
+    const Task& task = sporadic[i]->task;
+    (task.type == ModuleType::Process ? processes : task.after_base ? early : threads).push_back(sporadic[i]);
   }
-  Core& home = core(settings_.primary_core);
   BandPlan plan;
-  plan.core = home.number;
+  plan.core = settings_.primary_core;
   plan.period_ns = settings_.basic_period_ns;
   if (!early.empty()) {
-    plan.kind = BandKind::Inline;
+    plan.kind = BandKind::AfterBase;
     plan.fifo_priority = kTickPriority;
-    after_base_ = std::make_unique<Band>(plan, std::move(early), std::vector<TaskState*>{}, block_, clock_, hooks_,
-                                         home.trace, settings_.basic_period_ns);
+    add_band(plan, std::move(early));
   }
   if (!threads.empty() || !processes.empty()) {
     plan.kind = BandKind::Handler;
     plan.fifo_priority = kHandlerPriority;
-    bands_.push_back(std::make_unique<Band>(plan, std::move(threads), std::move(processes), block_, clock_, hooks_,
-                                            home.trace, settings_.basic_period_ns));
-    home.bands.push_back(bands_.back().get());
+    add_band(plan, std::move(threads), std::move(processes));
   }
 }
 
@@ -128,10 +141,7 @@ void Engine::connect_predecessors() {
     std::vector<Band*> before;
     for (std::size_t k = 0; k < i; ++k) {
       Band& other = *bands_[k];
-      const bool ordered = band.plan().kind == BandKind::Handler || other.tasks().empty() ||
-                           other.tasks().back()->task.priority < band.tasks().front()->task.priority ||
-                           other.plan().core == band.plan().core;
-      if (ordered && (!settings_.realtime || other.plan().core != band.plan().core)) {
+      if (comes_before(other, band) && (!settings_.realtime || other.plan().core != band.plan().core)) {
         before.push_back(&other);
       }
     }
@@ -149,20 +159,18 @@ TaskState* Engine::thread_module(std::uint32_t module) noexcept {
   return nullptr;
 }
 
-Band* Engine::band_of(const TaskState& state) noexcept {
-  const auto holds = [&state](const Band& band) {
-    return std::find(band.tasks().begin(), band.tasks().end(), &state) != band.tasks().end();
-  };
-  if (after_base_ != nullptr && holds(*after_base_)) {
-    return after_base_.get();
-  }
-  const auto found = std::find_if(bands_.begin(), bands_.end(), [&](const auto& band) { return holds(*band); });
+Band* Engine::find_band(std::uint32_t module) const noexcept {
+  const auto found = std::find_if(bands_.begin(), bands_.end(), [module](const auto& band) {
+    return std::any_of(band->tasks().begin(), band->tasks().end(), [module](const TaskState* state) {
+      return state->task.index == module && state->task.legacy_signal == 0;
+    });
+  });
   return found == bands_.end() ? nullptr : found->get();
 }
 
 bool Engine::disable(std::uint32_t module) noexcept {
   TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : band_of(*state);
+  const Band* band = state == nullptr ? nullptr : find_band(module);
   if (band == nullptr) {
     return false;
   }
@@ -173,7 +181,7 @@ bool Engine::disable(std::uint32_t module) noexcept {
 
 bool Engine::at_rest(std::uint32_t module) noexcept {
   TaskState* state = thread_module(module);
-  Band* band = state == nullptr ? nullptr : band_of(*state);
+  Band* band = state == nullptr ? nullptr : find_band(module);
   if (band == nullptr || band->has_done(state->last_release)) {
     return true;
   }
@@ -198,7 +206,7 @@ void Engine::wake_waiting() noexcept {
 Status Engine::start_band_threads() {
   for (const auto& band : bands_) {
     const BandPlan& plan = band->plan();
-    if (plan.kind == BandKind::Inline || plan.kind == BandKind::Process) {
+    if (in_tick_thread(plan.kind) || plan.kind == BandKind::Process) {
       continue;
     }
     rt::ThreadSettings settings;
@@ -236,9 +244,7 @@ Status Engine::start(std::uint64_t ticks) {
     join();
     return started;
   }
-  const std::int64_t basic = settings_.basic_period_ns;
-  const std::int64_t warm_up = std::max<std::int64_t>(kWarmUpNs / basic, 3) * basic;
-  epoch_ns_ = clock_.now() + kLeadNs + warm_up;
+  epoch_ns_ = clock_.now() + kLeadNs + warm_up_ns(settings_.basic_period_ns);
   if (settings_.grid_ns > 0) {
     const std::int64_t past = (epoch_ns_ - settings_.phase_ns) % settings_.grid_ns;
     epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
@@ -267,15 +273,12 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   if (!settings_.realtime) {
     rt::request_exact_timers();
   }
-  std::array<Band*, 2> here = {core.inline_band, core.primary ? after_base_.get() : nullptr};
-  for (Band* band : here) {
-    if (band != nullptr) {
-      band->runner().attach_thread();
-    }
+  for (Band* band : core.here) {
+    band->runner().attach_thread();
   }
   const std::int64_t basic = settings_.basic_period_ns;
   Spinner spinner(clock_, settings_.spin, basic);
-  for (std::int64_t t = epoch_ns_ - std::max<std::int64_t>(kWarmUpNs / basic, 3) * basic; t < epoch_ns_; t += basic) {
+  for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
     spinner.wait_until(t);
   }
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
@@ -296,10 +299,8 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     }
     do_tick(core, tick, lost);
   }
-  for (Band* band : here) {
-    if (band != nullptr) {
-      band->runner().detach_thread();
-    }
+  for (Band* band : core.here) {
+    band->runner().detach_thread();
   }
   ticking_.fetch_sub(1, std::memory_order_acq_rel);
 }
@@ -309,32 +310,28 @@ void Engine::end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexce
     block_.lost_ticks.fetch_add(lost, std::memory_order_relaxed);
     block_.tick.store(ticks, std::memory_order_release);
   }
-  for (Band* band : core.bands) {
-    band->miss_due(ticks);
+  for (const auto* bands : {&core.here, &core.released}) {
+    for (Band* band : *bands) {
+      band->miss_due(ticks);
+    }
   }
 }
 
 void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept {
-  const std::int64_t basic = settings_.basic_period_ns;
-  const std::int64_t release = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
+  const std::int64_t release = epoch_ns_ + static_cast<std::int64_t>(tick) * settings_.basic_period_ns;
   if (core.primary) {
     block_.tick.store(tick + 1, std::memory_order_release);
   }
-  if (core.inline_band != nullptr) {
-    core.inline_band->run_inline(tick, release, lost, basic);
+  for (Band* band : core.here) {
+    band->run_inline(tick, release, lost);
   }
-  if (core.primary && after_base_ != nullptr) {
-    after_base_->run_inline(tick, release, 0, basic);
-  }
-  for (Band* band : core.bands) {
-    if (band != core.inline_band) {
-      band->release_due(tick, epoch_ns_, basic);
-    }
+  for (Band* band : core.released) {
+    band->release_due(tick, epoch_ns_);
   }
   if (gated_) {
     wake_waiting();
   }
-  if ((core.primary || core.inline_band != nullptr) && hooks_.worked != nullptr) {
+  if ((core.primary || !core.here.empty()) && hooks_.worked != nullptr) {
     hooks_.worked(hooks_.context);
   }
 }
@@ -365,23 +362,7 @@ void Engine::watchdog_loop() noexcept {
     for (const auto& band : bands_) {
       band->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
     }
-    if (after_base_ != nullptr) {
-      after_base_->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
-    }
   }
-}
-
-const Band* Engine::band_of(std::uint32_t module) const noexcept {
-  const auto runs = [module](const Band& band) {
-    return std::any_of(band.tasks().begin(), band.tasks().end(), [module](const TaskState* state) {
-      return state->task.index == module && state->task.legacy_signal == 0;
-    });
-  };
-  if (after_base_ != nullptr && runs(*after_base_)) {
-    return after_base_.get();
-  }
-  const auto found = std::find_if(bands_.begin(), bands_.end(), [&](const auto& band) { return runs(*band); });
-  return found == bands_.end() ? nullptr : found->get();
 }
 
 void Engine::join() noexcept {
@@ -405,9 +386,6 @@ void Engine::join() noexcept {
   watchdog_.join();
   for (const auto& band : bands_) {
     band->finish();
-  }
-  if (after_base_ != nullptr) {
-    after_base_->finish();
   }
 }
 

@@ -60,19 +60,20 @@ class Engine {
 
   // The band that runs a module, by its index in the block's records. Null: none, or the scheduler does not see the end
   // of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
-  [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept;
+  [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return find_band(module); }
 
   // The tick in which everything is on this core without any thread: for tests and simulation with a virtual clock.
   void step(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
 
  private:
   struct Core;
-  void build_bands(std::vector<TaskState*> periodic, std::vector<TaskState*> sporadic);
+  void build_periodic(const std::vector<TaskState*>& periodic);
   void build_sporadic(const std::vector<TaskState*>& sporadic);
+  void add_band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes = {});
   void connect_predecessors();
   Core& core(int number);
   TaskState* thread_module(std::uint32_t module) noexcept;
-  Band* band_of(const TaskState& state) noexcept;
+  [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
   Status start_band_threads();
   void tick_loop(Core& core, std::uint64_t ticks) noexcept;
   void end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept;
@@ -86,8 +87,7 @@ class Engine {
   Clock& clock_;
   std::vector<std::unique_ptr<TaskState>> states_;
   std::vector<std::unique_ptr<Core>> cores_;  // the primary one first
-  std::vector<std::unique_ptr<Band>> bands_;  // execution order, the event handler last
-  std::unique_ptr<Band> after_base_;          // sporadic modules evaluated in the primary tick thread
+  std::vector<std::unique_ptr<Band>> bands_;  // periodic ones in execution order, then after-base, then event handler
   std::vector<rt::Thread> threads_;
   rt::Thread watchdog_;
   bool gated_ = false;  // bands wait for their predecessors explicitly

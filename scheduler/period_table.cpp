@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "scheduler/execution_order.h"
+
 namespace indurop::scheduler {
 namespace {
 
@@ -109,10 +111,7 @@ Result<PeriodTable> make_period_table(std::span<const PeriodicItem> items) {
   table.macro_period = Nanos{macro};
   table.slot_count = static_cast<std::uint64_t>(macro / basic);  // NOLINT(*DivideZero): a divisor of positive periods
 
-  table.order.resize(items.size());
-  std::iota(table.order.begin(), table.order.end(), 0U);
-  std::stable_sort(table.order.begin(), table.order.end(),
-                   [items](std::uint32_t a, std::uint32_t b) { return items[a].priority < items[b].priority; });
+  table.order = execution_order(items.size(), [items](std::uint32_t i) { return items[i].priority; });
   fill_slots(table, items);
   return table;
 }

@@ -11,23 +11,20 @@
 
 #include "rt/signal_word.h"
 #include "scheduler/histogram.h"
+#include "scheduler/module_kind.h"
 
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
 inline constexpr std::uint32_t kRunAbi = 4;
-inline constexpr std::size_t kNameLength = 96;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
-enum class ModuleType : std::uint32_t { Thread, Process };
-enum class Operation : std::uint32_t { Periodic, Sporadic, NonReal };
-enum class OverrunPolicy : std::uint32_t { Skip, CatchUp, StopModule, StopNode };
 enum class ModuleState : std::uint32_t {
   Loaded,    // start() not called yet
   Starting,  // process launched, not yet ready
   Running,
-  Stopped,     // by order, or at the end of the run
+  Stopped,     // by command, or at the end of the run
   Faulted,     // quarantined after a fault, see last_fault
   Restarting,  // process waiting for its restart delay
   Exited,      // a non-real-time module that finished
@@ -74,8 +71,8 @@ struct ModuleRecord {
   std::atomic<std::uint32_t> fault_kind;     // FaultKind of the last fault
   std::atomic<std::uint64_t> fault_tick;
   char last_fault[kTextLength];  // "SIGSEGV at address 0x0"; valid once fault_kind is set
-  // Orders from outside, see module_order.h.
-  std::atomic<std::uint64_t> order;
+  // Commands from outside, see module_command.h.
+  std::atomic<std::uint64_t> command;
   std::atomic<std::uint64_t> answer;
   std::int64_t last_start_ns;  // CLOCK_MONOTONIC, of the run in progress or the last one
   std::atomic<std::int64_t> last_exec_ns;

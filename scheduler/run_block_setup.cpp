@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "rt/copy_text.h"
+
 namespace indurop::scheduler {
 namespace {
 
@@ -52,14 +54,9 @@ Offsets offsets_of(const RunBlockSetup& setup) {
   return at;
 }
 
-template <std::size_t N>
-void copy_text(char (&to)[N], const std::string& from) {
-  std::strncpy(to, from.c_str(), N - 1);
-}
-
 void fill_record(ModuleRecord& record, const ModuleSetup& module) {
-  copy_text(record.name, module.name);
-  copy_text(record.file, module.file);
+  rt::copy_text(record.name, module.name);
+  rt::copy_text(record.file, module.file);
   record.type = module.type;
   record.operation = module.operation;
   record.overrun_policy = module.overrun;
@@ -100,9 +97,9 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   block.abi = kRunAbi;
   block.module_count = static_cast<std::uint32_t>(n);
   block.total_size = at.total;
-  copy_text(block.node_name, setup.node_name);
-  copy_text(block.config_file, setup.config_file);
-  copy_text(block.deployment, setup.deployment);
+  rt::copy_text(block.node_name, setup.node_name);
+  rt::copy_text(block.config_file, setup.config_file);
+  rt::copy_text(block.deployment, setup.deployment);
   block.basic_period_ns = setup.basic_period_ns;
   block.macro_period_ns = setup.macro_period_ns;
   block.slot_count = setup.slot_count;

@@ -8,12 +8,12 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <elf.h>
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/read_file.h"
 #include "schema/schema.h"
 
 namespace indurop::schema {
@@ -28,46 +28,32 @@ Error corrupt(const char* where) {
   return {Errc::Corrupt, 0, where};
 }
 
-// An open file, closed at the end; reads are refused beyond the size it had when opened.
+Error open_error(const base::FileProblem& problem) {
+  constexpr const char* kWhere = "opening the module file";
+  if (problem.kind != base::FileProblem::Kind::System) {
+    return corrupt("the module file is not a regular file");
+  }
+  switch (problem.sys_errno) {
+    case ENOENT:
+    case ENOTDIR:
+    case ELOOP:
+    case ENAMETOOLONG:
+      return {Errc::NotFound, problem.sys_errno, kWhere};
+    case EACCES:
+    case EPERM:
+      return {Errc::PermissionDenied, problem.sys_errno, kWhere};
+    default:
+      return {Errc::System, problem.sys_errno, kWhere};
+  }
+}
+
+// Reads are refused beyond the size the file had when opened.
 class File {
  public:
-  explicit File(const std::filesystem::path& path) : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    struct stat info {};
-    if (fd_ < 0 || ::fstat(fd_, &info) != 0) {
-      errno_ = errno;
-    } else if (S_ISREG(info.st_mode)) {
-      regular_ = true;
-      size_ = static_cast<std::uint64_t>(info.st_size);
-    }
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() {
-    if (fd_ >= 0) {
-      ::close(fd_);
-    }
-  }
-
-  [[nodiscard]] Status status() const {
-    constexpr const char* kWhere = "opening the module file";
-    switch (errno_) {
-      case 0:
-        return regular_ ? Status() : Status(corrupt("the module file is not a regular file"));
-      case ENOENT:
-      case ENOTDIR:
-      case ELOOP:
-      case ENAMETOOLONG:
-        return Error{Errc::NotFound, errno_, kWhere};
-      case EACCES:
-      case EPERM:
-        return Error{Errc::PermissionDenied, errno_, kWhere};
-      default:
-        return Error{Errc::System, errno_, kWhere};
-    }
-  }
+  explicit File(base::OpenFile opened) noexcept : opened_(std::move(opened)) {}
 
   [[nodiscard]] bool holds(std::uint64_t offset, std::uint64_t length) const noexcept {
-    return offset <= size_ && length <= size_ - offset;
+    return offset <= opened_.size && length <= opened_.size - offset;
   }
   [[nodiscard]] bool read(std::uint64_t offset, void* to, std::uint64_t length) const {
     if (!holds(offset, length)) {
@@ -75,7 +61,7 @@ class File {
     }
     auto* at = static_cast<char*>(to);
     while (length > 0) {
-      const ssize_t got = ::pread(fd_, at, length, static_cast<off_t>(offset));
+      const ssize_t got = ::pread(opened_.file.get(), at, length, static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) {
         continue;
       }
@@ -102,10 +88,7 @@ class File {
   }
 
  private:
-  int fd_;
-  int errno_ = 0;
-  bool regular_ = false;
-  std::uint64_t size_ = 0;
+  base::OpenFile opened_;
 };
 
 // The NUL-terminated text at `offset`, or nothing if it starts or ends outside.
@@ -368,11 +351,12 @@ class Reader {
 }  // namespace
 
 Result<ModuleFile> read_module_file(const std::filesystem::path& file) {
-  const File opened(file);
-  if (const Status status = opened.status(); !status.ok()) {
-    return status.error();
+  auto opened = base::open_file(file);
+  if (!opened) {
+    return open_error(opened.error());
   }
-  return Reader(opened).run();
+  const File readable(std::move(*opened));
+  return Reader(readable).run();
 }
 
 }  // namespace indurop::schema

@@ -1,89 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shell patterns over variable names.
 
+#include <fnmatch.h>
+
 #include "schema/schema.h"
 
 namespace indurop::schema {
 namespace {
 
-// Where the set that starts behind '[' ends: the index of its ']', or npos (then '[' is a letter like any other).
-// A ']' right at the beginning belongs to the set.
-std::size_t set_end(std::string_view pattern, std::size_t at) noexcept {
-  if (at < pattern.size() && (pattern[at] == '!' || pattern[at] == '^')) {
-    ++at;
-  }
-  return pattern.find(']', at + 1);
-}
-
-bool in_set(std::string_view set, char c) noexcept {
-  const bool negated = !set.empty() && (set.front() == '!' || set.front() == '^');
-  set.remove_prefix(negated ? 1 : 0);
-  bool found = false;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const bool span = i + 2 < set.size() && set[i + 1] == '-';
-    found = found || (span ? c >= set[i] && c <= set[i + 2] : c == set[i]);
-    i += span ? 2 : 0;
-  }
-  return found != negated;
-}
-
-// Matches one pattern element other than '*' against `c`; moves `at` behind the element.
-bool match_one(std::string_view pattern, std::size_t& at, char c) noexcept {
-  const char p = pattern[at++];
-  if (p == '?') {
-    return true;
-  }
-  if (p == '[') {
-    if (const std::size_t end = set_end(pattern, at); end != std::string_view::npos) {
-      const std::string_view set = pattern.substr(at, end - at);
-      at = end + 1;
-      return in_set(set, c);
-    }
-  }
-  return (p == '\\' && at < pattern.size() ? pattern[at++] : p) == c;
-}
-
-// Only the last '*' ever has to take more letters, so no recursion and at most pattern times name steps.
-bool match(std::string_view pattern, std::string_view name) noexcept {
-  constexpr std::size_t kNone = std::string_view::npos;
-  std::size_t p = 0;
-  std::size_t n = 0;
-  std::size_t after_star = kNone;
-  std::size_t star_name = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      after_star = ++p;
-      star_name = n;
-      continue;
-    }
-    std::size_t next = p;
-    if (p < pattern.size() && match_one(pattern, next, name[n])) {
-      p = next;
-      ++n;
-    } else if (after_star != kNone) {
-      p = after_star;
-      n = ++star_name;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') {
-    ++p;
-  }
-  return p == pattern.size();
-}
-
-// '.' to "::", as names are written.
+// '.' to "::", as names are written. A backslash at the end is a letter like any other.
 std::string with_colons(std::string_view pattern) {
   std::string out;
+  bool escaped = false;
   for (const char c : pattern) {
+    escaped = c == '\\' && !escaped;
     if (c == '.') {
       out += "::";
     } else {
       out += c;
     }
   }
-  return out;
+  return escaped ? out + '\\' : out;
+}
+
+bool match(const std::string& pattern, std::string_view name) {
+  return ::fnmatch(pattern.c_str(), std::string(name).c_str(), 0) == 0;
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/nearest.h"
+#include "base/text.h"
 #include "schema/leaf.h"
-#include "schema/nearest.h"
 
 namespace indurop::schema {
 namespace {
@@ -29,17 +30,6 @@ struct Failure {
   Errc code = Errc::Ok;
   std::string message;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
-  while (!text.empty() && space(text.front())) {
-    text.remove_prefix(1);
-  }
-  while (!text.empty() && space(text.back())) {
-    text.remove_suffix(1);
-  }
-  return text;
-}
 
 bool letter_or_digit(char c) noexcept {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -200,7 +190,7 @@ class Walk {
     for (const Field& candidate : type_->fields) {
       names.push_back(candidate.name);
     }
-    const std::string near = nearest(steps_[step].name, names);
+    const std::string near = base::nearest(steps_[step].name, names);
     constexpr std::size_t kShown = 12;
     const bool more = names.size() > kShown;
     names.resize(std::min(names.size(), kShown));
@@ -246,7 +236,7 @@ Failure no_variable(const Schema& schema, const Path& path) {
     for (const Variable& variable : schema.variables) {
       ends.push_back(last_parts(variable.name, parts));
     }
-    const std::string near = nearest(name, ends);
+    const std::string near = base::nearest(name, ends);
     const auto at = static_cast<std::size_t>(std::find(ends.begin(), ends.end(), near) - ends.begin());
     return near.empty() ? near : schema.variables[at].name;
   };
@@ -294,7 +284,7 @@ void collect(const Schema& schema, const Path& path, bool exact, std::vector<Pla
 
 Result<Place> find_place(const Schema& schema, std::string_view text, std::string& message) {
   constexpr const char* kWhere = "looking for a variable by name";
-  const std::string_view name = trimmed(text);
+  const std::string_view name = base::trimmed(text);
   Path path;
   Failure failure = split(name, path);
   if (failure.code == Errc::Ok) {

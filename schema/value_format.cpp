@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/utf8.h"
 #include "schema/leaf.h"
-#include "schema/utf8.h"
 
 namespace indurop::schema {
 namespace {
@@ -79,7 +79,7 @@ class Writer {
   void quoted(std::string_view text) {
     out_ += '"';
     while (!text.empty()) {
-      const std::size_t length = utf8_length(text);
+      const std::size_t length = base::utf8_length(text);
       if (length > 1) {
         out_ += text.substr(0, length);
       } else if (length == 1) {

@@ -7,9 +7,9 @@
 #include <charconv>
 #include <limits>
 
+#include "base/nearest.h"
 #include "schema/cursor.h"
 #include "schema/leaf.h"
-#include "schema/nearest.h"
 
 namespace indurop::schema {
 namespace {
@@ -169,7 +169,7 @@ class Parser {
       for (const Field& field : type.fields) {
         names.push_back(field.name);
       }
-      const std::string near = nearest(name, names);
+      const std::string near = base::nearest(name, names);
       syntax(fmt::format("{} has no field '{}'; {} {}", display_name(type), name,
                          near.empty() ? "it has" : "did you mean",
                          near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : "'" + near + "'?"));
@@ -185,7 +185,7 @@ class Parser {
   bool boolean(std::uint8_t* to) {
     const std::string_view text = cursor_.word();
     if (text != "true" && text != "false" && text != "0" && text != "1") {
-      return fail(Errc::InvalidArgument, fmt::format("'{}' is no bool; write true, false, 1 or 0", text));
+      return fail(Errc::InvalidArgument, fmt::format("'{}' is not a bool; write true, false, 1 or 0", text));
     }
     *to = text == "true" || text == "1" ? 1 : 0;
     return true;
@@ -211,7 +211,7 @@ class Parser {
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);
     if (read == Errc::InvalidArgument) {
-      return fail(read, fmt::format("'{}' is no whole number; {} takes {} to {}", text, name_of(type.base),
+      return fail(read, fmt::format("'{}' is not a whole number; {} takes {} to {}", text, name_of(type.base),
                                     std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
     }
     const auto max = static_cast<std::uint64_t>(std::numeric_limits<T>::max());
@@ -238,7 +238,7 @@ class Parser {
     } else {
       const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
       if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) {
-        return fail(Errc::InvalidArgument, fmt::format("'{}' is no number; write it like 2, 0.5 or 1e-3", text));
+        return fail(Errc::InvalidArgument, fmt::format("'{}' is not a number; write it like 2, 0.5 or 1e-3", text));
       }
       if (error != std::errc()) {
         return fail(Errc::OutOfRange, fmt::format("{} does not fit {}", text, name_of(type.base)));
@@ -279,7 +279,7 @@ class Parser {
     for (std::size_t i = 0; i < std::min(type.enumerators.size(), kShown); ++i) {
       known += fmt::format("{}{} = {}", i == 0 ? "" : ", ", type.enumerators[i].name, type.enumerators[i].value);
     }
-    return fmt::format("'{}' is no value of {}; it has {}{}", text, display_name(type), known,
+    return fmt::format("'{}' is not a value of {}; it has {}{}", text, display_name(type), known,
                        type.enumerators.size() > kShown ? ", ..." : "");
   }
 
@@ -297,7 +297,7 @@ class Parser {
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);
     if (read == Errc::InvalidArgument) {
-      return fail(read, fmt::format("'{}' is no char; write it like 'a' or as a number", text));
+      return fail(read, fmt::format("'{}' is not a char; write it like 'a' or as a number", text));
     }
     if (read != Errc::Ok || amount > (negative ? 128U : 255U)) {
       return fail(Errc::OutOfRange, fmt::format("{} does not fit char (-128 to 255)", text));

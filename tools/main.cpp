@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `indurop`, the one command line of the platform.
-#include "tools/app.h"
-#include "tools/interrupt.h"
+#include "tools/command/app.h"
+#include "tools/command/interrupt.h"
 
 int main(int argc, char** argv) {
   indurop::tools::catch_interrupts();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// File: FileHeader, then one record per variable: RecordHeader, name, value. A copy is written beside its place,
-// brought to disk and renamed over the older of the two, so at any moment one complete copy exists under its name.
+// File: FileHeader, then one record per variable: RecordHeader, name, value. A new copy replaces the older of the two
+// at once, so at any moment one complete copy exists under its name.
 
 #include "vars/retain.h"
 
-#include <fcntl.h>
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,9 +11,12 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <system_error>
 
+#include "base/read_file.h"
+#include "base/replace_file.h"
 #include "vars/crc32c.h"
 #include "vars/os_error.h"
 #include "vars/shm_file.h"
@@ -28,6 +30,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr std::uint64_t kRetainMagic = 0x3154455255444e49ULL;  // "INDURET1"
 constexpr std::uint32_t kRetainVersion = 1;
 constexpr std::array<const char*, 2> kNames{"retain.a", "retain.b"};
+constexpr std::size_t kMostBytes = std::numeric_limits<std::size_t>::max() / 2;
 constexpr std::size_t kChecked = 16;  // the checksum covers everything from this offset on
 
 struct FileHeader {
@@ -46,64 +49,13 @@ struct RecordHeader {
   std::uint32_t value_size;
 };
 
-class File {
- public:
-  explicit File(int number) noexcept : number_(number) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() { static_cast<void>(close()); }
-  [[nodiscard]] int get() const noexcept { return number_; }
-  int close() noexcept {
-    const int number = number_;
-    number_ = -1;
-    return number >= 0 ? ::close(number) : 0;
-  }
-
- private:
-  int number_;
-};
-
 void append(Bytes& to, const void* from, std::size_t size) {
   const auto* at = static_cast<const std::uint8_t*>(from);
   to.insert(to.end(), at, at + size);
 }
 
-bool write_all(int file, const Bytes& bytes) noexcept {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (count > 0) {
-      done += static_cast<std::size_t>(count);
-    } else if (errno != EINTR) {
-      return false;
-    }
-  }
-  return true;
-}
-
-// Errors: NotFound, PermissionDenied, System.
-Result<Bytes> read_all(const std::filesystem::path& path) {
-  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.get() < 0) {
-    return os_error(errno, "open the file of retained values");
-  }
-  Bytes bytes;
-  std::array<std::uint8_t, 65536> part{};
-  while (true) {
-    const ssize_t count = ::read(file.get(), part.data(), part.size());
-    if (count == 0) {
-      return bytes;
-    }
-    if (count > 0) {
-      append(bytes, part.data(), static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      return os_error(errno, "read the file of retained values");
-    }
-  }
-}
-
 // Text for people, empty if the copy is sound.
-std::string damage_of(const Bytes& bytes) {
+std::string damage_of(std::span<const std::uint8_t> bytes) {
   FileHeader header{};
   if (bytes.size() < sizeof(header)) {
     return "cut off";
@@ -118,7 +70,7 @@ std::string damage_of(const Bytes& bytes) {
   if (header.payload_size != bytes.size() - sizeof(header)) {
     return "cut off";
   }
-  return header.checksum == crc32c(std::span(bytes).subspan(kChecked)) ? "" : "checksum is wrong";
+  return header.checksum == crc32c(bytes.subspan(kChecked)) ? "" : "checksum is wrong";
 }
 
 struct Record {
@@ -222,23 +174,24 @@ Status RetainFile::scan(std::vector<std::string>& notes) {
   copy_ = {};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     const std::filesystem::path path = directory_ / kNames[i];
-    auto bytes = read_all(path);
-    if (!bytes) {
-      if (bytes.error().code == Errc::NotFound) {
+    const auto text = base::read_file(path, kMostBytes);
+    if (!text) {
+      if (text.error().sys_errno == ENOENT) {
         continue;
       }
-      return bytes.error();
+      return os_error(text.error().sys_errno, "read the file of retained values");
     }
-    if (const std::string damage = damage_of(*bytes); !damage.empty()) {
+    const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text->data()), text->size());
+    if (const std::string damage = damage_of(bytes); !damage.empty()) {
       notes.push_back(path.string() + ": " + damage + ", this copy is not used");
       continue;
     }
     FileHeader header{};
-    std::memcpy(&header, bytes->data(), sizeof(header));
+    std::memcpy(&header, bytes.data(), sizeof(header));
     if (newest_ < 0 || header.sequence > copy_.sequence) {
       newest_ = static_cast<int>(i);
       copy_.sequence = header.sequence;
-      copy_.payload.assign(bytes->begin() + sizeof(header), bytes->end());
+      copy_.payload.assign(bytes.begin() + sizeof(header), bytes.end());
     }
   }
   scanned_ = true;
@@ -299,25 +252,13 @@ Status RetainFile::write_copy(const std::filesystem::path& target, const Bytes& 
   if (failure) {
     return os_error(failure.value(), "make the directory of retained values");
   }
-  const std::string temporary = target.string() + ".tmp";
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   constexpr mode_t kMode = 0644;
-  File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kMode));
-  if (file.get() < 0) {
-    return os_error(errno, "create the file of retained values");
+  if (const auto written = base::replace_file(target, text, base::Durable::Yes, kMode); !written) {
+    return os_error(written.error().sys_errno, "write the file of retained values");
   }
-  if (::fchmod(file.get(), kMode) != 0 || !write_all(file.get(), bytes) || ::fsync(file.get()) != 0 ||
-      file.close() != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    return os_error(error, "write the file of retained values");
-  }
-  return sync_directory();
-}
-
-Status RetainFile::sync_directory() const {
-  const File directory(::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory.get() < 0 || ::fsync(directory.get()) != 0) {
-    return os_error(errno, "bring the directory of retained values to disk");
+  if (::chmod(target.c_str(), kMode) != 0) {  // whatever the umask is: tools of other users look at it
+    return os_error(errno, "write the file of retained values");
   }
   return {};
 }
@@ -326,15 +267,18 @@ Status RetainFile::erase() {
   scanned_ = false;
   bool found = false;
   for (const char* name : kNames) {
-    for (const std::string& path : {(directory_ / name).string(), (directory_ / name).string() + ".tmp"}) {
-      if (::unlink(path.c_str()) == 0) {
-        found = true;
-      } else if (errno != ENOENT && errno != ENOTDIR) {
-        return os_error(errno, "remove the file of retained values");
-      }
+    if (::unlink((directory_ / name).c_str()) == 0) {
+      found = true;
+    } else if (errno != ENOENT && errno != ENOTDIR) {
+      return os_error(errno, "remove the file of retained values");
     }
   }
-  return found ? sync_directory() : Status{};
+  if (found) {
+    if (const auto synced = base::sync_to_disk(directory_); !synced) {
+      return os_error(synced.error().sys_errno, "bring the directory of retained values to disk");
+    }
+  }
+  return {};
 }
 
 }  // namespace indurop::vars

@@ -49,7 +49,6 @@ class RetainFile {
   };
   Status scan(std::vector<std::string>& notes);
   Status write_copy(const std::filesystem::path& target, const std::vector<std::uint8_t>& bytes) const;
-  Status sync_directory() const;
 
   std::filesystem::path directory_;
   bool scanned_ = false;

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -40,15 +42,17 @@ struct Error {
   const char* where = "";  // static text: what was being done
 };
 
-// Either a value or an Error. value() requires ok().
-template <class T>
+// Either a value or an error: an Error, which costs nothing to carry, or a type of its own where people must be told
+// more (base/problem.h). value() requires ok(), error() requires not ok(); asking for the other one is a bug of the
+// caller and aborts.
+template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
-  Result(Error error) : state_(error) {}         // NOLINT(google-explicit-constructor)
+  static_assert(!std::is_same_v<T, E>);
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT(google-explicit-constructor)
+  Result(E error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT(google-explicit-constructor)
   [[nodiscard]] bool ok() const noexcept { return state_.index() == 0; }
   explicit operator bool() const noexcept { return ok(); }
-  // The value; asking for it without ok(), or for the error with ok(), is a bug of the caller and aborts.
   [[nodiscard]] T& value() & { return checked<0>(state_); }
   [[nodiscard]] const T& value() const& { return checked<0>(state_); }
   [[nodiscard]] T&& value() && { return std::move(checked<0>(state_)); }
@@ -56,7 +60,8 @@ class [[nodiscard]] Result {
   const T* operator->() const { return &checked<0>(state_); }
   T& operator*() { return checked<0>(state_); }
   const T& operator*() const { return checked<0>(state_); }
-  [[nodiscard]] const Error& error() const { return checked<1>(state_); }
+  [[nodiscard]] const E& error() const& { return checked<1>(state_); }
+  [[nodiscard]] E&& error() && { return std::move(checked<1>(state_)); }
 
  private:
   template <std::size_t Index, class State>
@@ -68,10 +73,33 @@ class [[nodiscard]] Result {
     return *wanted;
   }
 
-  std::variant<T, Error> state_;
+  std::variant<T, E> state_;
 };
 
-// Result without a value.
+// Nothing to return but how it went, with an error that is more than an Error (else: Status).
+template <class E>
+class [[nodiscard]] Result<void, E> {
+ public:
+  Result() = default;
+  Result(E error) : error_(std::move(error)) {}  // NOLINT(google-explicit-constructor)
+  [[nodiscard]] bool ok() const noexcept { return !error_.has_value(); }
+  explicit operator bool() const noexcept { return ok(); }
+  [[nodiscard]] const E& error() const& { return checked(error_); }
+  [[nodiscard]] E&& error() && { return std::move(checked(error_)); }
+
+ private:
+  template <class Held>
+  static auto& checked(Held& error) {
+    if (!error.has_value()) {
+      std::abort();
+    }
+    return *error;
+  }
+
+  std::optional<E> error_;
+};
+
+// Result without a value; copyable and without heap like Error.
 class [[nodiscard]] Status {
  public:
   Status() = default;

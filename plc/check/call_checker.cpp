@@ -74,7 +74,8 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   }
   if (const auto pou = context_.program.pou_names.find(upper(callee.name)); pou != context_.program.pou_names.end()) {
     if (pou->second->tree->kind != ast::Pou::Kind::Function) {
-      context_.error(call.at, fmt::format("{} is no function, declare an instance of it and call that", callee.name));
+      context_.error(call.at,
+                     fmt::format("{} is not a function, declare an instance of it and call that", callee.name));
       return nullptr;
     }
     return user_function(call, *pou->second);
@@ -88,9 +89,10 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     return library_function(call, overloads, wanted);
   }
   if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
-    context_.error(call.at, fmt::format("'{}' is no function; the call of a function block stands alone, its result is "
-                                        "in an output",
-                                        callee.name));
+    context_.error(call.at,
+                   fmt::format("'{}' is not a function; the call of a function block stands alone, its result is "
+                               "in an output",
+                               callee.name));
     return nullptr;
   }
   std::vector<std::string> known;

@@ -68,7 +68,7 @@ const Type* ExpressionChecker::value(Expression& expression, const Type* wanted)
     return nullptr;
   }
   if (type->kind == Type::Kind::Block) {
-    context_.error(expression.at, fmt::format("{} is no value, name one of its outputs", with_article(*type)));
+    context_.error(expression.at, fmt::format("{} is not a value, name one of its outputs", with_article(*type)));
     return nullptr;
   }
   return type;
@@ -127,12 +127,13 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
       context_.error(expression.at,
                      fmt::format("{} does not fit {}, use another value or type", to_string(*known), to_string(to)));
     } else if (type->kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
-      context_.error(expression.at,
-                     fmt::format("{0} does not become {1} by itself, convert it with {2}_TO_{3}()", with_article(*type),
-                                 with_article(to), name_of(type->elementary), name_of(to.elementary)));
+      context_.error(
+          expression.at,
+          fmt::format("{0} is not converted to {1} automatically, convert it with {2}_TO_{3}()", with_article(*type),
+                      with_article(to), name_of(type->elementary), name_of(to.elementary)));
     } else {
       context_.error(expression.at,
-                     fmt::format("{} is no {}, use a value of the same type", with_article(*type), to_string(to)));
+                     fmt::format("{} is not {}, use a value of the same type", with_article(*type), with_article(to)));
     }
     return false;
   }

@@ -310,7 +310,7 @@ bool ExpressionChecker::writable(const Expression& expression) {
     return true;
   }
   if (meaning != Meaning::Variable && meaning != Meaning::Global) {
-    context_.error(expression.at, "this is no variable, so nothing can be assigned to it");
+    context_.error(expression.at, "this is not a variable, so nothing can be assigned to it");
     return false;
   }
   const Variable* variable = root.resolved->variable;

@@ -186,7 +186,7 @@ void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
   }
   const Used used{as_int64(*low).value_or(0), as_int64(*high).value_or(0), label.low.at};
   if (used.low > used.high) {
-    context_.error(used.at, fmt::format("{}..{} is no range, write the smaller value first", used.low, used.high));
+    context_.error(used.at, fmt::format("{}..{} is not a range, write the smaller value first", used.low, used.high));
     return;
   }
   for (const Used& other : used_) {

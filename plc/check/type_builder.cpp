@@ -137,7 +137,8 @@ class TypeBuilder {
     }
     constexpr auto kMost = std::numeric_limits<std::int32_t>::max();
     if (*low > *high || *low < -kMost || *high > kMost) {
-      context_.error(dimension.low.at, fmt::format("{}..{} is no range, write the smaller bound first", *low, *high));
+      context_.error(dimension.low.at,
+                     fmt::format("{}..{} is not a range, write the smaller bound first", *low, *high));
       return std::nullopt;
     }
     return Bounds{*low, *high};

@@ -7,9 +7,9 @@
 #include <array>
 #include <set>
 
+#include "base/utf8.h"
 #include "plc/check/value_tree.h"
 #include "plc/emit/task_use.h"
-#include "schema/utf8.h"
 
 namespace indurop::plc {
 namespace {
@@ -184,7 +184,7 @@ class GlbEmitter {
   static std::string description(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     std::erase(text, '\\');
-    if (schema::first_invalid_utf8(text)) {
+    if (base::first_invalid_utf8(text)) {
       return "";  // in another code, as some editors write it
     }
     return text.empty() ? "" : "  // " + text;

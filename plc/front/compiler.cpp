@@ -61,21 +61,10 @@ void check_glb(const std::string& name, const GlbFile& glb, const std::vector<st
   };
   std::vector<std::string> inputs = others;
   inputs.push_back(own);
-  const auto compiled = glb2idl::compile(inputs, read);
-  std::string_view rest = compiled.ok ? std::string_view() : std::string_view(compiled.messages);
-  while (!rest.empty()) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    const std::size_t text = line.find(": error: ");
-    if (text == std::string_view::npos) {
-      continue;  // the source line and its mark
-    }
-    std::size_t number = 0;
-    if (line.starts_with(own + ":")) {
-      number = static_cast<std::size_t>(std::atoi(std::string(line.substr(own.size() + 1)).c_str()));
-    }
-    const Place at = number > 0 && number <= glb.places.size() ? glb.places[number - 1] : Place{};
-    diagnostics.error(at, fmt::format("as a shared variable: {}", line.substr(text + 9)));
+  for (const base::Diagnostic& one : glb2idl::compile(inputs, read).diagnostics) {
+    const auto line = static_cast<std::size_t>(one.place.line);
+    const bool known = one.file == own && line > 0 && line <= glb.places.size();
+    diagnostics.error(known ? glb.places[line - 1] : Place{}, fmt::format("as a shared variable: {}", one.text));
   }
 }
 
@@ -105,7 +94,7 @@ class Compiler {
     if (!options_.glb_files.empty()) {
       const auto foreign = glb2idl::compile(options_.glb_files, read_);
       if (!foreign.ok) {
-        foreign_messages_ = foreign.messages;
+        foreign_messages_ = base::to_text(foreign.diagnostics, "glb2idl");
         diagnostics_.error({}, "the .glb files above have errors, correct them first");
         return;
       }

@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <array>
 
-#include "plc/plcopen/pou_lowering.h"
+#include "plc/lower/chart.h"
+#include "plc/lower/pou.h"
 #include "plc/plcopen/read_project.h"
-#include "plc/sfc/lower.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc {
 namespace {
 
 bool is_step_type(const ast::TypeDeclaration& type) {
-  return type.name == sfc::kStepType;
+  return type.name == lower::kStepType;
 }
 bool has_step_type(const Project& project) {
   return std::any_of(project.types.begin(), project.types.end(), is_step_type);
@@ -25,15 +25,10 @@ Project read_st(std::string_view text, const Place& at, const ReadOptions& optio
   std::vector<st::WrittenBody> others;
   Project project = st::parse_project({text, at}, others, diagnostics);
   for (st::WrittenBody& other : others) {
-    plcopen::PouDocument document;
-    document.body = std::move(other.body);
-    if (document.body.language == graphic::Body::Language::Sfc && !has_step_type(project)) {
-      project.types.push_back(sfc::step_type());
+    if (other.code.body.language == network::Body::Language::Sfc && !has_step_type(project)) {
+      project.types.push_back(lower::step_type());
     }
-    for (st::WrittenAction& action : other.actions) {
-      document.actions.push_back({action.at, std::move(action.name), std::move(action.body)});
-    }
-    plcopen::lower_pou(document, options, project, project.pous[other.pou], diagnostics);
+    lower::lower_pou(other.code, options, project, project.pous[other.pou], diagnostics);
   }
   return project;
 }
@@ -63,7 +58,7 @@ Project read_project(const std::vector<std::string>& files, const ReadOptions& o
       for (const FileType& one : types) {
         known += (known.empty() ? "" : " ") + std::string(one.ending);
       }
-      diagnostics.error(at, fmt::format("the name says no known form of PLC programs, use one of {}", known));
+      diagnostics.error(at, fmt::format("the ending of the name is not one of a PLC program, use one of {}", known));
       continue;
     }
     const auto got = read(file);

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/model/diagnostics.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <tuple>
+#include <string_view>
 #include <utility>
 
-#include "glb2idl/source_line.h"
+#include "base/source_line.h"
 
 namespace indurop::plc {
 namespace {
-
-constexpr std::size_t kLimit = 100;
-
-std::string_view file_of(const Place& place) noexcept {
-  return place.file ? std::string_view(*place.file) : std::string_view();
-}
 
 bool is_word(char c) noexcept {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -24,17 +15,13 @@ bool is_word(char c) noexcept {
 
 }  // namespace
 
-void Diagnostics::add(bool is_error, const Place& at, std::string text) {
-  const auto same = [&](const Message& m) {
-    return m.at.line == at.line && m.at.column == at.column && m.text == text && file_of(m.at) == file_of(at);
-  };
-  if (std::any_of(messages_.begin(), messages_.end(), same)) {
-    return;
+void Diagnostics::add(base::Diagnostic::Severity severity, const Place& at, std::string text) {
+  base::Diagnostic one{severity, at.file ? *at.file : std::string(), at, std::move(text)};
+  if (!all_.full()) {
+    one.within = at.within ? *at.within : std::string();
+    one.picture = picture(at);
   }
-  errors_ += is_error ? 1U : 0U;
-  if (messages_.size() < kLimit) {
-    messages_.push_back({is_error, at, std::move(text)});
-  }
+  all_.add(std::move(one));
 }
 
 std::string Diagnostics::picture(const Place& at) const {
@@ -43,46 +30,30 @@ std::string Diagnostics::picture(const Place& at) const {
     return {};
   }
   std::string_view rest = text->second;
-  for (std::uint32_t line = 1; line < at.line; ++line) {
+  for (int line = 1; line < at.line; ++line) {
     const std::size_t end = rest.find('\n');
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
   }
   std::string_view line = rest.substr(0, rest.find('\n'));
   line = line.substr(0, line.find('\r'));
   // The mark is as long as the word there.
+  const auto column = static_cast<std::size_t>(at.column);
   std::size_t width = 1;
-  for (std::size_t i = at.column; i < line.size() && is_word(line[i]) && is_word(line[at.column - 1]); ++i) {
+  for (std::size_t i = column; i < line.size() && is_word(line[i]) && is_word(line[column - 1]); ++i) {
     ++width;
   }
-  return glb2idl::picture_of_line(line, at.column, width);
+  return base::picture_of_line(line, column, width);
+}
+
+std::vector<base::Diagnostic> Diagnostics::list() const {
+  std::vector<base::Diagnostic> list = found_;
+  base::sort_by_file(list);
+  all_.add_summary(list);
+  return list;
 }
 
 std::string Diagnostics::render() const {
-  std::vector<std::string_view> files;
-  for (const Message& m : messages_) {
-    if (std::find(files.begin(), files.end(), file_of(m.at)) == files.end()) {
-      files.push_back(file_of(m.at));
-    }
-  }
-  std::vector<const Message*> sorted;
-  for (const Message& m : messages_) {
-    sorted.push_back(&m);
-  }
-  const auto key = [&](const Message* m) {
-    return std::tuple(std::find(files.begin(), files.end(), file_of(m->at)) - files.begin(), m->at.line, m->at.column);
-  };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Message* a, const Message* b) { return key(a) < key(b); });
-  std::string out;
-  for (const Message* m : sorted) {
-    const std::string place = to_string(m->at);
-    out += fmt::format("{}{}: ", place.empty() ? "indurop plc" : place, m->is_error ? ": error" : ": warning");
-    out += m->at.within ? fmt::format("{}: {}\n", *m->at.within, m->text) : m->text + "\n";
-    out += picture(m->at);
-  }
-  if (errors_ > kLimit) {
-    out += fmt::format("indurop plc: error: too many errors, the first {} are shown\n", kLimit);
-  }
-  return out;
+  return base::to_text(list(), "indurop plc");
 }
 
 }  // namespace indurop::plc

@@ -4,16 +4,15 @@
 
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
+#include "base/source_place.h"
+
 namespace indurop::plc {
 
-struct Place {
+struct Place : base::SourcePlace {
   std::shared_ptr<const std::string> file;    // as the user wrote it
-  std::uint32_t line = 0;                     // from 1; 0: not known
-  std::uint32_t column = 0;                   // from 1, in characters; 0: not known
   std::shared_ptr<const std::string> within;  // of what is drawn: "POU main, rung 3, block TON0"; else null
 };
 

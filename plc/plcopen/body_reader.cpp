@@ -12,7 +12,7 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-using graphic::Body;
+using network::Body;
 
 constexpr std::array<std::pair<std::string_view, Body::Language>, 5> kLanguages{{{"ST", Body::Language::St},
                                                                                  {"IL", Body::Language::Il},
@@ -57,8 +57,8 @@ Body read_body(const Node& body, const std::string& what, Diagnostics& diagnosti
                                      [&](const auto& language) { return language.first == node.name; });
     const Place at = within(node.at, what);
     if (known == kLanguages.end()) {
-      diagnostics.error(at,
-                        fmt::format("<{}> is no language of IEC 61131-3; a body is ST, IL, LD, FBD or SFC", node.name));
+      diagnostics.error(
+          at, fmt::format("<{}> is not a language of IEC 61131-3; a body is ST, IL, LD, FBD or SFC", node.name));
     } else if (read.language != Body::Language::None) {
       diagnostics.error(at, "a second body; put the code of all worksheets into one");
     } else {

@@ -4,13 +4,13 @@
 
 #pragma once
 
-#include "plc/graphic/diagram.h"
+#include "plc/network/diagram.h"
 #include "plc/plcopen/xml.h"
 
 namespace indurop::plc::plcopen {
 
 // `what` is for messages: "POU main", "POU main, action Blink".
-[[nodiscard]] graphic::Body read_body(const Node& body, const std::string& what, Diagnostics& diagnostics);
+[[nodiscard]] network::Body read_body(const Node& body, const std::string& what, Diagnostics& diagnostics);
 
 // The place, named: messages about it say what it is in.
 [[nodiscard]] Place within(Place at, const std::string& what);

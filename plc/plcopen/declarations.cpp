@@ -48,7 +48,7 @@ void read_address(std::string_view text, ast::Variable& variable, Diagnostics& d
   if (address->kind == ast::Expression::Kind::Direct) {
     variable.address = address->address;
   } else {
-    diagnostics.error(variable.at, fmt::format("address=\"{}\" is no address such as %IX0.0 or %QW2", text));
+    diagnostics.error(variable.at, fmt::format("address=\"{}\" is not an address such as %IX0.0 or %QW2", text));
   }
 }
 
@@ -114,7 +114,7 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
     } else if (node.name == "accessVars") {
       diagnostics.error(within(node.at, what), "VAR_ACCESS is not supported; globals are shared variables anyway");
     } else if (node.name != "addData" && node.name != "documentation") {
-      diagnostics.error(within(node.at, what), fmt::format("<{}> is no part of an interface; remove it", node.name));
+      diagnostics.error(within(node.at, what), fmt::format("<{}> is not a part of an interface; remove it", node.name));
     }
   }
 }

@@ -30,7 +30,7 @@ class Reader {
 
   Document read(const Node& root) {
     if (root.name != "project") {
-      diagnostics_.error(root.at, fmt::format("<{}> is no PLCopen project; export the program as PLCopen XML (TC6), "
+      diagnostics_.error(root.at, fmt::format("<{}> is not a PLCopen project; export the program as PLCopen XML (TC6), "
                                               "whose root is <project>",
                                               root.name));
       return {};
@@ -85,22 +85,22 @@ class Reader {
       read_interface(*interface, what, made.pou, diagnostics_);
     }
     if (const Node* body = node.child("body")) {
-      made.body = read_body(*body, what, diagnostics_);
+      made.code.body = read_body(*body, what, diagnostics_);
     }
-    made.body.at = made.body.at.line == 0 ? made.pou.at : made.body.at;
-    named(node, "actions", "action", what, made.actions);
-    named(node, "transitions", "transition", what, made.transitions);
+    made.code.body.at = made.code.body.at.line == 0 ? made.pou.at : made.code.body.at;
+    named(node, "actions", "action", what, made.code.actions);
+    named(node, "transitions", "transition", what, made.code.transitions);
     document_.pous.push_back(std::move(made));
   }
 
   void named(const Node& pou, const char* list_name, const char* word, const std::string& what,
-             std::vector<NamedBody>& into) {
+             std::vector<network::NamedBody>& into) {
     const Node* list = pou.child(list_name);
     for (const Node& node : children_of(list)) {
       if (node.name != word) {
         continue;
       }
-      NamedBody made;
+      network::NamedBody made;
       made.name = std::string(node.attribute("name"));
       const std::string where = fmt::format("{}, {} {}", what, word, made.name);
       made.at = within(node.at, where);

@@ -7,23 +7,15 @@
 #include <string_view>
 #include <vector>
 
-#include "plc/graphic/diagram.h"
 #include "plc/model/diagnostics.h"
 #include "plc/model/project.h"
+#include "plc/network/diagram.h"
 
 namespace indurop::plc::plcopen {
 
-struct NamedBody {
-  Place at;
-  std::string name;
-  graphic::Body body;
-};
-
 struct PouDocument {
   ast::Pou pou;  // without code
-  graphic::Body body;
-  std::vector<NamedBody> actions;
-  std::vector<NamedBody> transitions;
+  network::PouCode code;
 };
 
 struct Document {

@@ -15,9 +15,9 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-using graphic::Element;
-using graphic::Pin;
-using graphic::Storage;
+using network::Element;
+using network::Pin;
+using network::Storage;
 using Kind = Element::Kind;
 
 constexpr std::array<std::pair<std::string_view, Kind>, 22> kKinds{
@@ -51,7 +51,7 @@ constexpr std::array<std::string_view, 2> kNameElements{"variable", "expression"
 // Entry, main and exit action of a step.
 constexpr std::array<std::pair<std::string_view, const char*>, 3> kStepActions{
     {{"a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", "P1"},
-     {"700a583f-b4d4-43e4-8c14-629c7cd3bec8", graphic::kWhileActive},
+     {"700a583f-b4d4-43e4-8c14-629c7cd3bec8", network::kWhileActive},
      {"a2621e18-7de3-4ea6-ae6d-89e9e0b7befd", "P0"}}};
 
 std::string trimmed(std::string_view text) {
@@ -85,7 +85,7 @@ class Reader {
   Reader(std::string what, Diagnostics& diagnostics)
       : what_(std::make_shared<const std::string>(std::move(what))), diagnostics_(diagnostics) {}
 
-  graphic::Diagram read(const Node& language) {
+  network::Diagram read(const Node& language) {
     for (const Node& node : language.children) {
       if (node.name == "vendorElement") {
         title(node);
@@ -136,7 +136,7 @@ class Reader {
     const auto* known =
         std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& kind) { return kind.first == node.name; });
     if (known == kKinds.end()) {
-      diagnostics_.error(place(node), fmt::format("<{}> is no element of LD, FBD or SFC; remove it", node.name));
+      diagnostics_.error(place(node), fmt::format("<{}> is not an element of LD, FBD or SFC; remove it", node.name));
       return;
     }
     Element made;
@@ -182,7 +182,7 @@ class Reader {
     }
     diagnostics_.error(place(node), text.empty()
                                         ? fmt::format("<{}> lacks its {}", node.name, attribute)
-                                        : fmt::format("{}=\"{}\" of <{}> is no number", attribute, text, node.name));
+                                        : fmt::format("{}=\"{}\" of <{}> is not a number", attribute, text, node.name));
     return std::nullopt;
   }
 
@@ -270,8 +270,8 @@ class Reader {
     }
     for (const Node& data : children_of(node.child("addData"))) {
       if (const Node* code = data.child("STCode")) {  // CODESYS' box EXECUTE
-        made.inlined = std::make_shared<graphic::Body>();
-        made.inlined->language = graphic::Body::Language::St;
+        made.inlined = std::make_shared<network::Body>();
+        made.inlined->language = network::Body::Language::St;
         made.inlined->at = place(*code);
         made.inlined->text = formatted_text(*code, &made.inlined->text_at);
         made.inlined->text_at.within = what_;
@@ -306,7 +306,7 @@ class Reader {
     if (const Node* reference = condition->child("reference")) {
       made.text = trimmed(reference->attribute("name"));
     } else if (const Node* inlined = condition->child("inline")) {
-      made.inlined = std::make_shared<graphic::Body>(
+      made.inlined = std::make_shared<network::Body>(
           read_body(*inlined, fmt::format("{}, transition {}", *what_, made.id), diagnostics_));
     } else {
       const Node* point = condition->child("connectionPointIn");
@@ -323,7 +323,7 @@ class Reader {
         const auto* known = std::find_if(kStepActions.begin(), kStepActions.end(),
                                          [&](const auto& each) { return each.first == attribute.attribute("guid"); });
         if (known != kStepActions.end() && !trimmed(attribute.text).empty()) {
-          graphic::ActionLine& line = made.actions.emplace_back();
+          network::ActionLine& line = made.actions.emplace_back();
           line.at = place(attribute);
           line.qualifier = known->second;
           line.name = trimmed(attribute.text);
@@ -338,7 +338,7 @@ class Reader {
       if (child.name != "action") {
         continue;
       }
-      graphic::ActionLine& line = made.actions.emplace_back();
+      network::ActionLine& line = made.actions.emplace_back();
       line.at = place(child);
       line.duration = trimmed(child.attribute("duration"));
       if (child.has("qualifier") && !trimmed(child.attribute("qualifier")).empty()) {
@@ -347,7 +347,7 @@ class Reader {
       if (const Node* reference = child.child("reference")) {
         line.name = trimmed(reference->attribute("name"));
       } else if (const Node* inlined = child.child("inline")) {
-        line.inlined = std::make_shared<graphic::Body>(read_body(
+        line.inlined = std::make_shared<network::Body>(read_body(
             *inlined, fmt::format("{}, action {} of block {}", *what_, made.actions.size(), made.id), diagnostics_));
       }
     }
@@ -355,13 +355,13 @@ class Reader {
 
   std::shared_ptr<const std::string> what_;
   Diagnostics& diagnostics_;
-  graphic::Diagram diagram_;
-  std::unordered_map<std::uint64_t, std::uint32_t> lines_;  // of ids
+  network::Diagram diagram_;
+  std::unordered_map<std::uint64_t, int> lines_;  // of ids
 };
 
 }  // namespace
 
-graphic::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics) {
+network::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics) {
   return Reader(what, diagnostics).read(language);
 }
 

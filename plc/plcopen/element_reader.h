@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include "plc/graphic/diagram.h"
+#include "plc/network/diagram.h"
 #include "plc/plcopen/xml.h"
 
 namespace indurop::plc::plcopen {
 
-[[nodiscard]] graphic::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics);
+[[nodiscard]] network::Diagram read_elements(const Node& language, const std::string& what, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::plcopen

@@ -150,7 +150,7 @@ class Reader {
     if (!interval.empty()) {
       made.interval_ns = interval_ns(interval);
       if (!made.interval_ns || *made.interval_ns <= 0) {
-        diagnostics_.error(made.at, fmt::format("interval=\"{}\" is no time; write T#10ms or PT0.01S", interval));
+        diagnostics_.error(made.at, fmt::format("interval=\"{}\" is not a time; write T#10ms or PT0.01S", interval));
         made.interval_ns.reset();
       }
     }
@@ -160,7 +160,7 @@ class Reader {
     if (!priority.empty() && error == std::errc{} && end == priority.data() + priority.size()) {
       made.priority = number;
     } else if (!priority.empty()) {
-      diagnostics_.error(made.at, fmt::format("priority=\"{}\" is no number", priority));
+      diagnostics_.error(made.at, fmt::format("priority=\"{}\" is not a number", priority));
     }
     const std::string name = made.name;
     for (const Node& child : node.children) {

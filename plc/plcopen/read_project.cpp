@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/plcopen/read_project.h"
 
-#include "plc/plcopen/pou_lowering.h"
-#include "plc/sfc/lower.h"
+#include "plc/lower/chart.h"
+#include "plc/lower/pou.h"
 
 namespace indurop::plc::plcopen {
 
@@ -11,13 +11,13 @@ Project lower(Document& document, const ReadOptions& options, Diagnostics& diagn
   bool charts = false;
   for (PouDocument& each : document.pous) {
     project.pous.push_back(std::move(each.pou));  // all are known before the first is translated
-    charts = charts || each.body.language == graphic::Body::Language::Sfc;
+    charts = charts || each.code.body.language == network::Body::Language::Sfc;
   }
   if (charts) {
-    project.types.push_back(sfc::step_type());
+    project.types.push_back(lower::step_type());
   }
   for (std::size_t i = 0; i < document.pous.size(); ++i) {
-    lower_pou(document.pous[i], options, project, project.pous[i], diagnostics);
+    lower::lower_pou(document.pous[i].code, options, project, project.pous[i], diagnostics);
   }
   return project;
 }

@@ -90,10 +90,11 @@ std::string one_type_text(const Node& type, Diagnostics& diagnostics) {
     return {};
   }
   const bool wide = type.name == "wstring";
-  diagnostics.error(type.at, wide ? std::string("WSTRING is not supported; use STRING, which holds UTF-8")
-                                  : fmt::format("<{}> is no data type this compiler knows; use an elementary type, an "
-                                                "array, a structure, an enumeration or a type of the project",
-                                                type.name));
+  diagnostics.error(type.at,
+                    wide ? std::string("WSTRING is not supported; use STRING, which holds UTF-8")
+                         : fmt::format("<{}> is not a data type this compiler knows; use an elementary type, an "
+                                       "array, a structure, an enumeration or a type of the project",
+                                       type.name));
   return {};
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An XML document as plain nodes with places. The only part of the room that knows the XML library; knows nothing of
-// what the elements mean.
+// An XML document as nodes with places that name the file. Knows nothing of what the elements mean.
 
 #pragma once
 
@@ -17,6 +16,7 @@ namespace indurop::plc::plcopen {
 
 inline constexpr std::size_t kMaxXmlSize = std::size_t{64} * 1024 * 1024;
 inline constexpr std::size_t kMaxXmlDepth = 64;
+inline constexpr std::size_t kMaxXmlAttributes = 1000;  // of one element
 
 struct Attribute {
   std::string name;  // without a namespace prefix, as all names here

@@ -10,9 +10,9 @@ namespace {
 // stands below, in columns of its own; what is met again is joined from the side, or, if it stands above, jumped to.
 class Layout {
  public:
-  explicit Layout(const sfc::Chart& chart) : chart_(chart), nodes_(chart.steps.size() + chart.transitions.size()) {
+  explicit Layout(const network::Chart& chart) : chart_(chart), nodes_(chart.steps.size() + chart.transitions.size()) {
     std::size_t number = chart.steps.size();
-    for (const sfc::Transition& transition : chart.transitions) {
+    for (const network::Transition& transition : chart.transitions) {
       for (const std::size_t step : transition.from) {
         nodes_[step].next.push_back(number);
       }
@@ -83,7 +83,7 @@ class Layout {
     return out;
   }
 
-  const sfc::Chart& chart_;
+  const network::Chart& chart_;
   std::vector<Node> nodes_;
   std::vector<std::size_t> finished_;
   std::size_t columns_ = 0;
@@ -91,7 +91,7 @@ class Layout {
 
 }  // namespace
 
-ChartLayout lay_out_chart(const sfc::Chart& chart) {
+ChartLayout lay_out_chart(const network::Chart& chart) {
   return Layout(chart).run();
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "plc/sfc/chart.h"
+#include "plc/network/chart.h"
 
 namespace indurop::plc {
 
@@ -25,6 +25,6 @@ struct ChartLayout {
 };
 
 // A line may lead from each transition to each step that is no jump without crossing another node.
-[[nodiscard]] ChartLayout lay_out_chart(const sfc::Chart& chart);
+[[nodiscard]] ChartLayout lay_out_chart(const network::Chart& chart);
 
 }  // namespace indurop::plc

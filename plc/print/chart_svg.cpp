@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
-#include "plc/graphic/shape.h"
-#include "plc/graphic/svg_symbols.h"
+#include "base/xml_text.h"
+#include "plc/draw/shape.h"
+#include "plc/draw/svg_symbols.h"
 #include "plc/print/chart_layout.h"
 #include "plc/print/chart_text.h"
-#include "schema/xml_text.h"
 
 namespace indurop::plc {
 namespace {
@@ -24,14 +24,14 @@ constexpr int kColumn = 36;    // between columns
 constexpr const char* kLine = R"(stroke="#1F2D3D" stroke-width="1.6" stroke-linecap="square")";
 
 int width_of(std::string_view text) {
-  return kCharacter * graphic::text_width(text);
+  return kCharacter * draw::text_width(text);
 }
 
 class Drawing {
  public:
-  explicit Drawing(const sfc::Chart& chart) : chart_(chart), layout_(lay_out_chart(chart)) {}
+  explicit Drawing(const network::Chart& chart) : chart_(chart), layout_(lay_out_chart(chart)) {}
 
-  graphic::SvgPart run() {
+  draw::SvgPart run() {
     measure();
     for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
       branch(i);
@@ -47,21 +47,21 @@ class Drawing {
 
  private:
   [[nodiscard]] int half_step(std::size_t i) const { return std::max(width_of(chart_.steps[i].name) + 20, 64) / 2; }
-  [[nodiscard]] std::vector<const graphic::ActionLine*> actions_of(std::size_t step) const {
-    std::vector<const graphic::ActionLine*> lines;
-    for (const sfc::Association& each : chart_.actions) {
+  [[nodiscard]] std::vector<const network::ActionLine*> actions_of(std::size_t step) const {
+    std::vector<const network::ActionLine*> lines;
+    for (const network::Association& each : chart_.actions) {
       if (each.step == step) {
         lines.push_back(each.line);
       }
     }
     return lines;
   }
-  static std::string qualifier_of(const graphic::ActionLine& line) {
+  static std::string qualifier_of(const network::ActionLine& line) {
     return line.duration.empty() ? line.qualifier : line.qualifier + " " + line.duration;
   }
-  static int width_of_actions(const std::vector<const graphic::ActionLine*>& lines, int& qualifiers) {
+  static int width_of_actions(const std::vector<const network::ActionLine*>& lines, int& qualifiers) {
     int texts = 0;
-    for (const graphic::ActionLine* line : lines) {
+    for (const network::ActionLine* line : lines) {
       qualifiers = std::max(qualifiers, width_of(qualifier_of(*line)) + 14);
       texts = std::max(texts, width_of(action_text(*line)) + 16);
     }
@@ -121,7 +121,7 @@ class Drawing {
     line(std::min(x1, x2) - 10, y + 2, std::max(x1, x2) + 10, y + 2);
   }
   void text(int x, int y, std::string_view text, const char* attributes) {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, schema::xml_text(text));
+    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, base::xml_text(text));
   }
   void box(int x, int y, int width, int height, const char* attributes) {
     out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", x, y, width, height, attributes);
@@ -144,7 +144,7 @@ class Drawing {
     int qualifiers = 0;
     const int width = width_of_actions(lines, qualifiers);
     int top = y + (lines.size() == 1 ? (kStep - kAction) / 2 : 0);
-    for (const graphic::ActionLine* each : lines) {
+    for (const network::ActionLine* each : lines) {
       box(x + half + 24, top, width, kAction, R"(fill="#FFF8EC" stroke="#8A4B08")");
       line(x + half + 24 + qualifiers, top, x + half + 24 + qualifiers, top + kAction);
       text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each), R"(text-anchor="middle" fill="#8A4B08")");
@@ -230,7 +230,7 @@ class Drawing {
     text(x + kBar + 8, bar_of(t) + 4, condition_text(*chart_.transitions[t].element), R"(fill="#1F2D3D")");
   }
 
-  const sfc::Chart& chart_;
+  const network::Chart& chart_;
   ChartLayout layout_;
   std::vector<int> columns_;
   std::vector<int> rows_;
@@ -240,7 +240,7 @@ class Drawing {
 
 }  // namespace
 
-graphic::SvgPart draw_chart(const sfc::Chart& chart) {
+draw::SvgPart draw_chart(const network::Chart& chart) {
   return Drawing(chart).run();
 }
 

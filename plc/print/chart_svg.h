@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include "plc/graphic/svg_picture.h"
-#include "plc/sfc/chart.h"
+#include "plc/draw/svg_picture.h"
+#include "plc/network/chart.h"
 
 namespace indurop::plc {
 
-[[nodiscard]] graphic::SvgPart draw_chart(const sfc::Chart& chart);
+[[nodiscard]] draw::SvgPart draw_chart(const network::Chart& chart);
 
 }  // namespace indurop::plc

@@ -20,7 +20,7 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-std::string names_of(const sfc::Chart& chart, const std::vector<std::size_t>& steps) {
+std::string names_of(const network::Chart& chart, const std::vector<std::size_t>& steps) {
   std::string names;
   for (const std::size_t step : steps) {
     names += (names.empty() ? "" : ", ") + chart.steps[step].name;
@@ -28,11 +28,11 @@ std::string names_of(const sfc::Chart& chart, const std::vector<std::size_t>& st
   return names;
 }
 
-std::string action_line(const graphic::ActionLine& line) {
+std::string action_line(const network::ActionLine& line) {
   return fmt::format("      {:<6} {:<8} {}\n", line.qualifier, line.duration, action_text(line));
 }
 
-std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc::Transition& transition,
+std::string transition_line(const network::Chart& chart, std::size_t step, const network::Transition& transition,
                             bool unicode) {
   std::string text = fmt::format("    {} {}", unicode ? "┼" : "+", condition_text(*transition.element));
   std::vector<std::size_t> others;
@@ -49,12 +49,12 @@ std::string transition_line(const sfc::Chart& chart, std::size_t step, const sfc
 
 }  // namespace
 
-std::string action_text(const graphic::ActionLine& line) {
+std::string action_text(const network::ActionLine& line) {
   return line.name.empty() && line.inlined != nullptr ? one_line(line.inlined->text) : line.name;
 }
 
-std::string condition_text(const graphic::Element& transition) {
-  if (transition.inlined != nullptr && transition.inlined->language == graphic::Body::Language::St) {
+std::string condition_text(const network::Element& transition) {
+  if (transition.inlined != nullptr && transition.inlined->language == network::Body::Language::St) {
     std::string text = one_line(transition.inlined->text);
     text = text.starts_with(":= ") ? text.substr(3) : text;
     return text.ends_with(';') ? text.substr(0, text.size() - 1) : text;
@@ -62,15 +62,15 @@ std::string condition_text(const graphic::Element& transition) {
   return transition.text.empty() ? "(drawn)" : transition.text;
 }
 
-std::string chart_text(const sfc::Chart& chart, bool unicode) {
+std::string chart_text(const network::Chart& chart, bool unicode) {
   std::string text;
   for (std::size_t i = 0; i < chart.steps.size(); ++i) {
-    const sfc::Step& step = chart.steps[i];
+    const network::Step& step = chart.steps[i];
     text += step.initial ? fmt::format("  [[{}]]\n", step.name) : fmt::format("  [{}]\n", step.name);
-    for (const sfc::Association& association : chart.actions) {
+    for (const network::Association& association : chart.actions) {
       text += association.step == i ? action_line(*association.line) : "";
     }
-    for (const sfc::Transition& transition : chart.transitions) {
+    for (const network::Transition& transition : chart.transitions) {
       const bool first = !transition.from.empty() && transition.from.front() == i;
       text += first ? transition_line(chart, i, transition, unicode) : "";
     }

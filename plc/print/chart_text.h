@@ -5,16 +5,16 @@
 
 #include <string>
 
-#include "plc/sfc/chart.h"
+#include "plc/network/chart.h"
 
 namespace indurop::plc {
 
-[[nodiscard]] std::string chart_text(const sfc::Chart& chart, bool unicode);
+[[nodiscard]] std::string chart_text(const network::Chart& chart, bool unicode);
 
 // The name of an action, or its code in one line.
-[[nodiscard]] std::string action_text(const graphic::ActionLine& line);
+[[nodiscard]] std::string action_text(const network::ActionLine& line);
 
 // What is written at a transition: its condition, or its name.
-[[nodiscard]] std::string condition_text(const graphic::Element& transition);
+[[nodiscard]] std::string condition_text(const network::Element& transition);
 
 }  // namespace indurop::plc

@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "plc/graphic/lower.h"
-#include "plc/graphic/picture.h"
-#include "plc/graphic/text_picture.h"
+#include "plc/draw/picture.h"
+#include "plc/draw/text_picture.h"
+#include "plc/lower/networks.h"
 #include "plc/plcopen/document.h"
 
 namespace indurop::plc {
 
 // A variable with an output of an instance.
 struct LiveValue {
-  graphic::Source source;
+  network::Source source;
   std::string variable;
   Elementary type = Elementary::Int;
 };
@@ -26,16 +26,16 @@ struct LiveValue {
 struct LiveProgram {
   std::string pou;
   std::string heading;
-  graphic::Body::Language language = graphic::Body::Language::Ld;
-  graphic::Sheet sheet;
-  std::vector<graphic::Picture> pictures;  // of the networks
-  std::string flow_variable;               // bytes; empty: nothing in the program flows
+  network::Body::Language language = network::Body::Language::Ld;
+  network::Sheet sheet;
+  std::vector<draw::Picture> pictures;  // of the networks
+  std::string flow_variable;            // bytes; empty: nothing in the program flows
   std::size_t flow_bytes = 0;
   std::vector<LiveValue> values;
 
-  using Key = std::pair<const graphic::Element*, const graphic::Pin*>;
+  using Key = std::pair<const network::Element*, const network::Pin*>;
   std::map<Key, std::size_t> power;  // bits
-  std::map<const graphic::Element*, std::size_t> closed;
+  std::map<const network::Element*, std::size_t> closed;
 };
 
 // Programs in LD and FBD, all of them or the one named so. Refers to the document. Built with ReadOptions::watch a

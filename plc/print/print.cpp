@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "plc/graphic/svg_picture.h"
-#include "plc/graphic/text_picture.h"
+#include "plc/draw/svg_picture.h"
+#include "plc/draw/text_picture.h"
 #include "plc/model/elementary.h"
 #include "plc/print/chart_svg.h"
 #include "plc/print/chart_text.h"
@@ -14,7 +14,7 @@
 namespace indurop::plc {
 namespace {
 
-using Language = graphic::Body::Language;
+using Language = network::Body::Language;
 
 const char* name_of(Language language) {
   switch (language) {
@@ -46,7 +46,7 @@ const char* word_of(ast::Pou::Kind kind) {
   return "";
 }
 
-bool is_networks(const graphic::Body& body) {
+bool is_networks(const network::Body& body) {
   return body.language == Language::Ld || body.language == Language::Fbd;
 }
 
@@ -66,16 +66,16 @@ void append_lines(std::vector<std::string>& lines, const std::string& text) {
 }
 
 // The networks of a chart that are more than an operand, and their numbers at the transitions they lead to.
-std::vector<std::size_t> conditions_of(graphic::Diagram& diagram, const graphic::Sheet& sheet) {
+std::vector<std::size_t> conditions_of(network::Diagram& diagram, const network::Sheet& sheet) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < sheet.networks.size(); ++i) {
     const auto& elements = sheet.networks[i].elements;
-    if (elements.size() < 2 && (elements.empty() || elements[0]->kind == graphic::Element::Kind::InVariable)) {
+    if (elements.size() < 2 && (elements.empty() || elements[0]->kind == network::Element::Kind::InVariable)) {
       continue;
     }
     found.push_back(i);
-    for (graphic::Element& each : diagram.elements) {
-      const auto leads = [&](const graphic::Connection& connection) {
+    for (network::Element& each : diagram.elements) {
+      const auto leads = [&](const network::Connection& connection) {
         return std::find(elements.begin(), elements.end(), diagram.find(connection.from)) != elements.end();
       };
       if (each.condition &&
@@ -102,9 +102,9 @@ std::string code_text(const std::string& code) {
   return text;
 }
 
-std::string network_text(const graphic::Network& network, const graphic::Picture& picture, Language language,
+std::string network_text(const network::Network& network, const draw::Picture& picture, Language language,
                          bool unicode) {
-  std::string text = fmt::format("{} {}", graphic::word_of(language), network.number);
+  std::string text = fmt::format("{} {}", network::word_of(language), network.number);
   for (const std::string& remark : remarks_of(network)) {
     text += (text.find('\n') == std::string::npos ? ": " : "        ") + remark + "\n";
   }
@@ -112,8 +112,8 @@ std::string network_text(const graphic::Network& network, const graphic::Picture
   for (const std::string& label : network.labels) {
     text += label + ":\n";
   }
-  for (const graphic::Row& row : graphic::draw_text(picture, unicode)) {
-    const std::string line = graphic::plain(row);
+  for (const draw::Row& row : draw::draw_text(picture, unicode)) {
+    const std::string line = draw::plain(row);
     text += line.empty() ? "\n" : "  " + line + "\n";
   }
   return text + "\n";
@@ -121,7 +121,7 @@ std::string network_text(const graphic::Network& network, const graphic::Picture
 
 }  // namespace
 
-std::vector<std::string> remarks_of(const graphic::Network& network) {
+std::vector<std::string> remarks_of(const network::Network& network) {
   std::vector<std::string> lines;
   append_lines(lines, network.title);
   for (const std::string& comment : network.comments) {
@@ -137,10 +137,12 @@ std::vector<PrintedBody> printed_bodies(plcopen::Document& document, const std::
       continue;
     }
     const std::string what = "POU " + each.pou.name;
-    bodies.push_back({fmt::format("{}, {} in {}", each.pou.name, word_of(each.pou.kind), name_of(each.body.language)),
-                      what, &each.body});
-    for (const auto& [word, list] : {std::pair{"action", &each.actions}, std::pair{"transition", &each.transitions}}) {
-      for (plcopen::NamedBody& named : *list) {
+    bodies.push_back(
+        {fmt::format("{}, {} in {}", each.pou.name, word_of(each.pou.kind), name_of(each.code.body.language)), what,
+         &each.code.body});
+    for (const auto& [word, list] :
+         {std::pair{"action", &each.code.actions}, std::pair{"transition", &each.code.transitions}}) {
+      for (network::NamedBody& named : *list) {
         bodies.push_back({fmt::format("{}, {} {} in {}", each.pou.name, word, named.name, name_of(named.body.language)),
                           fmt::format("{}, {} {}", what, word, named.name), &named.body});
       }
@@ -154,11 +156,10 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
   for (const PrintedBody& each : bodies) {
     text += each.heading + "\n\n";
     if (each.body->language == Language::Sfc) {
-      const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+      const network::Sheet sheet = network::make_sheet(*each.body, each.what, diagnostics);
       const std::vector<std::size_t> conditions = conditions_of(each.body->diagram, sheet);
-      text += chart_text(sfc::read_chart(each.body->diagram, diagnostics), unicode);
-      const auto pictures =
-          conditions.empty() ? std::vector<graphic::Picture>{} : graphic::lay_out(sheet, Language::Fbd);
+      text += chart_text(network::read_chart(each.body->diagram, diagnostics), unicode);
+      const auto pictures = conditions.empty() ? std::vector<draw::Picture>{} : draw::lay_out(sheet, Language::Fbd);
       for (const std::size_t i : conditions) {
         text += network_text(sheet.networks[i], pictures[i], Language::Fbd, unicode);
       }
@@ -168,11 +169,11 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
       text += code_text(each.body->text) + "\n";
       continue;
     }
-    const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+    const network::Sheet sheet = network::make_sheet(*each.body, each.what, diagnostics);
     if (diagnostics.failed()) {
       continue;
     }
-    const auto pictures = graphic::lay_out(sheet, each.body->language);
+    const auto pictures = draw::lay_out(sheet, each.body->language);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       text += network_text(sheet.networks[i], pictures[i], each.body->language, unicode);
     }
@@ -181,20 +182,20 @@ std::string print_text(const std::vector<PrintedBody>& bodies, bool unicode, Dia
 }
 
 std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagnostics) {
-  std::vector<graphic::SvgSheet> drawn;
+  std::vector<draw::SvgSheet> drawn;
   for (const PrintedBody& each : bodies) {
     const bool is_chart = each.body->language == Language::Sfc;
     if (!is_networks(*each.body) && !is_chart) {
       continue;
     }
-    const graphic::Sheet sheet = graphic::make_sheet(*each.body, each.what, diagnostics);
+    const network::Sheet sheet = network::make_sheet(*each.body, each.what, diagnostics);
     const std::vector<std::size_t> conditions =
         is_chart ? conditions_of(each.body->diagram, sheet) : std::vector<std::size_t>{};
-    const sfc::Chart chart = is_chart ? sfc::read_chart(each.body->diagram, diagnostics) : sfc::Chart{};
+    const network::Chart chart = is_chart ? network::read_chart(each.body->diagram, diagnostics) : network::Chart{};
     if (diagnostics.failed()) {
       continue;
     }
-    graphic::SvgSheet& made = drawn.emplace_back();
+    draw::SvgSheet& made = drawn.emplace_back();
     made.heading = each.heading;
     constexpr std::size_t kMostSteps = 5000;
     if (chart.steps.size() + chart.transitions.size() > kMostSteps) {
@@ -204,16 +205,16 @@ std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagn
     if (is_chart) {
       made.chart = draw_chart(chart);
     }
-    auto pictures = graphic::lay_out(sheet, is_chart ? Language::Fbd : each.body->language);
+    auto pictures = draw::lay_out(sheet, is_chart ? Language::Fbd : each.body->language);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       if (is_chart && std::find(conditions.begin(), conditions.end(), i) == conditions.end()) {
         continue;
       }
-      const graphic::Network& network = sheet.networks[i];
+      const network::Network& network = sheet.networks[i];
       made.networks.push_back({network.number, remarks_of(network), network.labels, std::move(pictures[i])});
     }
   }
-  return graphic::draw_svg(drawn);
+  return draw::draw_svg(drawn);
 }
 
 }  // namespace indurop::plc

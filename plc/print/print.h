@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "plc/graphic/sheet.h"
+#include "plc/network/sheet.h"
 #include "plc/plcopen/document.h"
 
 namespace indurop::plc {
@@ -15,7 +15,7 @@ namespace indurop::plc {
 struct PrintedBody {
   std::string heading;  // "main, program in LD", "main, action Blink in ST"
   std::string what;     // "POU main, action Blink"
-  graphic::Body* body = nullptr;
+  network::Body* body = nullptr;
 };
 
 // All of a document, or of the POU named so. Empty if there is none of this name.
@@ -27,6 +27,6 @@ struct PrintedBody {
 [[nodiscard]] std::string print_svg(const std::vector<PrintedBody>& bodies, Diagnostics& diagnostics);
 
 // Title and comments above a network, a line each.
-[[nodiscard]] std::vector<std::string> remarks_of(const graphic::Network& network);
+[[nodiscard]] std::vector<std::string> remarks_of(const network::Network& network);
 
 }  // namespace indurop::plc

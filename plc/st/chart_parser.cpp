@@ -9,8 +9,8 @@
 
 namespace indurop::plc::st {
 
-using graphic::Body;
-using Kind = graphic::Element::Kind;
+using network::Body;
+using Kind = network::Element::Kind;
 
 bool ChartParser::at_chart() const {
   return in_.peek().is("INITIAL_STEP") || (in_.peek().is("STEP") && in_.peek(2).is(":"));
@@ -25,13 +25,13 @@ bool ChartParser::at_instruction_list() const {
 }
 
 WrittenBody ChartParser::instruction_list(std::string_view end) {
-  out_.body = code_until(end, Body::Language::Il);
+  out_.code.body = code_until(end, Body::Language::Il);
   return std::move(out_);
 }
 
 WrittenBody ChartParser::chart(std::string_view end) {
-  out_.body.language = Body::Language::Sfc;
-  out_.body.at = in_.here();
+  out_.code.body.language = Body::Language::Sfc;
+  out_.code.body.at = in_.here();
   while (!in_.at_end() && !in_.peek().is(end)) {
     const bool fine = in_.accept("INITIAL_STEP") ? step(true)
                       : in_.accept("STEP")       ? step(false)
@@ -53,11 +53,11 @@ WrittenBody ChartParser::chart(std::string_view end) {
   return std::move(out_);
 }
 
-graphic::Element& ChartParser::add(Kind kind, const Place& at) {
-  graphic::Element& made = out_.body.diagram.elements.emplace_back();
+network::Element& ChartParser::add(Kind kind, const Place& at) {
+  network::Element& made = out_.code.body.diagram.elements.emplace_back();
   made.kind = kind;
   made.at = at;
-  made.id = out_.body.diagram.elements.size();
+  made.id = out_.code.body.diagram.elements.size();
   made.inputs.emplace_back().at = at;
   return made;
 }
@@ -77,7 +77,7 @@ bool ChartParser::step(bool initial) {
   made.text = name.text;
   made.initial = initial;
   const std::uint64_t id = made.id;
-  steps_.emplace(upper(name.text), out_.body.diagram.elements.size() - 1);
+  steps_.emplace(upper(name.text), out_.code.body.diagram.elements.size() - 1);
   if (!in_.expect(":", "behind the name of the step")) {
     return false;
   }
@@ -100,7 +100,7 @@ bool ChartParser::action_line(Element& block) {
   if (!in_.expect_name("an action")) {
     return false;
   }
-  graphic::ActionLine line;
+  network::ActionLine line;
   line.at = in_.here();
   line.name = in_.take().text;
   if (!in_.expect("(", "behind the name of the action")) {
@@ -121,14 +121,14 @@ bool ChartParser::action() {
   if (!in_.expect_name("an action")) {
     return false;
   }
-  WrittenAction made;
+  network::NamedBody made;
   made.at = in_.here();
   made.name = in_.take().text;
   if (!in_.expect(":", "behind the name of the action")) {
     return false;
   }
   made.body = code_until("END_ACTION", at_instruction_list() ? Body::Language::Il : Body::Language::St);
-  out_.actions.push_back(std::move(made));
+  out_.code.actions.push_back(std::move(made));
   return in_.expect("END_ACTION", "to close the ACTION");
 }
 
@@ -172,7 +172,7 @@ bool ChartParser::steps(std::vector<const Token*>& into) {
 }
 
 // The text from here to before the word.
-graphic::Body ChartParser::code_until(std::string_view end, Body::Language language) {
+network::Body ChartParser::code_until(std::string_view end, Body::Language language) {
   Body body;
   body.language = language;
   body.at = in_.here();
@@ -187,13 +187,13 @@ graphic::Body ChartParser::code_until(std::string_view end, Body::Language langu
   return body;
 }
 
-graphic::Element* ChartParser::step_named(const Token& name) {
+network::Element* ChartParser::step_named(const Token& name) {
   const auto found = steps_.find(upper(name.text));
   if (found == steps_.end()) {
     in_.error(name, fmt::format("there is no step '{}'", name.text));
     return nullptr;
   }
-  return &out_.body.diagram.elements[found->second];
+  return &out_.code.body.diagram.elements[found->second];
 }
 
 // As drawn: several steps before a transition meet in a convergence, several behind it begin at a divergence.

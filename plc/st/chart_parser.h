@@ -9,22 +9,15 @@
 #include <string_view>
 #include <vector>
 
-#include "plc/graphic/diagram.h"
+#include "plc/network/diagram.h"
 #include "plc/st/token_reader.h"
 
 namespace indurop::plc::st {
 
-struct WrittenAction {
-  Place at;
-  std::string name;
-  graphic::Body body;
-};
-
 // The code of the `pou`-th POU of the project, to be translated when all are known.
 struct WrittenBody {
   std::size_t pou = 0;
-  graphic::Body body;
-  std::vector<WrittenAction> actions;
+  network::PouCode code;
 };
 
 class ChartParser {
@@ -39,14 +32,14 @@ class ChartParser {
   [[nodiscard]] WrittenBody instruction_list(std::string_view end);
 
  private:
-  using Element = graphic::Element;
+  using Element = network::Element;
   // TRANSITION FROM a, b TO c, kept until all steps are known.
   struct Transition {
     Place at;
     std::vector<const Token*> from;
     std::vector<const Token*> to;
     int priority = 0;
-    std::shared_ptr<graphic::Body> condition;
+    std::shared_ptr<network::Body> condition;
   };
 
   bool step(bool initial);
@@ -54,7 +47,7 @@ class ChartParser {
   bool action();
   bool transition();
   bool steps(std::vector<const Token*>& into);
-  [[nodiscard]] graphic::Body code_until(std::string_view end, graphic::Body::Language language);
+  [[nodiscard]] network::Body code_until(std::string_view end, network::Body::Language language);
   void connect(const Transition& transition);
   [[nodiscard]] Element* step_named(const Token& name);
   Element& add(Element::Kind kind, const Place& at);

@@ -78,7 +78,7 @@ void DeclarationParser::variables(std::vector<ast::Variable>& to) {
   }
 }
 
-std::string DeclarationParser::comment(const Token& first, std::uint32_t before) const {
+std::string DeclarationParser::comment(const Token& first, int before) const {
   if (in_.peek().comment_line > 0 && in_.peek().comment_line == in_.previous().line) {
     return std::string(in_.peek().comment);
   }
@@ -96,7 +96,7 @@ bool DeclarationParser::broken(std::vector<ast::Variable>& found, std::vector<as
 
 // a, b AT %IX0.0 : INT := 5;
 bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variable>& to) {
-  const std::uint32_t before = in_.previous().line;
+  const int before = in_.previous().line;
   const Token& first = in_.peek();
   std::vector<ast::Variable> found;
   do {
@@ -151,7 +151,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
 }
 
 void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
-  const std::uint32_t line = in_.previous().line;
+  const int line = in_.previous().line;
   while (!in_.at_end() && !in_.peek().is("END_TYPE")) {
     const std::size_t from = in_.position();
     if (!one_type(to)) {
@@ -168,7 +168,7 @@ void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
 
 bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
   ast::TypeDeclaration out;
-  const std::uint32_t before = in_.previous().line;
+  const int before = in_.previous().line;
   const Token& first = in_.peek();
   out.at = in_.here();
   if (!in_.expect_name("a type")) {

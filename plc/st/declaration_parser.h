@@ -41,7 +41,7 @@ class DeclarationParser {
   [[nodiscard]] bool named(ast::TypeSpec& out);
   // The comment behind the ';' on its line, else the one on lines of its own before the declaration, which begins with
   // `first` and stands behind line `before`.
-  [[nodiscard]] std::string comment(const Token& first, std::uint32_t before) const;
+  [[nodiscard]] std::string comment(const Token& first, int before) const;
   // Behind the next ';', or before `end`.
   void recover(std::string_view end);
 

@@ -185,7 +185,7 @@ std::optional<Expression> ExpressionParser::typed() {
     out.value_enum = token.text.substr(0, hash);
     out.name = token.text.substr(hash + 1);
     if (out.name.empty() || (out.name[0] >= '0' && out.name[0] <= '9')) {
-      in_.error(token, fmt::format("'{}' is no elementary type, and no value of an enumeration stands behind '#'",
+      in_.error(token, fmt::format("'{}' is not an elementary type, and no value of an enumeration stands behind '#'",
                                    out.value_enum));
       return std::nullopt;
     }
@@ -208,7 +208,7 @@ std::optional<Expression> ExpressionParser::designator() {
   if (token.kind == TokenKind::Address) {
     const auto address = address_literal(token.text);
     if (!address) {
-      in_.error(token, fmt::format("'{}' is no address, write it as %IX0.3, %QW2 or %MD4", token.text));
+      in_.error(token, fmt::format("'{}' is not an address, write it as %IX0.3, %QW2 or %MD4", token.text));
       return std::nullopt;
     }
     out.kind = Expression::Kind::Direct;

@@ -36,8 +36,8 @@ class Lexer {
       : text_(text),
         origin_(at),
         diagnostics_(diagnostics),
-        line_(std::max(at.line, 1U)),
-        column_(std::max(at.column, 1U)) {}
+        line_(std::max(at.line, 1)),
+        column_(std::max(at.column, 1)) {}
 
   std::vector<Token> run() {
     if (text_.starts_with("\xEF\xBB\xBF")) {
@@ -294,13 +294,13 @@ class Lexer {
   Diagnostics& diagnostics_;
   std::vector<Token> out_;
   std::size_t at_ = 0;
-  std::uint32_t line_;
-  std::uint32_t column_;
+  int line_;
+  int column_;
   std::size_t from_ = 0;
-  std::uint32_t from_line_ = 1;
-  std::uint32_t from_column_ = 1;
+  int from_line_ = 1;
+  int from_column_ = 1;
   std::string_view comment_;
-  std::uint32_t comment_line_ = 0;
+  int comment_line_ = 0;
   bool nested_ = true;
 };
 

@@ -25,10 +25,10 @@ enum class TokenKind : std::uint8_t {
 struct Token {
   TokenKind kind = TokenKind::End;
   std::string_view text;  // spelling
-  std::uint32_t line = 1;
-  std::uint32_t column = 1;
-  std::string_view comment;        // the last one between this token and the one before; without its marks
-  std::uint32_t comment_line = 0;  // where it begins; 0: none
+  int line = 1;
+  int column = 1;
+  std::string_view comment;  // the last one between this token and the one before; without its marks
+  int comment_line = 0;      // where it begins; 0: none
 
   // Keywords in any case.
   [[nodiscard]] bool is(std::string_view word) const noexcept {

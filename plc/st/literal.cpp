@@ -38,7 +38,7 @@ bool well_formed(std::string_view digits) noexcept {
 
 Literal integer(std::string_view digits, unsigned base, std::string_view whole) {
   if (!well_formed(digits)) {
-    return wrong(fmt::format("'{}' is no number, write digits with at most one '_' between them", whole));
+    return wrong(fmt::format("'{}' is not a number, write digits with at most one '_' between them", whole));
   }
   std::uint64_t value = 0;
   for (const char c : digits) {
@@ -47,7 +47,7 @@ Literal integer(std::string_view digits, unsigned base, std::string_view whole) 
     }
     const auto digit = static_cast<unsigned>(digit_value(c));
     if (digit >= base) {
-      return wrong(fmt::format("'{}' is no digit of a number of base {}, correct '{}'", c, base, whole));
+      return wrong(fmt::format("'{}' is not a digit of a number of base {}, correct '{}'", c, base, whole));
     }
     if (value > (std::numeric_limits<std::uint64_t>::max() - digit) / base) {
       return wrong(fmt::format("'{}' does not fit 64 bits, use a smaller number", whole));
@@ -68,7 +68,7 @@ Literal real(std::string_view text) {
     return wrong(fmt::format("'{}' does not fit LREAL, use a smaller exponent", text));
   }
   if (error != std::errc() || end != digits.data() + digits.size()) {
-    return wrong(fmt::format("'{}' is no number, write it as 1.5 or 1.5E-3", text));
+    return wrong(fmt::format("'{}' is not a number, write it as 1.5 or 1.5E-3", text));
   }
   Literal out;
   out.value = value;
@@ -78,7 +78,7 @@ Literal real(std::string_view text) {
 Literal boolean(std::string_view text, std::string_view whole) {
   const bool yes = text == "1" || same_name(text, "TRUE");
   if (!yes && text != "0" && !same_name(text, "FALSE")) {
-    return wrong(fmt::format("'{}' is no BOOL, write TRUE or FALSE", whole));
+    return wrong(fmt::format("'{}' is not a BOOL, write TRUE or FALSE", whole));
   }
   Literal out;
   out.value = yes;
@@ -92,7 +92,7 @@ Literal typed_number(Elementary type, std::string_view text, std::string_view wh
     text.remove_prefix(1);
   }
   if (text.empty() || !is_digit(text.front())) {
-    return wrong(fmt::format("'{}' is no value of {}, write a number behind '#'", whole, name_of(type)));
+    return wrong(fmt::format("'{}' is not a value of {}, write a number behind '#'", whole, name_of(type)));
   }
   Literal out = number_literal(text);
   if (!out.value) {
@@ -102,7 +102,7 @@ Literal typed_number(Elementary type, std::string_view text, std::string_view wh
     return wrong(fmt::format("'{}' is negative, but {} has no sign, remove the sign", whole, name_of(type)));
   }
   if (std::holds_alternative<double>(*out.value) && !is_real(type)) {
-    return wrong(fmt::format("'{}' is no whole number, but {} is none of the reals", whole, name_of(type)));
+    return wrong(fmt::format("'{}' is not a whole number, and {} is not a real type", whole, name_of(type)));
   }
   if (is_real(type) && std::holds_alternative<std::uint64_t>(*out.value)) {
     out.value = static_cast<double>(std::get<std::uint64_t>(*out.value));
@@ -168,7 +168,7 @@ Literal typed_literal(std::string_view text) {
   if (*type == Elementary::Time || is_date(*type)) {
     const TimeValue found = *type == Elementary::Time ? duration(rest) : date_or_time(*type, rest);
     if (!found.ns) {
-      return wrong(fmt::format("'{}' is no {}: {}", text, name_of(*type), found.why));
+      return wrong(fmt::format("'{}' is not a valid {}: {}", text, name_of(*type), found.why));
     }
     out.value = *found.ns;
   } else if (*type == Elementary::Bool) {

@@ -151,7 +151,7 @@ void ProjectParser::recover() {
 
 void ProjectParser::configuration(std::vector<Configuration>& to) {
   Configuration out;
-  const std::uint32_t line = in_.previous().line;
+  const int line = in_.previous().line;
   out.at = in_.here();
   if (!name(out.name, "the configuration")) {
     recover();
@@ -179,7 +179,7 @@ void ProjectParser::configuration(std::vector<Configuration>& to) {
 // RESOURCE name ON processor
 void ProjectParser::resource(std::vector<Resource>& to) {
   Resource out;
-  const std::uint32_t line = in_.previous().line;
+  const int line = in_.previous().line;
   out.at = in_.here();
   std::string processor;
   const bool ok = name(out.name, "the resource") && (!in_.accept("ON") || name(processor, "the processor"));

@@ -5,6 +5,7 @@
 
 namespace indurop::plc::st {
 
+// Long: a list.
 bool is_keyword(std::string_view word) noexcept {
   // Type and function names are not in it: they are ordinary names with a meaning.
   static constexpr std::array<std::string_view, 76> kWords{"ACTION",

@@ -82,7 +82,7 @@ class TokenReader {
       return;
     }
     Place at = place(last);
-    at.column += static_cast<std::uint32_t>(last.text.size());
+    at.column += static_cast<int>(last.text.size());
     diagnostics_.error(at, text);
   }
   void error(const Token& at, std::string text) { diagnostics_.error(place(at), std::move(text)); }

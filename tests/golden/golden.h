@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden cases: a folder each, with an input and what is expected of it. INDUROP_UPDATE_GOLDEN=1 writes the expectations.
+// Golden cases: a folder each, with an input and what is expected of it. INDUROP_UPDATE_GOLDEN=1 writes the
+// expectations.
 
 #pragma once
 

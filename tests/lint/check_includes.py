@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Enforces include_rules.txt: the table of which room may know which other one. check_includes.py ROOT"""
+"""Enforces include_rules.txt: the table of which room may know which other one. check_includes.py ROOT [--table|--write]
+--table prints the same as the table of docs/architecture.md, which has to agree with it; --write puts it there."""
 
 import pathlib
 import re
@@ -37,8 +38,35 @@ def load_rules(file):
     return rules
 
 
+TABLE_DOCUMENT = "docs/architecture.md"
+TABLE_MARKS = re.compile(r"<!-- rooms -->\n(.*?)<!-- /rooms -->\n", re.DOTALL)
+EVERYWHERE = {"std", "posix", "public", "own"}
+
+
+def table(root, file, rules):
+    """The rooms with a job, in the order of the file, as Markdown."""
+    lines = ["| room | job | may include, beside the standard library and `<indurop/...>` |", "|---|---|---|"]
+    for folder, job in re.findall(r"^# ([\w/]+/): (.+)$", file.read_text(), re.MULTILINE):
+        shown = f"`{folder}`"
+        if (root / folder / "README.md").is_file():
+            shown = f"[{shown}](../{folder}README.md)"
+        known = [word for word in rules[folder] if word not in EVERYWHERE and word != folder and word[0] != "-"]
+        lines.append(f"| {shown} | {job} | {' '.join(word.strip('<>') for word in known) or '-'} |")
+    return "\n".join(lines) + "\n"
+
+
+def check_table(root, file, rules):
+    found = TABLE_MARKS.search(common.read(root, TABLE_DOCUMENT))
+    if found and found.group(1) == table(root, file, rules):
+        return []
+    return [f"{TABLE_DOCUMENT}:1: its table between the marks `rooms` is not the one made of include_rules.txt; "
+            "`tests/lint/check_includes.py . --write` makes it"]
+
+
 def groups_of(root, name, quote, target):
     """The words of a rule line that would allow this include."""
+    if target.startswith("indurop/idl/"):  # generated from idl/: who may use DDS types is told header by header
+        return set()
     if target.startswith("indurop/"):
         return {"public"}
     for group, prefixes in THIRD_PARTY.items():
@@ -54,30 +82,57 @@ def groups_of(root, name, quote, target):
     # Suites share helpers and generate headers; a name without a folder cannot be a room's.
     if (root / name).parent.joinpath(target).is_file() or (name.startswith(("tests/", "bench/")) and "/" not in target):
         groups.add("own")
-    if "/" in target:
-        groups.add(target.split("/", 1)[0] + "/")
+    folders = target.split("/")[:-1]  # "config/check/uses.h": who may include config/ or only config/check/
+    groups.update("/".join(folders[:count]) + "/" for count in range(1, len(folders) + 1))
     return groups
 
 
 def check(root, rules):
     findings = []
+    used = {folder: set() for folder in rules}
     for name in common.cxx_files(root):
         matching = [folder for folder in rules if name.startswith(folder)]
         if not matching:
             findings.append(f"{name}:1: no line in include_rules.txt covers this folder")
             continue
-        allowed = rules[max(matching, key=len)]
+        folder = max(matching, key=len)
+        allowed = rules[folder]
         text = common.read(root, name)
         for found in INCLUDE.finditer(text):
             quote, target = found.groups()
             shown = f"<{target}>" if quote == "<" else f'"{target}"'
             forbidden = f"-<{target}>" in allowed
-            permitted = f"<{target}>" in allowed or groups_of(root, name, quote, target) & set(allowed)
+            words = groups_of(root, name, quote, target) | {f"<{target}>"}
+            permitted = words & set(allowed)
+            for each in matching:  # the line of a room is the sum of the lines inside it
+                used[each] |= words & set(rules[each])
             if forbidden or not permitted:
                 line = text.count("\n", 0, found.start(1)) + 1
-                findings.append(f"{name}:{line}: includes {shown}; {max(matching, key=len)} may use: {' '.join(allowed)}")
-    return findings
+                findings.append(f"{name}:{line}: includes {shown}; {folder} may use: {' '.join(allowed)}")
+    return findings, used
+
+
+def unused(rules, used):
+    """Permissions that no file makes use of. What every room may have (the ground floor too) is not counted."""
+    return [f"include_rules.txt: {folder} may include {word} and no file does; take the word away"
+            for folder, allowed in rules.items() for word in allowed
+            if word not in used[folder] and word not in EVERYWHERE | {"base/", folder} and word[0] != "-"]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    file = pathlib.Path(__file__).with_name("include_rules.txt")
+    rules = load_rules(file)
+    if sys.argv[2:] == ["--table"]:
+        print(table(root, file, rules), end="")
+    elif sys.argv[2:] == ["--write"]:
+        text = TABLE_MARKS.sub(lambda _: f"<!-- rooms -->\n{table(root, file, rules)}<!-- /rooms -->\n",
+                               common.read(root, TABLE_DOCUMENT))
+        (root / TABLE_DOCUMENT).write_text(text)
+    else:
+        findings, used = check(root, rules)
+        common.report(findings + unused(rules, used) + check_table(root, file, rules))
 
 
 if __name__ == "__main__":
-    common.report(check(pathlib.Path(sys.argv[1]), load_rules(pathlib.Path(__file__).with_name("include_rules.txt"))))
+    main()

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What the documentation tells people to type exists, and its links lead somewhere. check_readme.py ROOT [INDUROP]
+"""What the documentation tells people to type exists, its links lead somewhere, and so do the files it names in code
+of this tree: `vars/store.h`, or `vars/store` for short. check_readme.py ROOT [INDUROP]
 INDUROP: the built program, whose --help must know every verb shown."""
 
 import pathlib
@@ -10,6 +11,7 @@ import sys
 import common
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+NAMED_FILE = re.compile(r"`((?:[a-z0-9_]+/)+[\w.-]*)`")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
@@ -24,6 +26,20 @@ def commands(text):
                     yield line
 
 
+def missing_files(root, name, text, files):
+    """Paths below a folder of this tree, from the top or from the page's own folder, that lead nowhere."""
+    folders = {parent.as_posix() for file in files for parent in pathlib.PurePosixPath(file).parents}
+    own = pathlib.PurePosixPath(name).parent
+    for path in NAMED_FILE.findall(text):
+        for start in (pathlib.PurePosixPath(), own, pathlib.PurePosixPath("include")):
+            full = (start / path).as_posix()
+            if full in folders or any(full + ending in files for ending in ("", ".h", ".cpp")):
+                break
+        else:
+            if any((start / path.split("/", 1)[0]).as_posix() in folders for start in (pathlib.PurePosixPath(), own)):
+                yield f"{name}: names the missing file {path}"
+
+
 def check(root, program):
     make_targets = set(re.findall(r"^([a-z][a-z-]*(?: [a-z-]+)*):", common.read(root, "Makefile"), re.MULTILINE))
     make_targets = {word for line in make_targets for word in line.split()}
@@ -31,10 +47,12 @@ def check(root, program):
     if program:
         verbs = subprocess.run([program, "--help"], capture_output=True, text=True, check=False).stdout
     findings = []
-    for name in common.project_files(root):
+    files = set(common.project_files(root))
+    for name in sorted(files):
         if not name.endswith(".md"):
             continue
         text = common.read(root, name)
+        findings += missing_files(root, name, text, files)
         for target in LINK.findall(text):
             if "://" not in target and not (root / name).parent.joinpath(target).exists():
                 findings.append(f"{name}: link to missing file {target}")

@@ -8,7 +8,9 @@ import sys
 import common
 
 SPDX = "// SPDX-License-Identifier: Apache-2.0"
-MAX_LINES = 600
+MAX_LINES = {".h": 400, ".cpp": 400, ".py": 600, ".cmake": 600, ".sh": 600}
+# Still longer than that; an entry that is no longer needed is a finding.
+LONG = ("glb2idl/emit_cpp.cpp", "robot/job_parser.cpp", "schema/json.cpp")
 CODE = (".h", ".cpp", ".py", ".cmake", ".sh", ".glb", ".xml", ".xsd", ".txt", ".md", ".json", ".yml")
 # Printed in the specification; kept as they are.
 VERBATIM = ("examples/chapter/", "tests/install/project/", "LICENSE")
@@ -57,8 +59,21 @@ def disabled(root):
 def length(root):
     for name, text in own_text(root):
         lines = text.count("\n")
-        if lines > MAX_LINES and name.endswith((".h", ".cpp", ".py", ".cmake", ".sh")):
-            yield f"{name}:{lines}: longer than {MAX_LINES} lines; split it by idea"
+        most = MAX_LINES.get(pathlib.PurePath(name).suffix, lines)
+        if lines > most and name not in LONG:
+            yield f"{name}:{lines}: longer than {most} lines; split it by idea"
+        elif lines <= most and name in LONG:
+            yield f"{name}:{lines}: no longer too long: take it out of LONG in check_text.py"
+
+
+def names(root):
+    """A test is called by what it shows, in words: Readers_never_see_a_mixture."""
+    for name in common.cxx_files(root):
+        text = common.read(root, name) if name.startswith("tests/") else ""
+        for found in re.finditer(r"^\s*(?:TYPED_)?TEST(?:_F|_P)?\(\s*\w+,\s*(\w+)\)", text, re.MULTILINE):
+            if not re.fullmatch(r"[A-Z][a-z]*|[A-Z][A-Za-z0-9]*(_[A-Za-z0-9]+)+", found.group(1)):
+                line = text.count("\n", 0, found.start(1)) + 1
+                yield f"{name}:{line}: {found.group(1)}: a test is named by what it shows, as in Readers_never_see_a_mixture"
 
 
 def characters(root):
@@ -86,7 +101,7 @@ def changelog(root):
                f"the project is {version.group(1) if version else 'without version'}")
 
 
-RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, characters, changelog)}
+RULES = {rule.__name__: rule for rule in (spdx, todo, disabled, length, names, characters, changelog)}
 
 if __name__ == "__main__":
     common.report(list(RULES[sys.argv[1]](pathlib.Path(sys.argv[2]))))

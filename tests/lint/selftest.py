@@ -8,9 +8,11 @@ import tempfile
 import unittest
 
 import check_format
+import check_functions
 import check_headers
 import check_includes
 import check_readme
+import check_run
 import check_symbols
 import check_text
 import check_tidy
@@ -42,19 +44,19 @@ class Sample(unittest.TestCase):
 class Includes(Sample):
     def check(self, name, include):
         self.put(name, f"{HEAD}#include {include}\n")
-        return check_includes.check(self.root, check_includes.load_rules(HERE / "include_rules.txt"))
+        return check_includes.check(self.root, check_includes.load_rules(HERE / "include_rules.txt"))[0]
 
     def test_rooms_below_are_allowed(self):
         self.put("rt/clock.h", HEAD)
         self.assertEqual(self.check("scheduler/a.cpp", '"rt/clock.h"'), [])
 
-    def test_dds_outside_mirror(self):
-        self.found(self.check("vars/a.cpp", '"dds/dds.h"'), "vars/a.cpp:4", "dds/dds.h")
+    def test_dds_outside_dds(self):
+        self.found(self.check("mirror/a.cpp", "<dds/dds.h>"), "mirror/a.cpp:4", "dds/dds.h")
 
-    def test_dds_inside_mirror(self):
-        self.assertEqual(self.check("mirror/a.cpp", "<dds/dds.h>"), [])
+    def test_dds_inside_dds(self):
+        self.assertEqual(self.check("dds/a.cpp", "<dds/dds.h>"), [])
 
-    def test_xml_outside_deploy(self):
+    def test_xml_outside_config(self):
         self.found(self.check("scheduler/a.cpp", "<tinyxml2.h>"), "tinyxml2.h")
 
     def test_iceoryx_outside_vars(self):
@@ -66,8 +68,28 @@ class Includes(Sample):
     def test_dlopen_in_scheduler(self):
         self.found(self.check("scheduler/a.cpp", "<dlfcn.h>"), "dlfcn.h")
 
+    def test_table_of_the_documentation_that_is_old(self):
+        rules = self.root / "rules.txt"
+        self.put("rules.txt", "# rt/: the floor\nrt/: std rt/\n")
+        self.put("docs/architecture.md", "<!-- rooms -->\n| `rt/` | the roof | - |\n<!-- /rooms -->\n")
+        self.found(check_includes.check_table(self.root, rules, check_includes.load_rules(rules)), "docs/architecture.md")
+        table = check_includes.table(self.root, rules, check_includes.load_rules(rules))
+        self.assertIn("| `rt/` | the floor | - |", table)
+        self.put("docs/architecture.md", f"<!-- rooms -->\n{table}<!-- /rooms -->\n")
+        self.assertEqual(check_includes.check_table(self.root, rules, check_includes.load_rules(rules)), [])
+
+    def test_permission_nobody_uses(self):
+        self.put("rt/clock.h", HEAD)
+        self.put("vars/a.cpp", f'{HEAD}#include "rt/clock.h"\n#include <vector>\n')
+        rules = {"rt/": ["std", "rt/"], "vars/": ["std", "posix", "vars/", "rt/", "fmt", "-<dlfcn.h>"]}
+        self.found(check_includes.unused(rules, check_includes.check(self.root, rules)[1]), "vars/ may include fmt")
+
     def test_third_party_in_public_header(self):
         self.found(self.check("include/indurop/a.h", "<fmt/core.h>"), "fmt/core.h")
+
+    def test_folder_inside_a_room(self):
+        self.assertEqual(self.check("config/check/a.h", '"config/model/plant.h"'), [])
+        self.found(self.check("config/model/a.h", '"config/check/check.h"'), "config/check/check.h")
 
     def test_internals_in_example(self):
         self.found(self.check("examples/a/a.cpp", '"vars/store.h"'), "vars/store.h")
@@ -114,8 +136,16 @@ class Text(Sample):
         self.found(self.check("disabled"), "tests/unit/CMakeLists.txt:1")
 
     def test_long_file(self):
-        self.put("rt/a.cpp", HEAD + "\n" * 600)
+        self.put("rt/a.cpp", HEAD + "\n" * 400)
         self.found(self.check("length"), "rt/a.cpp")
+
+    def test_name_of_a_test(self):
+        self.put("tests/a_test.cpp", HEAD + "TEST(Job, AllErrorsAtOnce) {}\nTEST(Job, All_errors) {}\nTEST(Job, Ends) {}\n")
+        self.found(self.check("names"), "tests/a_test.cpp:4", "AllErrorsAtOnce")
+
+    def test_name_of_a_test_in_small_letters(self):
+        self.put("tests/a_test.cpp", HEAD + "TEST_F(Job, all_errors) {}\n")
+        self.found(self.check("names"), "tests/a_test.cpp:4")
 
     def test_invisible_character(self):
         self.put("docs/a.md", "no\u00a0break\n")
@@ -141,6 +171,35 @@ class Text(Sample):
         self.put("CMakeLists.txt", "project(InduRoP VERSION 0.2.0)\n")
         self.put("CHANGELOG.md", "# Changelog\n\n## 0.1.0\n")
         self.found(self.check("changelog"), "0.1.0", "0.2.0")
+
+
+class Functions(Sample):
+    BODY = "  a();\n" * 60
+
+    def check(self, text):
+        self.put("rt/a.cpp", HEAD + text)
+        return check_functions.check(self.root)
+
+    def test_long_function(self):
+        self.found(self.check(f"namespace a {{\nint b::c(int d) const {{\n{self.BODY}}}\n}}\n"), "rt/a.cpp:5", "b::c has 62 lines")
+
+    def test_long_method_in_a_class(self):
+        self.found(self.check(f"class A : public B {{\n  void c() override {{\n{self.BODY}  }}\n}};\n"), "c has 62 lines")
+
+    def test_long_constructor(self):
+        self.found(self.check(f"A::A(int a) : a_{{a}}, b_(a) {{\n{self.BODY}}}\n"), "62 lines")
+
+    def test_long_test(self):
+        self.found(self.check(f"TEST(A, b) {{\n{self.BODY}}}\n"), "62 lines")
+
+    def test_braces_in_strings_and_comments(self):
+        self.assertEqual(self.check("void a() {\n  b('{', \"{\", R\"({)\");  // {\n}\n" * 40), [])
+
+    def test_long_table_and_long_class(self):
+        self.assertEqual(self.check(f"const int a[] = {{\n{'  1,' * 70}}};\nstruct B {{\n{'  int a();' * 70}}};\n"), [])
+
+    def test_excuse(self):
+        self.assertEqual(self.check(f"// Long: one line for each key.\nvoid a() {{\n{self.BODY}}}\n"), [])
 
 
 class Format(Sample):
@@ -169,6 +228,15 @@ class Headers(Sample):
     def test_header_without_guard(self):
         self.put("rt/a.h", HEAD + "struct A {};\n")
         self.found(check_headers.check(self.root, []), "rt/a.h", "redefinition")
+
+    def test_a_header_that_passed_is_compiled_again_when_one_it_includes_changes(self):
+        self.put("rt/b.h", HEAD + "#pragma once\nstruct B {};\n")
+        self.put("rt/a.h", HEAD + '#pragma once\n#include "rt/b.h"\nB a();\n')
+        self.assertEqual(check_headers.check(self.root, [], self.root), [])
+        passed = [path for path in self.root.iterdir() if len(path.name) == 64]
+        self.assertEqual(len(passed), 2)
+        self.put("rt/b.h", HEAD + "#pragma once\nstruct C {};\n")
+        self.found(check_headers.check(self.root, [], self.root), "rt/a.h")
 
     def test_own_header_not_first(self):
         self.put("rt/a.h", HEAD + "#pragma once\nstd::string a();\n")
@@ -225,6 +293,39 @@ class Readme(Sample):
         self.put("docs/a.md", "[b](b.md) [web](https://example.org/)\n")
         self.found(check_readme.check(self.root, None), "b.md")
 
+    def test_missing_source_file(self):
+        self.put("Makefile", "all:\n")
+        self.put("vars/store.h", HEAD)
+        self.put("docs/a.md", "`vars/store.h`, `vars/store`, `vars/`, `build/bin/`, `a/b`, and `vars/stroe.h`\n")
+        self.found(check_readme.check(self.root, None), "docs/a.md", "vars/stroe.h")
+
+
+class Run(Sample):
+    LOG = ("1/2 Test #1: Flaky ......***Failed    0.05 sec\n    Test #1: Flaky ......   Passed    0.02 sec\n"
+           "2/2 Test #2: Good ......   Passed    0.01 sec\n")
+
+    def junit(self, *names):
+        cases = "".join(f'<testcase name="{name}"><skipped message="x"/><system-out>needs root\n[  SKIPPED ] {name}\n'
+                        "</system-out></testcase>" for name in names)
+        self.put("r.xml", f'<testsuite><testcase name="Good"/>{cases}</testsuite>')
+        return self.root / "r.xml"
+
+    def test_skipped(self):
+        self.found(check_run.check(self.junit("Lab.One"), "", ["Rights.*"]), "Lab.One", "needs root")
+
+    def test_skipped_with_leave(self):
+        self.assertEqual(check_run.check(self.junit("Rights.One"), "", ["Rights.*"]), [])
+
+    def test_leave_without_a_reason(self):
+        self.put("may.txt", "# head\nA.b  root\nC.d\n")
+        self.assertEqual(check_run.allowed(self.root / "may.txt"), ["A.b"])
+
+    def test_retried(self):
+        self.assertEqual(check_run.retried(self.LOG), ["Flaky"])
+        self.assertEqual(check_run.check(self.junit(), self.LOG, []), [])
+        many = "".join(self.LOG.replace("Flaky", f"F{i}") for i in range(3))
+        self.found(check_run.check(self.junit(), many, []), "F0", "F2")
+
 
 class Tidy(Sample):
     def setUp(self):
@@ -239,6 +340,22 @@ class Tidy(Sample):
     def test_clean_file_is_remembered(self):
         self.assertEqual(self.tidy("int twice(int a) { return a * 2; }\n"), [])
         self.assertTrue([path for path in self.root.iterdir() if len(path.name) == 64])
+
+    def test_changed_files(self):
+        def git(*words):
+            subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e@example.org", *words], cwd=self.root, check=True,
+                           capture_output=True)
+        self.assertEqual(check_tidy.changed(self.root), ([], "no git here"))
+        git("init")
+        self.put("rt/a.cpp", HEAD)
+        self.put("rt/b.cpp", HEAD)
+        git("add", ".")
+        git("commit", "-m", "one")
+        self.assertEqual(check_tidy.changed(self.root)[0], [])
+        self.put("rt/b.cpp", HEAD + "int b;\n")
+        git("commit", "-am", "two")
+        self.put("rt/c.cpp", HEAD)
+        self.assertEqual(sorted(check_tidy.changed(self.root)[0]), ["rt/b.cpp", "rt/c.cpp"])
 
     def test_findings_are_remembered(self):
         text = "int* f() { return 0; }\n"

@@ -55,23 +55,25 @@ enum class AxisService : std::int32_t {
 
 enum class ErrorCode : std::uint32_t {
   Ok,
-  Opcode,       // no such service
-  State,        // not possible in this state
-  Point,        // no such point
-  Job,          // no such job
-  Value,        // a value that is no number or out of its range
-  Unreachable,  // the target is out of reach
-  JointLimit,   // the target or the way there is beyond a joint's limit
-  Singular,     // the way comes too near a singular position
-  Speed,        // the way would need a joint to be faster than it can
-  Circle,       // the points of a circle lie on a line
-  Drive,        // a drive reports a fault
-  Following,    // an axis does not follow
-  Power,        // a drive does not take power, or lost it
-  Emergency,    // emergency stop
-  Line,         // a line of a job failed
-  NotHomed,     // the axis does not know where it is
-  Aborted       // a later command took over
+  Opcode,        // no such service
+  State,         // not possible in this state
+  Point,         // no such point
+  Job,           // no such job
+  Value,         // a value that is no number or out of its range
+  Unreachable,   // the target is out of reach
+  JointLimit,    // the target or the way there is beyond a joint's limit
+  Singular,      // the way comes too near a singular position
+  Speed,         // the way would need a joint to be faster than it can
+  Circle,        // the points of a circle lie on a line
+  Drive,         // a drive reports a fault
+  Following,     // an axis does not follow
+  Power,         // a drive does not take power, or lost it
+  Emergency,     // emergency stop
+  Line,          // a line of a job failed
+  NotHomed,      // the axis does not know where it is
+  Aborted,       // a later command took over
+  Acceleration,  // the way would need a joint to accelerate harder than it can
+  Jerk           // the way would need a joint to change its acceleration faster than it can
 };
 
 enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed };

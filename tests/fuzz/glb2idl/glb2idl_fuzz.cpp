@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return found == files.end() ? ReadResult{std::nullopt, "", "there is no such file"}
                                 : ReadResult{found->second, path, ""};
   });
-  if (result.ok != result.messages.empty()) {
+  if (result.ok != result.diagnostics.empty()) {
     std::abort();
   }
   if (!result.ok) {

@@ -19,7 +19,7 @@ using golden::slurp;
 
 // All packages in one file.
 void expect_ros2(const fs::path& folder, const RosPackages& sut) {
-  std::string all = sut.problems;
+  std::string all = base::to_text(sut.problems);
   for (const Output& output : sut.outputs) {
     all += "---- " + output.path + "\n" + output.text;
   }
@@ -38,8 +38,8 @@ TEST_P(Golden, Output_is_as_expected) {
   };
   const Compilation sut = compile({"in.glb"}, read);
 
-  EXPECT_EQ(sut.ok, sut.messages.empty());
-  expect_file(folder / "expected.err", sut.messages);
+  EXPECT_EQ(sut.ok, sut.diagnostics.empty());
+  expect_file(folder / "expected.err", base::to_text(sut.diagnostics, "glb2idl"));
   std::string idl;
   std::string header;
   std::string layout;
@@ -74,7 +74,8 @@ TEST_P(Golden, Schema_in_the_header_can_be_read_back) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(GLB2IDL_GOLDEN, "in.glb")), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(GLB2IDL_GOLDEN, "in.glb")),
+                         [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::glb2idl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each folder beside this file is a case: in.st, and the C++ and .glb it becomes or the errors in it; in.glb, if there is
-// one, holds shared variables it uses. After a wanted change of the output run the test with INDUROP_UPDATE_GOLDEN=1 and
-// look at the difference.
+// Each folder beside this file is a case: in.st, and the C++ and .glb it becomes or the errors in it; in.glb, if there
+// is one, holds shared variables it uses. After a wanted change of the output run the test with INDUROP_UPDATE_GOLDEN=1
+// and look at the difference.
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,8 @@ TEST_P(Golden, A_program_cut_off_anywhere_does_no_harm) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLC_GOLDEN, "in.st")), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLC_GOLDEN, "in.st")),
+                         [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::plc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each folder beside this file is a case: in.xml in the manner of an editor, its networks as text and what they
-// mean in Structured Text, or the errors in it. After a wanted change of the output run the test with INDUROP_UPDATE_GOLDEN=1 and look at the difference.
+// mean in Structured Text, or the errors in it. After a wanted change of the output run the test with
+// INDUROP_UPDATE_GOLDEN=1 and look at the difference.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ TEST_P(Golden, Networks_and_their_meaning_or_errors_are_as_expected) {
   expect_file(folder / "expected.st", diagnostics.failed() ? "" : statements);
   expect_file(folder / "expected.txt", diagnostics.failed() ? "" : text);
   const bool chart = std::any_of(bodies.begin(), bodies.end(), [](const PrintedBody& each) {
-    return each.body->language == graphic::Body::Language::Sfc;
+    return each.body->language == network::Body::Language::Sfc;
   });
   expect_file(folder / "expected.svg", chart && !diagnostics.failed() ? print_svg(bodies, diagnostics) : "");
 }
@@ -90,7 +91,8 @@ TEST_P(Golden, A_damaged_file_is_read_to_errors_or_a_program) {
   EXPECT_LT(drawn, kFiles);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLCOPEN_GOLDEN, "in.xml")), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, ::testing::ValuesIn(golden::cases(PLCOPEN_GOLDEN, "in.xml")),
+                         [](const auto& one) { return one.param; });
 
 }  // namespace
 }  // namespace indurop::plc

@@ -51,7 +51,7 @@ class DeployedCell(Cell):
             sys.exit(SKIPPED)
         for board in (self.station, self.robot):
             self.agents.append(subprocess.Popen(
-                [self.arguments.lab, "-l", self.name, "exec", board, f"{self.arguments.bin}/indurop-node", "--agent", "--board", board,
+                [self.arguments.lab, "-l", self.name, "exec", board, f"{self.arguments.bin}/indurop-agent", "--board", board,
                  "--quiet"], env={**os.environ, "INDUROP_STATE_DIR": os.path.join(self.folder, "state")}))
         return self
 

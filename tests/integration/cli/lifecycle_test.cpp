@@ -98,7 +98,7 @@ TEST_F(CommandLine, Run_hands_arguments_and_exit_code_through) {
   const fs::path copy = folder / "indurop";
   fs::copy_file(INDUROP_PROGRAM, copy, fs::copy_options::overwrite_existing);
   Background sut({copy.string(), "run", "a b.xml", "--duration", "5s", "-q"});
-  EXPECT_TRUE(sut.wait_for("--duration 5s -q a b.xml\n")) << sut.output();
+  EXPECT_TRUE(sut.wait_for("--duration 5000000000ns --quiet -- a b.xml\n")) << sut.output();
   EXPECT_EQ(sut.wait(), 4);
 }
 

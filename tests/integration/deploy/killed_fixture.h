@@ -5,6 +5,8 @@
 
 #include <sys/stat.h>
 
+#include <functional>
+
 #include "plant_fixture.h"
 
 namespace indurop::test {

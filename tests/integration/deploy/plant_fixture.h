@@ -13,15 +13,15 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "tests/support/dds_domain.h"
+#include "tests/support/wait_until.h"
 #include "vars/node_lock.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
@@ -30,17 +30,6 @@ namespace indurop::test {
 
 using namespace std::chrono_literals;
 using Json = nlohmann::json;
-
-inline bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = 30s) {
-  const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(10ms);
-  }
-  return true;
-}
 
 class PlantTest : public ::testing::Test {
  protected:
@@ -96,8 +85,7 @@ class PlantTest : public ::testing::Test {
   void start_agent(const std::string& name, const std::vector<std::string>& before = {},
                    const std::string& state = "") {
     std::vector<std::string> words = before;
-    for (const std::string& word :
-         {node_program_, std::string("--agent"), std::string("--quiet"), std::string("--board"), board(name)}) {
+    for (const std::string& word : {agent_program_, std::string("--quiet"), std::string("--board"), board(name)}) {
       words.push_back(word);
     }
     add_link_words(words, !before.empty());
@@ -107,7 +95,7 @@ class PlantTest : public ::testing::Test {
     }
   }
   // Of agents started from now on.
-  void use_program(const std::string& program) { node_program_ = program; }
+  void use_program(const std::string& program) { agent_program_ = program; }
   void stop_agent(const std::string& name, int signal) {
     end(agents_.at(name), signal);
     agents_.erase(name);
@@ -179,9 +167,9 @@ class PlantTest : public ::testing::Test {
     all << in.rdbuf();
     return all.str();
   }
-  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+  static int domain() { return dds_domain(); }
   // Of agents and who speaks to them.
-  static int link_domain() { return 1 + (domain() + 100) % 200; }
+  static int link_domain() { return dds_domain(1); }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
@@ -222,7 +210,7 @@ class PlantTest : public ::testing::Test {
   }
 
   std::filesystem::path folder_;
-  std::string node_program_ = NODE_PROGRAM;
+  std::string agent_program_ = AGENT_PROGRAM;
   std::map<std::string, pid_t> agents_;
   std::vector<std::string> boards_;
 };

@@ -42,7 +42,7 @@ TEST_F(Releases, An_agent_of_another_one_is_named_and_nothing_is_deployed) {
   EXPECT_EQ(report("a")["state"], "empty");
   // The same release on both.
   stop_agent("b", SIGTERM);
-  use_program(NODE_PROGRAM);
+  use_program(AGENT_PROGRAM);
   start_agent("b");
   const Outcome done = deploy(file_);
   ASSERT_EQ(done.code, 0) << done.err;
@@ -58,8 +58,7 @@ TEST_F(Releases, A_node_of_another_one_is_named_by_the_others) {
   ASSERT_TRUE(peer_is("alive"));
   stop_agent("b", SIGTERM);
   ASSERT_TRUE(peer_is("silent"));
-  const pid_t older =
-      start_program({OLDER_PROGRAM, file_, "--board", board("b"), "--one-host", "--quiet"}, "older.out");
+  const pid_t older = start_program({OLDER_NODE, file_, "--board", board("b"), "--one-host", "--quiet"}, "older.out");
   ASSERT_TRUE(peer_is("mismatched")) << text(path("older.out.err"));
   EXPECT_THAT(peer()["problem"].get<std::string>(), HasSubstr("speaks protocol 1 of another release, this board 2"));
   EXPECT_TRUE(runs("a", done.json()["deployment"]));

@@ -16,8 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "mirror/external_block.h"
+#include "mirror/external/external_block.h"
 #include "node_fixture.h"
+#include "tests/support/dds_domain.h"
 #include "vars/shm_file.h"
 
 namespace indurop::test {
@@ -34,7 +35,7 @@ class Live : public NodeTest {
  protected:
   Live() { leave_the_network(); }
   // Tests that run at the same time do not hear each other, as root for sure.
-  static std::string domain() { return std::to_string(1 + ::getpid() % 200); }
+  static std::string domain() { return std::to_string(dds_domain()); }
 
   // The example's module.xml, on loopback and with a domain of its own.
   std::string configuration(const std::string& types = EXAMPLE_FOLDER "/libstation_types.so",

@@ -73,8 +73,8 @@ TEST_F(Live, Boards_of_a_plant_show_what_they_own) {
                              "/axis.so</filename><moduletype>thread</moduletype><operationtype>periodic"
                              "</operationtype><period>1ms</period><priority>1</priority></module>";
   const std::string plant = write(
-      "plant.xml", "<plant name=\"" + node() + "\"><domain>" + std::to_string(1 + (::getpid() + 1) % 200) +
-                       "</domain><external>" + domain() +
+      "plant.xml", "<plant name=\"" + node() + "\"><domain>" + std::to_string(dds_domain(1)) + "</domain><external>" +
+                       domain() +
                        "</external><types>" EXAMPLE_FOLDER
                        "/libstation_types.so</types><variable name=\"station::target\" external=\"write\"/><variable "
                        "name=\"station::limit\" external=\"off\"/><board name=\"empty\"/><board name=\"" +

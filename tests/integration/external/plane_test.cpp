@@ -1,173 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The external plane of one store, seen by a Cyclone DDS program that knows only the IDL.
 
-#include <dds/dds.h>
 #include <gmock/gmock.h>
-#include <indurop/generated.h>
-#include <indurop/indurop.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <array>
-#include <cstring>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "kinds.h"
+#include "dds/entity.h"
 #include "kinds_msgs.h"
-#include "live.h"
-#include "mirror/entity.h"
-#include "mirror/external.h"
-#include "mirror/external_block.h"
-#include "mirror/external_type.h"
+#include "plane_fixture.h"
 #include "program.h"
-#include "schema/elf.h"
-#include "vars/store.h"
 
 namespace indurop::test {
 namespace {
-
-using mirror::Exported;
-using mirror::ExternalBlock;
-
-schema::Schema own_schema() {
-  const auto file = schema::read_module_file("/proc/self/exe");
-  return schema::from_json(file.value().schema_json).value();
-}
-
-class Plane : public ::testing::Test {
- protected:
-  Plane() : schema_(own_schema()) { leave_the_network(); }
-  ~Plane() override {
-    if (participant_ > 0) {
-      dds_delete(participant_);
-    }
-    sut_.reset();
-    store_.reset();
-    (void)vars::remove_node(node());
-  }
-
-  static std::string node() { return "et" + std::to_string(::getpid()); }
-  // Tests that run at the same time do not hear each other.
-  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
-
-  // `more`: further variables of type kinds::Inner, named kinds::moreN.
-  void start(int more = 0, bool ros2 = false) {
-    const auto inner = std::find_if(schema_.variables.begin(), schema_.variables.end(),
-                                    [](const auto& v) { return v.name == "kinds::wanted_inner"; });
-    const schema::Variable pattern = *inner;
-    for (int i = 0; i < more; ++i) {
-      schema_.variables.push_back(pattern);
-      schema_.variables.back().name = "kinds::more" + std::to_string(i);
-    }
-    auto store = vars::Store::create(node(), schema_);
-    ASSERT_TRUE(store.ok());
-    store_ = std::move(store).value();
-    mirror::ExternalSettings settings;
-    settings.domain = domain();
-    settings.one_host = true;
-    settings.ros2 = ros2;
-    settings.board = node();
-    for (const schema::Variable& variable : schema_.variables) {
-      settings.variables.push_back(
-          {variable.name, descriptor_of(variable), variable.name.find("wanted") != std::string::npos, 0});
-    }
-    auto started = mirror::External::start(settings, node(), *store_, nullptr);
-    ASSERT_TRUE(started.ok());
-    sut_ = std::move(started).value();
-    auto file = vars::ShmFile::open(vars::external_file(node()), vars::Mode::ReadOnly);
-    ASSERT_TRUE(file.ok());
-    file_ = std::move(file).value();
-    ASSERT_TRUE(wait_until([&] { return block().network.load() == mirror::Network::Up; })) << block().problem.get();
-    participant_ = dds_create_participant(static_cast<dds_domainid_t>(domain()), nullptr, nullptr);
-    ASSERT_GT(participant_, 0);
-  }
-
-  static const void* descriptor_of(const schema::Variable& variable) {
-    for (const dds_topic_descriptor_t* type :
-         {&kinds_All_desc, &kinds_Inner_desc, &kinds_tick__desc, &kinds_colour__desc, &kinds_word__desc,
-          &kinds_pair__desc, &kinds_wanted__desc, &kinds_rigid__desc}) {
-      if (mirror::descriptor_problem(type, variable).empty()) {
-        return type;
-      }
-    }
-    ADD_FAILURE() << "no type for " << variable.name;
-    return nullptr;
-  }
-
-  const ExternalBlock& block() const { return *reinterpret_cast<const ExternalBlock*>(file_->data()); }
-
-  template <class T>
-  void put(const std::string& variable, const T& value) {
-    const auto* entry = store_->find(abi::fnv1a64(variable.data(), variable.size()));
-    ASSERT_NE(entry, nullptr);
-    ASSERT_EQ(entry->value_size, sizeof value);
-    std::array<std::uint8_t, sizeof value> bytes{};
-    std::memcpy(bytes.data(), &value, sizeof value);
-    ASSERT_TRUE(store_->write(*entry, 0, bytes).ok());
-  }
-  template <class T>
-  T get(const std::string& variable) {
-    const auto* entry = store_->find(abi::fnv1a64(variable.data(), variable.size()));
-    std::array<std::uint8_t, sizeof(T)> bytes{};
-    EXPECT_TRUE(store_->read(*entry, 0, bytes).ok());
-    T value;
-    std::memcpy(&value, bytes.data(), sizeof value);
-    return value;
-  }
-
-  dds_entity_t reader(const dds_topic_descriptor_t& type, const char* topic, bool late_joiner = true) {
-    const std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
-    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
-    dds_qset_durability(qos.get(), late_joiner ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
-    const dds_entity_t made = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
-    EXPECT_GT(made, 0);
-    return dds_create_reader(participant_, made, qos.get(), nullptr);
-  }
-  dds_entity_t writer(const dds_topic_descriptor_t& type, const char* topic) {
-    const dds_entity_t made = dds_create_topic(participant_, &type, topic, nullptr, nullptr);
-    EXPECT_GT(made, 0);
-    return dds_create_writer(participant_, made, nullptr, nullptr);  // reliable unless said otherwise
-  }
-  static bool matched(dds_entity_t writer) {
-    dds_publication_matched_status_t status{};
-    dds_get_publication_matched_status(writer, &status);
-    return status.current_count > 0;
-  }
-  // The next value, if there is one.
-  template <class T>
-  static std::optional<T> take(dds_entity_t reader) {
-    void* sample = nullptr;
-    dds_sample_info_t info{};
-    if (dds_take(reader, &sample, &info, 1, 1) <= 0) {
-      return std::nullopt;
-    }
-    std::optional<T> value;
-    if (info.valid_data) {
-      value = *static_cast<const T*>(sample);
-    }
-    dds_return_loan(reader, &sample, 1);
-    return value;
-  }
-  // True as soon as a value fulfils the condition.
-  template <class T, class Condition>
-  static bool receives(dds_entity_t reader, Condition condition) {
-    return wait_until([&] {
-      const auto value = take<T>(reader);
-      return value && condition(*value);
-    });
-  }
-
-  schema::Schema schema_;
-  std::optional<vars::Store> store_;
-  std::optional<mirror::External> sut_;
-  std::optional<vars::ShmFile> file_;
-  dds_entity_t participant_ = 0;
-};
 
 ::kinds::All something() {
   ::kinds::All all{};
@@ -347,7 +193,7 @@ TEST_F(Plane, Of_very_many_variables_the_topics_are_made_when_somebody_asks) {
   start(600);
   EXPECT_EQ(block().topics, 609U);
   const dds_entity_t listing = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
-  mirror::take_all<dds_builtintopic_endpoint_t>(listing, [](const auto& endpoint, const dds_sample_info_t& /*info*/) {
+  dds::take_all<dds_builtintopic_endpoint_t>(listing, [](const auto& endpoint, const dds::SampleInfo& /*info*/) {
     EXPECT_EQ(std::string(endpoint.topic_name).rfind("indurop/", 0), 0U) << "no variable is announced yet";
   });
   put("kinds::more417", ::kinds::Inner{3, 0.5});
@@ -363,25 +209,25 @@ TEST_P(PlaneNames, Of_very_many_variables_indurop_gets_those_it_asks_for_without
   start(600, GetParam());
   put("kinds::all", something());
   put("kinds::more417", ::kinds::Inner{3, 0.5});
-  const auto far = [](std::vector<std::string> words) {
+  const auto remote = [](std::vector<std::string> words) {
     words.insert(words.begin(), INDUROP_PROGRAM);
     words.insert(words.end(), {"--one-host", "--domain", std::to_string(domain())});
     Program program(words, Environment{});
     const int code = program.wait();
     return Outcome{code, program.out(), program.err()};
   };
-  EXPECT_EQ(far({"get", "kinds::more417.small"}).out, "3\n");
-  const Outcome all = far({"get", "kinds::all", "kinds::pair", "kinds::word", "-o", "csv"});
+  EXPECT_EQ(remote({"get", "kinds::more417.small"}).out, "3\n");
+  const Outcome all = remote({"get", "kinds::all", "kinds::pair", "kinds::word", "-o", "csv"});
   EXPECT_EQ(all.code, 0) << all.err;
   for (const char* part :
        {"4000000000", "-9223372036854775808", "18446744073709551615", "BLUE", "1234567", "0.25", "abc", "0.75"}) {
     EXPECT_THAT(all.out, ::testing::HasSubstr(part));
   }
-  const Outcome many = far({"get", "kinds::*", "-o", "csv"});
+  const Outcome many = remote({"get", "kinds::*", "-o", "csv"});
   EXPECT_EQ(many.code, 0) << many.err;
   EXPECT_GE(std::count(many.out.begin(), many.out.end(), '\n'), 609);
   EXPECT_THAT(many.err, ::testing::Not(::testing::HasSubstr("no value")));
-  const Outcome set = far({"set", "kinds::wanted", "-7.5"});
+  const Outcome set = remote({"set", "kinds::wanted", "-7.5"});
   EXPECT_EQ(set.code, 0) << set.err;
   EXPECT_EQ(get<double>("kinds::wanted"), -7.5);
 }

@@ -52,7 +52,7 @@ TEST_F(IoNode, Check_and_node_say_what_is_wrong_with_the_file) {
   const Outcome check = indurop({"check", xml_file});
   EXPECT_EQ(check.code, 4) << check.out;
   EXPECT_CONTAINS(check.out + check.err, "ioconfig.xml:3:18: error: no variable 'I17'; did you mean");
-  EXPECT_CONTAINS(check.out + check.err, "ioconfig.xml:4:26: error: at: 'coil' is no address of a Modbus device");
+  EXPECT_CONTAINS(check.out + check.err, "ioconfig.xml:4:26: error: at: 'coil' is not an address of a Modbus device");
   const Outcome node = run_to_end(wrong);
   EXPECT_EQ(node.code, 4);
   EXPECT_CONTAINS(node.err, "ioconfig.xml:3:18: error: no variable 'I17'");

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "board_schema.h"
-#include "mirror/mirror.h"
+#include "mirror/frames/mirror.h"
 #include "rt/clock.h"
 
 namespace {
@@ -59,6 +59,29 @@ class Ticking {
   std::atomic<std::uint64_t> runs_{0};
 };
 
+indurop::mirror::Settings read_settings(int argc, char** argv) {
+  indurop::mirror::Settings settings;
+  settings.plant = "testplant";
+  settings.network.board = argv[2];
+  settings.network.domain = std::atoi(argv[3]);
+  settings.network.one_host = std::string(argv[4]) == "one-host";
+  settings.network.lease_ns = std::atoll(argv[5]) * 1'000'000;
+  settings.boards = split(argv[7]);
+  for (const std::string& name : split(argv[8])) {
+    settings.outgoing.push_back({name, 0, name.ends_with("loose")});
+  }
+  for (const std::string& name : split(argv[9])) {
+    const std::size_t at = name.find('@');
+    settings.incoming.push_back({name.substr(0, at), name.substr(at + 1)});
+  }
+  if (argc == 11) {
+    const std::string keys = argv[10];
+    settings.network.security = {keys + "/ca.pem",         keys + "/identity.pem",    keys + "/identity.key",
+                                 keys + "/governance.p7s", keys + "/permissions.p7s", keys + "/revoked.pem"};
+  }
+  return settings;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,25 +99,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "store: %s\n", store.error().where);
     return 1;
   }
-  indurop::mirror::Settings settings;
-  settings.plant = "testplant";
-  settings.board = argv[2];
-  settings.domain = std::atoi(argv[3]);
-  settings.one_host = std::string(argv[4]) == "one-host";
-  settings.lease_ns = std::atoll(argv[5]) * 1'000'000;
-  settings.boards = split(argv[7]);
-  for (const std::string& name : split(argv[8])) {
-    settings.outgoing.push_back({name, 0, name.ends_with("loose")});
-  }
-  for (const std::string& name : split(argv[9])) {
-    const std::size_t at = name.find('@');
-    settings.incoming.push_back({name.substr(0, at), name.substr(at + 1)});
-  }
-  if (argc == 11) {
-    const std::string keys = argv[10];
-    settings.security = {keys + "/ca.pem",         keys + "/identity.pem",    keys + "/identity.key",
-                         keys + "/governance.p7s", keys + "/permissions.p7s", keys + "/revoked.pem"};
-  }
+  indurop::mirror::Settings settings = read_settings(argc, argv);
   std::atomic<std::uint64_t> tick{7};
   Ticking module(store.value(), settings.outgoing);
   const bool ticking = std::string(argv[6]) == "ticking" && !settings.outgoing.empty();

@@ -10,15 +10,15 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "mirror/mirror_block.h"
+#include "mirror/frames/mirror_block.h"
+#include "tests/support/dds_domain.h"
+#include "tests/support/wait_until.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
 #include "vars/together.h"
@@ -26,17 +26,6 @@
 namespace indurop::test {
 
 using namespace std::chrono_literals;
-
-inline bool wait_until(const std::function<bool()>& condition, std::chrono::seconds limit = 20s) {
-  const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(1ms);
-  }
-  return true;
-}
 
 struct BoardPlan {
   std::string name;
@@ -49,7 +38,7 @@ struct BoardPlan {
 class Boards : public ::testing::Test {
  public:
   // Tests that run at the same time do not hear each other.
-  static int domain() { return 1 + static_cast<int>(::getpid() % 200); }
+  static int domain() { return dds_domain(); }
 
  protected:
   ~Boards() override {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/joining.h"
+#include "dds/joining.h"
 
 #include <unistd.h>
 
 #include "board_schema.h"
 #include "boards.h"
-#include "mirror/sender.h"
+#include "mirror/frames/sender.h"
 #include "rt/clock.h"
 
 namespace indurop::test {
@@ -16,13 +16,13 @@ using namespace mirror;
 Settings on_loopback() {
   Settings settings;
   settings.plant = "joining";
-  settings.board = "a";
-  settings.domain = Boards::domain();
-  settings.one_host = true;
+  settings.network.board = "a";
+  settings.network.domain = Boards::domain();
+  settings.network.one_host = true;
   return settings;
 }
 
-int entities_of(dds_entity_t participant) {
+int entities_of(dds::Handle participant) {
   return dds_get_children(participant, nullptr, 0);
 }
 
@@ -31,23 +31,25 @@ class JoiningTest : public ::testing::Test {
   JoiningTest() { wake_.init(false); }
   std::atomic<bool> stop_{false};
   rt::SignalWord wake_{};
-  SharedText problem_{};
+  base::SharedText problem_{};
 };
 
 TEST_F(JoiningTest, What_went_half_way_is_torn_down_before_the_next_try) {
   int opened = 0;
   int closed = 0;
-  Endpoint catalogue;
-  Joining sut(
-      on_loopback(),
-      [&](dds_entity_t participant, std::string& why) {
+  dds::Endpoint catalogue;
+  dds::Joining sut(
+      on_loopback().network,
+      [&](dds::Handle participant) -> Result<void, base::Problem> {
         EXPECT_EQ(closed, opened);
         EXPECT_EQ(entities_of(participant), 0);
-        catalogue = make_writer(participant, indurop_wire_Catalogue_desc, "t", make_qos({}));
+        catalogue = dds::make_writer(participant, indurop_wire_Catalogue_desc, "t", dds::make_qos({}));
         EXPECT_TRUE(catalogue.ok()) << catalogue.why();
-        why = "not yet";
         wake_.wake();  // no need to wait for the next try
-        return ++opened == 3;
+        if (++opened < 3) {
+          return base::Problem{"not yet"};
+        }
+        return {};
       },
       [&] {
         ++closed;
@@ -65,10 +67,11 @@ TEST_F(JoiningTest, What_went_half_way_is_torn_down_before_the_next_try) {
 
 TEST_F(JoiningTest, Ends_when_it_is_told_to_and_says_why_it_waits) {
   Settings settings = on_loopback();
-  settings.one_host = false;
-  settings.interface_name = "nosuch0";
-  Joining sut(
-      settings, [](dds_entity_t, std::string&) { return true; }, [] { ADD_FAILURE() << "nothing was opened"; });
+  settings.network.one_host = false;
+  settings.network.interface_name = "nosuch0";
+  dds::Joining sut(
+      settings.network, [](dds::Handle) { return Result<void, base::Problem>{}; },
+      [] { ADD_FAILURE() << "nothing was opened"; });
   std::thread other([&] {
     EXPECT_TRUE(wait_until([&] { return problem_.get().find("nosuch0") != std::string::npos; }));
     stop_ = true;
@@ -79,13 +82,12 @@ TEST_F(JoiningTest, Ends_when_it_is_told_to_and_says_why_it_waits) {
 }
 
 TEST_F(JoiningTest, An_endpoint_takes_its_topic_along) {
-  std::string why;
-  const Participant here = join_plant(on_loopback(), why);
-  ASSERT_TRUE(here.participant.ok()) << why;
-  const dds_entity_t participant = here.participant.get();
+  const auto here = dds::join_network(on_loopback().network);
+  ASSERT_TRUE(here.ok()) << here.error().text;
+  const dds::Handle participant = here->participant.get();
   for (int i = 0; i < 3; ++i) {
-    const Endpoint writer = make_writer(participant, indurop_wire_Frame_desc, "t/frame", make_qos({}));
-    const Endpoint reader = make_reader(participant, indurop_wire_Frame_desc, "t/frame", make_qos({}));
+    const dds::Endpoint writer = dds::make_writer(participant, indurop_wire_Frame_desc, "t/frame", dds::make_qos({}));
+    const dds::Endpoint reader = dds::make_reader(participant, indurop_wire_Frame_desc, "t/frame", dds::make_qos({}));
     EXPECT_TRUE(writer.ok() && reader.ok());
     EXPECT_GT(entities_of(participant), 2);
   }
@@ -101,17 +103,17 @@ TEST_F(JoiningTest, A_sender_that_was_closed_sends_in_the_next_network) {
   Settings settings = on_loopback();
   settings.outgoing = {{"t::count"}, {"t::large"}};
   Sender sut(store.value(), settings, 1, *block);
-  std::string why;
   for (int i = 0; i < 2; ++i) {
-    const Participant here = join_plant(settings, why);
-    ASSERT_TRUE(here.participant.ok()) << why;
-    ASSERT_TRUE(sut.open(here.participant.get(), settings, why)) << why;
+    const auto here = dds::join_network(settings.network);
+    ASSERT_TRUE(here.ok()) << here.error().text;
+    const auto opened = sut.open(here->participant.get(), settings);
+    ASSERT_TRUE(opened.ok()) << opened.error().text;
     const std::uint64_t sent = block->frames.load();
     sut.cycle(rt::now_ns(), 0, false);
     EXPECT_GT(block->frames.load(), sent);
     EXPECT_EQ(block->send_errors.load(), 0U);
     sut.close();
-    EXPECT_EQ(entities_of(here.participant.get()), 0);
+    EXPECT_EQ(entities_of(here->participant.get()), 0);
   }
   (void)vars::remove_node(node);
 }

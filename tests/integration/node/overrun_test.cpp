@@ -33,7 +33,7 @@ class Overrun : public NodeTest {
 
 TEST_F(Overrun, Skip_leaves_out_releases_and_goes_on) {
   for (const auto& beside : {kCounter, kFast}) {
-    Program& sut = start_and_wait({beside, slow("skip")});
+    Program& sut = start_and_wait({beside, slow("skip", "1ms", "2500")});
     EXPECT_TRUE(wait_until([&] { return module("slow").overruns.load() > 5 && module("slow").skipped.load() > 5; }));
     EXPECT_TRUE(runs_reach("slow", module("slow").runs.load() + 10));
     stop(sut);

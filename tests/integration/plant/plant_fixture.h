@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "mirror/mirror_block.h"
+#include "mirror/frames/mirror_block.h"
 #include "program.h"
 #include "scheduler/run_block.h"
+#include "tests/support/dds_domain.h"
 #include "vars/run_file.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
@@ -54,7 +55,7 @@ class PlantTest : public ::testing::Test {
   }
   std::string write(const std::string& boards) {
     const std::string file = folder_ / "plant.xml";
-    std::ofstream(file) << "<plant name=\"pt\"><domain>" << 1 + ::getpid() % 200
+    std::ofstream(file) << "<plant name=\"pt\"><domain>" << dds_domain()
                         << "</domain><external>off</external><lease>200ms</lease>" << boards << "</plant>";
     return file;
   }

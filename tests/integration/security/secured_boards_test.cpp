@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boards of a secured plant on loopback, and strangers, viewers and boards with wrong keys beside them.
 
-#include <wire.h>
+#include <indurop/idl/wire.h>
 
 #include <filesystem>
 
-#include "deploy/plant_keys.h"
-#include "mirror/dds_setup.h"
+#include "dds/setup.h"
+#include "keys/plant_keys.h"
+#include "mirror/frames/plane_topics.h"
 #include "tests/integration/mirror/boards.h"
 
 namespace indurop::test {
 namespace {
 
 namespace fs = std::filesystem;
-using deploy::ParticipantKeys;
-using deploy::PlantKeys;
+using keys::ParticipantKeys;
+using keys::PlantKeys;
 using mirror::PeerState;
 using ::testing::HasSubstr;
 
@@ -28,7 +29,7 @@ class Secured : public Boards {
 
   PlantKeys make(const std::string& name, std::chrono::days valid = std::chrono::days(100)) {
     PlantKeys keys(folder_ / name);
-    EXPECT_EQ(keys.make("testplant", {"a", "b", "c"}, deploy::instant_now() + valid), "");
+    EXPECT_EQ(keys.make("testplant", {"a", "b", "c"}, keys::instant_now() + valid), "");
     return keys;
   }
   void start_a(const fs::path& keys) { start({"a", "t::count", "t::reply@b", "plain", keys.string()}, {"b"}); }
@@ -55,10 +56,10 @@ class Secured : public Boards {
     const ParticipantKeys keys(folder);
     mirror::Settings settings;
     settings.plant = "testplant";
-    settings.domain = domain();
-    settings.one_host = true;
-    settings.security = {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
-                         keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+    settings.network.domain = domain();
+    settings.network.one_host = true;
+    settings.network.security = {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
+                                 keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
     return settings;
   }
 
@@ -117,36 +118,30 @@ TEST_F(Secured, A_viewer_reads_and_cannot_publish) {
   start_b(keys.board("b"));
   exchange(1);
   const mirror::Settings settings = participant(keys.viewer());
-  std::string problem;
-  const mirror::Participant viewer = mirror::join_plant(settings, problem);
-  ASSERT_TRUE(viewer.participant.ok()) << problem;
+  const auto viewer = dds::join_network(settings.network);
+  ASSERT_TRUE(viewer.ok()) << viewer.error().text;
   const auto topic = mirror::catalogue_topic("testplant");
   const auto qos = mirror::plane_qos(settings, mirror::Stream::Prompt);
-  const auto reader = mirror::make_reader(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, qos);
+  const auto reader = dds::make_reader(viewer->participant.get(), indurop_wire_Catalogue_desc, topic, qos);
   ASSERT_TRUE(reader.ok()) << reader.why();
   EXPECT_TRUE(wait_until([&] {
-    void* sample = nullptr;
-    dds_sample_info_t info{};
-    const int count = dds_take(reader.get(), &sample, &info, 1, 1);
-    if (count > 0) {
-      (void)dds_return_loan(reader.get(), &sample, count);
-    }
-    return count > 0;
+    bool heard = false;
+    dds::take_one<indurop_wire_Catalogue>(reader.get(), [&](const auto&, const dds::SampleInfo&) { heard = true; });
+    return heard;
   })) << "the viewer hears nothing";
-  const auto writer = mirror::make_writer(viewer.participant.get(), indurop_wire_Catalogue_desc, topic, qos);
+  const auto writer = dds::make_writer(viewer->participant.get(), indurop_wire_Catalogue_desc, topic, qos);
   EXPECT_FALSE(writer.ok());
 }
 
 TEST_F(Secured, A_board_cannot_speak_for_another_one) {
   const PlantKeys keys = make("keys");
   const mirror::Settings settings = participant(keys.board("b"));
-  std::string problem;
-  const mirror::Participant b = mirror::join_plant(settings, problem);
-  ASSERT_TRUE(b.participant.ok()) << problem;
+  const auto b = dds::join_network(settings.network);
+  ASSERT_TRUE(b.ok()) << b.error().text;
   const auto writer = [&](const char* board) {
-    return mirror::make_writer(b.participant.get(), indurop_wire_Frame_desc,
-                               mirror::frames_topic("testplant", board, mirror::Stream::Prompt),
-                               mirror::plane_qos(settings, mirror::Stream::Prompt));
+    return dds::make_writer(b->participant.get(), indurop_wire_Frame_desc,
+                            mirror::frames_topic("testplant", board, mirror::Stream::Prompt),
+                            mirror::plane_qos(settings, mirror::Stream::Prompt));
   };
   EXPECT_TRUE(writer("b").ok());
   EXPECT_FALSE(writer("a").ok());
@@ -154,7 +149,7 @@ TEST_F(Secured, A_board_cannot_speak_for_another_one) {
 
 TEST_F(Secured, A_revoked_board_is_kept_out) {
   const PlantKeys keys = make("keys");
-  const auto all = keys.list(deploy::instant_now());
+  const auto all = keys.list(keys::instant_now());
   ASSERT_EQ(all[2].name, "c");
   const fs::path old_list = keys.board("c") / "old.pem";  // the thief does not install the list against himself
   copy(ParticipantKeys(keys.board("c")).revoked, old_list);

@@ -2,7 +2,7 @@
 # The service: what systemd finds wrong with it, and that it has the two rights it needs and no others.
 # Usage: unit_test.sh SOURCE_DIR PROGRAM_DIR
 set -eu
-unit=$1/systemd/indurop-node@.service.in
+unit=$1/packaging/systemd/indurop-agent@.service.in
 fail() { echo "$unit: $1" >&2; exit 1; }
 
 for key in CapabilityBoundingSet AmbientCapabilities; do
@@ -20,6 +20,6 @@ fi
 command -v systemd-analyze >/dev/null || { echo "skipped: no systemd-analyze"; exit 0; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-sed -e "s|@INDUROP_PROGRAMS@|$2|" -e "s|@INDUROP_DOCS@|$1/docs|" "$unit" >"$work/indurop-node@.service"
-said=$(systemd-analyze verify "$work/indurop-node@.service" 2>&1 | grep -F "$work" || true)
+sed -e "s|@INDUROP_PROGRAMS@|$2|" -e "s|@INDUROP_DOCS@|$1/docs|" "$unit" >"$work/indurop-agent@.service"
+said=$(systemd-analyze verify "$work/indurop-agent@.service" 2>&1 | grep -F "$work" || true)
 [ -z "$said" ] || fail "$said"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One board in a deployment: every way out of it.
 
-#include "deploy/board_transaction.h"
+#include "deploy/transaction/board_transaction.h"
 
 #include <gmock/gmock.h>
 
@@ -11,8 +11,9 @@ namespace {
 using Do = BoardTransaction::Do;
 using testing::HasSubstr;
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::chrono::milliseconds kMs{1};
+constexpr std::chrono::seconds kSecond{1};
+constexpr std::chrono::nanoseconds kOneNs{1};
 
 class Board : public testing::Test {
  protected:
@@ -24,9 +25,9 @@ class Board : public testing::Test {
     out.generation = 3;
     out.boards = {"a", "b"};
     out.step = step;
-    out.health_ns = kSecond;
-    out.said_at_ns = wall_;
-    out.switch_at_ns = wall_ + 300 * kMs;
+    out.health_ns = std::chrono::nanoseconds(kSecond).count();
+    out.said_at_ns = rt::to_ns(wall_);
+    out.switch_at_ns = rt::to_ns(wall_ + 300 * kMs);
     return out;
   }
   Do hear(Step step, std::uint64_t deployer = 7) { return sut_.hear(order(step, deployer), now_, wall_); }
@@ -51,8 +52,8 @@ class Board : public testing::Test {
   }
 
   BoardTransaction sut_{"a"};
-  std::int64_t now_ = 100 * kSecond;
-  std::int64_t wall_ = 5'000 * kSecond;
+  rt::MonoTime now_{100 * kSecond};
+  rt::WallTime wall_{5'000 * kSecond};
 };
 
 TEST_F(Board, Commits_when_all_goes_well) {
@@ -115,7 +116,7 @@ TEST_F(Board, A_node_that_is_not_well_by_the_end_of_its_window_goes_back) {
   switch_over();
   now_ += kSecond;
   EXPECT_EQ(sut_.node("", "still starting", now_), Do::Nothing);
-  now_ += BoardTransaction::kSlowStartNs;
+  now_ += BoardTransaction::kSlowStart;
   EXPECT_EQ(sut_.node("", "still starting", now_), Do::GoBack);
   EXPECT_EQ(sut_.message(), "still starting");
 }
@@ -128,8 +129,8 @@ TEST_F(Board, An_abort_in_the_trial_goes_back) {
 
 TEST_F(Board, A_silent_deployer_is_given_up_in_every_phase) {
   ASSERT_EQ(hear(Step::Prepare), Do::Fetch);
-  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilenceNs), Do::Nothing);
-  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilenceNs + 1), Do::Forget);
+  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilence), Do::Nothing);
+  EXPECT_EQ(sut_.time(now_ + BoardTransaction::kSilence + kOneNs), Do::Forget);
   EXPECT_EQ(sut_.phase(), Phase::Steady);
 }
 
@@ -144,8 +145,8 @@ TEST_F(Board, Switches_at_the_instant_by_the_clock_if_clocks_agree) {
   prepare();
   wall_ += 20 * kMs;  // on the way
   Order late = order(Step::Switch);
-  late.said_at_ns -= 20 * kMs;
-  late.switch_at_ns -= 20 * kMs;
+  late.said_at_ns -= std::chrono::nanoseconds(20 * kMs).count();
+  late.switch_at_ns -= std::chrono::nanoseconds(20 * kMs).count();
   ASSERT_EQ(sut_.hear(late, now_, wall_), Do::Nothing);
   EXPECT_EQ(sut_.time(now_ + 279 * kMs), Do::Nothing);
   EXPECT_EQ(sut_.time(now_ + 280 * kMs), Do::Switch);
@@ -171,7 +172,7 @@ TEST_F(Board, Takes_over_what_it_missed_without_a_deployer) {
   EXPECT_EQ(sut_.fetched(""), Do::Check);
   EXPECT_EQ(sut_.checked("", now_), Do::Nothing);
   EXPECT_EQ(sut_.time(now_), Do::Switch);
-  EXPECT_EQ(sut_.node("", "board b is silent", now_ + BoardTransaction::kJoinHealthNs), Do::Commit);
+  EXPECT_EQ(sut_.node("", "board b is silent", now_ + BoardTransaction::kJoinHealth), Do::Commit);
   EXPECT_EQ(sut_.order().generation, 9U);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What travels to boards, and what a board makes of a package it is sent.
 
-#include "deploy/package.h"
+#include "deploy/transaction/package.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <fstream>
 
-#include "deploy/digest.h"
+#include "keys/digest.h"
 
 namespace indurop::deploy {
 namespace {
@@ -26,21 +26,20 @@ Package sample() {
 }
 
 std::string problem_of(const Package& package) {
-  std::string problem;
-  return read_package(to_text(package), problem) ? "" : problem;
+  const auto sut = read_package(to_text(package));
+  return sut ? "" : sut.error().text;
 }
 
 TEST(Digest, Known_values) {
-  EXPECT_EQ(digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-  EXPECT_EQ(digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_FALSE(is_digest(std::string(63, 'a')));
-  EXPECT_FALSE(is_digest(std::string(64, 'A')));
+  EXPECT_EQ(keys::digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(keys::digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_FALSE(keys::is_digest(std::string(63, 'a')));
+  EXPECT_FALSE(keys::is_digest(std::string(64, 'A')));
 }
 
 TEST(Package, Text_and_back) {
-  std::string problem;
-  const auto sut = read_package(to_text(sample()), problem);
-  ASSERT_TRUE(sut) << problem;
+  const auto sut = read_package(to_text(sample()));
+  ASSERT_TRUE(sut) << sut.error().text;
   EXPECT_EQ(to_text(*sut), to_text(sample()));
   EXPECT_TRUE(sut->files[0].executable);
 }
@@ -49,7 +48,7 @@ TEST(Package, Paths_that_leave_the_folder_are_refused) {
   for (const char* path : {"../x", "/etc/passwd", "a/../../x", "a//b", "./x", "", "a/", "a/.."}) {
     Package bad = sample();
     bad.files[0].path = path;
-    EXPECT_THAT(problem_of(bad), HasSubstr("no path")) << path;
+    EXPECT_THAT(problem_of(bad), HasSubstr("is not a path")) << path;
   }
 }
 
@@ -77,13 +76,11 @@ TEST(Package, Garbage_is_no_package) {
         "{\"indurop_package\":1,\"plant\":1,\"manifest\":2,\"boards\":3,\"files\":4}",
         "{\"indurop_package\":1,\"plant\":\"p\",\"manifest\":\"m\",\"boards\":[1],\"files\":[]}",
         "{\"indurop_package\":1,\"plant\":\"p\",\"manifest\":\"m\",\"boards\":[\"a\"],\"files\":[{}]}"}) {
-    std::string problem;
-    EXPECT_FALSE(read_package(text, problem)) << text;
-    EXPECT_NE(problem, "") << text;
+    const auto sut = read_package(text);
+    ASSERT_FALSE(sut) << text;
+    EXPECT_NE(sut.error().text, "") << text;
   }
-  std::string problem;
-  EXPECT_FALSE(read_package("{\"indurop_package\":2}", problem));
-  EXPECT_THAT(problem, HasSubstr("another InduRoP version"));
+  EXPECT_THAT(read_package("{\"indurop_package\":2}").error().text, HasSubstr("another InduRoP version"));
 }
 
 class Packing : public testing::Test {
@@ -96,8 +93,8 @@ class Packing : public testing::Test {
   }
   ~Packing() override { std::filesystem::remove_all(folder_); }
   void put(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-  Plant plant(const std::string& module) const {
-    Plant out;
+  config::Plant plant(const std::string& module) const {
+    config::Plant out;
     out.file = folder_ / "cell/plant.xml";
     out.name = "cell";
     out.boards.resize(1);
@@ -110,29 +107,26 @@ class Packing : public testing::Test {
 };
 
 TEST_F(Packing, Files_keep_their_places_to_each_other) {
-  std::string problem;
-  const auto sut = pack_plant(plant("../mods/x.so"), problem);
-  ASSERT_TRUE(sut) << problem;
+  const auto sut = pack_plant(plant("../mods/x.so"));
+  ASSERT_TRUE(sut) << sut.error().text;
   ASSERT_EQ(sut->package.files.size(), 2U);
   EXPECT_EQ(sut->package.manifest, "cell/plant.xml");
   EXPECT_EQ(sut->package.files[1].path, "mods/x.so");
-  EXPECT_EQ(sut->package.files[1].digest, digest_of("module"));
-  EXPECT_EQ(sut->sources.at(digest_of("module")), folder_ / "mods/x.so");
-  EXPECT_EQ(sut->id, digest_of(sut->text));
+  EXPECT_EQ(sut->package.files[1].digest, keys::digest_of("module"));
+  EXPECT_EQ(sut->sources.at(keys::digest_of("module")), folder_ / "mods/x.so");
+  EXPECT_EQ(sut->id, keys::digest_of(sut->text));
 }
 
 TEST_F(Packing, One_changed_byte_is_another_deployment) {
-  std::string problem;
-  const std::string before = pack_plant(plant("../mods/x.so"), problem)->id;
-  EXPECT_EQ(pack_plant(plant("../mods/x.so"), problem)->id, before);
+  const std::string before = pack_plant(plant("../mods/x.so"))->id;
+  EXPECT_EQ(pack_plant(plant("../mods/x.so"))->id, before);
   put("mods/x.so", "Module");
-  EXPECT_NE(pack_plant(plant("../mods/x.so"), problem)->id, before);
+  EXPECT_NE(pack_plant(plant("../mods/x.so"))->id, before);
 }
 
 TEST_F(Packing, Files_of_the_board_itself_do_not_travel) {
-  std::string problem;
-  const auto sut = pack_plant(plant("/usr/bin/env"), problem);
-  ASSERT_TRUE(sut) << problem;
+  const auto sut = pack_plant(plant("/usr/bin/env"));
+  ASSERT_TRUE(sut) << sut.error().text;
   EXPECT_EQ(sut->package.files.size(), 1U);
 }
 
@@ -141,32 +135,29 @@ TEST_F(Packing, The_files_of_an_io_module_travel_too) {
       "<ioconfig><device name='a' driver='csv' file='../mods/values.csv'><input variable='x'/></device>"
       "<device name='b' driver='csv' file='/etc/own.csv'><input variable='y'/></device></ioconfig>");
   put("mods/values.csv", "time,x\n0,1\n");
-  Plant with = plant("/usr/local/lib/libiodispat.so");
-  Module& module = with.boards[0].config.modules[0];
+  config::Plant with = plant("/usr/local/lib/libiodispat.so");
+  config::Module& module = with.boards[0].config.modules[0];
   module.file = module.file_as_written;
   module.properties = {{"config", "io.xml"}};
-  std::string problem;
-  const auto sut = pack_plant(with, problem);
-  ASSERT_TRUE(sut) << problem;
+  const auto sut = pack_plant(with);
+  ASSERT_TRUE(sut) << sut.error().text;
   ASSERT_EQ(sut->package.files.size(), 3U);
   EXPECT_EQ(sut->package.files[0].path, "cell/io.xml");
   EXPECT_EQ(sut->package.files[2].path, "mods/values.csv");
   module.properties = {{"config", "/etc/io.xml"}};
-  EXPECT_EQ(pack_plant(with, problem)->package.files.size(), 1U) << "the board's own";
+  EXPECT_EQ(pack_plant(with)->package.files.size(), 1U) << "the board's own";
   module.properties = {{"config", "gone.xml"}};
-  EXPECT_FALSE(pack_plant(with, problem));
-  EXPECT_THAT(problem, HasSubstr("gone.xml"));
+  EXPECT_THAT(pack_plant(with).error().text, HasSubstr("gone.xml"));
 }
 
 TEST_F(Packing, Files_that_properties_name_travel_too) {
   put("cell/pick.job", "MOVJ P1\n");
   put("mods/arm.urdf", "<robot/>");
-  Plant with = plant("../mods/x.so");
+  config::Plant with = plant("../mods/x.so");
   with.boards[0].config.modules[0].properties = {
       {"jobs", "pick.job  gone.job"}, {"urdf", "../mods/arm.urdf"}, {"own", "/etc/hostname"}, {"folder", "../mods"}};
-  std::string problem;
-  const auto sut = pack_plant(with, problem);
-  ASSERT_TRUE(sut) << problem;
+  const auto sut = pack_plant(with);
+  ASSERT_TRUE(sut) << sut.error().text;
   std::vector<std::string> paths;
   for (const PackageFile& file : sut->package.files) {
     paths.push_back(file.path);
@@ -175,9 +166,7 @@ TEST_F(Packing, Files_that_properties_name_travel_too) {
 }
 
 TEST_F(Packing, A_file_that_cannot_be_read_is_named) {
-  std::string problem;
-  EXPECT_FALSE(pack_plant(plant("gone.so"), problem));
-  EXPECT_THAT(problem, HasSubstr("gone.so"));
+  EXPECT_THAT(pack_plant(plant("gone.so")).error().text, HasSubstr("gone.so"));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The deployer: what it tells the boards, and what it makes of their answers.
 
-#include "deploy/plant_transaction.h"
+#include "deploy/transaction/plant_transaction.h"
 
 #include <gmock/gmock.h>
 
@@ -14,7 +14,8 @@ using testing::HasSubstr;
 using testing::Key;
 using testing::Pair;
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::chrono::seconds kSecond{1};
+constexpr std::chrono::nanoseconds kOneNs{1};
 
 Order make_order() {
   Order order;
@@ -22,7 +23,7 @@ Order make_order() {
   order.deployment = "new";
   order.generation = 4;
   order.boards = {"a", "b"};
-  order.health_ns = kSecond;
+  order.health_ns = std::chrono::nanoseconds(kSecond).count();
   return order;
 }
 
@@ -52,8 +53,8 @@ class Deployer : public testing::Test {
     all(Phase::Trial);
   }
 
-  std::int64_t now_ = 50 * kSecond;
-  std::int64_t wall_ = 1'000 * kSecond;
+  rt::MonoTime now_{50 * kSecond};
+  rt::WallTime wall_{1'000 * kSecond};
   PlantTransaction sut_{make_order(), 5 * kSecond, now_};
 };
 
@@ -64,7 +65,7 @@ TEST_F(Deployer, Switches_when_all_are_prepared_and_commits_when_all_are_healthy
   say(report("b", Phase::Prepared));
   EXPECT_TRUE(time());
   EXPECT_EQ(sut_.order().step, Step::Switch);
-  EXPECT_EQ(sut_.order().switch_at_ns, wall_ + PlantTransaction::kSwitchAheadNs);
+  EXPECT_EQ(sut_.order().switch_at_ns, rt::to_ns(wall_ + PlantTransaction::kSwitchAhead));
   say(report("a", Phase::Healthy));
   say(report("b", Phase::Trial));
   EXPECT_FALSE(time());
@@ -179,7 +180,7 @@ TEST_F(Deployer, After_the_commit_was_said_nothing_takes_it_back) {
   sut_.board_gone("b", 2, now_);
   sut_.give_up(now_);
   EXPECT_EQ(sut_.verdict(), Verdict::Committed);
-  now_ += PlantTransaction::kWindUpNs + 1;
+  now_ += PlantTransaction::kWindUp + kOneNs;
   time();
   EXPECT_TRUE(sut_.finished());
   EXPECT_THAT(sut_.unconfirmed(), ElementsAre("a", "b"));
@@ -193,7 +194,7 @@ TEST_F(Deployer, Boards_of_another_deployer_are_busy_after_a_while) {
   say(other);
   time();
   EXPECT_EQ(sut_.order().step, Step::Prepare);
-  now_ += PlantTransaction::kBusyNs + 1;
+  now_ += PlantTransaction::kBusy + kOneNs;
   time();
   EXPECT_EQ(sut_.verdict(), Verdict::Busy);
   EXPECT_EQ(sut_.reasons().at("b"), "busy with deployment 0123456789ab of desk");
@@ -216,7 +217,7 @@ TEST_F(Deployer, Of_two_at_once_the_earlier_goes_on) {
 
 TEST_F(Deployer, Nothing_happening_ends_it) {
   say(report("a", Phase::Prepared));
-  now_ += 5 * kSecond + 1;
+  now_ += 5 * kSecond + kOneNs;
   time();
   EXPECT_EQ(sut_.verdict(), Verdict::Refused);
   EXPECT_THAT(sut_.reasons(), ElementsAre(Key("b")));

@@ -23,6 +23,10 @@ inline Compilation compile_files(const Files& files, const std::vector<std::stri
   });
 }
 
+inline std::string messages(const Compilation& compilation) {
+  return base::to_text(compilation.diagnostics, "glb2idl");
+}
+
 inline Compilation compile_text(const std::string& text) {
   return compile_files({{"in.glb", text}}, {"in.glb"});
 }
@@ -37,7 +41,7 @@ inline schema::Variable variable(const Compilation& compilation, const std::stri
       }
     }
   }
-  throw std::runtime_error("no variable " + name + "\n" + compilation.messages);
+  throw std::runtime_error("no variable " + name + "\n" + messages(compilation));
 }
 
 }  // namespace indurop::glb2idl::test

@@ -10,8 +10,7 @@ namespace {
 std::string value_of(const std::string& expression) {
   const Compilation sut = test::compile_text("namespace t;\n#define BEFORE 7\n#define X " + expression + "\n");
   if (!sut.ok) {
-    const std::size_t begin = sut.messages.find("error: ") + 7;
-    return sut.messages.substr(begin, sut.messages.find('\n') - begin);
+    return sut.diagnostics.front().text;
   }
   return to_text(std::get<Constant>(sut.program.units[0].items.back()).value);
 }

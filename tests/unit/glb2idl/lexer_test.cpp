@@ -14,7 +14,8 @@ struct Result {
 
 Result lex(const std::string& text) {
   Sources sources;
-  Diagnostics diagnostics(sources);
+  std::vector<base::Diagnostic> found;
+  Diagnostics diagnostics(sources, found);
   const auto file = sources.add("in.glb", "in.glb", text);
   const Tokens sut = tokenize(sources, file, diagnostics);
   Result result;

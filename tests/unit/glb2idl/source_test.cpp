@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 TEST(Sources, Lines_and_columns_count_from_one) {
   Sources sut;
   const auto file = sut.add("a", "a", "ab\n\xc3\xa4x\r\n\nend");
-  EXPECT_EQ(sut.place_of({file, 0, 1}).line, 1U);
-  EXPECT_EQ(sut.place_of({file, 5, 1}).line, 2U);
-  EXPECT_EQ(sut.place_of({file, 5, 1}).column, 2U) << "an umlaut is one character";
+  EXPECT_EQ(sut.place_of({file, 0, 1}).line, 1);
+  EXPECT_EQ(sut.place_of({file, 5, 1}).line, 2);
+  EXPECT_EQ(sut.place_of({file, 5, 1}).column, 2) << "an umlaut is one character";
   EXPECT_EQ(sut.line_text(file, 2), "\xc3\xa4x");
   EXPECT_EQ(sut.line_text(file, 4), "end");
 }

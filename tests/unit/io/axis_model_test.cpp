@@ -37,7 +37,7 @@ Response step_of(AxisModel& sut, double size, double seconds) {
 
 TEST(AxisModel, A_small_step_is_critically_damped) {
   for (const double bandwidth : {5.0, 20.0, 80.0}) {
-    deploy::IoAxis axis;
+    config::IoAxis axis;
     axis.bandwidth = bandwidth;
     AxisModel sut(axis);
     const Response response = step_of(sut, 1e-4, 2);
@@ -49,7 +49,7 @@ TEST(AxisModel, A_small_step_is_critically_damped) {
 }
 
 TEST(AxisModel, Damping_costs_no_position) {
-  deploy::IoAxis axis;
+  config::IoAxis axis;
   axis.damping = 20;
   AxisModel sut(axis);
   step_of(sut, 0.01, 1);
@@ -57,7 +57,7 @@ TEST(AxisModel, Damping_costs_no_position) {
 }
 
 TEST(AxisModel, A_large_step_keeps_to_torque_and_speed) {
-  deploy::IoAxis axis;
+  config::IoAxis axis;
   axis.damping = 0;
   AxisModel sut(axis);
   const Response response = step_of(sut, 90 * kDegree, 0.3);
@@ -71,7 +71,7 @@ TEST(AxisModel, A_large_step_keeps_to_torque_and_speed) {
 }
 
 TEST(AxisModel, The_brake_stops_and_holds) {
-  AxisModel sut(deploy::IoAxis{});
+  AxisModel sut(config::IoAxis{});
   for (int i = 0; i < 1000; ++i) {
     sut.drive({0, 100 * kDegree, false});
   }
@@ -85,7 +85,7 @@ TEST(AxisModel, The_brake_stops_and_holds) {
 }
 
 TEST(AxisModel, The_encoder_counts_whole_steps) {
-  deploy::IoAxis axis;
+  config::IoAxis axis;
   axis.counts = 360;
   axis.start = 12.4;
   EXPECT_EQ(AxisModel(axis).read_encoder(), 12);

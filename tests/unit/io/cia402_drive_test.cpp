@@ -16,15 +16,15 @@ constexpr double kCounts = 360'000;  // 1000 per degree
 constexpr milliseconds kPeriod{1};
 constexpr std::uint16_t kEnabling[] = {0x00, 0x06, 0x07, 0x0F};
 
-deploy::IoAxis axis() {
-  deploy::IoAxis a;
+config::IoAxis axis() {
+  config::IoAxis a;
   a.counts = kCounts;
   return a;
 }
 
 class Cia402 : public ::testing::Test {
  protected:
-  explicit Cia402(const deploy::IoAxis& settings = axis()) : sut(settings) {}
+  explicit Cia402(const config::IoAxis& settings = axis()) : sut(settings) {}
 
   DriveFeedback step() { return now = sut.step(command, kPeriod); }
   void steps(int count) {
@@ -212,8 +212,8 @@ TEST_F(Cia402, An_unknown_mode_leaves_the_old_one) {
 
 class Cia402Homing : public Cia402 {
  protected:
-  static deploy::IoAxis settings() {
-    deploy::IoAxis a = axis();
+  static config::IoAxis settings() {
+    config::IoAxis a = axis();
     a.start = 30;
     a.mark = 10;
     return a;
@@ -243,7 +243,7 @@ TEST_F(Cia402Homing, Goes_to_the_mark_which_is_0_then) {
 }
 
 TEST(Cia402Wrap, Positions_go_on_beyond_32_bits) {
-  deploy::IoAxis settings = axis();
+  config::IoAxis settings = axis();
   settings.counts = 2'000'000'000;
   settings.start = 386;  // of 386.547 that 32 bits can say
   Cia402Drive sut(settings);
@@ -264,9 +264,9 @@ TEST(Cia402Wrap, Positions_go_on_beyond_32_bits) {
 }
 
 TEST(Cia402Noise, Is_the_same_for_the_same_seed) {
-  deploy::IoAxis settings = axis();
+  config::IoAxis settings = axis();
   settings.noise = 3;
-  const auto run = [](const deploy::IoAxis& a) {
+  const auto run = [](const config::IoAxis& a) {
     Cia402Drive drive(a);
     std::vector<std::int32_t> seen;
     for (int i = 0; i < 200; ++i) {

@@ -34,8 +34,8 @@ class FakeDriver final : public Driver {
   Outcome outcome = Outcome::Good;
 };
 
-deploy::BoundPoint point(schema::Base base, double scale = 1, double offset = 0) {
-  deploy::BoundPoint b;
+config::BoundPoint point(schema::Base base, double scale = 1, double offset = 0) {
+  config::BoundPoint b;
   b.point.scale = scale;
   b.point.offset = offset;
   b.variable.type.base = base;
@@ -49,7 +49,7 @@ T value_of(const DeviceImage& image) {
   return value;
 }
 
-DeviceImage input(const deploy::BoundPoint& p) {
+DeviceImage input(const config::BoundPoint& p) {
   return DeviceImage(std::span(&p, 1), {});
 }
 
@@ -81,7 +81,7 @@ TEST(DeviceImage, A_bad_value_holds_the_last_good_one) {
 
 TEST(DeviceImage, A_bad_value_becomes_what_the_file_says) {
   FakeDriver driver;
-  deploy::BoundPoint p = point(schema::Base::Int16, 10);
+  config::BoundPoint p = point(schema::Base::Int16, 10);
   p.point.bad_value = -1;
   DeviceImage sut = input(p);
   sut.lose();
@@ -117,7 +117,7 @@ TEST(DeviceImage, Refused_points_are_told_from_a_lost_device) {
 class Output : public ::testing::Test {
  protected:
   DeviceImage image(double scale = 1, std::optional<double> stop = {}) {
-    deploy::BoundPoint p = point(schema::Base::Double, scale, 5);
+    config::BoundPoint p = point(schema::Base::Double, scale, 5);
     p.point.output = true;
     p.point.stop = stop;
     return DeviceImage({}, std::span(&p, 1));

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <indurop/indurop.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -123,6 +124,13 @@ TEST_F(DispatcherTest, A_missing_file_and_a_missing_column_are_named) {
   ASSERT_EQ(problems_.size(), 2U);
   EXPECT_THAT(problems_[0], HasSubstr("gone.csv: error: cannot be read: No such file"));
   EXPECT_THAT(problems_[1], HasSubstr("in.csv:1:1: error: there is no column 'I0'; there are a, b"));
+}
+
+TEST_F(DispatcherTest, A_pipe_in_place_of_the_recorded_values_is_refused_at_once) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.csv").c_str(), 0600), 0);
+  EXPECT_EQ(make(R"(<device name="rec" driver="csv" file="pipe.csv"><input variable="I0"/></device>)"), nullptr);
+  ASSERT_EQ(problems_.size(), 1U);
+  EXPECT_THAT(problems_[0], HasSubstr("pipe.csv: error: cannot be read: it is a pipe, not a file"));
 }
 
 TEST_F(DispatcherTest, A_drive_cannot_be_split_among_two_modules) {

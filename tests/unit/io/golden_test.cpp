@@ -10,7 +10,7 @@
 #include <indurop/generated.h>
 
 #include "cell_schema.h"
-#include "deploy/io_config.h"
+#include "config/model/io_config.h"
 #include "tests/golden/golden.h"
 
 namespace indurop::io {
@@ -20,12 +20,12 @@ class IoGolden : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(IoGolden, Says_what_is_expected) {
   const std::filesystem::path folder = std::filesystem::path(GOLDEN_IO) / GetParam();
-  deploy::ReadIo read = deploy::read_io_config_text(golden::slurp(folder / "in.xml"), "in.xml");
+  config::ReadIo read = config::read_io_config_text(golden::slurp(folder / "in.xml"), "in.xml");
   const schema::Schema schema = cell_schema();
-  static_cast<void>(deploy::bind_io(read.config, schema, read.diagnostics));
+  static_cast<void>(config::bind_io(read.config, schema, read.diagnostics));
   std::string said;
-  for (const deploy::Diagnostic& diagnostic : read.diagnostics) {
-    said += deploy::to_string(diagnostic) + "\n";
+  for (const base::Diagnostic& diagnostic : read.diagnostics) {
+    said += base::to_string(diagnostic) + "\n";
   }
   if (golden::updating()) {
     std::ofstream(folder / "expected.err") << said;

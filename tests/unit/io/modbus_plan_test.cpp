@@ -7,9 +7,9 @@
 namespace indurop::io {
 namespace {
 
-using deploy::IoPoint;
-using deploy::IoTable;
-using deploy::WireType;
+using config::IoPoint;
+using config::IoTable;
+using config::WireType;
 using testing::ElementsAre;
 
 IoPoint point(IoTable table, std::uint16_t number, WireType type = WireType::UInt16, int unit = 1) {
@@ -23,7 +23,7 @@ IoPoint point(IoTable table, std::uint16_t number, WireType type = WireType::UIn
 std::vector<IoPoint> row(IoTable table, int count, WireType type = WireType::UInt16) {
   std::vector<IoPoint> points;
   for (int i = 0; i < count; ++i) {
-    points.push_back(point(table, static_cast<std::uint16_t>(i * static_cast<int>(deploy::registers_of(type))), type));
+    points.push_back(point(table, static_cast<std::uint16_t>(i * static_cast<int>(config::registers_of(type))), type));
   }
   return points;
 }

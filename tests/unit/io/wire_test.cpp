@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 
 std::vector<std::uint16_t> encoded(const WireForm& form, Number value) {
-  std::vector<std::uint16_t> registers(deploy::registers_of(form.type));
+  std::vector<std::uint16_t> registers(config::registers_of(form.type));
   EXPECT_TRUE(encode(form, value, registers)) << static_cast<double>(value);
   return registers;
 }
@@ -49,7 +49,7 @@ TEST(Wire, Comes_back_as_it_was) {
     for (int order = 0; order < 4; ++order) {
       const WireForm form{type, (order & 1) != 0, (order & 2) != 0};
       const Number value = type == WireType::Bool ? 1 : 12345;
-      EXPECT_EQ(decode(form, encoded(form, value)), value) << deploy::name_of(type) << " order " << order;
+      EXPECT_EQ(decode(form, encoded(form, value)), value) << config::name_of(type) << " order " << order;
     }
   }
 }

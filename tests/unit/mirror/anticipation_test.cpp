@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/anticipation.h"
+#include "mirror/frames/anticipation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/clock_compare.h"
+#include "mirror/frames/clock_compare.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/collector.h"
+#include "mirror/frames/collector.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

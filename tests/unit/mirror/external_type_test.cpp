@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/external_type.h"
+#include "mirror/external/external_type.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/landing.h"
+#include "mirror/frames/landing.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

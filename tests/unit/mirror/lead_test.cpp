@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/lead.h"
+#include "mirror/external/lead.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/mirror_block.h"
+#include "mirror/frames/mirror_block.h"
 
 #include <gmock/gmock.h>
 
@@ -13,18 +13,18 @@ namespace indurop::mirror {
 namespace {
 
 TEST(Shared_text, Keeps_what_was_set_last_and_cuts_what_is_too_long) {
-  const auto sut = std::make_unique<SharedText>();
+  const auto sut = std::make_unique<base::SharedText>();
   sut->set("one");
   sut->set("two");
   EXPECT_EQ(sut->get(), "two");
   sut->set(std::string(1000, 'x'));
-  EXPECT_EQ(sut->get(), std::string(kProblemText - 1, 'x'));
+  EXPECT_EQ(sut->get(), std::string(base::kSharedText - 1, 'x'));
   sut->set("");
   EXPECT_EQ(sut->get(), "");
 }
 
 TEST(Shared_text, Readers_never_see_a_mixture) {
-  const auto sut = std::make_unique<SharedText>();
+  const auto sut = std::make_unique<base::SharedText>();
   const std::string a(100, 'a');
   const std::string b(200, 'b');
   std::atomic<bool> stop{false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/packing.h"
+#include "mirror/frames/packing.h"
 
 #include <gmock/gmock.h>
 

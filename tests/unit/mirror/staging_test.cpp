@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mirror/staging.h"
+#include "mirror/frames/staging.h"
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Ou
   return counted;
 }
 
-TEST(RobotAllocation, AWholeJobAllocatesNothing) {
+TEST(RobotAllocation, A_whole_job_allocates_nothing) {
   Outputs out;
   std::string message;
   const std::string job =
@@ -52,7 +52,7 @@ TEST(RobotAllocation, AWholeJobAllocatesNothing) {
   EXPECT_EQ(out.error, ErrorCode::Unreachable);
 }
 
-TEST(RobotAllocation, NeitherDoesAnArmWithoutClosedForm) {
+TEST(RobotAllocation, Neither_does_an_arm_without_closed_form) {
   std::string urdf = cell_urdf();
   const std::string wrist = "<origin xyz=\"0.09 0 0\" rpy=\"0 0 0\"/>";
   urdf.replace(urdf.find(wrist), wrist.size(), "<origin xyz=\"0.09 0 0.04\" rpy=\"0 0 0\"/>");

@@ -37,7 +37,7 @@ KDL::JntArray kdl_joints(const Joints& q) {
   return result;
 }
 
-TEST(Arm, ForwardKinematicsAgreesWithKdl) {
+TEST(Arm, Forward_kinematics_agrees_with_KDL) {
   const Arm sut = cell_arm();
   const KDL::Chain chain = kdl_arm();
   KDL::ChainFkSolverPos_recursive solver(chain);
@@ -54,7 +54,7 @@ TEST(Arm, ForwardKinematicsAgreesWithKdl) {
   }
 }
 
-TEST(Arm, JacobianAgreesWithKdl) {
+TEST(Arm, Jacobian_agrees_with_KDL) {
   const Arm sut = cell_arm();
   const KDL::Chain chain = kdl_arm();
   KDL::ChainJntToJacSolver solver(chain);
@@ -67,7 +67,7 @@ TEST(Arm, JacobianAgreesWithKdl) {
   }
 }
 
-TEST(Arm, JacobianIsTheDerivativeOfForwardKinematics) {
+TEST(Arm, Jacobian_is_the_derivative_of_forward_kinematics) {
   const Arm sut = odd_arm();
   std::mt19937 random(3);
   constexpr double kStep = 1e-6;
@@ -85,7 +85,7 @@ TEST(Arm, JacobianIsTheDerivativeOfForwardKinematics) {
   }
 }
 
-TEST(Arm, NamesTheFirstAxisBeyondItsLimits) {
+TEST(Arm, Names_the_first_axis_beyond_its_limits) {
   const Arm sut = cell_arm();
   Joints q = Joints::Zero();
   EXPECT_EQ(sut.beyond_limits(q), -1);
@@ -95,7 +95,7 @@ TEST(Arm, NamesTheFirstAxisBeyondItsLimits) {
   EXPECT_EQ(sut.beyond_limits(q), 1);
 }
 
-TEST(Geometry, RollPitchYawRoundTrip) {
+TEST(Geometry, Roll_pitch_yaw_round_trip) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> angle(-kPi, kPi);
   for (int i = 0; i < 1000; ++i) {
@@ -106,7 +106,7 @@ TEST(Geometry, RollPitchYawRoundTrip) {
   EXPECT_LT(rotation_between(down, from_rpy(to_rpy(down))).norm(), 1e-6);
 }
 
-TEST(Urdf, LimitsAndNamesAreThoseOfTheFile) {
+TEST(Urdf, Limits_and_names_are_those_of_the_file) {
   std::vector<std::string> errors;
   const auto model = arm_from_urdf("robot.urdf", cell_urdf(), errors);
   ASSERT_TRUE(model.has_value());
@@ -125,7 +125,7 @@ std::vector<std::string> errors_with(const std::string& from, const std::string&
   return errors;
 }
 
-TEST(Urdf, ErrorsNamePlaceJointAndCure) {
+TEST(Urdf, Errors_name_place_joint_and_cure) {
   EXPECT_EQ(errors_with("<limit lower=\"-2.094\" upper=\"2.094\" velocity=\"6.98\"",
                         "<limit lower=\"-2.094\" upper=\"2.094\" velocity=\"0\"")
                 .at(0),

@@ -19,7 +19,7 @@ double run_until_done(AxisMotion& sut) {
   return sut.state().position;
 }
 
-TEST(AxisMotion, ForwardsAndBackwards) {
+TEST(AxisMotion, Forwards_and_backwards) {
   AxisMotion sut;
   sut.reset({1, 0, 0});
   sut.move_to(3, kLimits);
@@ -29,7 +29,7 @@ TEST(AxisMotion, ForwardsAndBackwards) {
   EXPECT_TRUE(sut.at_rest());
 }
 
-TEST(AxisMotion, TurnsBackWhenTheNewTargetIsBehind) {
+TEST(AxisMotion, Turns_back_when_the_new_target_is_behind) {
   AxisMotion sut;
   sut.reset({0, 0, 0});
   sut.move_to(10, kLimits);
@@ -47,7 +47,7 @@ TEST(AxisMotion, TurnsBackWhenTheNewTargetIsBehind) {
   EXPECT_DOUBLE_EQ(sut.state().position, 0.5);
 }
 
-TEST(AxisMotion, VelocityUntilStopped) {
+TEST(AxisMotion, Velocity_until_stopped) {
   AxisMotion sut;
   sut.reset({0, 0, 0});
   sut.move_with(-1, kLimits);
@@ -59,7 +59,7 @@ TEST(AxisMotion, VelocityUntilStopped) {
   EXPECT_TRUE(sut.at_rest());
 }
 
-TEST(AxisMotion, CommandsAtAnyInstantKeepTheLimits) {
+TEST(AxisMotion, Commands_at_any_instant_keep_the_limits) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> any(-1, 1);
   AxisMotion sut;

@@ -17,7 +17,7 @@ constexpr std::uint16_t kQuickStopActive = 0x0217;
 constexpr std::uint16_t kFaultReaction = 0x021F;
 constexpr std::uint16_t kFault = 0x0218;
 
-TEST(Drive, StatesOfTheStatusWord) {
+TEST(Drive, States_of_the_status_word) {
   EXPECT_EQ(Drive::state_of(0x0200), State::NotReady);
   EXPECT_EQ(Drive::state_of(kSwitchOnDisabled), State::SwitchOnDisabled);
   EXPECT_EQ(Drive::state_of(kReady), State::ReadyToSwitchOn);
@@ -36,7 +36,7 @@ std::uint16_t control_after(std::uint16_t status, Want want) {
   return sut.control();
 }
 
-TEST(Drive, OneTransitionAfterTheOtherToOperation) {
+TEST(Drive, One_transition_after_the_other_to_operation) {
   EXPECT_EQ(control_after(kSwitchOnDisabled, Want::On), 0x06);
   EXPECT_EQ(control_after(kReady, Want::On), 0x07);
   EXPECT_EQ(control_after(kSwitchedOn, Want::On), 0x0F);
@@ -47,7 +47,7 @@ TEST(Drive, OneTransitionAfterTheOtherToOperation) {
   EXPECT_EQ(control_after(kReady, Want::QuickStop), 0x00);
 }
 
-TEST(Drive, AFaultIsAcknowledgedWithARisingEdge) {
+TEST(Drive, A_fault_is_acknowledged_with_a_rising_edge) {
   Drive sut;
   DriveIn in;
   in.status = kFault;
@@ -63,7 +63,7 @@ TEST(Drive, AFaultIsAcknowledgedWithARisingEdge) {
   EXPECT_EQ(sut.control(), 0x06);
 }
 
-TEST(Drive, HomingStartsOnlyInItsMode) {
+TEST(Drive, Homing_starts_only_in_its_mode) {
   Drive sut;
   DriveIn in;
   in.status = kEnabled;

@@ -98,7 +98,7 @@ MoveCommand pose(Move move, const Vec3& position, double zone = 0) {
   return command;
 }
 
-TEST(Follower, JointsArriveTogetherAndExactly) {
+TEST(Follower, Joints_arrive_together_and_exactly) {
   Watched w;
   ASSERT_TRUE(w.add(joints({40, 30, -20, 10, 50, -30})).ok());
   w.run();
@@ -108,7 +108,7 @@ TEST(Follower, JointsArriveTogetherAndExactly) {
   EXPECT_GT(w.jerk, 0.98);
 }
 
-TEST(Follower, ALineIsStraight) {
+TEST(Follower, A_line_is_straight) {
   Watched w;
   ASSERT_TRUE(w.add(pose(Move::Joint, {0.5, -0.2, 0.4})).ok());
   w.run();
@@ -124,7 +124,7 @@ TEST(Follower, ALineIsStraight) {
   w.expect_kept();
 }
 
-TEST(Follower, ACircleIsRound) {
+TEST(Follower, A_circle_is_round) {
   Watched w;
   const Vec3 center(0.55, 0, 0.35);
   ASSERT_TRUE(w.add(pose(Move::Joint, center + Vec3(0, -0.1, 0))).ok());
@@ -143,7 +143,7 @@ TEST(Follower, ACircleIsRound) {
   w.expect_kept();
 }
 
-TEST(Follower, BlendedPathsAreFasterKeepTheLimitsAndRoundTheCorner) {
+TEST(Follower, Blended_paths_are_faster_keep_the_limits_and_round_the_corner) {
   Watched exact;
   Watched blended;
   const auto path = [](Watched& w, double zone) {
@@ -159,7 +159,7 @@ TEST(Follower, BlendedPathsAreFasterKeepTheLimitsAndRoundTheCorner) {
   EXPECT_LT((blended.sut.joints() - joints({120, 20, 10, 0, 50, 0}).target.joints).norm(), 1e-12);
 }
 
-TEST(Follower, BlendedLinesRoundTheCornerWithoutStopping) {
+TEST(Follower, Blended_lines_round_the_corner_without_stopping) {
   Watched w;
   w.add(pose(Move::Joint, {0.5, -0.2, 0.3}));
   w.run();
@@ -182,7 +182,7 @@ TEST(Follower, BlendedLinesRoundTheCornerWithoutStopping) {
   w.expect_kept();
 }
 
-TEST(Follower, OverrideHoldAndStopAtAnyInstantKeepTheLimits) {
+TEST(Follower, Override_hold_and_stop_at_any_instant_keep_the_limits) {
   std::mt19937 random(31);
   for (int round = 0; round < 60; ++round) {
     Watched w(0.002);
@@ -210,7 +210,7 @@ TEST(Follower, OverrideHoldAndStopAtAnyInstantKeepTheLimits) {
   }
 }
 
-TEST(Follower, AStopEndsOnThePathAndAnEmergencyStopSooner) {
+TEST(Follower, A_stop_ends_on_the_path_and_an_emergency_stop_sooner) {
   double way[2] = {};
   for (const int hard : {0, 1}) {
     Watched w;
@@ -226,7 +226,7 @@ TEST(Follower, AStopEndsOnThePathAndAnEmergencyStopSooner) {
   EXPECT_LT(way[1], 0.7 * way[0]);
 }
 
-TEST(Follower, AnEmergencyStopInABlendIsShorter) {
+TEST(Follower, An_emergency_stop_in_a_blend_is_shorter) {
   double way[2] = {};
   for (const int hard : {0, 1}) {
     Watched w;
@@ -247,7 +247,7 @@ TEST(Follower, AnEmergencyStopInABlendIsShorter) {
   EXPECT_LT(way[1], 0.8 * way[0]);
 }
 
-TEST(Follower, AHeldPathGoesOnToItsEnd) {
+TEST(Follower, A_held_path_goes_on_to_its_end) {
   Watched w;
   w.add(joints({60, 30, -20, 10, 50, -30}));
   for (int i = 0; i < 200; ++i) {
@@ -268,7 +268,7 @@ TEST(Follower, AHeldPathGoesOnToItsEnd) {
   EXPECT_NEAR(degrees(w.sut.joints()[0]), 60, 1e-9);
 }
 
-TEST(Planner, WhatCannotWorkIsKnownBefore) {
+TEST(Planner, What_cannot_work_is_known_before) {
   Watched w;
   EXPECT_EQ(w.add(pose(Move::Line, {2, 0, 0.4})).code, ErrorCode::Unreachable);
   EXPECT_EQ(w.add(joints({0, 0, 0, 0, 200, 0})).code, ErrorCode::JointLimit);
@@ -280,7 +280,7 @@ TEST(Planner, WhatCannotWorkIsKnownBefore) {
   EXPECT_TRUE(w.sut.idle());
 }
 
-TEST(Planner, ALineThroughASingularPositionIsRefused) {
+TEST(Planner, A_line_through_a_singular_position_is_refused) {
   Watched w;
   // Downwards, the tool pointing forward: where the forearm points forward too, axes 4 and 6 would have to turn half a
   // turn at once.

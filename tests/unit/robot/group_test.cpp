@@ -2,115 +2,18 @@
 #include "robot/group.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "robot_fixture.h"
+#include "group_cell.h"
 
 namespace indurop::robot {
 namespace {
 
-// Six drives that do at once what they are told.
-class Cell final : public Signals {
- public:
-  explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true) {
-    Settings settings;
-    settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
-    sut = controller_of(cell_urdf(),
-                        "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
-                        "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n" +
-                            job,
-                        settings);
-    for (DriveIn& drive : in.drives) {
-      drive.status = kSwitchOnDisabled;
-    }
-    in.service.code = static_cast<std::int32_t>(Service::GroupEnable);
-    in.service.number = asked_before;
-    in.requests_known = heard;
-    step();
-  }
-
-  double read(std::size_t index) noexcept override { return values[index]; }
-  void write(std::size_t index, double value) noexcept override { values[index] = value; }
-
-  void step() {
-    sut->step(in, *this, out);
-    ++periods;
-    for (std::size_t i = 0; i < kJoints; ++i) {
-      if (!stuck) {
-        obey(in.drives[i], out.drives[i]);
-      }
-    }
-  }
-  template <class Condition>
-  [[nodiscard]] bool until(const Condition& condition, int most = 5000) {
-    for (int i = 0; i < most; ++i) {
-      if (condition()) {
-        return true;
-      }
-      step();
-    }
-    return false;
-  }
-  void ask(Service service) {
-    in.service.code = static_cast<std::int32_t>(service);
-    in.service.number = out.acknowledged + 1;
-  }
-  // True if it ends well.
-  [[nodiscard]] bool serve(Service service) {
-    ask(service);
-    return until([&] { return out.done == in.service.number; }) && out.error == ErrorCode::Ok;
-  }
-  void ask_axis(std::size_t i, AxisService service, double position = 0, double velocity = 0) {
-    in.axes[i] = {out.axes[i].acknowledged + 1, static_cast<std::int32_t>(service), position, velocity, 0, 0};
-  }
-  [[nodiscard]] bool serve_axis(std::size_t i, AxisService service, double position = 0, double velocity = 0) {
-    ask_axis(i, service, position, velocity);
-    return until([&] { return out.axes[i].done == in.axes[i].number || out.axes[i].aborted == in.axes[i].number; }) &&
-           out.axes[i].done == in.axes[i].number;
-  }
-
-  static constexpr std::uint16_t kSwitchOnDisabled = 0x40;
-  static constexpr std::uint16_t kFault = 0x08;
-  std::unique_ptr<Controller> sut;
-  Inputs in;
-  Outputs out;
-  double values[8] = {};
-  bool stuck = false;
-  int periods = 0;
-
- private:
-  static void obey(DriveIn& in, const DriveOut& out) {
-    in.mode = out.mode;
-    if (in.status == kFault) {
-      in.status = out.control == 0x80 ? kSwitchOnDisabled : kFault;
-      return;
-    }
-    switch (out.control & 0x0FU) {
-      case 0x06:
-        in.status = 0x21;
-        break;
-      case 0x07:
-        in.status = 0x23;
-        break;
-      case 0x0F:
-        in.status = in.status == 0x21 ? 0x23 : 0x27;
-        break;
-      default:
-        in.status = kSwitchOnDisabled;
-    }
-    if ((in.status & 0x6FU) == 0x27 && out.mode == 8) {
-      in.position = out.position;
-    }
-    if (out.mode == 6 && (out.control & 0x10U) != 0) {
-      in.position = 0;
-      in.status = 0x27 | 1U << 12 | 1U << 10;
-    }
-  }
-};
-
-TEST(Group, FromDisabledToAMotionAndBack) {
+TEST(Group, From_disabled_to_a_motion_and_back) {
   Cell cell;
   EXPECT_EQ(cell.out.state, GroupState::Disabled);
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
@@ -143,7 +46,7 @@ TEST(Group, FromDisabledToAMotionAndBack) {
   EXPECT_FALSE(cell.until([&] { return cell.in.drives[0].status != Cell::kSwitchOnDisabled; }, 20));
 }
 
-TEST(Group, ARequestWithoutANumberAsInTheChapter) {
+TEST(Group, A_request_without_a_number_as_in_the_chapter) {
   Cell cell;
   cell.in.service.code = static_cast<std::int32_t>(Service::GroupEnable);
   cell.in.edit = true;
@@ -162,7 +65,7 @@ TEST(Group, ARequestWithoutANumberAsInTheChapter) {
   EXPECT_NEAR(cell.out.command[0], 10, 1e-9);
 }
 
-TEST(Group, WhatWasAskedForBeforeTheStartIsNotDone) {
+TEST(Group, What_was_asked_for_before_the_start_is_not_done) {
   Cell cell("", 10, 7);
   EXPECT_EQ(cell.out.acknowledged, 7U);
   EXPECT_EQ(cell.out.done, 7U);
@@ -171,7 +74,7 @@ TEST(Group, WhatWasAskedForBeforeTheStartIsNotDone) {
   EXPECT_TRUE(cell.serve(Service::GroupEnable));
 }
 
-TEST(Group, ARequestThatWasWaitingOnASilentBoardIsNotANewOne) {
+TEST(Group, A_request_that_was_waiting_on_a_silent_board_is_not_a_new_one) {
   Cell cell("", 10, 0, false);
   for (int i = 0; i < 20; ++i) {
     cell.step();
@@ -185,7 +88,7 @@ TEST(Group, ARequestThatWasWaitingOnASilentBoardIsNotANewOne) {
   EXPECT_TRUE(cell.serve(Service::GroupEnable));
 }
 
-TEST(Group, RequestsThatCannotBeServedSayWhy) {
+TEST(Group, Requests_that_cannot_be_served_say_why) {
   Cell cell;
   EXPECT_FALSE(cell.serve(Service::MoveJoints));
   EXPECT_EQ(cell.out.error, ErrorCode::State);
@@ -209,7 +112,7 @@ TEST(Group, RequestsThatCannotBeServedSayWhy) {
   EXPECT_EQ(cell.out.state, GroupState::Standby);
 }
 
-TEST(Group, DrivesThatTakeNoPowerAreNamed) {
+TEST(Group, Drives_that_take_no_power_are_named) {
   Cell cell;
   cell.stuck = true;
   EXPECT_FALSE(cell.serve(Service::GroupEnable));
@@ -218,7 +121,7 @@ TEST(Group, DrivesThatTakeNoPowerAreNamed) {
   EXPECT_EQ(cell.out.state, GroupState::Disabled);
 }
 
-TEST(Group, AJobWithSignals) {
+TEST(Group, A_job_with_signals) {
   Cell cell("SPEED 50%\nMOVJ P1\nSET O8 ON\nWAIT I4 TIMEOUT 5s\nZONE 50\nMOVL P2\nMOVJ P1\nSET O8 OFF\n");
   EXPECT_EQ(cell.sut->signals(), (std::vector<std::string>{"O8", "I4"}));
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
@@ -236,7 +139,7 @@ TEST(Group, AJobWithSignals) {
   EXPECT_TRUE(cell.out.motion_done);
 }
 
-TEST(Group, AJobThatFailsStopsAndNamesItsLine) {
+TEST(Group, A_job_that_fails_stops_and_names_its_line) {
   Cell cell("MOVJ P1\nMOVL P3\n");
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.job = 1;
@@ -250,7 +153,7 @@ TEST(Group, AJobThatFailsStopsAndNamesItsLine) {
   EXPECT_EQ(cell.out.state, GroupState::Standby);
 }
 
-TEST(Group, EmergencyStopBrakesOnThePathThenTakesPowerAway) {
+TEST(Group, Emergency_stop_brakes_on_the_path_then_takes_power_away) {
   Cell cell("", 1);
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 50};
@@ -282,7 +185,7 @@ TEST(Group, EmergencyStopBrakesOnThePathThenTakesPowerAway) {
   EXPECT_TRUE(cell.serve(Service::DirectAbsolute));
 }
 
-TEST(Group, NoPowerDuringAnEmergency) {
+TEST(Group, No_power_during_an_emergency) {
   Cell cell;
   cell.in.emergency = true;
   EXPECT_FALSE(cell.serve(Service::GroupEnable));
@@ -290,7 +193,7 @@ TEST(Group, NoPowerDuringAnEmergency) {
   EXPECT_EQ(cell.out.state, GroupState::Disabled);
 }
 
-TEST(Group, AFaultyDriveStopsTheOthers) {
+TEST(Group, A_faulty_drive_stops_the_others) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 50};
@@ -311,7 +214,7 @@ TEST(Group, AFaultyDriveStopsTheOthers) {
   EXPECT_EQ(cell.out.state, GroupState::Disabled);
 }
 
-TEST(Group, AnAxisThatDoesNotFollowStopsTheGroup) {
+TEST(Group, An_axis_that_does_not_follow_stops_the_group) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 0};
@@ -321,7 +224,7 @@ TEST(Group, AnAxisThatDoesNotFollowStopsTheGroup) {
   EXPECT_EQ(cell.out.error_axis, 1U);
 }
 
-TEST(Group, HoldAndOverrideFromOutside) {
+TEST(Group, Hold_and_override_from_outside) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 0};
@@ -343,7 +246,7 @@ TEST(Group, HoldAndOverrideFromOutside) {
   EXPECT_NEAR(cell.out.command[0], 100, 1e-9);
 }
 
-TEST(Group, StopEndsTheMotionAndItsRequest) {
+TEST(Group, Stop_ends_the_motion_and_its_request) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 0};
@@ -354,7 +257,7 @@ TEST(Group, StopEndsTheMotionAndItsRequest) {
   EXPECT_LT(cell.out.command[0], 99);
 }
 
-TEST(Group, HomingGivesTheAxesTheirZero) {
+TEST(Group, Homing_gives_the_axes_their_zero) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {30, 0, 0, 0, 0, 0};
@@ -368,7 +271,7 @@ TEST(Group, HomingGivesTheAxesTheirZero) {
   EXPECT_EQ(cell.out.drives[0].mode, 8);
 }
 
-TEST(Axis, MovesByItselfWhileTheGroupRests) {
+TEST(Axis, Moves_by_itself_while_the_group_rests) {
   Cell cell;
   ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOn));
   EXPECT_TRUE(cell.out.axes[1].power);
@@ -392,7 +295,7 @@ TEST(Axis, MovesByItselfWhileTheGroupRests) {
   EXPECT_EQ(cell.out.axes[1].state, AxisState::Disabled);
 }
 
-TEST(Axis, ALaterRequestAbortsTheOneBefore) {
+TEST(Axis, A_later_request_aborts_the_one_before) {
   Cell cell;
   ASSERT_TRUE(cell.serve_axis(0, AxisService::PowerOn));
   cell.ask_axis(0, AxisService::MoveAbsolute, 100);
@@ -404,7 +307,7 @@ TEST(Axis, ALaterRequestAbortsTheOneBefore) {
   EXPECT_NEAR(cell.out.command[0], -10, 1e-9);
 }
 
-TEST(Axis, AMotionWithoutTargetStopsBeforeTheLimit) {
+TEST(Axis, A_motion_without_target_stops_before_the_limit) {
   Cell cell;
   ASSERT_TRUE(cell.serve_axis(4, AxisService::PowerOn));
   cell.ask_axis(4, AxisService::MoveVelocity, 0, 200);
@@ -414,7 +317,7 @@ TEST(Axis, AMotionWithoutTargetStopsBeforeTheLimit) {
   EXPECT_LT(cell.out.command[4], degrees(2.094));
 }
 
-TEST(Load, EverythingThatIsWrongIsSaid) {
+TEST(Load, Everything_that_is_wrong_is_said) {
   Settings settings;
   settings.urdf = "nowhere.urdf";
   settings.jobs = {"nowhere.job"};
@@ -426,6 +329,21 @@ TEST(Load, EverythingThatIsWrongIsSaid) {
   EXPECT_EQ(errors[1],
             "nowhere.urdf:1:1: error: this robot description (property urdf) cannot be read; names begin at the "
             "folder of the module.xml");
+}
+
+TEST(Load, A_pipe_in_place_of_a_file_is_refused_at_once) {
+  const std::string pipe = ::testing::TempDir() + "indurop-robot-" + std::to_string(::getpid());
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  Settings settings;
+  settings.urdf = pipe;
+  std::vector<std::string> errors;
+  EXPECT_EQ(Controller::load(settings, errors), nullptr);
+  ::unlink(pipe.c_str());
+  ASSERT_FALSE(errors.empty());
+  EXPECT_EQ(errors[0],
+            pipe +
+                ":1:1: error: this robot description (property urdf) cannot be read: it is a pipe, not a file; "
+                "names begin at the folder of the module.xml");
 }
 
 }  // namespace

@@ -10,14 +10,14 @@
 namespace indurop::robot {
 namespace {
 
-TEST(Inverse, KnowsWhichArmsHaveAClosedForm) {
+TEST(Inverse, Knows_which_arms_have_a_closed_form) {
   const Arm straight = cell_arm();
   const Arm odd = odd_arm();
   EXPECT_TRUE(Inverse(straight).closed_form());
   EXPECT_FALSE(Inverse(odd).closed_form());
 }
 
-TEST(Inverse, AllSolutionsOverTheWorkspaceReachThePose) {
+TEST(Inverse, All_solutions_over_the_workspace_reach_the_pose) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   std::mt19937 random(5);
@@ -40,7 +40,7 @@ TEST(Inverse, AllSolutionsOverTheWorkspaceReachThePose) {
   EXPECT_GT(solutions, 2 * 20000);  // limits leave more than two on average
 }
 
-TEST(Inverse, EightPosturesWhereLimitsAllowThem) {
+TEST(Inverse, Eight_postures_where_limits_allow_them) {
   Arm arm = cell_arm();
   std::array<Axis, kAxes> axes;
   for (int i = 0; i < kAxes; ++i) {
@@ -61,7 +61,7 @@ TEST(Inverse, EightPosturesWhereLimitsAllowThem) {
   EXPECT_EQ(seen, 0xFFU);
 }
 
-TEST(Inverse, TheSolutionNearestToWhereTheArmIs) {
+TEST(Inverse, The_solution_nearest_to_where_the_arm_is) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   std::mt19937 random(6);
@@ -78,7 +78,7 @@ TEST(Inverse, TheSolutionNearestToWhereTheArmIs) {
   }
 }
 
-TEST(Inverse, PostureCanBeChosen) {
+TEST(Inverse, Posture_can_be_chosen) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   Joints q;
@@ -91,7 +91,7 @@ TEST(Inverse, PostureCanBeChosen) {
   EXPECT_LT(distance(arm.forward(flipped.solution.q), pose), 1e-6);
 }
 
-TEST(Inverse, SingularWristKeepsTheJointAsItIs) {
+TEST(Inverse, Singular_wrist_keeps_the_joint_as_it_is) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   Joints q;
@@ -102,7 +102,7 @@ TEST(Inverse, SingularWristKeepsTheJointAsItIs) {
   EXPECT_NEAR(found.solution.q[5], 0.4, 1e-6);
 }
 
-TEST(Inverse, SaysWhetherReachOrLimitsAreInTheWay) {
+TEST(Inverse, Says_whether_reach_or_limits_are_in_the_way) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
   const Joints near = Joints::Zero();
@@ -122,7 +122,7 @@ TEST(Inverse, SaysWhetherReachOrLimitsAreInTheWay) {
   EXPECT_EQ(Inverse(narrow).nearest(arm.forward(q), near).reach, Reach::JointLimit);
 }
 
-TEST(Inverse, NumericSolutionOfArmsWithoutClosedForm) {
+TEST(Inverse, Numeric_solution_of_arms_without_closed_form) {
   const Arm arm = odd_arm();
   std::mt19937 random(7);
   int found = 0;
@@ -141,7 +141,7 @@ TEST(Inverse, NumericSolutionOfArmsWithoutClosedForm) {
   EXPECT_GT(found, kTries * 95 / 100);
 }
 
-TEST(Inverse, NumericSolutionGivesUpOnWhatCannotBeReached) {
+TEST(Inverse, Numeric_solution_gives_up_on_what_cannot_be_reached) {
   const Arm arm = odd_arm();
   Pose far = arm.forward(Joints::Zero());
   far.position.z() += 5;

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <iterator>
-#include <random>
-
 #include "robot/job_runner.h"
 
 namespace indurop::robot {
@@ -38,7 +35,7 @@ class Recorder final : public Signals, public MotionPort {
   bool at_rest = true;
 };
 
-TEST(Job, PointsSpeedsAndZonesReachTheMotion) {
+TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   const JobBook book = good(
       "POINT A = JOINT 0 10 20 30 40 50   # degrees\n"
       "point B = POSE 500, 0, 300 RPY 180 0 0 posture 4\n"
@@ -59,7 +56,7 @@ TEST(Job, PointsSpeedsAndZonesReachTheMotion) {
   EXPECT_EQ(sut.report(0).state, JobState::Ended);
 }
 
-TEST(Job, SignalsLoopsJumpsAndCalls) {
+TEST(Job, Signals_loops_jumps_and_calls) {
   std::vector<std::string> errors;
   const JobBook book =
       parse_jobs({{"main.job",
@@ -79,7 +76,7 @@ TEST(Job, SignalsLoopsJumpsAndCalls) {
   EXPECT_DOUBLE_EQ(port.values[1], -2.5);
 }
 
-TEST(Job, WaitsForRestSignalsAndTime) {
+TEST(Job, Waits_for_rest_signals_and_time) {
   const JobBook book = good("SET O0 ON\nWAIT I1 OFF\nWAIT 0.03s\nSET O0 OFF\n");
   JobRunner sut(book);
   Recorder port;
@@ -101,7 +98,7 @@ TEST(Job, WaitsForRestSignalsAndTime) {
   EXPECT_EQ(periods, 4);
 }
 
-TEST(Job, AWaitThatTakesTooLongNamesItsLine) {
+TEST(Job, A_wait_that_takes_too_long_names_its_line) {
   const JobBook book = good("\nWAIT I1 TIMEOUT 50 ms\n");
   JobRunner sut(book);
   Recorder port;
@@ -113,7 +110,7 @@ TEST(Job, AWaitThatTakesTooLongNamesItsLine) {
   EXPECT_STREQ(sut.report(0).message, "a.job:2: waited in vain");
 }
 
-TEST(Job, AMotionThatFailsNamesItsLine) {
+TEST(Job, A_motion_that_fails_names_its_line) {
   const JobBook book = good("POINT A = JOINT 0 0 0 0 0 0\n\nMOVL A\n");
   JobRunner sut(book);
   Recorder port;
@@ -123,7 +120,7 @@ TEST(Job, AMotionThatFailsNamesItsLine) {
   EXPECT_STREQ(sut.report(0).message, "a.job:3: the target is out of reach");
 }
 
-TEST(Job, EndlessLoopsAndRecursionDoNotHang) {
+TEST(Job, Endless_loops_and_recursion_do_not_hang) {
   const JobBook loop = good("LOOP\nSET O0 ON\nEND\n");
   JobRunner sut(loop);
   Recorder port;
@@ -137,7 +134,7 @@ TEST(Job, EndlessLoopsAndRecursionDoNotHang) {
   EXPECT_STREQ(deep.report(0).message, "a.job:1: jobs call each other too deep");
 }
 
-TEST(Job, NumberedPointsAreFoundByTheirNumber) {
+TEST(Job, Numbered_points_are_found_by_their_number) {
   const JobBook book =
       good("POINT P7 = JOINT 0 0 0 0 0 0\nPOINT P = JOINT 1 0 0 0 0 0\nPOINT P12 = JOINT 2 0 0 0 0 0\n");
   EXPECT_EQ(book.numbered_point(7), 0);
@@ -153,7 +150,7 @@ struct Bad {
 
 class JobErrorsTest : public testing::TestWithParam<Bad> {};
 
-TEST_P(JobErrorsTest, NamePlaceAndCure) {
+TEST_P(JobErrorsTest, Name_place_and_cure) {
   std::vector<std::string> errors;
   parse(GetParam().text, errors);
   ASSERT_FALSE(errors.empty());
@@ -189,31 +186,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'; did you mean 'a'?"},
         Bad{"SET 5 ON\n", "a.job:1:5: error: expected the name of a variable, found '5'"},
         Bad{"IF I0 = 3\n", "a.job:1:10: error: expected GOTO and a label, found the end of the line"},
-        Bad{"SET O1 $\n", "a.job:1:8: error: expected 1 numbers: ON, OFF or the value; found '$' as number 1"}));
+        Bad{"SET O1 $\n", "a.job:1:8: error: expected ON, OFF or the value, found '$'"}));
 
-TEST(Job, AnyTextIsEitherAJobOrAnError) {
-  const std::string words[] = {"POINT", "A",   "=",    "JOINT", "POSE", "1",       "-2.5e3",  "RPY", "MOVL", "MOVC",
-                               "SPEED", "%",   "mm",   "/",     "s",    "WAIT",    "ms",      "IF",  "GOTO", "LABEL",
-                               "LOOP",  "END", "CALL", "\n",    "\n",   "a",       "#",       "\t",  ">=",   "ZONE",
-                               "1e999", "nan", "\xff", "::",    "[3]",  "TIMEOUT", "POSTURE", ",",   "+"};
-  std::mt19937 random(41);
-  for (int i = 0; i < 3000; ++i) {
-    std::string text;
-    for (auto k = random() % 40; k > 0; --k) {
-      text += words[random() % std::size(words)] + (random() % 4 == 0 ? "" : " ");
-    }
-    std::vector<std::string> errors;
-    const JobBook book = parse(text, errors);
-    if (errors.empty()) {
-      JobRunner sut(book);
-      Recorder port;
-      sut.start(0);
-      sut.step(0.01, port, port);
-    }
-  }
-}
-
-TEST(Job, AllErrorsAtOnce) {
+TEST(Job, All_errors_at_once) {
   std::vector<std::string> errors;
   parse("MOVJ A\nFOO\nSPEED 0%\n", errors);
   EXPECT_EQ(errors.size(), 3U);

@@ -49,7 +49,7 @@ void expect_within_limits(const Profile& sut, const LineLimits& limits) {
   }
 }
 
-TEST(Profile, LimitsAreNeverExceededAndTheTargetIsMet) {
+TEST(Profile, Limits_are_never_exceeded_and_the_target_is_met) {
   std::mt19937 random(11);
   int short_ways = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -89,7 +89,7 @@ double shortest_time(double length, const LineLimits& l) {
   return length >= 2 * v * std::sqrt(v / j) ? length / v + 2 * std::sqrt(v / j) : 4 * std::cbrt(length / (2 * j));
 }
 
-TEST(Profile, FromRestToRestInTheShortestTime) {
+TEST(Profile, From_rest_to_rest_in_the_shortest_time) {
   std::mt19937 random(12);
   for (int i = 0; i < 20000; ++i) {
     Case c = random_case(random);
@@ -99,7 +99,7 @@ TEST(Profile, FromRestToRestInTheShortestTime) {
   }
 }
 
-TEST(Profile, PlanningAgainOnTheWayChangesNothing) {
+TEST(Profile, Planning_again_on_the_way_changes_nothing) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> part(0, 1);
   for (int i = 0; i < 5000; ++i) {
@@ -117,7 +117,7 @@ TEST(Profile, PlanningAgainOnTheWayChangesNothing) {
   }
 }
 
-TEST(Profile, ToAVelocityAndOn) {
+TEST(Profile, To_a_velocity_and_on) {
   const LineLimits limits{2, 5, 50};
   const Profile sut = Profile::to_velocity({1, 2, 0}, -1.5, limits);
   const LineState end = sut.at(sut.duration() + 1);
@@ -126,7 +126,7 @@ TEST(Profile, ToAVelocityAndOn) {
   EXPECT_EQ(Profile::to_velocity({}, 9, limits).end().velocity, 2);
 }
 
-TEST(Profile, AnAccelerationAboveItsLimitIsTakenBack) {
+TEST(Profile, An_acceleration_above_its_limit_is_taken_back) {
   const LineLimits limits{2, 1, 10};
   const Ramp sut = ramp({0, 0.5, 3}, 2, limits);
   EXPECT_LT(sut.phases[0].jerk, 0);

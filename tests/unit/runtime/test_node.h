@@ -10,6 +10,7 @@
 
 #include "scheduler/run_block.h"
 #include "schema/schema.h"
+#include "tests/support/wait_until.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
 
@@ -54,23 +55,6 @@ class TestNode {
   std::unique_ptr<vars::RunFile> run_;
 };
 
-// Waits for a condition, at most 20 s; returns whether it came true.
-template <class Condition>
-bool wait_until(Condition condition);
+using test::wait_until;
 
 }  // namespace indurop::testing
-
-#include <chrono>
-#include <thread>
-
-template <class Condition>
-bool indurop::testing::wait_until(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}

@@ -17,7 +17,7 @@ Task task(std::int64_t period, int priority, ModuleType type = ModuleType::Threa
   return t;
 }
 
-TEST(Bands, NeighboursOfOnePeriodShareABandAndTheTopOneRunsInline) {
+TEST(Bands, Neighbours_of_one_period_share_a_band_and_the_top_one_runs_inline) {
   const std::vector<Task> tasks = {task(500, 3), task(100, 2), task(100, 1), task(500, 4, ModuleType::Process)};
   const auto sut = make_bands(tasks, 100);
   ASSERT_EQ(sut.size(), 3U);
@@ -30,7 +30,7 @@ TEST(Bands, NeighboursOfOnePeriodShareABandAndTheTopOneRunsInline) {
   EXPECT_GT(sut[1].fifo_priority, sut[2].fifo_priority);
 }
 
-TEST(Bands, ASlowModuleOfTheHighestPriorityKeepsFasterOnesOutOfTheTickThread) {
+TEST(Bands, A_slow_module_of_the_highest_priority_keeps_faster_ones_out_of_the_tick_thread) {
   const std::vector<Task> tasks = {task(200, 1), task(100, 2)};
   const auto sut = make_bands(tasks, 100);
   ASSERT_EQ(sut.size(), 2U);
@@ -38,13 +38,13 @@ TEST(Bands, ASlowModuleOfTheHighestPriorityKeepsFasterOnesOutOfTheTickThread) {
   EXPECT_EQ(sut[1].kind, BandKind::Thread);
 }
 
-TEST(Bands, AnotherOverrunPolicyIsAnotherBand) {
+TEST(Bands, Another_overrun_policy_is_another_band) {
   std::vector<Task> tasks = {task(100, 1), task(100, 2)};
   tasks[1].overrun = OverrunPolicy::CatchUp;
   EXPECT_EQ(make_bands(tasks, 100).size(), 2U);
 }
 
-TEST(Bands, EqualPrioritiesOnTwoCoresBothRunInline) {
+TEST(Bands, Equal_priorities_on_two_cores_both_run_inline) {
   const std::vector<Task> tasks = {task(100, 1, ModuleType::Thread, 0), task(100, 1, ModuleType::Thread, 1)};
   const auto sut = make_bands(tasks, 100);
   ASSERT_EQ(sut.size(), 2U);
@@ -52,12 +52,30 @@ TEST(Bands, EqualPrioritiesOnTwoCoresBothRunInline) {
   EXPECT_EQ(sut[1].kind, BandKind::Inline);
 }
 
-TEST(Bands, ALowerPriorityOnAnotherCoreWaitsInAThread) {
+TEST(Bands, A_lower_priority_on_another_core_waits_in_a_thread) {
   const std::vector<Task> tasks = {task(100, 1, ModuleType::Thread, 0), task(100, 2, ModuleType::Thread, 1)};
   EXPECT_EQ(make_bands(tasks, 100)[1].kind, BandKind::Thread);
 }
 
-TEST(Bands, AnOffsetIsABandOfItsOwn) {
+// Of a band only the front is compared with other cores.
+TEST(Bands, What_may_run_beside_another_core_shares_no_band_with_what_may_not) {
+  const std::vector<Task> tasks = {task(200, 1, ModuleType::Thread, 0), task(100, 1, ModuleType::Thread, 1),
+                                   task(100, 2, ModuleType::Thread, 1)};
+  const auto sut = make_bands(tasks, 100);
+  ASSERT_EQ(sut.size(), 3U);
+  EXPECT_EQ(sut[1].kind, BandKind::Inline);
+  EXPECT_EQ(sut[2].kind, BandKind::Thread);
+}
+
+TEST(Bands, A_higher_priority_at_the_front_of_another_cores_band_is_waited_for) {
+  const std::vector<Task> tasks = {task(100, 1, ModuleType::Thread, 0), task(100, 2, ModuleType::Thread, 0),
+                                   task(100, 2, ModuleType::Thread, 1)};
+  const auto sut = make_bands(tasks, 100);
+  ASSERT_EQ(sut.size(), 2U);
+  EXPECT_EQ(sut[1].kind, BandKind::Thread);
+}
+
+TEST(Bands, An_offset_is_a_band_of_its_own) {
   std::vector<Task> tasks = {task(200, 1), task(200, 2)};
   tasks[1].offset_ns = 100;
   EXPECT_EQ(make_bands(tasks, 100).size(), 2U);

@@ -37,7 +37,7 @@ void second() {
 
 class EngineOrder : public testing::TestWithParam<bool> {};
 
-TEST_P(EngineOrder, ALowerPriorityWaitsForTheHigherOneOfItsTick) {
+TEST_P(EngineOrder, A_lower_priority_waits_for_the_higher_one_of_its_tick) {
   const auto cores = rt::allowed_cores();
   const bool two_cores = GetParam();
   if (two_cores && cores.size() < 2) {
@@ -71,7 +71,7 @@ TEST_P(EngineOrder, ALowerPriorityWaitsForTheHigherOneOfItsTick) {
   }
 }
 // The mirror sends what modules have written as soon as it is told.
-TEST(EngineCores, WorkOnACoreThatIsNotThePrimaryOneIsTold) {
+TEST(EngineCores, Work_on_a_core_that_is_not_the_primary_one_is_told) {
   const auto cores = rt::allowed_cores();
   if (cores.size() < 2) {
     GTEST_SKIP() << "needs two cores";

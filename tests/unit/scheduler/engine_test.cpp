@@ -56,7 +56,7 @@ class EngineInVirtualTime : public testing::Test {
   const std::int64_t epoch = 2'000'000;
 };
 
-TEST_F(EngineInVirtualTime, RunsTheChaptersTable3InItsOrder) {
+TEST_F(EngineInVirtualTime, Runs_table_3_of_the_chapter_in_its_order) {
   const std::vector<Task> tasks = {periodic(0, 500'000, 3, note<1>), periodic(1, 100'000, 2, note<2>),
                                    periodic(2, 100'000, 1, note<3>)};
   auto sut = make(tasks, 100'000, 500'000);
@@ -66,7 +66,7 @@ TEST_F(EngineInVirtualTime, RunsTheChaptersTable3InItsOrder) {
   EXPECT_EQ(block->modules()[2].runs.load(), 6U);
 }
 
-TEST_F(EngineInVirtualTime, CallsSporadicModulesAfterThePeriodicOnesWhenTheirConditionHolds) {
+TEST_F(EngineInVirtualTime, Calls_sporadic_modules_after_the_periodic_ones_when_their_condition_holds) {
   Task event;
   event.index = 1;
   event.operation = Operation::Sporadic;
@@ -77,7 +77,7 @@ TEST_F(EngineInVirtualTime, CallsSporadicModulesAfterThePeriodicOnesWhenTheirCon
   EXPECT_THAT(g_order, ElementsAre(1, 1, 9, 1));
 }
 
-TEST_F(EngineInVirtualTime, QuarantinesAModuleThatThrowsAndNamesTheCause) {
+TEST_F(EngineInVirtualTime, Quarantines_a_module_that_throws_and_names_the_cause) {
   const std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { throw std::runtime_error("no sensor"); }),
                                    periodic(1, 100'000, 2, note<2>)};
   auto sut = make(tasks, 100'000, 100'000);
@@ -90,7 +90,7 @@ TEST_F(EngineInVirtualTime, QuarantinesAModuleThatThrowsAndNamesTheCause) {
   EXPECT_EQ(block->modules()[1].runs.load(), 3U);
 }
 
-TEST_F(EngineInVirtualTime, MeasuresExecutionResponseAndLatency) {
+TEST_F(EngineInVirtualTime, Measures_execution_response_and_latency) {
   const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { g_clock->advance(30'000); }),
                                    periodic(1, 1'000'000, 2, [] { g_clock->advance(5'000); })};
   auto sut = make(tasks, 1'000'000, 1'000'000);
@@ -103,7 +103,7 @@ TEST_F(EngineInVirtualTime, MeasuresExecutionResponseAndLatency) {
   EXPECT_EQ(second.jitter.max.load(), 0);
 }
 
-TEST_F(EngineInVirtualTime, NamesTheCulpritOfAnInlineOverrunAndWhoRanBeforeIt) {
+TEST_F(EngineInVirtualTime, Names_the_culprit_of_an_inline_overrun_and_who_ran_before_it) {
   const std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { g_clock->advance(20'000); }),
                                    periodic(1, 100'000, 2, [] { g_clock->advance(150'000); }),
                                    periodic(2, 100'000, 3, note<3>)};
@@ -118,7 +118,7 @@ TEST_F(EngineInVirtualTime, NamesTheCulpritOfAnInlineOverrunAndWhoRanBeforeIt) {
   EXPECT_EQ(entry.previous_ns, 20'000);
 }
 
-TEST_F(EngineInVirtualTime, ADisabledModuleLeavesItsPlaceEmptyUntilItIsEnabled) {
+TEST_F(EngineInVirtualTime, A_disabled_module_leaves_its_place_empty_until_it_is_enabled) {
   const std::vector<Task> tasks = {periodic(0, 100'000, 1, note<1>), periodic(1, 100'000, 2, note<2>),
                                    periodic(2, 200'000, 3, note<3>)};
   auto sut = make(tasks, 100'000, 200'000);
@@ -136,7 +136,7 @@ TEST_F(EngineInVirtualTime, ADisabledModuleLeavesItsPlaceEmptyUntilItIsEnabled) 
   EXPECT_EQ(block->modules()[2].skipped.load(), 0U);
 }
 
-TEST_F(EngineInVirtualTime, StopsOnlyTheModuleWhosePolicySaysSo) {
+TEST_F(EngineInVirtualTime, Stops_only_the_module_whose_policy_says_so) {
   std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { g_clock->advance(150'000); }),
                              periodic(1, 200'000, 2, note<2>)};
   tasks[0].overrun = OverrunPolicy::StopModule;
@@ -163,7 +163,7 @@ class EngineThreads : public EngineInVirtualTime {
   }
 };
 
-TEST_F(EngineThreads, RunsExactlyTheTicksAskedFor) {
+TEST_F(EngineThreads, Runs_exactly_the_ticks_asked_for) {
   const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { ++g_calls; }),
                                    periodic(1, 5'000'000, 2, [] { ++g_other; })};
   auto sut = make(tasks, 1'000'000, 5'000'000, &system);
@@ -173,7 +173,7 @@ TEST_F(EngineThreads, RunsExactlyTheTicksAskedFor) {
   EXPECT_EQ(static_cast<std::uint64_t>(g_calls.load()), block->modules()[0].runs.load());
 }
 
-TEST_F(EngineThreads, SkipsAReleaseWhileTheBandIsStillBusy) {
+TEST_F(EngineThreads, Skips_a_release_while_the_band_is_still_busy) {
   const std::vector<Task> tasks = {periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
                                      ++g_calls;
                                      std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -188,7 +188,7 @@ TEST_F(EngineThreads, SkipsAReleaseWhileTheBandIsStillBusy) {
   EXPECT_EQ(block->modules()[0].overruns.load(), 0U);
 }
 
-TEST_F(EngineThreads, CatchesUpReleasesIfThePolicySaysSo) {
+TEST_F(EngineThreads, Catches_up_releases_if_the_policy_says_so) {
   std::vector<Task> tasks = {
       periodic(0, 2'000'000, 1, [] { ++g_other; }), periodic(1, 4'000'000, 2, [] {
         if (++g_calls == 1) {  // held up for some of its periods, however long the machine takes for them
@@ -207,7 +207,7 @@ TEST_F(EngineThreads, CatchesUpReleasesIfThePolicySaysSo) {
 }
 
 #ifndef __SANITIZE_THREAD__
-TEST_F(EngineThreads, ContainsACrashingModuleOfTheInlineBand) {
+TEST_F(EngineThreads, Contains_a_crashing_module_of_the_inline_band) {
   std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { std::raise(SIGSEGV); }),
                              periodic(1, 1'000'000, 2, [] { ++g_calls; })};
   auto sut = make(tasks, 1'000'000, 1'000'000, &system);
@@ -217,7 +217,7 @@ TEST_F(EngineThreads, ContainsACrashingModuleOfTheInlineBand) {
   EXPECT_EQ(block->modules()[0].runs.load(), 1U);
 }
 
-TEST_F(EngineThreads, AModuleIsAtRestOnlyWhenItsRunIsOver) {
+TEST_F(EngineThreads, A_module_is_at_rest_only_when_its_run_is_over) {
   static std::atomic<bool> inside{false};
   static std::atomic<bool> leave{false};
   inside = leave = false;
@@ -240,7 +240,7 @@ TEST_F(EngineThreads, AModuleIsAtRestOnlyWhenItsRunIsOver) {
   EXPECT_FALSE(inside);
 }
 
-TEST_F(EngineThreads, EndsAModuleThatNeverReturnsByItsBudget) {
+TEST_F(EngineThreads, Ends_a_module_that_never_returns_by_its_budget) {
   std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { ++g_calls; }), periodic(1, 2'000'000, 2, [] {
                                volatile bool forever = true;
                                while (forever) {

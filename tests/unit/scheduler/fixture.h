@@ -33,6 +33,15 @@ struct FreeMemory {
 };
 using BlockPointer = std::unique_ptr<RunBlock, FreeMemory>;
 
+inline BlockPointer make_block(const RunBlockSetup& setup) {
+  const std::size_t bytes = run_block_size(setup);
+  const std::size_t aligned = (bytes + 63) / 64 * 64;
+  BlockPointer block(static_cast<RunBlock*>(std::aligned_alloc(64, aligned)));
+  std::memset(static_cast<void*>(block.get()), 0, aligned);
+  init_run_block(*block, setup);
+  return block;
+}
+
 inline BlockPointer make_block(const std::vector<Task>& tasks, std::int64_t basic_ns, std::int64_t macro_ns) {
   RunBlockSetup setup;
   setup.node_name = "test";
@@ -50,12 +59,7 @@ inline BlockPointer make_block(const std::vector<Task>& tasks, std::int64_t basi
     module.budget_ns = task.budget_ns;
     setup.modules.push_back(module);
   }
-  const std::size_t bytes = run_block_size(setup);
-  const std::size_t aligned = (bytes + 63) / 64 * 64;
-  BlockPointer block(static_cast<RunBlock*>(std::aligned_alloc(64, aligned)));
-  std::memset(static_cast<void*>(block.get()), 0, aligned);
-  init_run_block(*block, setup);
-  return block;
+  return make_block(setup);
 }
 
 // Tasks numbered 0.. in the given order.

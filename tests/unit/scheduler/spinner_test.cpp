@@ -26,7 +26,7 @@ class LateClock final : public Clock {
   std::int64_t now_ = 0;
 };
 
-TEST(Spinner, LearnsToWakeEarlyEnough) {
+TEST(Spinner, Learns_to_wake_early_enough) {
   LateClock clock;
   clock.late = 30'000;
   Spinner sut(clock, {}, 1'000'000);
@@ -39,7 +39,7 @@ TEST(Spinner, LearnsToWakeEarlyEnough) {
   EXPECT_LT(sut.margin_ns(), 50'000);
 }
 
-TEST(Spinner, NeverSpinsMoreThanHalfThePeriod) {
+TEST(Spinner, Never_spins_more_than_half_the_period) {
   LateClock clock;
   clock.late = 90'000;
   Spinner sut(clock, {}, 100'000);
@@ -49,7 +49,7 @@ TEST(Spinner, NeverSpinsMoreThanHalfThePeriod) {
   EXPECT_LE(sut.margin_ns(), 50'000);
 }
 
-TEST(Spinner, OffOnlySleeps) {
+TEST(Spinner, Off_only_sleeps) {
   LateClock clock;
   clock.late = 7'000;
   Spinner sut(clock, {SpinMode::Off, 0}, 1'000'000);
@@ -57,14 +57,14 @@ TEST(Spinner, OffOnlySleeps) {
   EXPECT_EQ(sut.margin_ns(), 0);
 }
 
-TEST(Spinner, ATimeInThePastReturnsAtOnce) {
+TEST(Spinner, A_time_in_the_past_returns_at_once) {
   LateClock clock;
   Spinner sut(clock, {}, 1'000'000);
   sut.wait_until(-5);
   EXPECT_EQ(clock.sleeps, 0);
 }
 
-TEST(Histogram, EveryValueLiesInsideItsBucket) {
+TEST(Histogram, Every_value_lies_inside_its_bucket) {
   for (std::uint64_t value : {0ULL, 1ULL, 15ULL, 16ULL, 17ULL, 100ULL, 4095ULL, 4096ULL, 123'456'789ULL}) {
     const std::size_t bucket = Histogram::bucket_of(value);
     EXPECT_LE(Histogram::lower_bound(bucket), value);
@@ -73,7 +73,7 @@ TEST(Histogram, EveryValueLiesInsideItsBucket) {
   EXPECT_EQ(Histogram::bucket_of(~0ULL), Histogram::kBuckets - 1);
 }
 
-TEST(JitterReference, OneLateFirstExecutionDoesNotShiftTheOthers) {
+TEST(JitterReference, One_late_first_execution_does_not_shift_the_others) {
   Distribution jitter{};
   JitterReference sut;
   sut.add(jitter, 50'000);
@@ -85,7 +85,7 @@ TEST(JitterReference, OneLateFirstExecutionDoesNotShiftTheOthers) {
   EXPECT_EQ(jitter.sum.load(), 49'900);
 }
 
-TEST(JitterReference, FewExecutionsAreCountedAtTheEnd) {
+TEST(JitterReference, Few_executions_are_counted_at_the_end) {
   Distribution jitter{};
   JitterReference sut;
   sut.add(jitter, 10);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Globs and suggestions.
 
-#include "schema/nearest.h"
+#include "base/nearest.h"
 
 #include <gmock/gmock.h>
 
@@ -57,25 +57,25 @@ TEST(Glob, Many_stars_take_no_exponential_time) {
 
 TEST(Nearest, Finds_the_slip_of_a_finger) {
   const std::vector<std::string> names{"joints", "tick", "period", "priority"};
-  EXPECT_EQ(nearest("joint", names), "joints");
-  EXPECT_EQ(nearest("JOINTS", names), "joints");
-  EXPECT_EQ(nearest("preiod", names), "period");
-  EXPECT_EQ(nearest("tcik", names), "tick");
-  EXPECT_EQ(nearest("priorty", names), "priority");
+  EXPECT_EQ(base::nearest("joint", names), "joints");
+  EXPECT_EQ(base::nearest("JOINTS", names), "joints");
+  EXPECT_EQ(base::nearest("preiod", names), "period");
+  EXPECT_EQ(base::nearest("tcik", names), "tick");
+  EXPECT_EQ(base::nearest("priorty", names), "priority");
 }
 
 TEST(Nearest, Says_nothing_when_nothing_is_close) {
   const std::vector<std::string> names{"joints", "a", ""};
-  EXPECT_EQ(nearest("velocity", names), "");
-  EXPECT_EQ(nearest("b", names), "");
-  EXPECT_EQ(nearest("", names), "");
-  EXPECT_EQ(nearest("joints", {}), "");
-  EXPECT_EQ(nearest(std::string(100'000, 'j'), names), "");
+  EXPECT_EQ(base::nearest("velocity", names), "");
+  EXPECT_EQ(base::nearest("b", names), "");
+  EXPECT_EQ(base::nearest("", names), "");
+  EXPECT_EQ(base::nearest("joints", {}), "");
+  EXPECT_EQ(base::nearest(std::string(100'000, 'j'), names), "");
 }
 
 TEST(Nearest, First_of_equals_wins) {
   const std::vector<std::string> names{"axis2", "axis3"};
-  EXPECT_EQ(nearest("axis1", names), "axis2");
+  EXPECT_EQ(base::nearest("axis1", names), "axis2");
 }
 
 }  // namespace

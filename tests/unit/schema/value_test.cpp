@@ -132,7 +132,7 @@ TEST(Value, Bool_is_a_word_or_a_digit) {
   EXPECT_EQ(parsed(number(Base::Bool), "1").bytes, Bytes{1});
   EXPECT_EQ(parsed(number(Base::Bool), "0").bytes, Bytes{0});
   EXPECT_EQ(format_value(number(Base::Bool), Bytes{0x80}), "true");
-  EXPECT_EQ(parsed(number(Base::Bool), "2").message, "'2' is no bool; write true, false, 1 or 0");
+  EXPECT_EQ(parsed(number(Base::Bool), "2").message, "'2' is not a bool; write true, false, 1 or 0");
 }
 
 TEST(Value, Every_char_round_trips) {
@@ -209,7 +209,7 @@ TEST(Value, Enums_go_by_name_or_number) {
   EXPECT_EQ(format_value(type, bytes_of<std::int32_t>({-7})), "-7");
   EXPECT_EQ(parsed(type, "7").code, Errc::OutOfRange);
   EXPECT_EQ(parsed(type, "auto").message,
-            "'auto' is no value of knu::Robot::Mode; it has Off = 0, Manual = 1, Auto = 2");
+            "'auto' is not a value of knu::Robot::Mode; it has Off = 0, Manual = 1, Auto = 2");
   const Type negative = enumeration("e", {{"Low", INT32_MIN}, {"High", INT32_MAX}});
   EXPECT_EQ(parsed(negative, "-2147483648").bytes, bytes_of<std::int32_t>({INT32_MIN}));
   EXPECT_EQ(parsed(negative, "99999999999999999999").code, Errc::InvalidArgument);
@@ -221,7 +221,8 @@ TEST(Value, Arrays_of_arrays_round_trip) {
   EXPECT_EQ(parsed(type, "[[1,2,3],[4,5,6]]").code, Errc::Ok);
   EXPECT_EQ(parsed(type, "[[1,2],[4,5,6]]").message, "[0]: 2 values where there must be 3 (column 6)");
   EXPECT_EQ(parsed(type, "[[1,2,3,4],[4,5,6]]").message, "[0]: more than 3 values (column 8)");
-  EXPECT_EQ(parsed(type, "[[1,2,3],[4,x,6]]").message, "[1][1]: 'x' is no whole number; int16_t takes -32768 to 32767");
+  EXPECT_EQ(parsed(type, "[[1,2,3],[4,x,6]]").message,
+            "[1][1]: 'x' is not a whole number; int16_t takes -32768 to 32767");
   for (const char* value : {"", "[", "[[", "[[1,2,3],[4,5,6]", "[[1,2,3],[4,5,6]]]", "[1,2,3,4,5,6]",
                             "[[1,2,3] [4,5,6]]", "[[1,2,3,],[4,5,6]]", "5", "[]"}) {
     EXPECT_EQ(parsed(type, value).code, Errc::InvalidArgument) << value;
@@ -258,7 +259,7 @@ TEST(Value, Fields_may_come_in_any_order_quoted_or_be_left_out) {
   }
   EXPECT_THAT(parsed(robot_type(), "{mdoe: 1}").message,
               HasSubstr("robot_t has no field 'mdoe'; did you mean 'mode'?"));
-  EXPECT_THAT(parsed(robot_type(), "{points: [{x: a}]}").message, HasSubstr("points[0].x: 'a' is no number"));
+  EXPECT_THAT(parsed(robot_type(), "{points: [{x: a}]}").message, HasSubstr("points[0].x: 'a' is not a number"));
 }
 
 TEST(Value, Every_truncation_of_a_value_is_refused) {

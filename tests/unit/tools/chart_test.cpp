@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "tools/chart_svg.h"
-#include "tools/chart_text.h"
-#include "tools/recording.h"
+#include "tools/pictures/chart_svg.h"
+#include "tools/pictures/chart_text.h"
+#include "tools/values/recording.h"
 
 namespace indurop::tools {
 namespace {
@@ -53,8 +53,8 @@ TEST(RecordingText, Numbers_words_arrays_and_gaps_are_read) {
 TEST(RecordingText, What_is_no_recording_is_named_with_its_line) {
   EXPECT_THAT(problem("a,b\n1,2\n"), StartsWith("run.csv:1: error: the heading is not that of a recording"));
   EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3: error: 1 values for 2 columns"));
-  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2: error: the first column is no time"));
-  EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times do not rise"));
+  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2: error: the first column is not a time"));
+  EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times are not rising"));
   EXPECT_THAT(problem("time_ns,a\n1,2\n"), HasSubstr("at least two rows"));
   EXPECT_THAT(problem(""), HasSubstr("error"));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grades of a machine.
-#include "tools/doctor_checks.h"
+#include "tools/doctor/doctor_checks.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "scheduler/statistics.h"
-#include "tools/histogram_bins.h"
-#include "tools/histogram_svg.h"
-#include "tools/units.h"
+#include "tools/command/units.h"
+#include "tools/pictures/histogram_bins.h"
+#include "tools/pictures/histogram_svg.h"
 
 namespace indurop::tools {
 namespace {

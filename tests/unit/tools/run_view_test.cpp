@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The run block as a stranger's file: nothing in it is believed before it was checked.
-#include "tools/run_view.h"
+#include "tools/values/run_view.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -115,7 +115,7 @@ TEST_F(RunViewTest, Offsets_and_counts_that_lead_outside_are_refused) {
   EXPECT_TRUE(refused(block_->total_size, UINT64_MAX));
 }
 
-TEST_F(RunViewTest, Random_damage_never_crashes_a_reader) {
+TEST_F(RunViewTest, What_a_damaged_block_says_stays_within_its_bounds) {
   std::mt19937_64 random(3);
   auto* bytes = reinterpret_cast<unsigned char*>(block_);
   const std::vector<unsigned char> good(bytes, bytes + sizeof(scheduler::RunBlock));
@@ -126,9 +126,10 @@ TEST_F(RunViewTest, Random_damage_never_crashes_a_reader) {
     }
     const auto sut = RunView::open(node_);
     if (sut.ok()) {
-      static_cast<void>(sut.value().slot_log(100).size() + sut.value().overrun_log(100).size());
+      EXPECT_LE(sut.value().slot_log(100).size(), 100U);
+      EXPECT_LE(sut.value().overrun_log(100).size(), 100U);
       for (std::uint32_t i = 0; i < sut.value().module_count(); ++i) {
-        static_cast<void>(sut.value().module_name(i).size());
+        EXPECT_LE(sut.value().module_name(i).size(), sizeof(scheduler::ModuleRecord::name));
       }
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines that fit on the screen.
-#include "tools/screen.h"
+#include "tools/command/screen.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The word that was meant.
-#include "tools/suggest.h"
+#include "tools/command/suggest.h"
 
 #include <gtest/gtest.h>
 

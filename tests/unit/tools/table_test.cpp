@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One set of rows as text, CSV and JSON.
-#include "tools/table.h"
+#include "tools/command/table.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(Table, Csv_holds_raw_values_and_quotes_what_must_be_quoted) {
 }
 
 TEST(Table, Json_holds_raw_values_under_their_keys) {
-  EXPECT_EQ(dump(sample().json()),
+  EXPECT_EQ(sample().json().dump(),
             R"([{"name":"a","time_ns":12345,"hidden":true},{"name":"longer, \"name\"","time_ns":1,"hidden":false}])");
 }
 
@@ -46,14 +46,14 @@ TEST(Table, Without_rows_the_text_is_empty_but_csv_has_its_heading) {
   const Table sut(std::vector<Column>{{"A", "a"}});
   EXPECT_EQ(sut.text(Output(ColorWhen::Never)), "");
   EXPECT_EQ(sut.csv(), "a\n");
-  EXPECT_EQ(dump(sut.json()), "[]");
+  EXPECT_EQ(sut.json().dump(), "[]");
 }
 
 TEST(Table, Broken_text_cannot_reach_the_terminal_or_break_json) {
   Table sut(std::vector<Column>{{"A", "a"}});
   sut.add({Cell("\x1b[2J\xff")});
   EXPECT_EQ(sut.text(Output(ColorWhen::Never)), "A\n?[2J?\n");
-  EXPECT_NE(dump(sut.json()).find("\\u001b[2J"), std::string::npos);
+  EXPECT_NE(sut.json().dump().find("\\u001b[2J"), std::string::npos);
 }
 
 TEST(Table, Lists_of_names_are_one_csv_field) {

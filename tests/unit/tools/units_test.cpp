@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers as people read them.
-#include "tools/units.h"
+#include "tools/command/units.h"
 
 #include <gtest/gtest.h>
 
@@ -39,20 +39,6 @@ TEST(Units, Bytes_have_binary_units) {
   EXPECT_EQ(human_bytes(1536), "1.50 KiB");
   EXPECT_EQ(human_bytes(206ULL << 20U), "206 MiB");
   EXPECT_EQ(human_bytes(UINT64_MAX), "16777216 TiB");
-}
-
-TEST(Units, A_plain_number_is_seconds) {
-  EXPECT_EQ(parse_seconds_ns("2"), 2'000'000'000);
-  EXPECT_EQ(parse_seconds_ns("0.5"), 500'000'000);
-  EXPECT_EQ(parse_seconds_ns("250ms"), 250'000'000);
-  EXPECT_EQ(parse_seconds_ns("1min"), 60'000'000'000);
-  EXPECT_EQ(parse_seconds_ns("0"), 0);
-}
-
-TEST(Units, What_is_no_time_is_refused) {
-  for (const char* text : {"", "s", "-1", "1 s", "1x", "nan", "inf", "1e300", "2s2"}) {
-    EXPECT_LT(parse_seconds_ns(text), 0) << text;
-  }
 }
 
 TEST(Units, Terminal_escapes_in_foreign_text_are_disarmed) {

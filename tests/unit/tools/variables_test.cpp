@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names, globs and ranges as arguments give them.
-#include "tools/variables.h"
+#include "tools/values/variables.h"
 
 #include <gtest/gtest.h>
 
@@ -26,12 +26,6 @@ TEST(RangeText, An_open_end_is_left_out) {
   EXPECT_EQ(range_text(schema::Range{-0.5, kInfinite}), "-0.5..");
   EXPECT_EQ(range_text(schema::Range{-kInfinite, 2}), "..2");
   EXPECT_EQ(range_text({}), "");
-}
-
-TEST(ValueMark, Is_taken_off_values_and_nothing_else) {
-  EXPECT_EQ(value_of(std::string(1, kValueMark) + "-2.5"), "-2.5");
-  EXPECT_EQ(value_of("name"), "name");
-  EXPECT_EQ(value_of(""), "");
 }
 
 }  // namespace

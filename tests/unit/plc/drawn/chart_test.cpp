@@ -48,7 +48,7 @@ class PlcChart : public ::testing::Test {
   std::chrono::milliseconds at_{1000};
 };
 
-TEST_F(PlcChart, TheInitialStepRunsInTheFirstScanEvenIfItsTransitionIsTrue) {
+TEST_F(PlcChart, The_initial_step_runs_in_the_first_scan_even_if_its_transition_is_true) {
   press::press_Go = true;
   scan();
   EXPECT_TRUE(press::press_Released.get());
@@ -58,7 +58,7 @@ TEST_F(PlcChart, TheInitialStepRunsInTheFirstScanEvenIfItsTransitionIsTrue) {
   EXPECT_EQ(press::press_Strokes.get(), 1);
 }
 
-TEST_F(PlcChart, APulseRunsOnce) {
+TEST_F(PlcChart, A_pulse_runs_once) {
   begin();
   for (int i = 0; i < 5; ++i) {
     scan();
@@ -66,7 +66,7 @@ TEST_F(PlcChart, APulseRunsOnce) {
   EXPECT_EQ(press::press_Strokes.get(), 1);
 }
 
-TEST_F(PlcChart, ADelayedActionWaits) {
+TEST_F(PlcChart, A_delayed_action_waits) {
   begin();  // the step is active since this scan
   for (int i = 1; i < 5; ++i) {
     scan();
@@ -76,7 +76,7 @@ TEST_F(PlcChart, ADelayedActionWaits) {
   EXPECT_TRUE(press::press_Clamped.get()) << "500 ms later";
 }
 
-TEST_F(PlcChart, ALimitedActionEnds) {
+TEST_F(PlcChart, A_limited_action_ends) {
   begin();
   bool before = press::press_Lamp.get();
   int flashes = 1;  // in the scan that made the step active
@@ -88,7 +88,7 @@ TEST_F(PlcChart, ALimitedActionEnds) {
   EXPECT_EQ(flashes, 21) << "2 s of 100 ms, the last scan included";
 }
 
-TEST_F(PlcChart, ASimultaneousConvergenceNeedsAllItsSteps) {
+TEST_F(PlcChart, A_simultaneous_convergence_needs_all_its_steps) {
   begin();
   press::press_Down = true;
   for (int i = 1; i <= 5; ++i) {

@@ -41,7 +41,7 @@ class PlcConveyor : public ::testing::Test {
   std::chrono::milliseconds at_{0};
 };
 
-TEST_F(PlcConveyor, TheMotorFollowsTheHorn) {
+TEST_F(PlcConveyor, The_motor_follows_the_horn) {
   belt::start = true;
   scan(1);
   belt::start = false;
@@ -56,7 +56,7 @@ TEST_F(PlcConveyor, TheMotorFollowsTheHorn) {
   EXPECT_FALSE(belt::motor.get());
 }
 
-TEST_F(PlcConveyor, TwelveBoxesAreAPallet) {
+TEST_F(PlcConveyor, Twelve_boxes_are_a_pallet) {
   for (int i = 1; i <= 12; ++i) {
     belt::box_sensor = true;
     scan(3);
@@ -67,7 +67,7 @@ TEST_F(PlcConveyor, TwelveBoxesAreAPallet) {
   }
 }
 
-TEST_F(PlcConveyor, AJamStopsItUntilAcknowledged) {
+TEST_F(PlcConveyor, A_jam_stops_it_until_acknowledged) {
   belt::start = true;
   scan(202);
   belt::start = false;
@@ -84,7 +84,7 @@ TEST_F(PlcConveyor, AJamStopsItUntilAcknowledged) {
   EXPECT_TRUE(belt::motor.get());
 }
 
-TEST_F(PlcConveyor, EveryPowerOfTheDrawingIsABitOfTheFlow) {
+TEST_F(PlcConveyor, Every_power_of_the_drawing_is_a_bit_of_the_flow) {
   std::ifstream in(PLC_CONVEYOR);
   std::ostringstream xml;
   xml << in.rdbuf();

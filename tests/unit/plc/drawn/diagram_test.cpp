@@ -15,7 +15,7 @@ using std::chrono_literals::operator""ms;
 using testing::PlcModule;
 namespace mixed = plc_test_beremiz_mixed;
 
-TEST(PlcDiagram, FeedbackBringsTheValueOfTheLastScan) {
+TEST(PlcDiagram, Feedback_brings_the_value_of_the_last_scan) {
   const PlcModule sut("plc_test_beremiz_mixed_fast");
   // 200 ms until the lamp goes on. Off sees that On is off a scan later, and On that Off is off a scan after that.
   int changes = 0;
@@ -30,7 +30,7 @@ TEST(PlcDiagram, FeedbackBringsTheValueOfTheLastScan) {
   EXPECT_EQ(changes, 9);
 }
 
-TEST(PlcDiagram, AVariableInTheMiddleOfANetworkIsWrittenBeforeItIsRead) {
+TEST(PlcDiagram, A_variable_in_the_middle_of_a_network_is_written_before_it_is_read) {
   const PlcModule sut("plc_test_beremiz_mixed_slow");
   mixed::Go = false;  // reset: the counter stands at First
   sut.scan();

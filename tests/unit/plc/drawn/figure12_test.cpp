@@ -13,7 +13,7 @@ namespace {
 
 using testing::PlcModule;
 
-TEST(PlcFigure12, AContactIsClosedUnlessTheNumberIsZeroAndACoilWritesOneOrZero) {
+TEST(PlcFigure12, A_contact_is_closed_unless_the_number_is_zero_and_a_coil_writes_one_or_zero) {
   const PlcModule sut("plc_test_figure12");
   PLC_ROBOT::O0 = 77;
   for (const int input : {0, 1, -1, 256, 0}) {
@@ -27,7 +27,7 @@ TEST(PlcFigure12, AContactIsClosedUnlessTheNumberIsZeroAndACoilWritesOneOrZero) 
   }
 }
 
-TEST(PlcFigure12, SetResetAndNegatedCoilsWriteNumbersToo) {
+TEST(PlcFigure12, Set_reset_and_negated_coils_write_numbers_too) {
   const PlcModule sut("plc_test_figure12");
   PLC_ROBOT::I0 = 4;
   PLC_ROBOT::latched = 0;
@@ -48,7 +48,7 @@ TEST(PlcFigure12, SetResetAndNegatedCoilsWriteNumbersToo) {
   EXPECT_EQ(PLC_ROBOT::latched.get(), 0);
 }
 
-TEST(PlcFigure12, TheRisingEdgeOfANumberIsItsStepAwayFromZero) {
+TEST(PlcFigure12, The_rising_edge_of_a_number_is_its_step_away_from_zero) {
   const PlcModule sut("plc_test_figure12");
   PLC_ROBOT::msgRobotServiceEditNum = 0;
   for (const int input : {0, 3, 4, 0, -7, 0}) {

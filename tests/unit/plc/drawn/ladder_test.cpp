@@ -17,7 +17,7 @@ using testing::PlcModule;
 namespace house = plc_test_openplc_ladder;
 namespace tank = plc_test_codesys_ladder;
 
-TEST(PlcLadder, SeriesIsAndParallelIsOr) {
+TEST(PlcLadder, Series_is_and_parallel_is_or) {
   const PlcModule sut("plc_test_openplc_ladder");
   for (const bool door : {false, true}) {
     for (const bool key : {false, true}) {
@@ -32,7 +32,7 @@ TEST(PlcLadder, SeriesIsAndParallelIsOr) {
   house::instance_key = false;
 }
 
-TEST(PlcLadder, FallingEdgeContactClosesForOneScan) {
+TEST(PlcLadder, Falling_edge_contact_closes_for_one_scan) {
   const PlcModule sut("plc_test_openplc_ladder");
   house::instance_window = false;
   sut.scan();
@@ -47,7 +47,7 @@ TEST(PlcLadder, FallingEdgeContactClosesForOneScan) {
   EXPECT_TRUE(house::instance_lamp.get());
 }
 
-TEST(PlcLadder, RisingEdgeCoilIsTrueForOneScan) {
+TEST(PlcLadder, Rising_edge_coil_is_true_for_one_scan) {
   const PlcModule sut("plc_test_openplc_ladder");
   house::instance_night = true;
   house::instance_dog = true;
@@ -66,7 +66,7 @@ TEST(PlcLadder, RisingEdgeCoilIsTrueForOneScan) {
   house::instance_guard = false;
 }
 
-TEST(PlcLadder, BoxesAreEvaluatedOnlyWhileEnabled) {
+TEST(PlcLadder, Boxes_are_evaluated_only_while_enabled) {
   const PlcModule sut("plc_test_openplc_ladder");
   house::instance_door = false;
   house::instance_visits = 7;
@@ -84,7 +84,7 @@ TEST(PlcLadder, BoxesAreEvaluatedOnlyWhileEnabled) {
   EXPECT_TRUE(house::instance_light.get());
 }
 
-TEST(PlcLadder, ComparisonInTheRungGatesThePower) {
+TEST(PlcLadder, Comparison_in_the_rung_gates_the_power) {
   const PlcModule sut("plc_test_codesys_ladder");
   tank::PLC_PRG_bFill = true;
   tank::PLC_PRG_rLevel = 12.5F;
@@ -101,7 +101,7 @@ TEST(PlcLadder, ComparisonInTheRungGatesThePower) {
   tank::PLC_PRG_bHold = false;
 }
 
-TEST(PlcLadder, JumpsPassOverRungs) {
+TEST(PlcLadder, Jumps_pass_over_rungs) {
   const PlcModule sut("plc_test_codesys_ladder");
   tank::PLC_PRG_rLevel = 0.0F;
   tank::PLC_PRG_bHold = false;

@@ -15,7 +15,7 @@ using std::chrono_literals::operator""ms;
 using testing::PlcModule;
 namespace list = plc_test_instruction_list;
 
-TEST(PlcList, OperatorsWorkFromLeftToRight) {
+TEST(PlcList, Operators_work_from_left_to_right) {
   const PlcModule sut("plc_test_instruction_list");
   for (unsigned bits = 0; bits < 8; ++bits) {
     const bool a = (bits & 1U) != 0;
@@ -36,7 +36,7 @@ TEST(PlcList, OperatorsWorkFromLeftToRight) {
   }
 }
 
-TEST(PlcList, WhatWasStoredStaysInTheAccumulator) {
+TEST(PlcList, What_was_stored_stays_in_the_accumulator) {
   const PlcModule sut("plc_test_instruction_list");
   list::Logic_a = false;
   list::Logic_b = false;

@@ -25,7 +25,7 @@ std::chrono::nanoseconds period_of(const plc::Compiled& program) {
   return std::chrono::nanoseconds(program.modules.at(0).period_ns);
 }
 
-TEST(PlcTasks, AnIntervalMayStandInAnExtension) {
+TEST(PlcTasks, An_interval_may_stand_in_an_extension) {
   const plc::Compiled twincat = compiled({"twincat_application"});
   ASSERT_TRUE(twincat.ok) << twincat.messages;
   EXPECT_EQ(period_of(twincat), 5ms);
@@ -35,27 +35,27 @@ TEST(PlcTasks, AnIntervalMayStandInAnExtension) {
   EXPECT_EQ(period_of(codesys), 20ms);
 }
 
-TEST(PlcTasks, AnIntervalMayBeAClockTime) {
+TEST(PlcTasks, An_interval_may_be_a_clock_time) {
   const plc::Compiled sut = compiled({"beremiz_details"});
   ASSERT_TRUE(sut.ok) << sut.messages;
   EXPECT_EQ(period_of(sut), 20ms);
 }
 
-TEST(PlcTasks, ProgramsOfLibrariesAreLeftOutWithAWarning) {
+TEST(PlcTasks, Programs_of_libraries_are_left_out_with_a_warning) {
   const plc::Compiled sut = compiled({"codesys_project"});
   EXPECT_EQ(sut.modules.size(), 1U);
   EXPECT_NE(sut.messages.find("warning: program VisuElems.Visu_Prg: this is a program of a library"), std::string::npos)
       << sut.messages;
 }
 
-TEST(PlcTasks, TypesMayComeFromAFileOfTheirOwn) {
+TEST(PlcTasks, Types_may_come_from_a_file_of_their_own) {
   const plc::Compiled alone = compiled({"types_only"});
   EXPECT_NE(alone.messages.find("there is no PROGRAM that could run"), std::string::npos) << alone.messages;
   const plc::Compiled both = compiled({"beremiz_details", "types_only"});
   EXPECT_TRUE(both.ok) << both.messages;
 }
 
-TEST(PlcTasks, TwoFilesWithChartsAreOneProgram) {
+TEST(PlcTasks, Two_files_with_charts_are_one_program) {
   const plc::Compiled sut = compiled({"beremiz_chart", "twincat_application"});
   EXPECT_EQ(sut.messages.find("SFC_STEP"), std::string::npos) << sut.messages;
 }

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 #include <indurop/plc/counters.h>
 
+#include <array>
+#include <cstring>
 #include <initializer_list>
-#include <type_traits>
 
 namespace indurop::iec {
 namespace {
@@ -126,8 +127,23 @@ TEST(PlcCtud, Counts_both_ways_reset_before_load_before_counting) {
   }
 }
 
-TEST(PlcBlocks, Can_be_retained_as_bytes) {
-  static_assert(std::is_trivially_copyable_v<Ctud<Int>>);
+TEST(PlcBlocks, Restored_from_bytes_they_count_on_without_a_new_edge) {
+  Ctu<Int> before;
+  before.pv = 2;
+  before.cu = true;
+  before(kScan);
+  std::array<unsigned char, sizeof before> bytes{};
+  std::memcpy(bytes.data(), &before, sizeof before);
+  Ctu<Int> sut;
+  std::memcpy(&sut, bytes.data(), sizeof sut);
+  sut(kScan);  // the input is still on: no edge
+  EXPECT_EQ(sut.cv, 1);
+  sut.cu = false;
+  sut(kScan);
+  sut.cu = true;
+  sut(kScan);
+  EXPECT_EQ(sut.cv, 2);
+  EXPECT_TRUE(sut.q);
 }
 
 }  // namespace

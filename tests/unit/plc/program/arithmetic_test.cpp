@@ -10,7 +10,7 @@
 
 namespace v = plc_test_arithmetic;
 
-TEST(PlcArithmetic, ResultsAreThoseOfTheStandard) {
+TEST(PlcArithmetic, Results_are_those_of_the_standard) {
   const indurop::testing::PlcModule sut("plc_test_arithmetic");
   sut.scan();
   EXPECT_EQ(v::main_sint_wraps.get(), -128);
@@ -35,7 +35,7 @@ TEST(PlcArithmetic, ResultsAreThoseOfTheStandard) {
   EXPECT_EQ(v::main_based.get(), 0xDEADBEEFU);
 }
 
-TEST(PlcArithmetic, CallsPassWhatTheyName) {
+TEST(PlcArithmetic, Calls_pass_what_they_name) {
   const indurop::testing::PlcModule sut("plc_test_arithmetic");
   sut.scan();
   EXPECT_EQ(v::main_chosen.get(), 30);

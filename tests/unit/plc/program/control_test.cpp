@@ -10,7 +10,7 @@
 
 namespace v = plc_test_control;
 
-TEST(PlcControl, LoopsEndWhereTheyShould) {
+TEST(PlcControl, Loops_end_where_they_should) {
   const indurop::testing::PlcModule sut("plc_test_control");
   sut.scan();
   EXPECT_EQ(v::main_sum.get(), 55);
@@ -26,7 +26,7 @@ TEST(PlcControl, LoopsEndWhereTheyShould) {
   EXPECT_EQ(v::main_jumped.get(), 5);
 }
 
-TEST(PlcControl, BranchesFollowTheirConditions) {
+TEST(PlcControl, Branches_follow_their_conditions) {
   const indurop::testing::PlcModule sut("plc_test_control");
   for (const int input : {-5, 0, 5}) {
     v::main_input = static_cast<std::int16_t>(input);
@@ -36,7 +36,7 @@ TEST(PlcControl, BranchesFollowTheirConditions) {
   EXPECT_EQ(v::main_by_color.get(), 2);
 }
 
-TEST(PlcControl, EdgesOfInputsAreSeenOnce) {
+TEST(PlcControl, Edges_of_inputs_are_seen_once) {
   const indurop::testing::PlcModule sut("plc_test_control");
   for (const bool flank : {false, true, true, false, false, true}) {
     v::main_flank = flank;

@@ -10,7 +10,7 @@
 
 namespace v = plc_test_data;
 
-TEST(PlcData, InitialValuesAreThoseOfVariableAndType) {
+TEST(PlcData, Initial_values_are_those_of_variable_and_type) {
   EXPECT_EQ(v::parts[0].name.get(), "first");
   EXPECT_EQ(v::parts[0].size[1].get(), 2.5F);
   EXPECT_EQ(v::parts[0].mode.get(), v::Slow);
@@ -23,7 +23,7 @@ TEST(PlcData, InitialValuesAreThoseOfVariableAndType) {
   EXPECT_EQ(v::at_word.get(), 0x1234);
 }
 
-TEST(PlcData, StructsArraysTextsAndTimesAreValues) {
+TEST(PlcData, Structs_arrays_texts_and_times_are_values) {
   const indurop::testing::PlcModule sut("plc_test_data");
   sut.scan();
   EXPECT_EQ(v::parts[3].name.get(), "first");
@@ -43,7 +43,7 @@ TEST(PlcData, StructsArraysTextsAndTimesAreValues) {
   EXPECT_EQ(v::main_later.get() % 86'400'000'000'000, 48'600'000'000'000);
 }
 
-TEST(PlcData, LocatedVariablesAreOnePerAddress) {
+TEST(PlcData, Located_variables_are_one_per_address) {
   const indurop::testing::PlcModule sut("plc_test_data");
   v::at_word = 77;
   sut.scan();
@@ -51,7 +51,7 @@ TEST(PlcData, LocatedVariablesAreOnePerAddress) {
   EXPECT_TRUE(v::MX1_5.get());
 }
 
-TEST(PlcData, ScansGoOnWithWhatOthersWrote) {
+TEST(PlcData, Scans_go_on_with_what_others_wrote) {
   const indurop::testing::PlcModule sut("plc_test_data");
   v::kept = 10;
   sut.scan();

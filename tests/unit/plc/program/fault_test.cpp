@@ -10,7 +10,7 @@
 
 namespace v = plc_test_faults;
 
-TEST(PlcFault, NamesPlaceReasonAndPou) {
+TEST(PlcFault, Names_place_reason_and_pou) {
   const indurop::testing::PlcModule sut("plc_test_faults");
   const auto fault_of = [&](std::int16_t number) {
     v::which = number;
@@ -25,7 +25,7 @@ TEST(PlcFault, NamesPlaceReasonAndPou) {
   EXPECT_EQ(fault_of(6), "faults.st:31:17: division by zero in main");
 }
 
-TEST(PlcFault, AScanThatFaultsPublishesNothing) {
+TEST(PlcFault, A_scan_that_faults_publishes_nothing) {
   const indurop::testing::PlcModule sut("plc_test_faults");
   v::which = 0;
   sut.scan();

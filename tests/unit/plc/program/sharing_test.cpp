@@ -11,7 +11,7 @@
 
 namespace v = plc_test_sharing;
 
-TEST(PlcSharing, VariablesOfOtherModulesAreReadAndWritten) {
+TEST(PlcSharing, Variables_of_other_modules_are_read_and_written) {
   const indurop::testing::PlcModule sut("plc_test_sharing_fast");
   PLC_ROBOT::I0 = 1;
   PLC_ROBOT::I1 = 7;
@@ -25,7 +25,7 @@ TEST(PlcSharing, VariablesOfOtherModulesAreReadAndWritten) {
   EXPECT_EQ(PLC_ROBOT::O0.get(), 0);
 }
 
-TEST(PlcSharing, FieldsTheProgramDoesNotWriteKeepTheirWriter) {
+TEST(PlcSharing, Fields_the_program_does_not_write_keep_their_writer) {
   const indurop::testing::PlcModule sut("plc_test_sharing_fast");
   PLC_ROBOT::ROBOT_MODULE_STATE.eState = PLC_ROBOT::STANDBY;
   PLC_ROBOT::ROBOT_MODULE_SERVICE.t_speed = 50;
@@ -35,7 +35,7 @@ TEST(PlcSharing, FieldsTheProgramDoesNotWriteKeepTheirWriter) {
   EXPECT_EQ(PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode.get(), 10);
 }
 
-TEST(PlcSharing, TasksAreModulesThatShareTheGlobals) {
+TEST(PlcSharing, Tasks_are_modules_that_share_the_globals) {
   const indurop::testing::PlcModule fast("plc_test_sharing_fast");
   const indurop::testing::PlcModule slow("plc_test_sharing_slow");
   v::handed = 6;

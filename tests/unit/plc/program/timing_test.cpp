@@ -11,7 +11,7 @@
 namespace v = plc_test_timing;
 using std::chrono_literals::operator""ms;
 
-TEST(PlcTiming, TimersAreExactToTheScan) {
+TEST(PlcTiming, Timers_are_exact_to_the_scan) {
   const indurop::testing::PlcModule sut("plc_test_timing");
   v::button = true;
   for (auto at = 10ms; at < 40ms; at += 10ms) {
@@ -27,7 +27,7 @@ TEST(PlcTiming, TimersAreExactToTheScan) {
   EXPECT_FALSE(v::lamp.get());
 }
 
-TEST(PlcTiming, CountersCountEdges) {
+TEST(PlcTiming, Counters_count_edges) {
   const indurop::testing::PlcModule sut("plc_test_timing");
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(v::full.get(), i >= 2);

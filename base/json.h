@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A JSON value, for documents we write and small ones we read. Objects keep the order of their members. A narrow door
+// to the JSON library, which costs seconds in every file that includes it.
+
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::base {
+
+class Json {
+ public:
+  enum class Type { Null, Boolean, Integer, Natural, Number, Text, Array, Object };  // Natural: an integer >= 0
+
+  Json() noexcept;
+  Json(std::nullptr_t) noexcept;
+  Json(const char* text);
+  Json(std::string text);
+  Json(std::string_view text);
+  template <std::same_as<bool> T>  // nothing is converted to bool
+  Json(T value) noexcept : Json() {
+    type_ = Type::Boolean;
+    integer_ = value ? 1 : 0;
+  }
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) Json(T value)
+  noexcept : Json() {
+    type_ = std::signed_integral<T> && value < 0 ? Type::Integer : Type::Natural;
+    integer_ = static_cast<std::uint64_t>(value);
+  }
+  Json(double value) noexcept;
+  Json(const std::vector<std::string>& texts);
+  // An object if all values are arrays of a text and a value, else an array.
+  Json(std::initializer_list<Json> values);
+  Json(const Json& other);
+  Json(Json&& other) noexcept;
+  Json& operator=(const Json& other);
+  Json& operator=(Json&& other) noexcept;
+  ~Json();
+
+  static Json array();
+  static Json object();
+  // Nothing if `text` is not JSON, or is nested deeper than 64 levels.
+  static std::optional<Json> parse(std::string_view text);
+
+  // ---- writing
+  // The member `key`, made if it is not there; null becomes an object. Of arrays and scalars: not to be called.
+  Json& operator[](std::string_view key);
+  // Null becomes an array.
+  void push_back(Json value);
+  // Takes over the members of another object.
+  void update(const Json& other);
+  // One line, or lines indented by `indent` >= 0. Invalid UTF-8 is replaced.
+  [[nodiscard]] std::string dump(int indent = -1) const;
+
+  // ---- reading: nothing is thrown, what is not there is null or nothing
+  [[nodiscard]] Type type() const noexcept { return type_; }
+  [[nodiscard]] bool is_null() const noexcept { return type_ == Type::Null; }
+  [[nodiscard]] bool is_text() const noexcept { return type_ == Type::Text; }
+  [[nodiscard]] bool is_array() const noexcept { return type_ == Type::Array; }
+  [[nodiscard]] bool is_object() const noexcept { return type_ == Type::Object; }
+  // Elements of an array, values of an object, else none.
+  [[nodiscard]] std::span<const Json> values() const noexcept { return values_; }
+  // Null if this is no object or has no such member.
+  [[nodiscard]] const Json* find(std::string_view key) const noexcept;
+  // The member, or null.
+  const Json& operator[](std::string_view key) const noexcept;
+  [[nodiscard]] std::optional<std::string> text() const;
+  [[nodiscard]] std::optional<std::int64_t> integer() const noexcept;
+  [[nodiscard]] std::optional<std::uint64_t> natural() const noexcept;
+  [[nodiscard]] std::optional<double> number() const noexcept;  // integers too
+  [[nodiscard]] std::optional<bool> boolean() const noexcept;
+
+ private:
+  void write(std::string& out, int indent, int depth) const;
+
+  Type type_ = Type::Null;
+  std::uint64_t integer_ = 0;  // of Integer as two's complement, of Boolean 0 or 1
+  double number_ = 0;
+  std::string text_;
+  std::vector<Json> values_;
+  std::vector<std::string> keys_;  // of an object, beside values_
+};
+
+// Reads the member `key` of `object`. False if it is not there or of another type; `to` is then as it was.
+bool read(const Json& object, std::string_view key, std::string& to);
+bool read(const Json& object, std::string_view key, std::int64_t& to);
+bool read(const Json& object, std::string_view key, std::uint64_t& to);
+bool read(const Json& object, std::string_view key, bool& to);
+bool read(const Json& object, std::string_view key, std::vector<std::string>& to);
+
+}  // namespace indurop::base

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SIGINT, SIGTERM and SIGHUP as something to ask for. They are blocked in every thread, so construct it before any.
+
+#pragma once
+
+#include <csignal>
+#include <cstdint>
+
+namespace indurop::base {
+
+class StopSignal {
+ public:
+  StopSignal() noexcept;
+  // Waits at most this long for a stop signal or the end of a child. Returns the stop signal that has come so far, 0 if
+  // none.
+  int wait(std::int64_t timeout_ns) noexcept;
+  [[nodiscard]] int received() const noexcept { return received_; }
+
+ private:
+  sigset_t set_{};
+  int received_ = 0;
+};
+
+}  // namespace indurop::base

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text as characters of UTF-8 (RFC 3629: no overlong forms, no surrogates).
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace indurop::base {
+
+// Length in bytes of the character at the start of `text`, which is not empty; 0 if there is none.
+std::size_t utf8_length(std::string_view text) noexcept;
+
+// Offset of the first byte that is not UTF-8, if any.
+std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept;
+
+// True for a byte that goes on with a character begun before.
+constexpr bool continues_utf8(char c) noexcept {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+}  // namespace indurop::base

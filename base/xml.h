@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads an XML document to elements with places. The only part of the product that knows the XML library.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/xml_element.h"
+#include "base/xml_places.h"
+
+namespace indurop::base {
+
+// The root element, or empty after at least one mistake: too large, in another encoding than UTF-8, nested too deep,
+// not well-formed. Reads any bytes, whatever they contain. Not real-time safe.
+[[nodiscard]] std::optional<Element> read_xml(std::string_view bytes, const XmlRules& rules,
+                                              std::vector<XmlMistake>& mistakes);
+
+// Name of the root element, however damaged the rest of the document is; empty if there is none.
+[[nodiscard]] std::string xml_root_name(std::string_view bytes, const XmlRules& rules);
+
+}  // namespace indurop::base

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Topics for tools of others: libraries of their types, and rules for single variables.
+
+#include <map>
+
+#include "base/text.h"
+#include "config/check/check_parts.h"
+#include "schema/elf.h"
+
+namespace indurop::config {
+
+void check_type_libraries(const TypeFiles& named, base::Diagnostics& report) {
+  for (std::size_t i = 0; i < named.types.size(); ++i) {
+    const std::string& written = named.types_as_written[i];
+    const auto read = schema::read_module_file(named.types[i]);
+    if (!read) {
+      report.error(named.type_places[i], unreadable_file(read.error(), {named.types[i], written, "<types>"}, true));
+    } else if (!read.value().shared_object) {
+      report.error(named.type_places[i], base::path_in_quotes(written) +
+                                             " is a program, not a library of types; name the lib..._types.so that "
+                                             "indurop_add_glb(... TYPES) builds");
+    }
+  }
+}
+
+void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, base::Diagnostics& report) {
+  std::map<std::string, int> lines;
+  std::erase_if(rules, [&](VariableRule& rule) {
+    std::string message;
+    const auto place = schema::find_place(schema, rule.name, message);
+    if (!place) {
+      report.error(rule.place, "<variable>: " + message);
+      return true;
+    }
+    const schema::Variable& variable = *place.value().variable;
+    if (schema::canonical(place.value().type) != schema::canonical(variable.type)) {
+      report.error(rule.place, base::in_quotes(rule.name) +
+                                   " is a part of a variable, which travels as a whole; write name=\"" + variable.name +
+                                   "\"");
+      return true;
+    }
+    const auto [first, is_first] = lines.try_emplace(variable.name, rule.place.line);
+    if (!is_first) {
+      report.error(rule.place, "a second <variable> for " + base::in_quotes(variable.name) + ", the first is in line " +
+                                   std::to_string(first->second) + "; write both in one");
+      return true;
+    }
+    rule.name = variable.name;
+    return false;
+  });
+}
+
+void check_external_rules(const std::vector<VariableRule>& rules, bool shown, const Uses& uses,
+                          base::Diagnostics& report) {
+  for (const VariableRule& rule : rules) {
+    if (rule.external != VariableRule::External::Write) {
+      continue;
+    }
+    if (!shown) {
+      report.warning(rule.place, "nobody can set " + base::in_quotes(rule.name) +
+                                     " from outside: without <types>, or with <external>off</external>, there are no "
+                                     "topics for other tools");
+    }
+    const auto users = uses.variables().find(rule.name);
+    if (users != uses.variables().end() && !users->second.writers.empty()) {
+      report.warning(rule.place, base::in_quotes(rule.name) + " may be set from outside, but is also written by " +
+                                     base::enumerate(uses.names(users->second.writers)) +
+                                     ", which replaces what was set; let one of them have a variable of its own");
+    }
+  }
+}
+
+std::set<std::string> check_external(CheckContext& context, const Uses& uses) {
+  ExternalPlane& plane = context.config.external;
+  check_type_libraries(plane, context.report);
+  resolve_rules(plane.variables, context.result.schema, context.report);
+  check_external_rules(plane.variables, plane.domain && !plane.types.empty(), uses, context.report);
+  std::set<std::string> settable;
+  for (const VariableRule& rule : plane.variables) {
+    if (rule.external == VariableRule::External::Write) {
+      settable.insert(rule.name);
+    }
+  }
+  return settable;
+}
+
+}  // namespace indurop::config

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every board of a plant, then what holds between them.
+#include "config/check/check_plant.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "config/check/check_parts.h"
+#include "config/check/plant_parts.h"
+
+namespace indurop::config {
+namespace {
+
+// A module that knows variables by name only can use those that other boards' modules declare.
+void add_named_variables(const Module& module, const schema::Schema& plant, schema::Schema& board) {
+  for (const auto* names : {&module.reads, &module.writes}) {
+    for (const std::string& name : *names) {
+      std::string ignored;
+      if (schema::find_place(board, name, ignored)) {
+        continue;
+      }
+      if (const auto found = schema::find_place(plant, name, ignored)) {
+        board.variables.push_back(*found.value().variable);
+      }
+    }
+  }
+}
+
+class PlantCheckRun {
+ public:
+  PlantCheckRun(Plant& plant, const CheckOptions& options) : plant_(plant), options_(options) {
+    result_.boards.resize(plant.boards.size());
+    for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+      Board& board = plant.boards[i];
+      CheckOptions own = options;
+      own.machine = options.machine && (options.board.empty() || options.board == board.name);
+      CheckResult& result = result_.boards[i];
+      contexts_.push_back(
+          {board.config, own, result, base::Diagnostics(plant.file.string(), result.diagnostics), texts_});
+    }
+  }
+
+  PlantCheck run() {
+    for (CheckContext& context : contexts_) {
+      check_schedule(context);
+    }
+    if (options_.files) {
+      check_boards();
+      check_between();
+    }
+    for (CheckContext& context : contexts_) {
+      context.report.add_summary(context.result.diagnostics);
+    }
+    for (CheckResult& board : result_.boards) {
+      sort_by_severity(board.diagnostics);
+      result_.diagnostics.insert(result_.diagnostics.end(), board.diagnostics.begin(), board.diagnostics.end());
+    }
+    result_.diagnostics.insert(result_.diagnostics.end(), between_.begin(), between_.end());
+    sort_by_severity(result_.diagnostics);
+    return std::move(result_);
+  }
+
+ private:
+  void check_boards() {
+    std::vector<std::string> differences;  // check_agreement() tells them
+    for (CheckContext& context : contexts_) {
+      check_machine(context);
+      check_files(context);
+      schema::merge(schema_, context.result.schema, differences);
+    }
+    for (CheckContext& context : contexts_) {
+      for (const Module& module : context.config.modules) {
+        add_named_variables(module, schema_, context.result.schema);
+      }
+      check_access(context);
+    }
+  }
+
+  void check_between() {
+    base::Diagnostics report(plant_.file.string(), between_);
+    const std::vector<BoardView> views = views_of(plant_, result_);
+    const Uses uses(views);
+    PlantContext context{plant_, views, uses, schema_, report};
+    check_type_libraries(plant_, report);
+    check_agreement(views, report);
+    resolve_rules(plant_.variables, schema_, report);
+    check_external_rules(plant_.variables, plant_.external_domain && !plant_.types.empty(), uses, report);
+    result_.routes = find_routes(context, result_);
+    add_owners_of_the_rest();
+    std::set<std::string> set_by_hand;
+    for (const VariableRule& rule : plant_.variables) {
+      if (!rule.owner.empty() || rule.external == VariableRule::External::Write) {
+        set_by_hand.insert(rule.name);
+      }
+    }
+    check_use(uses, set_by_hand, report);
+    check_ages(context, result_.routes);
+    check_security(plant_, options_, report);
+    report.add_summary(between_);
+  }
+
+  void add_owners_of_the_rest() {
+    for (std::size_t board = 0; board < result_.boards.size(); ++board) {
+      for (const schema::Variable& variable : result_.boards[board].schema.variables) {
+        result_.owners.try_emplace(variable.name, board);
+      }
+    }
+  }
+
+  Plant& plant_;
+  const CheckOptions& options_;
+  PlantCheck result_;
+  std::vector<CheckContext> contexts_;  // of the boards, in their order
+  std::vector<base::Diagnostic> between_;
+  SchemaTexts texts_;
+  schema::Schema schema_;  // of all boards
+};
+
+}  // namespace
+
+bool PlantCheck::ok() const noexcept {
+  return !base::has_error(diagnostics);
+}
+
+PlantCheck check_plant(Plant& plant, const CheckOptions& options) {
+  return PlantCheckRun(plant, options).run();
+}
+
+}  // namespace indurop::config

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of check_plant() that looks at the plant's keys.
+
+#include <chrono>
+#include <cstdlib>
+
+#include "base/text.h"
+#include "config/check/plant_parts.h"
+#include "keys/plant_keys.h"
+
+namespace indurop::config {
+namespace {
+
+constexpr std::chrono::days kSoon{30};
+
+// Returns the authority the board trusts; empty if that is not known.
+std::string check_board(const Plant& plant, const std::string& board, bool runs_here, base::Diagnostics& report) {
+  const keys::Instant now = keys::instant_now();
+  const keys::KeyCheck check = keys::check_board_keys(keys_folder(plant, board), plant.name, board, now);
+  const std::string whose = "keys of board " + base::in_quotes(board) + ": " + check.problem;
+  switch (check.fault) {
+    case keys::KeyFault::None:
+      if (check.validity.until < now + kSoon) {
+        report.warning(plant.security_place, "the keys of board " + base::in_quotes(board) + " are valid until " +
+                                                 keys::utc_text(check.validity.until) + "; indurop keys renew " +
+                                                 board);
+      }
+      break;
+    case keys::KeyFault::Missing:
+      report.error(plant.security_place, whose + "; make them with indurop keys init or indurop keys add " + board +
+                                             ", or copy them from where they were made");
+      break;
+    case keys::KeyFault::Wrong:
+      report.error(plant.security_place, whose + "; indurop keys list shows what is there");
+      break;
+    case keys::KeyFault::NotNow:
+      // A board goes on with its own modules, the network comes back with new keys.
+      if (runs_here) {
+        report.warning(plant.security_place, whose + "; indurop keys renew " + board + ", or set the clock");
+      } else {
+        report.error(plant.security_place, whose + "; indurop keys renew " + board);
+      }
+      break;
+  }
+  return check.authority;
+}
+
+}  // namespace
+
+std::filesystem::path keys_folder(const Plant& plant, const std::string& board) {
+  if (plant.security.empty()) {
+    return {};
+  }
+  std::error_code ignored;
+  std::filesystem::path beside = keys::PlantKeys(plant.security).board(board);
+  if (std::filesystem::exists(beside, ignored)) {
+    return std::filesystem::absolute(beside, ignored).lexically_normal();
+  }
+  const char* named = std::getenv("INDUROP_KEYS_DIR");
+  const std::filesystem::path on_board = named != nullptr && *named != '\0' ? named : "/etc/indurop/keys";
+  const std::filesystem::path copied = on_board / plant.name / board;
+  return std::filesystem::exists(copied, ignored) ? copied : beside;
+}
+
+void check_security(const Plant& plant, const CheckOptions& options, base::Diagnostics& report) {
+  if (plant.security.empty()) {
+    report.note(plant.security_place,
+                "the plant is open: anyone in the network can read and write the boards' variables; make keys with "
+                "indurop keys init, then say where they are with <security>keys</security>");
+    return;
+  }
+  std::string first;  // authority
+  for (const Board& board : plant.boards) {
+    if (!options.board.empty() && options.board != board.name) {
+      continue;
+    }
+    const std::string authority = check_board(plant, board.name, !options.board.empty(), report);
+    first = first.empty() ? authority : first;
+    if (!authority.empty() && authority != first) {
+      report.error(plant.security_place, "the keys of board " + base::in_quotes(board.name) +
+                                             " were made by another authority than those of the boards before it; they "
+                                             "would not let each other in");
+    }
+  }
+}
+
+}  // namespace indurop::config

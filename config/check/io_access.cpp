@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/check/io_access.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "config/model/io_config.h"
+
+namespace indurop::config {
+namespace {
+
+const Property* find_property(const Module& module, std::string_view name) {
+  const auto found = std::find_if(module.properties.begin(), module.properties.end(),
+                                  [name](const Property& p) { return p.name == name; });
+  return found == module.properties.end() ? nullptr : &*found;
+}
+
+void add(const std::optional<schema::Place>& place, std::vector<const schema::Variable*>& to) {
+  if (place) {
+    to.push_back(place->variable);
+  }
+}
+
+}  // namespace
+
+bool is_io_module(const schema::ModuleFile& file) noexcept {
+  return std::find(file.exports.begin(), file.exports.end(), kIoModuleSymbol) != file.exports.end();
+}
+
+std::optional<std::filesystem::path> io_config_of(const Module& module, const std::filesystem::path& folder) {
+  const Property* config = find_property(module, kIoConfigProperty);
+  if (config == nullptr || config->value.empty()) {
+    return std::nullopt;
+  }
+  return (folder / config->value).lexically_normal();
+}
+
+std::vector<std::filesystem::path> io_files_of(const Module& module, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  const auto config = io_config_of(module, folder);
+  const auto file = schema::read_module_file(module.file);
+  // What the board has itself is not here to be asked; then the name counts.
+  const bool is_io = file ? is_io_module(file.value()) : module.file.filename() == "libiodispat.so";
+  if (!config || !is_io || std::filesystem::path(find_property(module, kIoConfigProperty)->value).is_absolute()) {
+    return files;
+  }
+  files.push_back(*config);
+  for (const IoDevice& device : read_io_config(*config).config.devices) {
+    if (!device.csv.as_written.empty() && !std::filesystem::path(device.csv.as_written).is_absolute()) {
+      files.push_back(device.csv.file);
+    }
+  }
+  return files;
+}
+
+IoAccess io_access_of(const Module& module, CheckContext& context) {
+  IoAccess access;
+  const auto file = io_config_of(module, context.config.file.parent_path());
+  if (!file) {
+    context.report.error(module.place, "module " + module.name +
+                                           " needs an ioconfig.xml; add <property><value "
+                                           "name=\"config\">ioconfig.xml</value></property>");
+    return access;
+  }
+  const Property* phase = find_property(module, "phase");
+  const std::string word = phase == nullptr ? "both" : phase->value;
+  if (word != "both" && word != "inputs" && word != "outputs") {
+    context.report.error(module.place, "module " + module.name + ": phase is " + base::in_quotes(word) +
+                                           "; write both, inputs or outputs");
+  }
+  if (!context.options.machine && !std::filesystem::exists(*file)) {
+    context.report.note(module.places.file, fmt::format("{} is not here; what {} reads and writes is not known",
+                                                        file->string(), module.name));
+    return access;
+  }
+  ReadIo read = read_io_config(*file);
+  const auto devices = bind_io(read.config, context.result.schema, read.diagnostics);
+  context.result.diagnostics.insert(context.result.diagnostics.end(), read.diagnostics.begin(), read.diagnostics.end());
+  for (const BoundDevice& device : devices) {
+    add(device.quality, access.writes);
+    add(device.errors, access.writes);
+    for (const BoundPoint& bound : device.points) {
+      if (word == (bound.point.output ? "inputs" : "outputs")) {
+        continue;
+      }
+      (bound.point.output ? access.reads : access.writes).push_back(bound.variable.variable);
+      add(bound.quality, access.writes);
+    }
+  }
+  return access;
+}
+
+}  // namespace indurop::config

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The deployment manifest as data: which boards a plant has, which modules run on which, how variables travel between
+// them. Each board's modules are a Config like that of a module.xml.
+
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/model/config.h"
+
+namespace indurop::config {
+
+struct Board {
+  std::string name;            // [A-Za-z0-9_-]{1,40}; the node of the board has the same name
+  std::string address;         // IP address or host name for <multicast>off</multicast>; empty: found by multicast
+  std::string interface_name;  // network interface the plant is reached through; empty: DDS chooses
+  Config config;
+  base::SourcePlace place;
+};
+
+struct Plant : TypeFiles {
+  std::filesystem::path file;
+  std::string name;
+  int domain = kDefaultDomain;                        // DDS domain between the boards, 0..230
+  std::optional<int> external_domain = 0;             // typed topics for other tools; empty: none
+  bool external_ros2 = false;                         // its topics have the names and types of ROS 2
+  bool multicast = true;                              // false: boards find each other by <board address="">
+  std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to anyone
+  base::SourcePlace security_place;                   // of the folder, else of <plant>
+  base::Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
+  std::vector<Board> boards;                          // in file order
+  std::vector<VariableRule> variables;
+  static constexpr int kDefaultDomain = 77;
+};
+
+}  // namespace indurop::config

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan for programs: JSON and CSV. Names and order of the fields are a promise, see docs/report.md.
+
+#include "base/json.h"
+#include "config/plan/plan_parts.h"
+
+namespace indurop::config {
+namespace {
+
+using base::Json;
+
+Json names_json(const Config& config, const std::vector<std::size_t>& modules) {
+  Json names = Json::array();
+  for (const std::size_t i : modules) {
+    names.push_back(config.modules[i].name);
+  }
+  return names;
+}
+
+// RFC 4180: in quotes if needed, quotes doubled.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    return text;
+  }
+  std::string field = "\"";
+  for (const char c : text) {
+    field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  }
+  return field + "\"";
+}
+
+std::string text(const Json& value) {
+  return value.dump();
+}
+
+// Everything between the braces.
+std::string plan_fields(const Config& config, const CheckResult& check) {
+  const scheduler::PeriodTable& table = check.table;
+  std::string plan = "\n  \"basic_period_ns\": " + std::to_string(table.basic_period.count()) +
+                     ",\n  \"macro_period_ns\": " + std::to_string(table.macro_period.count()) + ",\n  \"slots\": [";
+  for (std::size_t i = 0; i < table.slots.size(); ++i) {  // one line each
+    Json row;
+    row["slot"] = i;
+    row["time_ns"] = table.slots[i].time.count();
+    row["modules"] = names_of(config, check, table.slots[i]);
+    plan += (i == 0 ? "\n    " : ",\n    ") + text(row);
+  }
+  plan += table.slots.empty() ? "]" : "\n  ]";
+  plan += ",\n  \"sporadic\": " + text(names_json(config, check.sporadic));
+  plan += ",\n  \"non_real\": " + text(names_json(config, check.non_real));
+  if (table.slot_count > table.slots.size()) {
+    plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
+  }
+  return plan;
+}
+
+// `first`: what every line begins with.
+std::string csv_lines(const Config& config, const CheckResult& check, const std::string& first) {
+  std::string text;
+  for (std::size_t i = 0; i < check.table.slots.size(); ++i) {
+    const scheduler::Slot& slot = check.table.slots[i];
+    text += first + std::to_string(i) + "," + std::to_string(slot.time.count()) + "," +
+            csv_field(in_order(names_of(config, check, slot))) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string plan_json(const Config& config, const CheckResult& check) {
+  return "{" + plan_fields(config, check) + "\n}\n";
+}
+
+std::string plan_json(const Plant& plant, const PlantCheck& check) {
+  std::string plan = "{\n\"plant\": " + text(plant.name) + ",\n\"boards\": [";
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    const Board& board = plant.boards[i];
+    plan += (i == 0 ? "{\n  \"name\": " : ", {\n  \"name\": ") + text(board.name) + "," +
+            plan_fields(board.config, check.boards[i]) + "\n}";
+  }
+  return plan + "]\n}\n";
+}
+
+std::string plan_csv(const Config& config, const CheckResult& check) {
+  return "slot,time_ns,modules\n" + csv_lines(config, check, "");
+}
+
+std::string plan_csv(const Plant& plant, const PlantCheck& check) {
+  std::string plan = "board,slot,time_ns,modules\n";
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    plan += csv_lines(plant.boards[i].config, check.boards[i], plant.boards[i].name + ",");
+  }
+  return plan;
+}
+
+}  // namespace indurop::config

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all forms of the plan need from configuration and check.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/plan/plan.h"
+
+namespace indurop::config {
+
+// Module names of one slot in execution order.
+std::vector<std::string> names_of(const Config& config, const CheckResult& check, const scheduler::Slot& slot);
+// "cntr3 > cntr2"
+std::string in_order(const std::vector<std::string>& names);
+// Nanoseconds as milliseconds, every digit: "0.1".
+std::string milliseconds(base::Nanos value);
+
+}  // namespace indurop::config

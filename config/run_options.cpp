@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/run_options.h"
+
+#include <fmt/format.h>
+
+#include "base/duration.h"
+#include "config/xml/plant_rules.h"
+
+namespace indurop::config {
+namespace {
+
+base::DurationText read_time(const std::string& text) {
+  return base::read_duration(text, false, base::PlainNumber::Seconds);
+}
+
+std::string check_node(const std::string& text) {
+  return is_node_name(text)
+             ? ""
+             : fmt::format("'{}' is not a valid node name: use 1 to 40 letters, digits, '_' or '-'", text);
+}
+
+std::string take_spin(const std::string& text, std::optional<SpinSetting>& to) {
+  if (text == "auto") {
+    to = SpinSetting{};
+  } else if (text == "off") {
+    to = SpinSetting{SpinSetting::Mode::Off, {}};
+  } else {
+    const base::DurationText time = read_time(text);
+    to = time.value ? SpinSetting{SpinSetting::Mode::Fixed, *time.value} : to;
+    return time.problem;
+  }
+  return {};
+}
+
+std::string spin_word(const SpinSetting& spin) {
+  switch (spin.mode) {
+    case SpinSetting::Mode::Auto:
+      return "auto";
+    case SpinSetting::Mode::Off:
+      return "off";
+    case SpinSetting::Mode::Fixed:
+      break;
+  }
+  return std::to_string(spin.fixed.count()) + "ns";
+}
+
+}  // namespace
+
+void declare_run_options(base::Options& line, RunOptions& options) {
+  const auto take_duration = [&options](const std::string& text) {
+    const base::DurationText time = read_time(text);
+    options.duration = time.value;
+    return time.problem;
+  };
+  const auto spin = [&options](const std::string& text) { return take_spin(text, options.spin); };
+  line.add("config", "FILE", options.config, "module.xml, or a plant's manifest with --board");
+  const base::Option board = line.add("--board", "NAME", options.board, "Board of the plant to be").check(check_node);
+  line.flag("--one-host", options.one_host, "All boards of the plant run on this host: stay on loopback").needs(board);
+  line.add("--deployment", "ID", options.deployment, "Id that indurop status shows (given by the agent)").needs(board);
+  line.add("--node", "NAME", options.node, "Name of the node on this host (default: that of the board, else local)")
+      .check(check_node);
+  line.add("--duration", "TIME", take_duration, "End after this time (5s, 500ms)");
+  line.add("--report", "FILE", options.report, "Write statistics to this JSON file at the end");
+  line.flag("--require-rt", options.require_rt, "Exit with code 7 unless real-time rights were obtained");
+  line.flag("--adjust", options.adjust, "Use the nearest periods that work instead of refusing too small ones");
+  line.add("--core", "N", options.core, "Core of all modules that name none");
+  line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");
+}
+
+std::vector<std::string> words_of(const RunOptions& options) {
+  std::vector<std::string> words;
+  const auto value = [&words](const char* name, const std::string& text) {
+    if (!text.empty()) {
+      words.insert(words.end(), {name, text});
+    }
+  };
+  const auto flag = [&words](const char* name, bool given) {
+    if (given) {
+      words.emplace_back(name);
+    }
+  };
+  value("--board", options.board);
+  flag("--one-host", options.one_host);
+  value("--deployment", options.deployment);
+  value("--node", options.node);
+  value("--duration", options.duration ? std::to_string(options.duration->count()) + "ns" : "");
+  value("--report", options.report.string());
+  flag("--require-rt", options.require_rt);
+  flag("--adjust", options.adjust);
+  value("--core", options.core ? std::to_string(*options.core) : "");
+  value("--spin", options.spin ? spin_word(*options.spin) : "");
+  flag("--quiet", options.quiet);
+  if (!options.config.empty()) {
+    words.insert(words.end(), {"--", options.config.string()});
+  }
+  return words;
+}
+
+}  // namespace indurop::config

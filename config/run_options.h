@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a node is told on its command line: the one table of indurop-node and indurop run.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+#include "config/model/config.h"
+
+namespace indurop::config {
+
+struct RunOptions {
+  std::filesystem::path config;
+  std::string node;                     // empty: that of the board, else "local"
+  std::string board;                    // of the plant that `config` is; empty: a module.xml
+  std::string deployment;               // id of what the agent runs; empty: started by hand
+  bool one_host = false;                // all boards of the plant run on this host
+  std::optional<base::Nanos> duration;  // empty: until stopped
+  std::filesystem::path report;         // empty: none
+  bool require_rt = false;
+  bool adjust = false;
+  bool quiet = false;  // no summary, no messages of the node but warnings and errors
+  std::optional<int> core;
+  std::optional<SpinSetting> spin;
+};
+
+// Declares all but --quiet, which verbs have anyway; `options` must outlive the parsing.
+void declare_run_options(base::Options& line, RunOptions& options);
+
+// The words that say `options` on a command line.
+std::vector<std::string> words_of(const RunOptions& options);
+
+}  // namespace indurop::config

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// The root of ioconfig.xml and its devices.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "base/text.h"
+#include "config/model/io_config.h"
+#include "config/xml/attributes.h"
+#include "config/xml/document.h"
+#include "config/xml/element_rules.h"
+#include "config/xml/io_point_reader.h"
+#include "config/xml/values.h"
+
+namespace indurop::config {
+namespace {
+
+constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device> per field device"};
+constexpr std::array<IoDriver, 4> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::Cia402, IoDriver::Csv};
+constexpr base::Nanos kMillisecond{1'000'000};
+constexpr base::Nanos kSecond{1'000'000'000};
+constexpr base::Nanos kMinute{60 * kSecond};
+
+bool is_modbus(IoDriver driver) {
+  return driver == IoDriver::ModbusTcp || driver == IoDriver::ModbusRtu;
+}
+
+class DeviceReader {
+ public:
+  DeviceReader(const base::Element& element, const std::filesystem::path& folder, base::Diagnostics& report)
+      : element_(element), folder_(folder), report_(report), attributes_(element, report) {}
+
+  // Empty if not even the driver is known, which says what everything else means.
+  std::optional<IoDevice> read() {
+    device_.place = element_.place;
+    if (!read_driver()) {
+      return std::nullopt;
+    }
+    device_.name = attributes_.need("name", "name=\"conveyor\"").value_or("");
+    device_.quality = attributes_.text("quality", &device_.quality_place).value_or("");
+    device_.errors = attributes_.text("errors", &device_.errors_place).value_or("");
+    switch (device_.driver) {
+      case IoDriver::ModbusTcp:
+        read_tcp();
+        break;
+      case IoDriver::ModbusRtu:
+        read_rtu();
+        break;
+      case IoDriver::Cia402:
+        read_axis();
+        break;
+      case IoDriver::Csv:
+        read_csv();
+        break;
+    }
+    attributes_.finish(fmt::format("<device driver=\"{}\">", name_of(device_.driver)));
+    check_no_text(element_, report_);
+    for (const base::Element& child : element_.children) {
+      if (is_known(child, element_, {"input", "output"}, report_)) {
+        device_.points.push_back(read_io_point(child, device_, report_));
+      }
+    }
+    check_io_points(device_, report_);
+    return std::move(device_);
+  }
+
+ private:
+  bool read_driver() {
+    std::vector<std::string> words;
+    words.reserve(kDrivers.size());
+    for (const IoDriver driver : kDrivers) {
+      words.emplace_back(name_of(driver));
+    }
+    if (!attributes_.need("driver", "driver=\"modbus_tcp\"")) {
+      return false;
+    }
+    const auto driver = attributes_.choose("driver", words);
+    device_.driver = driver ? kDrivers.at(*driver) : device_.driver;
+    return driver.has_value();
+  }
+
+  void read_exchange() {
+    constexpr std::int64_t kMostGap = 100;
+    constexpr base::Nanos kMostTimeout = 2 * kSecond;  // the node waits no longer than 3 s for its modules to stop
+    device_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
+    device_.gap = static_cast<int>(attributes_.integer("gap", 0, kMostGap).value_or(0));
+    device_.cycle = attributes_.duration("cycle", kMillisecond, kMinute).value_or(device_.cycle);
+    device_.timeout = attributes_.duration("timeout", kMillisecond, kMostTimeout).value_or(device_.timeout);
+    device_.retry = attributes_.duration("retry", kMillisecond, kMinute).value_or(device_.retry);
+    device_.retry_most = attributes_.duration("retry_most", device_.retry, 60 * kMinute)
+                             .value_or(std::max(device_.retry, device_.retry_most));
+    device_.watchdog = attributes_.duration("watchdog", kMillisecond, kMinute).value_or(device_.watchdog);
+  }
+
+  void read_tcp() {
+    base::SourcePlace place;
+    const auto address = attributes_.need("address", "address=\"192.168.1.10:502\"", &place);
+    read_exchange();
+    if (!address) {
+      return;
+    }
+    // An IPv6 address with a port is written [::1]:502.
+    const std::size_t bracket = address->rfind(']');
+    const std::size_t colon = address->rfind(':');
+    const bool has_port = colon != std::string::npos &&
+                          (bracket == std::string::npos ? address->find(':') == colon : colon == bracket + 1);
+    std::string host = has_port ? address->substr(0, colon) : *address;
+    if (host.starts_with('[') && host.ends_with(']')) {
+      host = host.substr(1, host.size() - 2);
+    }
+    constexpr std::int64_t kMostPort = 65535;
+    const auto port =
+        has_port ? read_integer(address->substr(colon + 1), 1, kMostPort) : std::optional<std::int64_t>(device_.port);
+    if (host.empty() || host.find_first_of(" /") != std::string::npos || !port) {
+      report_.error(place, fmt::format("address: {} is not an address; write 192.168.1.10, plc.local:502 or [::1]:502",
+                                       base::in_quotes(*address)));
+      return;
+    }
+    device_.address = host;
+    device_.port = static_cast<std::uint16_t>(*port);
+  }
+
+  void read_rtu() {
+    device_.address = attributes_.need("address", "address=\"/dev/ttyUSB0\"").value_or("");
+    read_exchange();
+    const std::vector<std::string> bauds{"1200",  "2400",   "4800",   "9600",   "19200", "38400",
+                                         "57600", "115200", "230400", "460800", "921600"};
+    if (const auto baud = attributes_.choose("baud", bauds)) {
+      device_.serial.baud = std::stoi(bauds[*baud]);
+    }
+    if (const auto parity = attributes_.choose("parity", {"none", "even", "odd"})) {
+      device_.serial.parity = "NEO"[*parity];
+    }
+    device_.serial.stop_bits = static_cast<int>(attributes_.integer("stop_bits", 1, 2).value_or(1));
+  }
+
+  void real(const char* name, double low, double high, double& into) {
+    into = attributes_.real(name, low, high).value_or(into);
+  }
+
+  void read_axis() {
+    constexpr double kMost = 1e12;
+    constexpr double kLeast = 1e-9;
+    IoAxis& axis = device_.axis;
+    axis.in = attributes_.text("in", &axis.in_place).value_or("");
+    axis.out = attributes_.text("out", &axis.out_place).value_or("");
+    real("counts", 4, std::numeric_limits<std::int32_t>::max(), axis.counts);
+    real("inertia", kLeast, kMost, axis.inertia);
+    real("damping", 0, kMost, axis.damping);
+    real("torque", kLeast, kMost, axis.torque);
+    real("speed", kLeast, kMost, axis.speed);
+    real("acceleration", kLeast, kMost, axis.acceleration);
+    constexpr double kMostBandwidth = 200;  // the simulation's own step is 125 us
+    real("bandwidth", 0.1, kMostBandwidth, axis.bandwidth);
+    real("following", kLeast, kMost, axis.following);
+    axis.following_time = attributes_.duration("following_time", base::Nanos{0}, kMinute).value_or(axis.following_time);
+    constexpr double kMostAngle = 1e6;
+    real("start", -kMostAngle, kMostAngle, axis.start);
+    real("mark", -kMostAngle, kMostAngle, axis.mark);
+    real("home_speed", kLeast, kMost, axis.home_speed);
+    real("noise", 0, kMost, axis.noise);
+    axis.seed = static_cast<std::uint64_t>(
+        attributes_.integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
+  }
+
+  void read_csv() {
+    if (const auto file = attributes_.need("file", "file=\"recorded.csv\"")) {
+      device_.csv.file = (folder_ / *file).lexically_normal();
+      device_.csv.as_written = *file;
+    }
+    device_.csv.loop = attributes_.choose("end", {"hold", "loop"}).value_or(0) == 1;
+  }
+
+  const base::Element& element_;
+  const std::filesystem::path& folder_;
+  base::Diagnostics& report_;
+  Attributes attributes_;
+  IoDevice device_;
+};
+
+const char* example_points(IoDriver driver) {
+  if (driver == IoDriver::Cia402) {
+    return R"(in="AXIS1_IN" and out="AXIS1_OUT", or <input>s and <output>s)";
+  }
+  return is_modbus(driver) ? R"(<input variable="..." at="holding:0"/>)" : R"(<input variable="..." at="column"/>)";
+}
+
+void check_device(const IoDevice& device, const base::Element& element, base::Diagnostics& report) {
+  const bool axis_structs = !device.axis.in.empty() || !device.axis.out.empty();
+  if (element.children.empty() && !axis_structs) {
+    report.error(element.place, fmt::format("this device has no points; add {}", example_points(device.driver)));
+  }
+}
+
+void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics& report) {
+  if (root.name != "ioconfig") {
+    report.error(root.place, fmt::format("the root element is <{}>, not the one of an {}: that is {}", root.name,
+                                         kIoConfigXml.name, kIoConfigXml.form));
+    return;
+  }
+  check_root_attributes(root, {}, report);
+  check_no_text(root, report);
+  const std::filesystem::path folder = config.file.parent_path();
+  std::map<std::string, int> lines;
+  for (const base::Element& child : root.children) {
+    if (!is_known(child, root, {"device"}, report)) {
+      continue;
+    }
+    auto device = DeviceReader(child, folder, report).read();
+    if (!device) {
+      continue;
+    }
+    check_device(*device, child, report);
+    const auto [first, is_new] = lines.try_emplace(device->name, device->place.line);
+    if (!is_new && !device->name.empty()) {
+      report.error(device->place, fmt::format("a second device {}, the first is in line {}; give each its own name",
+                                              base::in_quotes(device->name), first->second));
+    }
+    config.devices.push_back(std::move(*device));
+  }
+  if (root.children.empty()) {
+    report.error(root.place, "<ioconfig> has no <device>; add one per field device");
+  }
+}
+
+}  // namespace
+
+ReadIo read_io_config(const std::filesystem::path& file) {
+  std::string problem;
+  const std::string bytes = read_bytes(file, kIoConfigXml, problem);
+  if (problem.empty()) {
+    return read_io_config_text(bytes, file);
+  }
+  ReadIo result;
+  result.config.file = file;
+  result.diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(problem)});
+  return result;
+}
+
+ReadIo read_io_config_text(std::string_view xml, const std::filesystem::path& pretend_file) {
+  ReadIo result;
+  result.config.file = pretend_file;
+  if (const auto root = read_document(xml, pretend_file, kIoConfigXml, result.diagnostics)) {
+    base::Diagnostics report(pretend_file.string(), result.diagnostics);
+    interpret_io(*root, result.config, report);
+    report.add_summary(result.diagnostics);
+    base::sort_by_place(result.diagnostics);
+  }
+  return result;
+}
+
+}  // namespace indurop::config

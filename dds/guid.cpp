@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/guid.h"
+
+#include <memory>
+
+namespace indurop::dds {
+namespace {
+
+constexpr std::size_t kMostReaders = 64;
+
+struct EndpointDelete {
+  void operator()(dds_builtintopic_endpoint_t* endpoint) const noexcept { dds_builtintopic_free_endpoint(endpoint); }
+};
+using EndpointData = std::unique_ptr<dds_builtintopic_endpoint_t, EndpointDelete>;
+
+}  // namespace
+
+Guid guid_of(Handle entity) noexcept {
+  dds_guid_t guid{};
+  (void)dds_get_guid(entity, &guid);
+  return guid_of(guid);
+}
+
+std::optional<Guid> participant_of(Handle reader, InstanceHandle publication) {
+  const EndpointData data(dds_get_matched_publication_data(reader, publication));
+  return data == nullptr ? std::nullopt : std::optional(guid_of(data->participant_key));
+}
+
+std::optional<std::uint32_t> readers_of(Handle writer) {
+  dds_publication_matched_status_t matched{};
+  return dds_get_publication_matched_status(writer, &matched) < 0 ? std::nullopt : std::optional(matched.current_count);
+}
+
+bool is_read_by(Handle writer, const Guid& participant) {
+  std::array<dds_instance_handle_t, kMostReaders> readers{};
+  const int count = dds_get_matched_subscriptions(writer, readers.data(), readers.size());
+  return std::any_of(readers.begin(), readers.begin() + std::clamp(count, 0, static_cast<int>(kMostReaders)),
+                     [&](auto handle) {
+                       const EndpointData data(dds_get_matched_subscription_data(writer, handle));
+                       return data != nullptr && guid_of(data->participant_key) == participant;
+                     });
+}
+
+}  // namespace indurop::dds

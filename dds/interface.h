@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which network interface a board speaks through. DDS's own choice is not used: it takes loopback while the network is
+// down and stays there, and of several cards it takes one silently.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <string>
+
+#include "base/problem.h"
+#include "dds/network_settings.h"
+
+namespace indurop::dds {
+
+struct Interface {
+  std::string name;
+  std::string note;  // for the user, if the choice was not clear
+};
+// Errors: none can be used now, with what to do about it.
+Result<Interface, base::Problem> choose_interface(const NetworkSettings& settings);
+
+}  // namespace indurop::dds

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/joining.h"
+
+#include "rt/clock.h"
+
+namespace indurop::dds {
+namespace {
+
+constexpr std::int64_t kRetryNs = 500'000'000;
+
+}  // namespace
+
+Result<std::string, base::Problem> Joining::try_once() {
+  auto joined = join_network(settings_);
+  if (!joined) {
+    return std::move(joined).error();
+  }
+  participant_ = std::move(joined->participant);
+  if (auto opened = open_(participant_.get()); !opened) {
+    leave();
+    return std::move(opened).error();
+  }
+  return std::move(joined->note);
+}
+
+bool Joining::join(const std::atomic<bool>& stop, rt::SignalWord& wake, base::SharedText& problem) {
+  while (!stop.load(std::memory_order_acquire)) {
+    const auto tried = try_once();
+    problem.set(tried ? *tried : tried.error().text);
+    if (tried) {
+      return true;
+    }
+    wake.wait_until(rt::now_ns() + kRetryNs);
+  }
+  return false;
+}
+
+void Joining::leave() noexcept {
+  if (participant_.ok()) {
+    close_();
+  }
+  participant_.reset();
+}
+
+}  // namespace indurop::dds

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dds/setup.h"
+
+#include <fmt/format.h>
+
+#include "base/xml_text.h"
+#include "dds/endpoint.h"
+#include "dds/interface.h"
+#include "dds/log.h"
+#include "dds/security.h"
+
+namespace indurop::dds {
+namespace {
+
+constexpr int kParticipantsPerHost = 64;  // boards and tools of one host, when ports are tried one by one
+
+std::string network(const NetworkSettings& settings, const std::string& interface_name) {
+  const bool multicast = settings.multicast && !settings.one_host;
+  // Loopback can do it, but does not say so.
+  std::string text =
+      fmt::format("<Interfaces><NetworkInterface name=\"{}\"{}/></Interfaces>", base::xml_text(interface_name),
+                  multicast && interface_name == "lo" ? " multicast=\"true\"" : "");
+  // Multicast finds the other boards; data goes to those that read it.
+  text += fmt::format("<AllowMulticast>{}</AllowMulticast>", multicast ? "spdp" : "false");
+  return "<General>" + text + "</General>";
+}
+
+std::string discovery(const NetworkSettings& settings) {
+  std::string text = fmt::format("<LeaseDuration>{} ns</LeaseDuration>", settings.lease_ns);
+  std::string peers;
+  if (settings.one_host) {
+    peers = "<Peer address=\"127.0.0.1\"/>";
+  } else if (!settings.multicast || settings.known_ports) {
+    for (const std::string& peer : settings.peers) {
+      peers += fmt::format("<Peer address=\"{}\"/>", base::xml_text(peer));
+    }
+  }
+  if (!peers.empty() || settings.known_ports) {
+    text +=
+        fmt::format("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>",
+                    kParticipantsPerHost);
+  }
+  if (!peers.empty()) {
+    text += fmt::format("<Peers>{}</Peers>", peers);
+  }
+  return "<Discovery>" + text + "</Discovery>";
+}
+
+std::string threads(const NetworkSettings& settings) {
+  std::string text;
+  // Where the process may use it only: else Cyclone ends the whole process.
+  const std::string realtime =
+      settings.fifo_priority > 0
+          ? fmt::format("<Scheduling><Class>realtime</Class><Priority>{}</Priority></Scheduling>",
+                        settings.fifo_priority)
+          : "";
+  for (const char* name : {"recv", "tev", "gc", "dq.builtins", "dq.user"}) {
+    text += fmt::format("<Thread Name=\"{}\">{}<StackSize>256 kB</StackSize></Thread>", name,
+                        name == std::string_view("gc") ? "" : realtime);
+  }
+  return "<Threads>" + text + "</Threads>";
+}
+
+// Frames are small and their receiver is quick: a quarter of the usual buffer, in pieces that hold any datagram.
+std::string sizes(const NetworkSettings& settings) {
+  return settings.known_ports ? ""
+                              : "<Sizing><ReceiveBufferSize>256 kB</ReceiveBufferSize>"
+                                "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>";
+}
+
+}  // namespace
+
+std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
+  return network(settings, interface_name) + discovery(settings) + threads(settings) + sizes(settings) +
+         // One receive thread: with more, ending can hang, and none could get a priority.
+         "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
+         // A lost last value is repaired within milliseconds, not 100.
+         "<HeartbeatInterval min=\"2 ms\" minsched=\"5 ms\" max=\"100 ms\">10 ms</HeartbeatInterval>"
+         "<NackDelay>1 ms</NackDelay><PreEmptiveAckDelay>1 ms</PreEmptiveAckDelay>" +
+         // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
+         (settings.known_ports
+              ? "<SocketReceiveBufferSize max=\"4 MB\"/>"
+                "<Watermarks><WhcHigh>16 MB</WhcHigh><WhcLow>8 MB</WhcLow><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
+              : "") +
+         "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
+}
+
+Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
+  catch_dds_log();
+  auto interface = choose_interface(settings);
+  if (!interface) {
+    return std::move(interface).error();
+  }
+  if (settings.security.on()) {
+    if (auto usable = security_usable(settings.security, security_plugins()); !usable) {
+      return std::move(usable).error();
+    }
+  }
+  const auto id = static_cast<dds_domainid_t>(settings.domain);
+  Entity domain(dds_create_domain(id, domain_configuration(settings, interface->name).c_str()));
+  if (!domain.ok()) {
+    return base::Problem{fmt::format("DDS domain {}: {}", settings.domain, domain.why())};
+  }
+  const Qos qos(dds_create_qos());
+  if (!settings.board.empty()) {
+    dds_qset_entity_name(qos.get(), settings.board.c_str());  // for tools of DDS, and for other releases
+  }
+  Entity participant(dds_create_participant(id, qos.get(), nullptr));
+  if (!participant.ok()) {
+    const std::string said = last_dds_message();
+    const std::string why = said.empty() ? participant.why() : said;
+    return base::Problem{settings.security.on() ? fmt::format("keys refused (indurop keys list tells more): {}", why)
+                                                : why};
+  }
+  return Joined{{std::move(domain), std::move(participant)}, std::move(interface->note)};
+}
+
+}  // namespace indurop::dds

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which topics others in the network want to read, whether anybody publishes them or not.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <functional>
+#include <string>
+
+#include "base/problem.h"
+#include "dds/entity.h"
+#include "dds/guid.h"
+
+namespace indurop::dds {
+
+class WantedTopics {
+ public:
+  Result<void, base::Problem> open(Handle participant);
+  void close() noexcept { reader_.reset(); }
+  // Readers that were announced since; own ones are left out.
+  void take(const std::function<void(const std::string& topic)>& use);
+
+ private:
+  Guid own_{};
+  Entity reader_;
+};
+
+}  // namespace indurop::dds

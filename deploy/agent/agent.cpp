@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/agent.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "base/exit_code.h"
+#include "base/stop_signal.h"
+#include "deploy/agent/agent_state.h"
+#include "deploy/agent/board_commands.h"
+#include "deploy/agent/board_deployment.h"
+#include "deploy/agent/board_process.h"
+#include "deploy/agent/deploy_keys.h"
+#include "deploy/agent/fetcher.h"
+#include "deploy/agent/mirror_text.h"
+#include "deploy/link/blob_server.h"
+#include "deploy/transaction/board_transaction.h"
+#include "rt/clock.h"
+#include "schema/topic_name.h"
+
+namespace indurop::deploy {
+namespace {
+
+using Do = BoardTransaction::Do;
+
+constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kTell{500};  // at least
+constexpr std::chrono::milliseconds kTellFast{50};
+constexpr std::size_t kOthersTold = 32;  // then it may be somebody who invents them
+constexpr std::chrono::seconds kNetworkRetry{1};
+
+std::vector<std::string> node_arguments(const AgentOptions& options) {
+  std::vector<std::string> words;
+  if (options.one_host) {
+    words.emplace_back("--one-host");
+  }
+  if (options.core) {
+    words.insert(words.end(), {"--core", std::to_string(*options.core)});
+  }
+  if (options.require_rt) {
+    words.emplace_back("--require-rt");
+  }
+  if (options.quiet) {
+    words.emplace_back("--quiet");
+  }
+  return words;
+}
+
+// As the transaction hears it: empty is success.
+std::string text_of(const Result<void, base::Problem>& result) {
+  return result ? std::string{} : result.error().text;
+}
+
+class Agent {
+ public:
+  Agent(const AgentOptions& options, const base::Log& log, AgentState& state)
+      : options_(options),
+        log_(log),
+        state_(state),
+        self_(new_session()),
+        keys_(options.board),
+        deployment_(state, options.board, options.one_host),
+        transaction_(options.board),
+        fetcher_(state, self_, options.board),
+        process_(options.board, node_arguments(options), log),
+        board_commands_(options.board, self_, keys_, process_, log),
+        server_(self_, [this](const std::string& name) { return find(name); }) {
+    link_settings_.network.domain = options.domain.value_or(LinkSettings::kDefaultDomain);
+    link_settings_.network.interface_name = options.interface_name;
+    link_settings_.network.one_host = options.one_host;
+    link_settings_.self = self_;
+    link_settings_.network.board = options.board;
+    host_ = host_name();
+  }
+
+  int run(base::StopSignal& signals) {
+    resume();
+    while (signals.wait(0) == 0) {
+      const rt::MonoTime now = rt::MonoClock::now();
+      process_.step(now);
+      connect(now);
+      if (link_ != nullptr) {
+        listen(now);
+        work(now);
+        tell(now);
+      }
+      follow(now);
+      pause(signals);
+    }
+    log_.info("stopping: signal {}", signals.received());
+    commands_.reset();
+    link_.reset();  // the others see at once that this board leaves
+    process_.end();
+    return signals.received() == SIGINT ? kInterrupted : kOk;
+  }
+
+ private:
+  // The last committed deployment, without any network.
+  void resume() {
+    const Committed& committed = state_.committed();
+    if (committed.current.empty()) {
+      log_.info("board {}: nothing is deployed yet", options_.board);
+      return;
+    }
+    if (!deployment_.belongs(committed.members)) {
+      log_.info("board {}: not part of plant {} any more", options_.board, committed.plant);
+      return;
+    }
+    if (const auto installed = state_.install(committed.current); installed) {
+      log_.info("board {}: resuming deployment {} of plant {}", options_.board, shown_id(committed.current),
+                committed.plant);
+      process_.want(state_.manifest(committed.current), committed.current);
+    } else {
+      log_.error("the committed deployment cannot be resumed: {}", installed.error().text);
+    }
+  }
+
+  std::optional<BlobServer::Blob> find(const std::string& name) const {
+    if (name == kHistoryBlob) {
+      return BlobServer::Blob{{}, state_.history_text()};
+    }
+    if (name == kMirrorBlob) {
+      return BlobServer::Blob{{}, mirror_text(options_.board)};
+    }
+    return state_.has(name) ? std::optional(BlobServer::Blob{state_.file(name), {}}) : std::nullopt;
+  }
+
+  void connect(rt::MonoTime now) {
+    if (link_ != nullptr || now < connect_at_) {
+      return;
+    }
+    connect_at_ = now + kNetworkRetry;
+    const std::string told = join();
+    if (!told.empty() && told != told_of_network_) {
+      log_.warning("{}", told);
+    }
+    told_of_network_ = told;
+  }
+
+  // Sets link and commands, both or none; what people should know of it.
+  std::string join() {
+    auto opened = DeployLink::open(link_settings_);
+    if (!opened) {
+      return opened.error().text;
+    }
+    auto commands = CommandLink::open(*opened->link, CommandSide::Agent);
+    if (!commands) {
+      return commands.error().text;
+    }
+    link_ = std::move(opened->link);
+    commands_ = std::move(commands).value();
+    return opened->note;
+  }
+
+  void listen(rt::MonoTime now) {
+    for (const auto& news : link_->take_orders()) {
+      if (news.gone) {
+        perform(transaction_.deployer_gone(news.order.deployer), now);
+      } else if (may_order(news.order)) {
+        perform(transaction_.hear(news.order, now, rt::WallClock::now()), now);
+      }
+    }
+    for (auto& news : link_->take_boards()) {
+      const auto key = std::pair(news.report.board, news.report.agent);
+      if (news.gone) {
+        others_.erase(key);
+      } else {
+        others_[key] = std::move(news.report);
+      }
+    }
+    for (const OtherAgent& other : link_->other_agents()) {
+      if (told_others_.size() < kOthersTold && told_others_.insert(other.host + "/" + other.board).second) {
+        log_.warning("{}", describe(other, schema::protocol()));
+      }
+    }
+    for (const auto& [key, other] : others_) {
+      // It missed a deployment of its plant, which may be the one that leaves it out.
+      const bool dropped = other.plant == state_.committed().plant && deployment_.belongs(state_.committed().members);
+      const bool complete =
+          std::find(other.members.begin(), other.members.end(), key.first) != other.members.end();  // has all files
+      if (key.first != options_.board && complete && (deployment_.belongs(other.members) || dropped) &&
+          other.generation > state_.committed().generation &&
+          keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
+        perform(transaction_.catch_up(other, now), now);
+      }
+    }
+  }
+
+  // Orders meant for this board are taken from who may deploy to it; others are told why not.
+  bool may_order(const Order& order) {
+    if (!deployment_.belongs(order.boards)) {
+      return false;
+    }
+    std::string why = keys_.refusal(order.plant, order_text(order), order.signature);
+    if (why.empty()) {
+      why = keys_.refusal(order.plant, grant_text(order.plant, order.deployment, order.generation), order.grant);
+    }
+    const bool begins = order.step == Step::Prepare && transaction_.phase() == Phase::Steady;
+    if (why.empty() && begins && order.generation <= state_.committed().generation &&
+        order.deployer != transaction_.order().deployer) {
+      why = "this board has a newer deployment than that; deploy again";
+    }
+    if (!why.empty() && order.step == Step::Prepare && refused_ != order.deployer) {
+      log_.warning("an order of {} was refused: {}", order.host, why);
+      refused_ = order.deployer;
+      refusal_ = why;
+      tell_now_ = true;
+    }
+    return why.empty();
+  }
+
+  void work(rt::MonoTime now) {
+    board_commands_.step(*commands_, state_.committed().plant,
+                         transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now);
+    if (fetcher_.active()) {
+      const Fetcher::State state = fetcher_.step(*link_, now);
+      if (state == Fetcher::State::Done) {
+        perform(transaction_.fetched({}), now);
+      } else if (state == Fetcher::State::Failed) {
+        perform(transaction_.fetched(fetcher_.problem()), now);
+      }
+    } else {
+      (void)link_->take_chunks();
+    }
+    busy_ = server_.serve(*link_, rt::to_ns(now));
+  }
+
+  void follow(rt::MonoTime now) {
+    perform(transaction_.time(now), now);
+    const Phase phase = transaction_.phase();
+    if (phase == Phase::Trial || phase == Phase::Healthy) {
+      const BoardProcess::Health health = process_.health(transaction_.order().boards);
+      perform(transaction_.node(health.problem, health.missing, now), now);
+    }
+  }
+
+  void perform(Do what, rt::MonoTime now) {
+    const Order& order = transaction_.order();
+    switch (what) {
+      case Do::Nothing:
+        return;
+      case Do::Fetch:
+        log_.info("deployment {} of {}: fetching", shown_id(order.deployment), order.host);
+        fetcher_.begin(transaction_.source(), order.deployment, order.size);
+        break;
+      case Do::Check:
+        tell_now_ = true;
+        tell(now);  // it may take a while
+        perform(transaction_.checked(text_of(deployment_.check(order)), rt::MonoClock::now()), rt::MonoClock::now());
+        break;
+      case Do::Switch:
+        log_.info("deployment {}: switching", shown_id(order.deployment));
+        held_before_ = process_.held();
+        process_.want(deployment_.manifest(order.deployment), order.deployment);
+        break;
+      case Do::Commit:
+        commit(order);
+        break;
+      case Do::GoBack:
+        log_.error("deployment {}: going back: {}", shown_id(order.deployment), transaction_.message());
+        go_back(order);
+        break;
+      case Do::Forget:
+        fetcher_.cancel();
+        log_.warning("deployment {}: given up: {}", shown_id(order.deployment), transaction_.message());
+        break;
+    }
+    tell_now_ = true;
+  }
+
+  void commit(const Order& order) {
+    if (const auto committed = deployment_.commit(order); committed) {
+      log_.info("deployment {}: committed", shown_id(order.deployment));
+    } else {
+      log_.error("deployment {} runs but cannot be committed: {}", shown_id(order.deployment), committed.error().text);
+    }
+  }
+
+  void go_back(const Order& order) {
+    const std::string& before = state_.committed().current;
+    process_.want(deployment_.manifest(before), before);
+    if (!held_before_.empty()) {
+      process_.hold(held_before_);
+    }
+    if (const auto noted = deployment_.note_rollback(order, transaction_.message()); !noted) {
+      log_.error("{}", noted.error().text);
+    }
+  }
+
+  BoardReport report() {
+    const Committed& committed = state_.committed();
+    const Order& order = transaction_.order();
+    BoardReport out;
+    static_cast<CommittedDeployment&>(out) = committed;
+    static_cast<FetchProgress&>(out) = fetcher_.progress();
+    static_cast<NodeFigures&>(out) = process_.figures();
+    out.board = options_.board;
+    out.agent = self_;
+    out.host = host_;
+    out.release = INDUROP_VERSION;
+    out.deployer = order.deployer;
+    out.deployer_host = order.host;
+    out.proposed = order.deployment;
+    out.phase = transaction_.phase();
+    out.stage = transaction_.stage();
+    out.refused = refused_;
+    out.refusal = refusal_;
+    out.message = transaction_.message();
+    if (out.message.empty() && process_.condition() != NodeCondition::Running) {
+      out.message = process_.reason();
+    }
+    if (out.message.empty() && !committed.current.empty() && !deployment_.belongs(committed.members)) {
+      out.message = fmt::format("not part of plant {} any more", committed.plant);
+    }
+    out.node = process_.condition();
+    out.clock_offset_ns = transaction_.clock_offset().count();
+    return out;
+  }
+
+  void tell(rt::MonoTime now) {
+    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != told_node_;
+    if (link_ == nullptr || (!tell_now_ && now - told_ < (moving ? kTellFast : kTell))) {
+      return;
+    }
+    told_ = now;
+    tell_now_ = false;
+    told_node_ = process_.condition();
+    link_->publish(report());
+  }
+
+  void pause(base::StopSignal& signals) {
+    if (link_ == nullptr) {
+      signals.wait(std::chrono::nanoseconds(kLook).count());
+    } else if (!busy_) {
+      link_->wait(rt::to_ns(rt::MonoClock::now() + kLook));
+    }
+  }
+
+  const AgentOptions& options_;
+  const base::Log& log_;
+  AgentState& state_;
+  std::uint64_t self_;
+  std::string host_;
+  DeployKeys keys_;
+  BoardDeployment deployment_;
+  BoardTransaction transaction_;
+  Fetcher fetcher_;
+  BoardProcess process_;
+  std::string held_before_;  // the trial
+  BoardCommands board_commands_;
+  BlobServer server_;
+  LinkSettings link_settings_;
+  std::unique_ptr<deploy::DeployLink> link_;
+  std::unique_ptr<deploy::CommandLink> commands_;
+  rt::MonoTime connect_at_;
+  std::string told_of_network_;
+  std::map<std::pair<std::string, std::uint64_t>, BoardReport> others_;
+  std::set<std::string> told_others_;  // agents of other releases
+  std::uint64_t refused_ = 0;
+  std::string refusal_;
+  bool busy_ = false;
+  bool tell_now_ = true;
+  rt::MonoTime told_;
+  NodeCondition told_node_ = NodeCondition::None;
+};
+
+}  // namespace
+
+int run_agent(const AgentOptions& options) {
+  base::StopSignal signals;
+  const base::Log log("indurop-agent", options.board, options.quiet);
+  auto state = AgentState::open(options.board);
+  if (!state) {
+    log.error("{}", state.error().text);
+    return kFailed;
+  }
+  return Agent(options, log, *state).run(signals);
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_commands.h"
+
+#include <cstring>
+#include <random>
+
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::ModuleCommand;
+
+constexpr std::chrono::seconds kNonce{30};     // how long a number given is good for
+constexpr std::chrono::seconds kPatience{20};  // for one command
+constexpr std::size_t kMostCommanders = 64;
+
+ModuleCommand module_command_of(Action action) {
+  return action == Action::StopModule    ? ModuleCommand::Stop
+         : action == Action::StartModule ? ModuleCommand::Start
+                                         : ModuleCommand::Restart;
+}
+
+const char* word_of(Action action) {
+  switch (action) {
+    case Action::StopModule:
+    case Action::StopNode:
+      return "stop";
+    case Action::StartModule:
+    case Action::StartNode:
+      return "start";
+    case Action::RestartModule:
+    case Action::RestartNode:
+      break;
+  }
+  return "restart";
+}
+
+std::uint64_t new_nonce() {
+  std::random_device random;
+  const std::uint64_t high = random();
+  return (high << 32U | random()) | 1U;  // never 0
+}
+
+}  // namespace
+
+BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
+                             const base::Log& log)
+    : board_(std::move(board)), self_(self), keys_(keys), process_(process), log_(log) {}
+
+CommandReply BoardCommands::reply(const Command& command, Outcome outcome, const std::string& text) const {
+  return {command.commander, board_, self_, command.nonce, outcome, text};
+}
+
+void BoardCommands::step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now) {
+  for (const Command& command : link.take_commands()) {
+    if (command.board == board_ && command.agent == self_) {
+      hear(link, command, plant, busy, now);
+    }
+  }
+  if (!command_) {
+    return;
+  }
+  if (const auto done = look(now)) {
+    log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
+              command_->module.empty() ? "the node" : "module " + command_->module,
+              done->outcome == Outcome::Failed ? done->text : "done");
+    known_[command_->commander].last = done;
+    link.send(*done);
+    command_.reset();
+    run_.reset();
+  }
+}
+
+void BoardCommands::hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
+                         rt::MonoTime now) {
+  std::erase_if(known_, [&](const auto& entry) {
+    const bool under_way = command_ && command_->commander == entry.first;
+    return now - entry.second.given > kNonce && !under_way;
+  });
+  auto found = known_.find(command.commander);
+  const bool fresh = found == known_.end() || command.nonce != found->second.nonce;
+  if (fresh) {
+    if (found == known_.end() && known_.size() >= kMostCommanders) {
+      return;  // somebody floods; numbers run out, and there is room again
+    }
+    Known& known = known_[command.commander];
+    // A number that waits to be used is given again: the first answer may have been lost.
+    if (known.nonce == 0 || known.last) {
+      known = {new_nonce(), now, std::nullopt};
+    }
+    CommandReply answer = reply(command, Outcome::Nonce);
+    answer.nonce = known.nonce;
+    link.send(answer);
+    return;
+  }
+  Known& known = found->second;
+  if (!known.last) {
+    known.last = begin(command, plant, busy, now);
+  }
+  link.send(*known.last);
+}
+
+CommandReply BoardCommands::begin(const Command& command, const std::string& plant, const std::string& busy,
+                                  rt::MonoTime now) {
+  std::string why = keys_.refusal(plant, command_text(command), command.signature);
+  if (why.empty() && (plant.empty() || command.plant != plant)) {
+    why = plant.empty() ? "nothing is deployed to it" : fmt::format("it runs plant {} now", plant);
+  }
+  if (why.empty() && !busy.empty()) {
+    why = busy;
+  }
+  if (why.empty() && command_) {
+    why = fmt::format("it is carrying out a command from {}; try again", command_->host);
+  }
+  if (!why.empty()) {
+    log_.warning("a command from {} was refused: {}", command.host, why);
+    return reply(command, Outcome::Refused, why);
+  }
+  deadline_ = now + kPatience;
+  CommandReply answer = command.module.empty() ? begin_node(command) : begin_module(command);
+  if (answer.outcome == Outcome::UnderWay) {
+    command_ = command;
+  } else {
+    run_.reset();
+  }
+  return answer;
+}
+
+bool BoardCommands::open_run() {
+  auto file = vars::RunFile::open(board_, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  const auto* block = file ? static_cast<const scheduler::RunBlock*>(file.value().data()) : nullptr;
+  if (block == nullptr || block->abi != scheduler::kRunAbi || block->total_size > file.value().size() ||
+      block->state.load() != scheduler::NodeState::Running) {
+    return false;
+  }
+  run_ = std::move(file).value();
+  return true;
+}
+
+scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
+  auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    if (module == block.modules()[i].name) {
+      return &block.modules()[i];
+    }
+  }
+  return nullptr;
+}
+
+CommandReply BoardCommands::begin_module(const Command& command) {
+  if (process_.condition() != NodeCondition::Running || !open_run()) {
+    return reply(command, Outcome::Refused, "its node does not run");
+  }
+  module_ = find(command.module);
+  if (module_ == nullptr) {
+    std::string names;
+    auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
+    for (std::uint32_t i = 0; i < block.module_count; ++i) {
+      names += (i > 0 ? ", " : "") + std::string(block.modules()[i].name);
+    }
+    return reply(command, Outcome::Refused,
+                 names.empty() ? fmt::format("it has no module {}, nor any other", command.module)
+                               : fmt::format("it has no module {}; it has {}", command.module, names));
+  }
+  const auto ticket = scheduler::place_command(*module_, module_command_of(command.action));
+  if (!ticket) {
+    return reply(command, Outcome::Refused, "an earlier command about this module is not done yet; try again");
+  }
+  ticket_ = *ticket;
+  return reply(command, Outcome::UnderWay);
+}
+
+CommandReply BoardCommands::begin_node(const Command& command) {
+  const bool runs = process_.condition() == NodeCondition::Running;
+  if (command.action == Action::StopNode && !process_.held().empty() && !process_.has_node()) {
+    return reply(command, Outcome::Unchanged);
+  }
+  if (command.action == Action::StartNode && runs) {
+    return reply(command, Outcome::Unchanged);
+  }
+  ended_ = command.action == Action::StartNode;
+  if (ended_) {
+    process_.release();
+  } else {
+    process_.hold("stopped by command from " + command.host);
+  }
+  return reply(command, Outcome::UnderWay);
+}
+
+std::optional<CommandReply> BoardCommands::look(rt::MonoTime now) {
+  auto done = command_->module.empty() ? look_at_node() : look_at_module();
+  if (!done && now > deadline_) {
+    done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
+  }
+  return done;
+}
+
+std::optional<CommandReply> BoardCommands::look_at_module() {
+  switch (scheduler::result_of(*module_, ticket_)) {
+    case CommandResult::Done:
+      return reply(*command_, Outcome::Done);
+    case CommandResult::Unchanged:
+      return reply(*command_, Outcome::Unchanged);
+    case CommandResult::Failed:
+      return reply(*command_, Outcome::Failed,
+                   module_->last_fault[0] != '\0' ? module_->last_fault : "it could not be started");
+    case CommandResult::Ending:
+      return reply(*command_, Outcome::Failed, "the node ends");
+    case CommandResult::None:
+      break;
+  }
+  return process_.condition() == NodeCondition::Running
+             ? std::nullopt
+             : std::optional(reply(*command_, Outcome::Failed, "the node has ended"));
+}
+
+std::optional<CommandReply> BoardCommands::look_at_node() {
+  if (!ended_) {
+    if (process_.has_node()) {
+      return std::nullopt;
+    }
+    if (command_->action == Action::StopNode) {
+      return reply(*command_, Outcome::Done);
+    }
+    ended_ = true;
+    process_.release();
+    return std::nullopt;
+  }
+  if (process_.condition() == NodeCondition::Running) {
+    return reply(*command_, Outcome::Done);
+  }
+  const bool failed =
+      process_.condition() == NodeCondition::Failed || process_.condition() == NodeCondition::Restarting;
+  return failed ? std::optional(reply(*command_, Outcome::Failed, process_.reason())) : std::nullopt;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands from elsewhere to this board's node and its modules: who may give them, carrying them out one at a time, and
+// the answers. The agent's business, beside deployments and never during one.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "deploy/agent/board_process.h"
+#include "deploy/agent/deploy_keys.h"
+#include "deploy/link/command_link.h"
+#include "rt/clock.h"
+#include "scheduler/module_command.h"
+#include "vars/run_file.h"
+
+namespace indurop::deploy {
+
+class BoardCommands {
+ public:
+  BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
+                const base::Log& log);
+
+  // Takes what has come and goes on with the command under way. `plant`: what is committed here; `busy`: why no command
+  // is taken now, empty: it is.
+  void step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now);
+
+ private:
+  struct Known {
+    std::uint64_t nonce = 0;
+    rt::MonoTime given;
+    std::optional<deploy::CommandReply> last;  // to the command with this number
+  };
+  void hear(CommandLink& link, const Command& command, const std::string& plant, const std::string& busy,
+            rt::MonoTime now);
+  CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  CommandReply begin_module(const Command& command);
+  CommandReply begin_node(const Command& command);
+  // Empty while it goes on.
+  std::optional<deploy::CommandReply> look(rt::MonoTime now);
+  std::optional<deploy::CommandReply> look_at_module();
+  std::optional<deploy::CommandReply> look_at_node();
+  bool open_run();  // false: the node does not run
+  scheduler::ModuleRecord* find(const std::string& module);
+  [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;
+
+  std::string board_;
+  std::uint64_t self_;
+  const DeployKeys& keys_;
+  BoardProcess& process_;
+  const base::Log& log_;
+  std::map<std::uint64_t, Known> known_;    // by commander
+  std::optional<deploy::Command> command_;  // under way
+  rt::MonoTime deadline_;
+  std::optional<vars::RunFile> run_;
+  scheduler::ModuleRecord* module_ = nullptr;
+  scheduler::CommandTicket ticket_ = 0;
+  bool ended_ = false;  // a node that restarts has done the first half
+};
+
+}  // namespace indurop::deploy

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_deployment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/check/check_plant.h"
+#include "config/xml/plant_reader.h"
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Problem;
+
+// First error of a check, if there is one, and how many more.
+Result<void, Problem> first_error(const std::vector<base::Diagnostic>& diagnostics) {
+  std::string text;
+  std::size_t more = 0;
+  for (const base::Diagnostic& diagnostic : diagnostics) {
+    if (diagnostic.severity != base::Diagnostic::Severity::Error) {
+      continue;
+    }
+    if (text.empty()) {
+      base::Diagnostic shown = diagnostic;
+      shown.file = std::filesystem::path(shown.file).filename().string();
+      text = base::to_string(shown);
+    } else {
+      ++more;
+    }
+  }
+  if (text.empty()) {
+    return {};
+  }
+  return Problem{more > 0 ? fmt::format("{} (and {} more)", text, more) : text};
+}
+
+HistoryEntry history_of(const Order& order, const std::string& plant, const std::string& outcome) {
+  return {order.deployment, plant, order.generation, order.host, rt::wall_ns(), outcome};
+}
+
+}  // namespace
+
+bool BoardDeployment::belongs(const std::vector<std::string>& members) const {
+  return std::find(members.begin(), members.end(), board_) != members.end();
+}
+
+std::filesystem::path BoardDeployment::manifest(const std::string& id) const {
+  const auto package = state_.package(id);
+  return package && belongs(package->boards) ? state_.manifest(id) : std::filesystem::path{};
+}
+
+// The deployment is of this board's plant and leaves it out, perhaps not for the first time.
+bool BoardDeployment::leaves(const std::string& id) const {
+  const auto package = state_.package(id);
+  return package && package->plant == state_.committed().plant && !belongs(package->boards);
+}
+
+Result<void, Problem> BoardDeployment::check(const Order& order) {
+  if (leaves(order.deployment)) {
+    return {};
+  }
+  if (auto installed = state_.install(order.deployment); !installed) {
+    return installed;
+  }
+  config::ReadPlant read = config::read_plant(state_.manifest(order.deployment));
+  if (!read.ok()) {
+    return first_error(read.diagnostics);
+  }
+  if (read.plant.name != order.plant) {
+    return Problem{fmt::format("plant {} was offered, and {} is in the package", order.plant, read.plant.name)};
+  }
+  config::CheckOptions how;
+  how.board = one_host_ ? std::string{} : board_;
+  const config::PlantCheck checked = config::check_plant(read.plant, how);
+  const bool here = std::any_of(read.plant.boards.begin(), read.plant.boards.end(),
+                                [this](const config::Board& board) { return board.name == board_; });
+  if (!here) {
+    return Problem{fmt::format("the plant has no board {}", board_)};
+  }
+  return first_error(checked.diagnostics);
+}
+
+Result<void, Problem> BoardDeployment::commit(const Order& order) {
+  const auto package = state_.package(order.deployment);
+  Committed next = state_.committed();
+  next.generation = order.generation;
+  next.grant = order.grant;
+  if (package) {
+    next.plant = package->plant;
+    next.members = package->boards;
+  }
+  if (next.current != order.deployment) {
+    next.previous = next.current;
+  }
+  next.current = order.deployment;
+  std::error_code error;
+  next.current_size = std::filesystem::file_size(state_.file(order.deployment), error);
+  next.history.push_back(history_of(order, next.plant, "committed"));
+  auto committed = state_.commit(std::move(next));
+  if (committed) {
+    state_.collect_garbage();
+  }
+  return committed;
+}
+
+Result<void, Problem> BoardDeployment::note_rollback(const Order& order, const std::string& why) {
+  Committed same = state_.committed();
+  same.history.push_back(history_of(order, same.plant, "rolled back: " + why));
+  return state_.commit(std::move(same));
+}
+
+}  // namespace indurop::deploy

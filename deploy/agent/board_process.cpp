@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_process.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "base/exit_code.h"
+#include "base/spawn.h"
+#include "deploy/agent/options.h"
+#include "mirror/frames/mirror_block.h"
+#include "rt/clock.h"
+#include "scheduler/run_block.h"
+#include "vars/node_lock.h"
+#include "vars/shm_file.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::chrono::seconds kEndGrace{10};  // a node gives its own modules and processes a few seconds
+constexpr std::chrono::milliseconds kLook{10};
+constexpr std::size_t kLongestLine = 500;
+constexpr int kPipeBytes = 1 << 20;
+
+const scheduler::RunBlock* block_of(const vars::RunFile& file) {
+  const auto* block = static_cast<const scheduler::RunBlock*>(file.data());
+  return block->abi == scheduler::kRunAbi ? block : nullptr;
+}
+
+const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
+  return *static_cast<const scheduler::RunBlock*>(file->data());
+}
+
+// indurop-node beside this program, held open: after an update of the files the node is still the one this agent knows.
+int open_node_program() {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return ::open((self.parent_path() / "indurop-node").c_str(), O_PATH | O_CLOEXEC);
+}
+
+// By its name if it still has one, so that the node has it in the list of processes too.
+std::string path_of(int program) {
+  const std::string held = "/proc/self/fd/" + std::to_string(program);
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::read_symlink(held, error);
+  return !error && ::access(file.c_str(), X_OK) == 0 ? file.string() : held;
+}
+
+std::string describe(int status) {
+  return WIFSIGNALED(status)
+             ? fmt::format("was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
+             : fmt::format("ended with exit code {}", WEXITSTATUS(status));
+}
+
+}  // namespace
+
+BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, const base::Log& log)
+    : board_(std::move(board)), arguments_(std::move(arguments)), log_(log), program_(open_node_program()) {}
+
+BoardProcess::~BoardProcess() {
+  leave();
+  if (program_ >= 0) {
+    ::close(program_);
+  }
+}
+
+void BoardProcess::leave() noexcept {
+  if (output_ >= 0) {
+    ::close(output_);
+  }
+  output_ = -1;
+  pid_ = -1;
+}
+
+void BoardProcess::want(const std::filesystem::path& manifest, const std::string& deployment) {
+  wanted_ = manifest;
+  deployment_ = deployment;
+  restarts_.clear();
+  deaths_ = 0;
+  start_at_ = {};
+  held_.clear();
+  reason_.clear();
+  last_error_.clear();
+  if (pid_ <= 0) {
+    condition_ = NodeCondition::None;
+  }
+}
+
+void BoardProcess::hold(const std::string& reason) {
+  held_ = reason;
+  reason_ = reason;
+  if (pid_ <= 0) {
+    condition_ = NodeCondition::Stopped;
+  }
+}
+
+void BoardProcess::release() {
+  const std::filesystem::path same = wanted_;
+  const std::string id = deployment_;
+  want(same, id);
+}
+
+bool BoardProcess::adopt() {
+  const pid_t pid = vars::running_node(board_);
+  if (pid <= 0) {
+    return false;
+  }
+  auto file = vars::RunFile::open(board_, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  const auto* block = file ? block_of(file.value()) : nullptr;
+  running_ = block != nullptr && block->node_pid.load() == pid ? block->config_file : "";
+  pid_ = pid;
+  adopted_ = true;
+  asked_to_stop_ = false;
+  condition_ = NodeCondition::Running;
+  log_.info("{} the node that is running (pid {})", running_ == wanted_ ? "taking over" : "ending", pid);
+  return true;
+}
+
+void BoardProcess::launch(rt::MonoTime now) {
+  std::array<int, 2> ends{-1, -1};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    start_at_ = now + kRestart;
+    return;
+  }
+  (void)::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  (void)::fcntl(ends[1], F_SETFL, O_NONBLOCK);
+  (void)::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
+  std::vector<std::string> words{path_of(program_), wanted_.string(), "--board", board_, "--deployment", deployment_};
+  words.insert(words.end(), arguments_.begin(), arguments_.end());
+  // Ctrl-C reaches the agent alone; the node may outlive it. With a reader of its own the pipe outlives the agent too:
+  // what is printed then is lost, but nobody dies of it.
+  const auto pid = base::spawn({.words = std::move(words),
+                                .program = path_of(program_),
+                                .group = base::Launch::Group::OwnSession,
+                                .output = ends[1],
+                                .inherits = ends[0],
+                                .fresh_signals = true});
+  ::close(ends[1]);
+  if (!pid) {
+    ::close(ends[0]);
+    reason_ = fmt::format("cannot start a process: {}", std::strerror(pid.error().sys_errno));
+    start_at_ = now + kRestart;
+    return;
+  }
+  output_ = ends[0];
+  pid_ = *pid;
+  adopted_ = false;
+  asked_to_stop_ = false;
+  running_ = wanted_;
+  run_.reset();
+  condition_ = NodeCondition::Starting;
+}
+
+// What the node says goes where the agent's words go; its last error is the reason if it dies.
+void BoardProcess::read_output() {
+  if (output_ < 0) {
+    return;
+  }
+  std::array<char, 4096> block{};
+  ssize_t got = 0;
+  while ((got = ::read(output_, block.data(), block.size())) > 0) {
+    const std::string_view text(block.data(), static_cast<std::size_t>(got));
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    for (const char c : text) {
+      if (c != '\n') {
+        if (line_.size() < kLongestLine) {
+          line_ += c;
+        }
+        continue;
+      }
+      if (line_.find("error: ") != std::string::npos && (pid_ < 0 || last_error_.empty() || !asked_to_stop_)) {
+        last_error_ = line_;
+      }
+      line_.clear();
+    }
+  }
+  if (got == 0) {
+    ::close(output_);
+    output_ = -1;
+  }
+}
+
+bool BoardProcess::ended(int& status) {
+  status = 0;
+  if (!adopted_) {
+    return ::waitpid(pid_, &status, WNOHANG) == pid_;
+  }
+  return vars::running_node(board_) != pid_;
+}
+
+void BoardProcess::note_end(int status, rt::MonoTime now) {
+  const bool wished = asked_to_stop_;
+  pid_ = -1;
+  asked_to_stop_ = false;
+  run_.reset();
+  if (wished) {
+    condition_ = held_.empty() ? NodeCondition::None : NodeCondition::Stopped;
+    return;
+  }
+  ++deaths_;
+  const bool died = adopted_ || WIFSIGNALED(status);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  reason_ = adopted_ ? std::string("the node ended") : "the node " + describe(status);
+  if (!last_error_.empty()) {
+    reason_ += ": " + last_error_;
+  }
+  if (!died) {
+    // Orderly: somebody stopped it, or it refuses to run; again and again would not help.
+    condition_ = NodeCondition::Failed;
+    if (code == kOk || code == kInterrupted) {
+      reason_ = "the node was stopped";
+    }
+    log_.error("{}; it is not started again", reason_);
+    return;
+  }
+  while (!restarts_.empty() && now - restarts_.front() > kRestartWindow) {
+    restarts_.pop_front();
+  }
+  if (restarts_.size() >= kRestarts) {
+    condition_ = NodeCondition::Failed;
+    reason_ += fmt::format(", the {}th time within a minute", restarts_.size() + 1);
+    log_.error("{}; it is not started again", reason_);
+    return;
+  }
+  restarts_.push_back(now);
+  start_at_ = now + kRestart;
+  condition_ = NodeCondition::Restarting;
+  log_.error("{}; it is started again in {} s", reason_, kRestart.count());
+}
+
+void BoardProcess::signal_stop(rt::MonoTime now) {
+  if (!asked_to_stop_) {
+    asked_to_stop_ = true;
+    kill_at_ = now + kEndGrace;
+    condition_ = NodeCondition::Stopping;
+    ::kill(pid_, SIGTERM);
+  } else if (now >= kill_at_) {
+    log_.error("the node did not end within {} s and was killed", kEndGrace.count());
+    ::kill(pid_, SIGKILL);
+    kill_at_ = now + kEndGrace;
+  }
+}
+
+void BoardProcess::step(rt::MonoTime now) {
+  read_output();
+  if (int status = 0; pid_ > 0 && ended(status)) {
+    read_output();
+    note_end(status, now);
+  }
+  if (pid_ > 0) {
+    if (running_ != wanted_ || asked_to_stop_ || !held_.empty()) {
+      signal_stop(now);
+    } else if (look() && condition_ == NodeCondition::Starting &&
+               present(run_).state.load() == scheduler::NodeState::Running) {
+      condition_ = NodeCondition::Running;
+    }
+    return;
+  }
+  if (wanted_.empty() || !held_.empty() || condition_ == NodeCondition::Failed || now < start_at_) {
+    return;
+  }
+  if (!adopt()) {
+    launch(now);
+  }
+}
+
+void BoardProcess::end() {
+  wanted_.clear();
+  while (pid_ > 0) {
+    step(rt::MonoClock::now());
+    rt::sleep_until(rt::MonoClock::now() + kLook);
+  }
+}
+
+bool BoardProcess::look() {
+  if (pid_ <= 0) {
+    return false;
+  }
+  if (!run_) {
+    auto file = vars::RunFile::open(board_, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+    if (!file || block_of(file.value()) == nullptr || block_of(file.value())->node_pid.load() != pid_) {
+      return false;
+    }
+    run_ = std::move(file).value();
+  }
+  return true;
+}
+
+NodeFigures BoardProcess::figures() {
+  NodeFigures out;
+  if (!look()) {
+    return out;
+  }
+  const scheduler::RunBlock& block = present(run_);
+  out.tick = block.tick.load();
+  out.lost_ticks = block.lost_ticks.load();
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    out.overruns += block.modules()[i].overruns.load();
+    out.faults += block.modules()[i].faults.load();
+  }
+  return out;
+}
+
+BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards) {
+  if (deaths_ > 0) {
+    return {reason_, {}};
+  }
+  if (wanted_.empty()) {
+    return {{}, pid_ > 0 ? "its node has not ended" : ""};
+  }
+  if (condition_ != NodeCondition::Running || !look() || present(run_).tick.load() == 0) {
+    return {{}, "its node has not begun to run"};
+  }
+  const scheduler::RunBlock& block = present(run_);
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    const scheduler::ModuleRecord& module = block.modules()[i];
+    if (module.faults.load() > 0) {
+      const bool told = module.fault_kind.load(std::memory_order_acquire) != 0;
+      return {fmt::format("module {} faulted{}{}", module.name, told ? ": " : "", told ? module.last_fault : ""), {}};
+    }
+  }
+  const auto file = vars::ShmFile::open(vars::mirror_file(board_), vars::Mode::ReadOnly);
+  const mirror::MirrorBlock* mirror =
+      file ? mirror::mirror_block_in({file.value().data(), file.value().size()}) : nullptr;
+  if (mirror == nullptr) {
+    return {{}, "its mirror has not begun to run"};
+  }
+  for (std::uint32_t i = 0; i < mirror->peer_count; ++i) {
+    const mirror::PeerRecord& peer = mirror->peers()[i];
+    const mirror::PeerState state = peer.state.load();
+    const bool meant = std::find(boards.begin(), boards.end(), peer.name) != boards.end();
+    if (meant && peer.wanted > 0 && state != mirror::PeerState::Alive) {
+      const std::string why = peer.problem.get();
+      return {{},
+              fmt::format("board {} is {} to its mirror{}{}", peer.name, to_text(state), why.empty() ? "" : ": ", why)};
+    }
+  }
+  return {};
+}
+
+}  // namespace indurop::deploy

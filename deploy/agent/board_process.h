@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node of a board as a child of its agent: starts it, ends it, brings it back when it dies, and sees how it does.
+// A node that outlived its agent is taken over instead of started again.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "deploy/words/deployment_words.h"
+#include "rt/clock.h"
+#include "vars/run_file.h"
+
+namespace indurop::deploy {
+
+class BoardProcess {
+ public:
+  static constexpr std::chrono::seconds kRestart{1};
+  static constexpr std::chrono::seconds kRestartWindow{60};
+  static constexpr std::size_t kRestarts = 3;  // within the window
+
+  // `arguments`: of every node started, besides the manifest and the board.
+  BoardProcess(std::string board, std::vector<std::string> arguments, const base::Log& log);
+  BoardProcess(const BoardProcess&) = delete;
+  BoardProcess& operator=(const BoardProcess&) = delete;
+  ~BoardProcess();
+
+  // What should run from now on, and its id; empty: nothing. The same again: a node that has failed gets a new chance.
+  void want(const std::filesystem::path& manifest, const std::string& deployment);
+  // The node is ended and stays down until release() or want(); `reason` is what people are told.
+  void hold(const std::string& reason);
+  void release();
+  [[nodiscard]] const std::string& held() const noexcept { return held_; }  // the reason, empty: not held
+  [[nodiscard]] bool has_node() const noexcept { return pid_ > 0; }
+  void step(rt::MonoTime now);
+  // Ends the node and waits for that.
+  void end();
+  // Lets go of the node; it runs on.
+  void leave() noexcept;
+
+  [[nodiscard]] NodeCondition condition() const noexcept { return condition_; }
+  // Why it failed, or what it said last before it died.
+  [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+
+  [[nodiscard]] NodeFigures figures();
+  // For a trial: what went wrong since want(), and else what is still missing for the node to be well.
+  struct Health {
+    std::string problem;
+    std::string missing;
+  };
+  // `boards`: those that are to be there.
+  [[nodiscard]] Health health(const std::vector<std::string>& boards);
+
+ private:
+  void launch(rt::MonoTime now);
+  bool adopt();
+  void read_output();
+  bool ended(int& status);
+  void note_end(int status, rt::MonoTime now);
+  void signal_stop(rt::MonoTime now);
+  bool look();  // run_ is that of the present node
+
+  std::string board_;
+  std::vector<std::string> arguments_;
+  const base::Log& log_;
+  int program_;  // indurop-node
+  std::filesystem::path wanted_;
+  std::string deployment_;  // its id
+  std::filesystem::path running_;
+  std::string held_;
+  pid_t pid_ = -1;
+  bool adopted_ = false;
+  int output_ = -1;
+  std::string line_;
+  std::string last_error_;
+  bool asked_to_stop_ = false;
+  rt::MonoTime kill_at_;
+  rt::MonoTime start_at_;  // not before
+  std::deque<rt::MonoTime> restarts_;
+  std::uint32_t deaths_ = 0;  // since want()
+  NodeCondition condition_ = NodeCondition::None;
+  std::string reason_;
+  std::optional<vars::RunFile> run_;
+};
+
+}  // namespace indurop::deploy

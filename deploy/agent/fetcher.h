@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gets what a board lacks of a deployment, file after file, from a deployer or another board. What is here already is
+// not fetched again; a file that was cut off goes on where it ended.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/problem.h"
+#include "deploy/agent/agent_state.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/transaction/blob_fetch.h"
+#include "keys/digest.h"
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+
+class Fetcher {
+ public:
+  // Of a deployment that does not have `board` nothing but the package is fetched.
+  Fetcher(AgentState& state, std::uint64_t self, std::string board)
+      : state_(state), self_(self), board_(std::move(board)) {}
+  Fetcher(const Fetcher&) = delete;
+  Fetcher& operator=(const Fetcher&) = delete;
+  ~Fetcher();
+
+  // `size`: of the package's text.
+  void begin(std::uint64_t source, const std::string& id, std::uint64_t size);
+  void cancel();
+  enum class State { Working, Done, Failed };
+  // Takes what has come and asks for more. Failed: problem() says why.
+  State step(DeployLink& link, rt::MonoTime now);
+
+  [[nodiscard]] bool active() const noexcept { return active_; }
+  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
+  [[nodiscard]] FetchProgress progress() const noexcept;
+
+ private:
+  struct Wanted {
+    std::string digest;
+    std::uint64_t size = 0;
+    std::string name;  // for people
+  };
+  using Attempt = Result<void, base::Problem>;
+  Attempt advance(DeployLink& link, rt::MonoTime now);
+  Attempt open_next();
+  Attempt open_part(const Wanted& wanted);
+  Attempt take(const BlobChunk& chunk, rt::MonoTime now);
+  Attempt finish_part();
+  Attempt plan_files();
+  void close_part();
+
+  AgentState& state_;
+  std::uint64_t self_;
+  std::string board_;
+  std::uint64_t source_ = 0;
+  std::string id_;
+  bool active_ = false;
+  bool planned_ = false;  // the package is here, wanted_ are its files
+  bool again_ = false;    // the part was damaged once already
+  std::vector<Wanted> wanted_;
+  std::size_t at_ = 0;
+  std::uint64_t room_ = 0;  // for what is under way
+  int part_ = -1;
+  std::optional<deploy::BlobFetch> blob_;
+  std::optional<keys::Digest> digest_;
+  std::string problem_;
+  FetchProgress progress_;  // whole files
+};
+
+}  // namespace indurop::deploy

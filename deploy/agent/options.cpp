@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/options.h"
+
+#include <fmt/format.h>
+
+#include "base/exit_code.h"
+#include "base/options.h"
+#include "vars/shm_file.h"
+
+namespace indurop::deploy {
+namespace {
+
+std::string check_board(const std::string& text) {
+  return vars::valid_node_name(text)
+             ? ""
+             : fmt::format("'{}' is not a valid board name: use 1 to 40 letters, digits, '_' or '-'", text);
+}
+
+}  // namespace
+
+Result<AgentOptions, int> parse_options(int argc, char** argv) {
+  AgentOptions options;
+  base::Options line("indurop-agent",
+                     "Make this host a board of a plant: run what indurop deploy brought last, take new deployments");
+  line.version(INDUROP_VERSION);
+  line.add("--board", "NAME", options.board, "Name of the board").required().check(check_board);
+  line.flag("--one-host", options.one_host, "All boards of the plant run on this host: stay on loopback");
+  line.add("--domain", "N", options.domain, "DDS domain of the agents (default: 76)").range(0, 230);
+  line.add("--interface", "IF", options.interface_name, "Network interface (default: the only one)");
+  line.add("--core", "N", options.core, "Core of all modules that name none");
+  line.flag("--require-rt", options.require_rt, "The node ends unless real-time rights were obtained");
+  line.flag("-q,--quiet", options.quiet, "Only warnings and errors");
+  line.exit_codes({kOk, kFailed, kUsage, kInterrupted});
+  if (const auto code = line.parse_program(argc, argv)) {
+    return *code;
+  }
+  return options;
+}
+
+}  // namespace indurop::deploy

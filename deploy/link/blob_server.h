@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sends pieces of files to whoever asks: a deployer to the boards, a board to one that missed a deployment.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "base/descriptor.h"
+#include "deploy/link/deploy_link.h"
+
+namespace indurop::deploy {
+
+class BlobServer {
+ public:
+  // Content of a blob: a file, or a text.
+  struct Blob {
+    std::filesystem::path file;  // empty: `text`
+    std::string text;
+  };
+  // Nothing: it is not here.
+  using Find = std::function<std::optional<Blob>(const std::string& name)>;
+
+  BlobServer(std::uint64_t self, Find find) : self_(self), find_(std::move(find)) {}
+  BlobServer(const BlobServer&) = delete;
+  BlobServer& operator=(const BlobServer&) = delete;
+
+  // Takes new requests and sends some pieces, to all that wait in turn. True: there is more to send now.
+  bool serve(DeployLink& link, std::int64_t now_ns);
+
+ private:
+  struct Waiting {
+    std::deque<deploy::BlobRequest> requests;
+    std::int64_t stuck_since_ns = 0;
+    std::string open_name;     // of the blob below
+    std::optional<Blob> blob;  // nothing: it is not here
+    base::Descriptor file;
+  };
+  void forget(Waiting& waiting) const;
+  void look_up(Waiting& waiting, const std::string& name) const;
+  // What to send of the open blob: at most `length` bytes from there, or that it is missing.
+  [[nodiscard]] BlobChunk read(const Waiting& waiting, const BlobRequest& request) const;
+
+  std::uint64_t self_;
+  Find find_;
+  std::map<std::uint64_t, Waiting> waiting_;  // by requester
+};
+
+}  // namespace indurop::deploy

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/link/command_link.h"
+
+#include "dds/endpoint.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/link/wire_words.h"
+#include "rt/signal_word.h"
+#include "schema/topic_name.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::int32_t kDepth = 16;
+constexpr std::int64_t kBlockNs = 100'000'000;
+
+}  // namespace
+
+struct CommandLink::Impl {
+  dds::Endpoint in;
+  dds::Endpoint out;
+};
+
+CommandLink::CommandLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+CommandLink::~CommandLink() = default;
+
+Result<std::unique_ptr<CommandLink>, base::Problem> CommandLink::open(DeployLink& link, CommandSide side) {
+  const bool agent = side == CommandSide::Agent;
+  const auto& in_type = agent ? indurop_deploy_Command_desc : indurop_deploy_Reply_desc;
+  const auto& out_type = agent ? indurop_deploy_Reply_desc : indurop_deploy_Command_desc;
+  const dds::Qos qos = dds::make_qos({.block_ns = kBlockNs, .for_late_ones = false, .depth = kDepth});
+  const dds::Listener listener = dds::wake_listener(link.wake_word());
+  auto impl = std::make_unique<Impl>();
+  impl->in = dds::make_reader(link.participant(), in_type, schema::deploy_topics() + (agent ? "command" : "reply"), qos,
+                              listener);
+  impl->out =
+      dds::make_writer(link.participant(), out_type, schema::deploy_topics() + (agent ? "reply" : "command"), qos);
+  if (!impl->in.ok() || !impl->out.ok()) {
+    return base::Problem{"topics for commands cannot be made: " + (impl->in.ok() ? impl->out.why() : impl->in.why())};
+  }
+  return std::unique_ptr<CommandLink>(new CommandLink(std::move(impl)));
+}
+
+void CommandLink::send(const Command& command) {
+  const wire::Lent lent(command);
+  (void)dds::write(impl_->out.get(), lent.sample());
+}
+
+void CommandLink::send(const CommandReply& reply) {
+  const wire::Lent lent(reply);
+  (void)dds::write(impl_->out.get(), lent.sample());
+}
+
+std::vector<deploy::Command> CommandLink::take_commands() {
+  std::vector<deploy::Command> commands;
+  dds::take_all<indurop_deploy_Command>(impl_->in.get(), [&](const auto& in, const dds::SampleInfo& info) {
+    if (info.valid && wire::known<Action>(in.action)) {
+      commands.push_back(wire::word_of<Command>(in));
+    }
+  });
+  return commands;
+}
+
+std::vector<deploy::CommandReply> CommandLink::take_replies() {
+  std::vector<deploy::CommandReply> replies;
+  dds::take_all<indurop_deploy_Reply>(impl_->in.get(), [&](const auto& in, const dds::SampleInfo& info) {
+    if (info.valid && wire::known<Outcome>(in.outcome)) {
+      replies.push_back(wire::word_of<CommandReply>(in));
+    }
+  });
+  return replies;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/link/deploy_link.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+
+#include "dds/endpoint.h"
+#include "dds/guid.h"
+#include "dds/other_releases.h"
+#include "dds/setup.h"
+#include "deploy/link/wire_words.h"
+#include "rt/clock.h"
+#include "rt/machine.h"
+#include "rt/signal_word.h"
+#include "schema/topic_name.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::int64_t kLeaseNs = 2'000'000'000;
+constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
+constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
+constexpr std::size_t kMostRoom = 2U << 20U;
+
+std::string topic_name(const std::string& what) {
+  return schema::deploy_topics() + what;
+}
+
+std::string blob_topic(std::uint64_t requester) {
+  return topic_name(fmt::format("blob/{:016x}", requester));
+}
+
+dds::Qos link_qos(bool state) {
+  return dds::make_qos({.block_ns = kBlockNs,
+                        .for_late_ones = state,
+                        .depth = state ? 1 : kDepth,
+                        .lease_ns = kLeaseNs,
+                        .dispose_at_end = true});
+}
+
+}  // namespace
+
+struct DeployLink::Impl {
+  Result<void, base::Problem> make();
+  dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state);
+  dds::Endpoint writer(const dds::TypeDescriptor& type, const std::string& topic, bool state);
+
+  std::uint64_t self = 0;
+  rt::SignalWord wake{};  // used by listeners until the readers are gone
+  dds::Participant participant;
+  dds::OtherReleases others;
+  dds::Endpoint boards_out;
+  dds::Endpoint orders_out;
+  dds::Endpoint requests_out;
+  std::map<std::uint64_t, dds::Endpoint> blobs_out;  // by requester
+  dds::Endpoint boards_in;
+  dds::Endpoint orders_in;
+  dds::Endpoint requests_in;
+  dds::Endpoint blobs_in;
+};
+
+dds::Endpoint DeployLink::Impl::reader(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
+  return dds::make_reader(participant.get(), type, topic, link_qos(state), dds::wake_listener(wake));
+}
+
+dds::Endpoint DeployLink::Impl::writer(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
+  return dds::make_writer(participant.get(), type, topic, link_qos(state));
+}
+
+Result<void, base::Problem> DeployLink::Impl::make() {
+  boards_in = reader(indurop_deploy_BoardReport_desc, topic_name("board"), true);
+  orders_in = reader(indurop_deploy_Order_desc, topic_name("order"), true);
+  requests_in = reader(indurop_deploy_Request_desc, topic_name("request"), false);
+  blobs_in = reader(indurop_deploy_Chunk_desc, blob_topic(self), false);
+  boards_out = writer(indurop_deploy_BoardReport_desc, topic_name("board"), true);
+  orders_out = writer(indurop_deploy_Order_desc, topic_name("order"), true);
+  requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
+  for (const dds::Endpoint* end :
+       {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
+    if (!end->ok()) {
+      return base::Problem{"deployment topics cannot be made: " + end->why()};
+    }
+  }
+  return others.open(participant.get());
+}
+
+std::uint64_t new_session() {
+  // The clock first, so that of two deployers the one that began earlier has the smaller number.
+  std::random_device random;
+  return (static_cast<std::uint64_t>(rt::wall_ns()) & ~std::uint64_t{0xffff}) | (random() & 0xffffU);
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
+}
+
+Result<DeployLink::Opened, base::Problem> DeployLink::open(const LinkSettings& settings) {
+  dds::NetworkSettings network = settings.network;
+  network.known_ports = true;
+  network.lease_ns = kLeaseNs;
+  auto impl = std::make_unique<Impl>();
+  impl->self = settings.self;
+  impl->wake.init(false);
+  auto joined = dds::join_network(network);
+  if (!joined) {
+    return std::move(joined).error();
+  }
+  impl->participant = std::move(joined->participant);
+  if (auto made = impl->make(); !made) {
+    return std::move(made).error();
+  }
+  return Opened{std::unique_ptr<DeployLink>(new DeployLink(std::move(impl))), std::move(joined->note)};
+}
+
+DeployLink::DeployLink(std::unique_ptr<Impl> impl)
+    : impl_(std::move(impl)), room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMostRoom)) {}
+DeployLink::~DeployLink() = default;
+
+void DeployLink::publish(const BoardReport& report) {
+  const wire::Lent lent(report);
+  (void)dds::write(impl_->boards_out.get(), lent.sample());  // told again soon
+}
+
+void DeployLink::publish(const Order& order) {
+  const wire::Lent lent(order);
+  (void)dds::write(impl_->orders_out.get(), lent.sample());
+}
+
+void DeployLink::request(const BlobRequest& request) {
+  const wire::Lent lent(request);
+  (void)dds::write(impl_->requests_out.get(), lent.sample());
+}
+
+DeployLink::Sent DeployLink::send(std::uint64_t requester, const BlobChunk& chunk) {
+  dds::Endpoint& writer = impl_->blobs_out[requester];
+  if (!writer.ok()) {
+    writer = impl_->writer(indurop_deploy_Chunk_desc, blob_topic(requester), false);
+  }
+  const auto readers = writer.ok() ? dds::readers_of(writer.get()) : std::nullopt;
+  if (!readers) {
+    return Sent::Failed;
+  }
+  if (*readers == 0) {
+    return Sent::Later;
+  }
+  const wire::Lent lent(chunk);
+  const dds::Written written = dds::write(writer.get(), lent.sample());
+  return written.timed_out() ? Sent::Later : written.ok() ? Sent::Yes : Sent::Failed;
+}
+
+void DeployLink::forget(std::uint64_t requester) {
+  impl_->blobs_out.erase(requester);
+}
+
+std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
+  std::vector<BoardNews> news;
+  dds::take_all<indurop_deploy_BoardReport>(impl_->boards_in.get(),
+                                            [&](const auto& sample, const dds::SampleInfo& info) {
+                                              if (info.valid) {
+                                                news.push_back({wire::word_of<BoardReport>(sample), false});
+                                              }
+                                              if (!info.alive) {
+                                                BoardReport report;
+                                                report.board = sample.board;
+                                                report.agent = sample.agent;
+                                                news.push_back({std::move(report), true});
+                                              }
+                                            });
+  return news;
+}
+
+std::vector<DeployLink::OrderNews> DeployLink::take_orders() {
+  std::vector<OrderNews> news;
+  dds::take_all<indurop_deploy_Order>(impl_->orders_in.get(), [&](const auto& sample, const dds::SampleInfo& info) {
+    if (info.valid) {
+      news.push_back({wire::word_of<Order>(sample), false});
+    }
+    if (!info.alive) {
+      Order order;
+      order.deployer = sample.deployer;
+      news.push_back({std::move(order), true});
+    }
+  });
+  return news;
+}
+
+std::vector<deploy::BlobRequest> DeployLink::take_requests() {
+  std::vector<deploy::BlobRequest> requests;
+  dds::take_all<indurop_deploy_Request>(impl_->requests_in.get(), [&](const auto& sample, const dds::SampleInfo& info) {
+    if (info.valid && sample.source == impl_->self) {
+      requests.push_back(wire::word_of<BlobRequest>(sample));
+    }
+  });
+  return requests;
+}
+
+std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
+  std::vector<deploy::BlobChunk> chunks;
+  dds::take_all<indurop_deploy_Chunk>(impl_->blobs_in.get(), [&](const auto& sample, const dds::SampleInfo& info) {
+    if (info.valid) {
+      chunks.push_back(wire::word_of<BlobChunk>(sample));
+    }
+  });
+  return chunks;
+}
+
+std::vector<deploy::OtherAgent> DeployLink::other_agents() {
+  constexpr const char* kTool = "indurop";  // it has the same topics, and goes again
+  (void)impl_->others.look();
+  std::vector<deploy::OtherAgent> agents;
+  for (dds::OtherReleases::Speaker& speaker : impl_->others.speakers()) {
+    if (speaker.topic.plant == "deploy" && speaker.program != kTool) {
+      agents.push_back({speaker.topic.protocol, std::move(speaker.name), std::move(speaker.host)});
+    }
+  }
+  return agents;
+}
+
+int DeployLink::participant() const noexcept {
+  return impl_->participant.get();
+}
+
+rt::SignalWord& DeployLink::wake_word() noexcept {
+  return impl_->wake;
+}
+
+void DeployLink::wait(std::int64_t deadline_ns) {
+  impl_->wake.wait_until(deadline_ns);
+  while (impl_->wake.try_wait()) {
+  }
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/transaction/board_transaction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::chrono::seconds kRetry{30};  // after a deployment that could not be taken over
+constexpr std::chrono::nanoseconds kLongestHealth = std::chrono::minutes{10};
+
+}  // namespace
+
+using Do = BoardTransaction::Do;
+
+bool BoardTransaction::meant(const Order& order) const {
+  return std::find(order.boards.begin(), order.boards.end(), board_) != order.boards.end();
+}
+
+Do BoardTransaction::begin(const Order& order, std::uint64_t source, bool joining) {
+  order_ = order;
+  source_ = source;
+  joining_ = joining;
+  phase_ = Phase::Fetching;
+  stage_ = Phase::Steady;
+  message_.clear();
+  switch_.reset();
+  return Do::Fetch;
+}
+
+Do BoardTransaction::fail(const std::string& problem) {
+  const bool running = phase_ == Phase::Trial || phase_ == Phase::Healthy;
+  stage_ = phase_;
+  message_ = problem;
+  if (joining_) {
+    failed_join_ = order_.generation;
+    joining_ = false;
+    phase_ = Phase::Steady;
+  } else {
+    phase_ = Phase::Failed;
+  }
+  return running ? Do::GoBack : Do::Forget;
+}
+
+// The deployment is over without a commit.
+Do BoardTransaction::end(const std::string& why) {
+  const Phase before = phase_;
+  finished_ = order_.deployer;
+  phase_ = Phase::Steady;
+  joining_ = false;
+  if (before == Phase::Failed) {
+    return Do::Nothing;  // all is undone, and the message says why
+  }
+  message_ = why;
+  return before == Phase::Trial || before == Phase::Healthy ? Do::GoBack : Do::Forget;
+}
+
+void BoardTransaction::agree_instant(const Order& order, rt::MonoTime now) {
+  // How long from now, by the deployer's clock and, if the two clocks agree, by ours: the way here does not count then.
+  const std::chrono::nanoseconds ahead{order.switch_at_ns - order.said_at_ns};
+  const bool trusted = clock_offset_ > -kClockTrust && clock_offset_ < kClockTrust;
+  switch_ = now + (trusted ? ahead - clock_offset_ : ahead);
+  if (!trusted) {
+    message_ = fmt::format("its clock is {:+.1f} s from the deployer's; it switches by the deployer's word instead",
+                           std::chrono::duration<double>(clock_offset_).count());
+  }
+}
+
+Do BoardTransaction::hear(const Order& order, rt::MonoTime now, rt::WallTime wall) {
+  if (!meant(order)) {
+    return Do::Nothing;
+  }
+  const bool free = phase_ == Phase::Steady || (joining_ && phase_ != Phase::Trial && phase_ != Phase::Healthy);
+  if (free && order.step == Step::Prepare && order.deployer != finished_) {
+    heard_ = now;
+    clock_offset_ = wall - rt::wall_time(order.said_at_ns);
+    return begin(order, order.deployer, false);
+  }
+  if (phase_ == Phase::Steady || joining_ || order.deployer != order_.deployer) {
+    return Do::Nothing;
+  }
+  heard_ = now;
+  order_.health_ns = std::clamp<std::int64_t>(order.health_ns, 0, kLongestHealth.count());
+  switch (order.step) {
+    case Step::Prepare:
+      break;
+    case Step::Switch:
+      if (phase_ == Phase::Prepared && !switch_) {
+        clock_offset_ = wall - rt::wall_time(order.said_at_ns);
+        agree_instant(order, now);
+      }
+      break;
+    case Step::Commit:
+      if (phase_ == Phase::Trial || phase_ == Phase::Healthy) {
+        phase_ = Phase::Steady;
+        finished_ = order.deployer;
+        return Do::Commit;
+      }
+      break;
+    case Step::Abort:
+      return end("another board could not, or the deployer gave up");
+  }
+  return Do::Nothing;
+}
+
+Do BoardTransaction::deployer_gone(std::uint64_t deployer) {
+  if (phase_ == Phase::Steady || joining_ || deployer != order_.deployer) {
+    return Do::Nothing;
+  }
+  return end("the deployer ended before it was done");
+}
+
+Do BoardTransaction::catch_up(const BoardReport& from, rt::MonoTime now) {
+  if (phase_ != Phase::Steady || (from.generation == failed_join_ && now < retry_)) {
+    return Do::Nothing;
+  }
+  retry_ = now + kRetry;
+  Order order;
+  order.host = from.board;
+  order.plant = from.plant;
+  order.deployment = from.current;
+  order.grant = from.grant;
+  order.size = from.current_size;
+  order.generation = from.generation;
+  order.boards = from.members;
+  order.health_ns = std::chrono::nanoseconds(kJoinHealth).count();
+  return begin(order, from.agent, true);
+}
+
+Do BoardTransaction::fetched(const std::string& problem) {
+  if (phase_ != Phase::Fetching) {
+    return Do::Nothing;
+  }
+  if (!problem.empty()) {
+    return fail(problem);
+  }
+  phase_ = Phase::Checking;
+  return Do::Check;
+}
+
+Do BoardTransaction::checked(const std::string& problem, rt::MonoTime now) {
+  if (phase_ != Phase::Checking) {
+    return Do::Nothing;
+  }
+  if (!problem.empty()) {
+    return fail(problem);
+  }
+  phase_ = Phase::Prepared;
+  if (joining_) {
+    switch_ = now;
+  }
+  return Do::Nothing;
+}
+
+Do BoardTransaction::node(const std::string& problem, const std::string& missing, rt::MonoTime now) {
+  if (phase_ != Phase::Trial && phase_ != Phase::Healthy) {
+    return Do::Nothing;
+  }
+  if (!problem.empty()) {
+    return fail(problem);
+  }
+  if (phase_ == Phase::Healthy || now < trial_end_) {
+    return Do::Nothing;
+  }
+  if (joining_) {
+    phase_ = Phase::Steady;
+    joining_ = false;
+    return Do::Commit;  // the plant has it already; that others are missing now is no reason to stay behind
+  }
+  if (missing.empty()) {
+    phase_ = Phase::Healthy;
+    return Do::Nothing;
+  }
+  return now < trial_end_ + kSlowStart ? Do::Nothing : fail(missing);
+}
+
+Do BoardTransaction::time(rt::MonoTime now) {
+  if (phase_ == Phase::Steady) {
+    return Do::Nothing;
+  }
+  if (!joining_ && now - heard_ > kSilence) {
+    return end(fmt::format("the deployer was not heard for {} s", kSilence.count()));
+  }
+  if (phase_ == Phase::Prepared && switch_ && now >= *switch_) {
+    phase_ = Phase::Trial;
+    trial_end_ = now + std::chrono::nanoseconds(order_.health_ns);
+    return Do::Switch;
+  }
+  return Do::Nothing;
+}
+
+}  // namespace indurop::deploy

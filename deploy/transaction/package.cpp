@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/transaction/package.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <set>
+#include <sstream>
+
+#include "base/json.h"
+#include "config/check/io_access.h"
+#include "keys/digest.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Json;
+
+constexpr int kFormat = 1;
+constexpr std::size_t kMostFiles = 10'000;
+constexpr std::size_t kMostBoards = 1'000;
+constexpr std::size_t kLongestPath = 1'000;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;
+
+bool is_safe_path(const std::string& text) {
+  const std::filesystem::path path(text);
+  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||
+      text.back() == '/' || text.find('\0') != std::string::npos) {
+    return false;
+  }
+  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
+}
+
+// The longest folder all files lie below.
+std::filesystem::path common_folder(const std::vector<std::filesystem::path>& files) {
+  std::filesystem::path common = files.front().parent_path();
+  for (const auto& file : files) {
+    std::filesystem::path shared;
+    auto a = common.begin();
+    for (auto b = file.begin(); a != common.end() && b != file.end() && *a == *b; ++a, ++b) {
+      shared /= *a;
+    }
+    common = shared;
+  }
+  return common;
+}
+
+// A module looks beside the manifest for the files its properties name, one or several in a value: pick.job place.job
+std::vector<std::filesystem::path> files_named_by_properties(const config::Module& module,
+                                                             const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const config::Property& property : module.properties) {
+    std::istringstream words(property.value);
+    for (std::string word; words >> word;) {
+      const std::filesystem::path file = (folder / word).lexically_normal();
+      std::error_code none;
+      if (!std::filesystem::path(word).is_absolute() && std::filesystem::is_regular_file(file, none)) {
+        files.push_back(file);
+      }
+    }
+  }
+  return files;
+}
+
+std::string problem_of(const Package& package) {
+  std::set<std::string> paths;
+  std::uint64_t bytes = 0;
+  for (const PackageFile& file : package.files) {
+    if (!is_safe_path(file.path)) {
+      return fmt::format("'{}' is not a path of a file in a package", file.path);
+    }
+    if (!paths.insert(file.path).second) {
+      return fmt::format("{} is in the package twice", file.path);
+    }
+    if (!keys::is_digest(file.digest)) {
+      return fmt::format("{} has no SHA-256", file.path);
+    }
+    if (file.size > kMostBytes || (bytes += file.size) > kMostBytes) {
+      return "the package is larger than 64 GiB";
+    }
+  }
+  for (const std::string& path : paths) {
+    for (auto folder = std::filesystem::path(path).parent_path(); !folder.empty(); folder = folder.parent_path()) {
+      if (paths.contains(folder.string())) {
+        return fmt::format("{} is both a file and a folder", folder.string());
+      }
+    }
+  }
+  if (!paths.contains(package.manifest)) {
+    return "the manifest is not among its files";
+  }
+  return package.plant.empty() || package.boards.empty() ? "it names no plant or no boards" : "";
+}
+
+}  // namespace
+
+std::string to_text(const Package& package) {
+  Json files = Json::array();
+  for (const PackageFile& file : package.files) {
+    files.push_back(
+        {{"path", file.path}, {"sha256", file.digest}, {"size", file.size}, {"executable", file.executable}});
+  }
+  const Json whole = {{"indurop_package", kFormat},
+                      {"plant", package.plant},
+                      {"manifest", package.manifest},
+                      {"boards", package.boards},
+                      {"files", files}};
+  return whole.dump();
+}
+
+Result<Package, base::Problem> read_package(std::string_view text) {
+  const Json whole = Json::parse(text).value_or(Json());
+  const base::Problem damaged{"the package is damaged"};
+  std::uint64_t format = 0;
+  if (!read(whole, "indurop_package", format)) {
+    return damaged;
+  }
+  if (format != kFormat) {
+    return base::Problem{
+        "the package is of another InduRoP version; use the same on all boards and where you deploy from"};
+  }
+  Package package;
+  const Json& files = whole["files"];
+  if (!read(whole, "plant", package.plant) || !read(whole, "manifest", package.manifest) ||
+      !read(whole, "boards", package.boards) || package.boards.size() > kMostBoards || !files.is_array() ||
+      files.values().size() > kMostFiles) {
+    return damaged;
+  }
+  for (const Json& each : files.values()) {
+    PackageFile& file = package.files.emplace_back();
+    if (!read(each, "path", file.path) || !read(each, "sha256", file.digest) || !read(each, "size", file.size) ||
+        !read(each, "executable", file.executable)) {
+      return damaged;
+    }
+  }
+  if (std::string problem = problem_of(package); !problem.empty()) {
+    return base::Problem{std::move(problem)};
+  }
+  return package;
+}
+
+Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant) {
+  const std::filesystem::path manifest = std::filesystem::absolute(plant.file).lexically_normal();
+  std::set<std::filesystem::path> travelling{manifest};
+  const auto add = [&](const std::string& as_written) {
+    if (!std::filesystem::path(as_written).is_absolute()) {
+      travelling.insert((manifest.parent_path() / as_written).lexically_normal());
+    }
+  };
+  for (const std::string& library : plant.types_as_written) {
+    add(library);
+  }
+  PackedPlant packed;
+  packed.package.plant = plant.name;
+  for (const config::Board& board : plant.boards) {
+    packed.package.boards.push_back(board.name);
+    for (const config::Module& module : board.config.modules) {
+      add(module.file_as_written);
+      for (const std::filesystem::path& file : files_named_by_properties(module, manifest.parent_path())) {
+        travelling.insert(file);
+      }
+      for (const std::filesystem::path& file : io_files_of(module, manifest.parent_path())) {
+        travelling.insert(file);
+      }
+    }
+  }
+  const std::filesystem::path base = common_folder({travelling.begin(), travelling.end()});
+  for (const std::filesystem::path& file : travelling) {
+    PackageFile entry;
+    entry.path = file.lexically_relative(base).string();
+    entry.digest = keys::digest_of_file(file, entry.size);
+    if (entry.digest.empty()) {
+      return base::Problem{fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno))};
+    }
+    entry.executable = ::access(file.c_str(), X_OK) == 0;
+    packed.sources.emplace(entry.digest, file);
+    packed.package.files.push_back(std::move(entry));
+  }
+  packed.package.manifest = manifest.lexically_relative(base).string();
+  if (std::string problem = problem_of(packed.package); !problem.empty()) {
+    return base::Problem{std::move(problem)};
+  }
+  packed.text = to_text(packed.package);
+  packed.id = keys::digest_of(packed.text);
+  return packed;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The deployer's side of a deployment as a state machine: it hears what the boards report and says what they are to do
+// until all of them have committed or gone back. Knows no network, so every order of events can be tried.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "deploy/words/deployment_words.h"
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+
+class PlantTransaction {
+ public:
+  enum class Verdict {
+    Open,         // not decided yet
+    Committed,    // on all boards
+    Refused,      // a board could not prepare; nothing was switched
+    CheckFailed,  // likewise, its check found errors
+    Busy,         // another deployment is under way
+    RolledBack,   // the new deployment did not do; all boards went back
+    Interrupted,  // given up by the user
+  };
+
+  static constexpr std::chrono::milliseconds kSwitchAhead{300};
+  static constexpr std::chrono::seconds kBusy{3};  // how long another deployer may take to give way
+  static constexpr std::chrono::seconds kWindUp{10};
+
+  // `order` without step and times: deployer, host, deployment, size, generation, boards, health. `patience`: how
+  // long nothing at all may happen while boards prepare.
+  PlantTransaction(Order order, std::chrono::nanoseconds patience, rt::MonoTime now);
+
+  void hear(const BoardReport& report, rt::MonoTime now);
+  void board_gone(const std::string& board, std::uint64_t agent, rt::MonoTime now);
+  // Another deployer speaks to some of the same boards: the one with the smaller number goes on.
+  void rival(const Order& order, rt::MonoTime now);
+  void give_up(rt::MonoTime now);
+  // Call often; true if the order to publish has changed.
+  bool time(rt::MonoTime now, rt::WallTime wall);
+
+  // What to say to the boards now.
+  [[nodiscard]] const Order& order() const noexcept { return order_; }
+  // Nothing more to say: all boards are done, or those that answer.
+  [[nodiscard]] bool finished() const noexcept { return finished_; }
+  [[nodiscard]] Verdict verdict() const noexcept { return verdict_; }
+  [[nodiscard]] const std::map<std::string, BoardReport>& reports() const noexcept { return reports_; }
+  // Per board, why it did not do. Boards that only went back with the others are not in it.
+  [[nodiscard]] const std::map<std::string, std::string>& reasons() const noexcept { return reasons_; }
+  // Boards that have not answered to the last step.
+  [[nodiscard]] const std::vector<std::string>& unconfirmed() const noexcept { return unconfirmed_; }
+
+ private:
+  void abort(Verdict verdict, const std::string& board, const std::string& reason, rt::MonoTime now);
+  void judge(const std::string& board, const BoardReport& report, rt::MonoTime now);
+  [[nodiscard]] bool all_in(Phase phase) const;
+  [[nodiscard]] bool wound_up();
+  [[nodiscard]] bool ours(const BoardReport& report) const noexcept { return report.deployer == order_.deployer; }
+
+  Order order_;
+  std::chrono::nanoseconds patience_;
+  rt::MonoTime moved_;   // when something happened last
+  rt::MonoTime ending_;  // when Commit or Abort was said
+  bool switched_ = false;
+  bool finished_ = false;
+  Verdict verdict_ = Verdict::Open;
+  std::map<std::string, BoardReport> reports_;  // of the boards meant, newest
+  std::set<std::string> gone_;                  // of those, not heard any more
+  std::map<std::string, rt::MonoTime> busy_since_;
+  std::map<std::string, std::string> reasons_;
+  std::vector<std::string> unconfirmed_;
+};
+
+}  // namespace indurop::deploy

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands to one board outside of deployments: stop, start or restart its node or one of its modules. The agent
+// answers the first word with a number that counts once, so that a recorded command cannot be played again. No network
+// here.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace indurop::deploy {
+
+enum class Action : std::uint8_t { StopModule, StartModule, RestartModule, StopNode, StartNode, RestartNode };
+
+struct Command {
+  std::uint64_t commander = 0;  // this run of whoever commands
+  std::string host;             // of it, for people
+  std::string board;
+  std::uint64_t agent = 0;  // of the board that is meant
+  std::string plant;        // what the board runs
+  Action action = Action::StopModule;
+  std::string module;       // empty: the node
+  std::uint64_t nonce = 0;  // as the agent gave it; 0: asks for one
+  std::string signature;    // of command_text(); empty: unsigned
+};
+
+enum class Outcome : std::uint8_t {
+  Nonce,      // say it again with this number
+  UnderWay,   // taken, not done yet
+  Done,       // it is as commanded
+  Unchanged,  // it was so before
+  Failed,     // see text
+  Refused,    // likewise; nothing was changed
+};
+
+struct CommandReply {
+  std::uint64_t commander = 0;
+  std::string board;
+  std::uint64_t agent = 0;
+  std::uint64_t nonce = 0;
+  Outcome outcome = Outcome::Refused;
+  std::string text;
+};
+
+// What is signed.
+std::string command_text(const Command& command);
+
+}  // namespace indurop::deploy

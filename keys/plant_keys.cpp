@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "keys/plant_keys.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/read_file.h"
+#include "base/replace_file.h"
+
+namespace indurop::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAuthorityKey = "ca.key";
+constexpr const char* kAuthority = "ca.pem";
+constexpr const char* kGovernance = "governance.p7s";
+constexpr const char* kRevoked = "revoked.pem";
+constexpr const char* kIssued = "issued.txt";
+constexpr const char* kDeployKey = "deploy.key";
+constexpr const char* kDeployPublic = "deploy.pub";
+constexpr const char* kIdentityKey = "identity.key";
+constexpr const char* kIdentity = "identity.pem";
+constexpr const char* kPermissions = "permissions.p7s";
+constexpr mode_t kSecret = 0600;
+constexpr mode_t kPublic = 0644;
+
+std::string read_text(const fs::path& file) {
+  auto text = base::read_file(file);
+  return text ? std::move(*text) : std::string{};
+}
+
+// A file that is not there yet. Returns what went wrong.
+std::string write_new(const fs::path& file, const std::string& text, mode_t mode) {
+  if (text.empty()) {
+    return crypto_problem();
+  }
+  const auto written = base::create_file(file, text, mode);
+  return written ? std::string{} : base::cannot_write(file, written.error());
+}
+
+// A file that may be there already is replaced at once or not at all. Never for private keys.
+std::string replace(const fs::path& file, const std::string& text) {
+  if (text.empty()) {
+    return crypto_problem();
+  }
+  const auto written = base::replace_file(file, text, base::Durable::Yes, kPublic);
+  return written ? std::string{} : base::cannot_write(file, written.error());
+}
+
+std::string make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) {
+    fs::permissions(folder, fs::perms::owner_all, error);
+  }
+  return error ? fmt::format("cannot make the folder {}: {}", folder.string(), error.message()) : std::string{};
+}
+
+// Does the steps until one has a problem, which is returned.
+template <class... Steps>
+std::string in_turn(const Steps&... steps) {
+  std::string problem;
+  (void)((problem = steps(), problem.empty()) && ...);
+  return problem;
+}
+
+const char* unit_of(Role role) {
+  return role == Role::Viewer ? "viewer" : role == Role::Deployer ? "deployer" : "";
+}
+
+Authority read_authority(const fs::path& folder) {
+  return {read_text(folder / kAuthority), read_text(folder / kAuthorityKey)};
+}
+
+// What `key` shows: its certificate, and permissions for exactly that name.
+struct Papers {
+  std::string certificate;
+  std::string permissions;
+};
+Papers make_papers(const Authority& authority, const std::string& plant, Role role, const std::string& name,
+                   const std::string& key, Instant until) {
+  const Validity validity{valid_from(), until};
+  Papers papers;
+  // Boards have no unit, so that none can be named like one of the others.
+  papers.certificate = make_certificate(authority, key, {plant, unit_of(role), name}, validity);
+  if (const auto facts = read_certificate(papers.certificate)) {
+    papers.permissions = sign_document(authority, permissions_document(role, plant, name, facts->subject, validity));
+  }
+  return papers;
+}
+
+// All certificates ever issued: "SERIAL FOLDER". Without it a renewed board's old ones could not be revoked.
+std::string note_issued(const fs::path& keys, const std::string& whose, const std::string& certificate) {
+  const auto facts = read_certificate(certificate);
+  return facts ? replace(keys / kIssued, read_text(keys / kIssued) + facts->serial + " " + whose + "\n")
+               : crypto_problem();
+}
+
+std::vector<std::string> issued_to(const fs::path& keys, const std::string& whose) {
+  std::istringstream in(read_text(keys / kIssued));
+  std::vector<std::string> serials;
+  for (std::string serial, name; in >> serial >> name;) {
+    if (name == whose) {
+      serials.push_back(serial);
+    }
+  }
+  return serials;
+}
+
+std::string folder_of(Role role, const std::string& name) {
+  return role == Role::Board ? "boards/" + name : unit_of(role);
+}
+
+// One participant's folder, with copies of what all have.
+std::string make_participant(const fs::path& keys, const fs::path& folder, const std::string& plant, Role role,
+                             const std::string& name, Instant until) {
+  const Authority authority = read_authority(keys);
+  const std::string key = make_key(KeyKind::P256);
+  const Papers papers = make_papers(authority, plant, role, name, key, until);
+  std::string problem =
+      in_turn([&] { return make_folder(folder); }, [&] { return write_new(folder / kIdentityKey, key, kSecret); },
+              [&] { return write_new(folder / kIdentity, papers.certificate, kPublic); },
+              [&] { return write_new(folder / kPermissions, papers.permissions, kPublic); },
+              [&] { return note_issued(keys, folder_of(role, name), papers.certificate); });
+  for (const char* common : {kAuthority, kGovernance, kRevoked, kDeployPublic}) {
+    if (problem.empty()) {
+      problem = write_new(folder / common, read_text(keys / common), kPublic);
+    }
+  }
+  return problem;
+}
+
+std::string make_top(const fs::path& folder, const std::string& plant, Instant until) {
+  // The authority outlives what it issues.
+  const Validity validity{valid_from(), until + std::chrono::days(3650)};
+  Authority authority;
+  authority.key = make_key(KeyKind::P256);
+  authority.certificate = make_authority(authority.key, {plant, "", plant + " authority"}, validity);
+  const std::string deploy = make_key(KeyKind::Ed25519);
+  return in_turn(
+      [&] { return make_folder(folder / "boards"); }, [&] { return make_folder(folder); },
+      // Keys do not belong into version control.
+      [&] { return write_new(folder / ".gitignore", "*\n", kPublic); },
+      [&] { return write_new(folder / kAuthorityKey, authority.key, kSecret); },
+      [&] { return write_new(folder / kAuthority, authority.certificate, kPublic); },
+      [&] { return write_new(folder / kGovernance, sign_document(authority, governance_document()), kPublic); },
+      [&] { return write_new(folder / kRevoked, make_revocation_list(authority, "", {}, validity), kPublic); },
+      [&] { return write_new(folder / kDeployPublic, public_half(deploy), kPublic); },
+      [&] { return make_folder(folder / "deployer"); },
+      [&] { return write_new(folder / "deployer" / kDeployKey, deploy, kSecret); });
+}
+
+// Moves what was made aside to its place, or takes it away.
+std::string put_in_place(std::string problem, const fs::path& fresh, const fs::path& folder) {
+  std::error_code error;
+  if (problem.empty()) {
+    fs::rename(fresh, folder, error);  // fails if there is anything
+    problem = error ? fmt::format("cannot make {}: {}", folder.string(), error.message()) : "";
+  }
+  if (!problem.empty()) {
+    fs::remove_all(fresh, error);
+  }
+  return problem;
+}
+
+fs::path aside(const fs::path& folder) {
+  return folder.parent_path() / fmt::format(".{}.{}.new", folder.filename().string(), ::getpid());
+}
+
+std::string missing_file(const ParticipantKeys& keys) {
+  for (const fs::path& file :
+       {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) {
+      return fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "it is not a file");
+    }
+    if (::access(file.c_str(), R_OK) != 0) {
+      return fmt::format("cannot read {}: {}", file.string(), std::strerror(errno));
+    }
+  }
+  return {};
+}
+
+KeyListing listing_of(Role role, const fs::path& folder, const std::string& authority, const std::string& revoked,
+                      Instant now) {
+  KeyListing listing{role, folder.filename().string(), folder, {}, false, {}};
+  const ParticipantKeys keys(folder);
+  const std::string certificate = read_text(keys.certificate);
+  if (const auto facts = read_certificate(certificate)) {
+    listing.validity = facts->validity;
+    listing.revoked = is_revoked(certificate, revoked);
+    const KeyCheck check = check_board_keys(folder, facts->organisation, facts->common_name, now);
+    listing.problem = listing.revoked                      ? "revoked"
+                      : !issued_by(certificate, authority) ? "issued by another authority"
+                      : facts->common_name != listing.name ? "the certificate is that of " + facts->common_name
+                                                           : check.problem;
+  } else {
+    listing.problem = fmt::format("{} is not a certificate", keys.certificate.string());
+  }
+  return listing;
+}
+
+}  // namespace
+
+ParticipantKeys::ParticipantKeys(const fs::path& in)
+    : folder(in),
+      authority(in / kAuthority),
+      certificate(in / kIdentity),
+      key(in / kIdentityKey),
+      governance(in / kGovernance),
+      permissions(in / kPermissions),
+      revoked(in / kRevoked),
+      deploy_key(in / kDeployPublic) {}
+
+std::string PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
+  std::error_code error;
+  if (fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
+    return fmt::format("there is already something in {}; nothing was written", folder_.string());
+  }
+  const fs::path target = fs::absolute(folder_, error).lexically_normal();
+  const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
+  const PlantKeys made(fresh);
+  std::string problem =
+      in_turn([&] { return make_top(fresh, plant, until); },
+              [&] { return make_participant(fresh, made.viewer(), plant, Role::Viewer, "viewer", until); },
+              [&] { return make_participant(fresh, made.deployer(), plant, Role::Deployer, "deployer", until); });
+  for (const std::string& board : boards) {
+    if (problem.empty()) {
+      problem = make_participant(fresh, made.board(board), plant, Role::Board, board, until);
+    }
+  }
+  return put_in_place(std::move(problem), fresh, target);
+}
+
+std::string PlantKeys::add(const std::string& board, Instant until) const {
+  std::error_code error;
+  if (fs::exists(this->board(board), error)) {
+    return fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}", board,
+                       this->board(board).string(), board);
+  }
+  const fs::path fresh = aside(this->board(board));
+  return put_in_place(make_participant(folder_, fresh, plant(), Role::Board, board, until), fresh, this->board(board));
+}
+
+std::string PlantKeys::renew(const KeyListing& whose, Instant until) const {
+  const Papers papers = make_papers(read_authority(folder_), plant(), whose.role, whose.name,
+                                    read_text(ParticipantKeys(whose.folder).key), until);
+  if (papers.certificate.empty() || papers.permissions.empty()) {
+    return crypto_problem();
+  }
+  return in_turn([&] { return note_issued(folder_, folder_of(whose.role, whose.name), papers.certificate); },
+                 [&] { return replace(whose.folder / kIdentity, papers.certificate); },
+                 [&] { return replace(whose.folder / kPermissions, papers.permissions); });
+}
+
+std::string PlantKeys::revoke(const KeyListing& whose) const {
+  const Authority authority = read_authority(folder_);
+  const auto issuer = read_certificate(authority.certificate);
+  if (!issuer) {
+    return fmt::format("{} is not a certificate", (folder_ / kAuthority).string());
+  }
+  const std::string list = make_revocation_list(authority, read_text(folder_ / kRevoked),
+                                                issued_to(folder_, folder_of(whose.role, whose.name)),
+                                                {valid_from(), issuer->validity.until});
+  std::string problem = replace(folder_ / kRevoked, list);
+  for (const KeyListing& each : this->list(instant_now())) {
+    if (problem.empty()) {
+      problem = replace(each.folder / kRevoked, list);
+    }
+  }
+  return problem;
+}
+
+bool PlantKeys::exist() const {
+  std::error_code error;
+  return fs::exists(folder_ / kAuthority, error);
+}
+
+std::string PlantKeys::plant() const {
+  const auto facts = read_certificate(read_text(folder_ / kAuthority));
+  return facts ? facts->organisation : std::string{};
+}
+
+std::vector<KeyListing> PlantKeys::list(Instant now) const {
+  const std::string authority = read_text(folder_ / kAuthority);
+  const std::string revoked = read_text(folder_ / kRevoked);
+  std::vector<KeyListing> all;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_ / "boards", error)) {
+    if (!entry.path().filename().string().starts_with(".")) {
+      all.push_back(listing_of(Role::Board, entry.path(), authority, revoked, now));
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const KeyListing& a, const KeyListing& b) { return a.name < b.name; });
+  for (const auto& [role, folder] : {std::pair(Role::Viewer, viewer()), std::pair(Role::Deployer, deployer())}) {
+    if (fs::exists(folder, error)) {
+      all.push_back(listing_of(role, folder, authority, revoked, now));
+    }
+  }
+  return all;
+}
+
+KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, const std::string& board, Instant now) {
+  const ParticipantKeys keys(folder);
+  if (std::string missing = missing_file(keys); !missing.empty()) {
+    return {KeyFault::Missing, std::move(missing), {}, {}};
+  }
+  const std::string certificate = read_text(keys.certificate);
+  const std::string authority = read_text(keys.authority);
+  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority}; };
+  const auto facts = read_certificate(certificate);
+  if (!facts) {
+    return wrong(keys.certificate.string() + " is not a certificate");
+  }
+  if (facts->organisation != plant || facts->common_name != board) {
+    return wrong(fmt::format("{} is the certificate of {} of plant {}", keys.certificate.string(), facts->common_name,
+                             facts->organisation));
+  }
+  if (!issued_by(certificate, authority)) {
+    return wrong(fmt::format("{} was not issued by {}", keys.certificate.string(), keys.authority.string()));
+  }
+  if (!belongs_to(certificate, read_text(keys.key))) {
+    return wrong(fmt::format("{} is not the key of {}", keys.key.string(), keys.certificate.string()));
+  }
+  for (const fs::path& document : {keys.governance, keys.permissions}) {
+    if (signed_text(read_text(document), authority).empty()) {
+      return wrong(fmt::format("{} is not signed by {}", document.string(), keys.authority.string()));
+    }
+  }
+  if (signed_text(read_text(keys.permissions), authority).find(">" + facts->subject + "<") == std::string::npos) {
+    return wrong(fmt::format("{} is not for {}", keys.permissions.string(), facts->subject));
+  }
+  KeyCheck check{KeyFault::None, {}, facts->validity, authority};
+  if (is_revoked(certificate, read_text(keys.revoked))) {
+    check.fault = KeyFault::Wrong;
+    check.problem = fmt::format("{} was revoked", keys.certificate.string());
+  } else if (now < facts->validity.from || now > facts->validity.until) {
+    check.fault = KeyFault::NotNow;
+    check.problem = fmt::format("{} is valid from {} to {}, and now is {}", keys.certificate.string(),
+                                utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now));
+  }
+  return check;
+}
+
+Instant valid_from() {
+  return std::chrono::sys_days(std::chrono::year(2020) / 1 / 1);
+}
+
+Instant instant_now() {
+  return std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+}  // namespace indurop::keys

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The external plane of one board: each of its variables as a typed DDS topic that any DDS tool can read, and those
+// that are marked so can write. A participant of its own, a thread without real-time priority.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <memory>
+#include <string>
+
+#include "mirror/external/external_settings.h"
+#include "mirror/frames/mirror_block.h"
+#include "vars/store.h"
+
+namespace indurop::mirror {
+
+class External {
+ public:
+  // Makes the shared-memory file for tools and starts the thread; joining the network goes on by itself until it
+  // succeeds. `store` and `plant` (null: no board of a plant) are borrowed until the end. Variables the store does not
+  // hold are left out. Not real-time safe.
+  // Errors: NoSpace, PermissionDenied, System.
+  static Result<External> start(const ExternalSettings& settings, const std::string& node, vars::Store& store,
+                                const MirrorBlock* plant);
+  External(External&&) noexcept;
+  External& operator=(External&&) noexcept;
+  External(const External&) = delete;
+  External& operator=(const External&) = delete;
+  ~External();  // as stop()
+
+  // What was written last is still published. Not real-time safe.
+  void stop() noexcept;
+
+ private:
+  struct Impl;
+  explicit External(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace indurop::mirror

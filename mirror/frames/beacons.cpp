@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mirror/frames/beacons.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "mirror/frames/plane_topics.h"
+#include "rt/machine.h"
+
+namespace indurop::mirror {
+namespace {
+
+constexpr std::chrono::milliseconds kEvery{500};
+
+}  // namespace
+
+Beacons::Beacons(const Settings& settings, std::uint64_t session, MirrorBlock& block)
+    : board_(settings.network.board), session_(session), block_(block) {
+  for (const std::string& name : settings.boards) {
+    peers_.push_back({name, 0, {}});
+  }
+}
+
+Result<void, base::Problem> Beacons::open(dds::Handle participant, const Settings& settings) {
+  // A beacon that is repeated late would only tell a wrong time.
+  const dds::Qos qos = plane_qos(settings, Stream::BestEffort);
+  const std::string topic = beacon_topic(settings.plant);
+  writer_ = dds::make_writer(participant, indurop_wire_Beacon_desc, topic, qos);
+  reader_ =
+      dds::make_reader(participant, indurop_wire_Beacon_desc, topic, qos, dds::data_listener(&Beacons::on_data, this));
+  if (!writer_.ok() || !reader_.ok()) {
+    return base::Problem{"cannot exchange beacons: " + (writer_.ok() ? reader_.why() : writer_.why())};
+  }
+  return {};
+}
+
+void Beacons::close() noexcept {
+  reader_.reset();
+  writer_.reset();
+}
+
+rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept {
+  if (now < due_) {
+    return due_;
+  }
+  due_ = now + kEvery;
+  const rt::ClockSync sync = rt::clock_sync();
+  block_.epoch_wall_ns.store(rt::to_ns(schedule.epoch), std::memory_order_relaxed);
+  block_.clock_synchronised.store(sync.synchronised ? 1 : 0, std::memory_order_relaxed);
+  block_.clock_error_ns.store(sync.max_error_ns, std::memory_order_relaxed);
+  std::vector<indurop_wire_Heard> heard;
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    for (Peer& peer : peers_) {
+      if (peer.clock.heard()) {
+        heard.push_back({peer.name.data(), peer.clock.least_delay()});
+      }
+    }
+  }
+  indurop_wire_Beacon beacon{};
+  beacon.board = board_.data();
+  beacon.session = session_;
+  beacon.epoch_ns = rt::to_ns(schedule.epoch);
+  beacon.basic_period_ns = schedule.basic.count();
+  beacon.macro_period_ns = schedule.macro.count();
+  beacon.synchronised = sync.synchronised;
+  beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(heard.size());
+  beacon.heard._buffer = heard.data();
+  beacon.source_time_ns = rt::wall_ns();
+  if (!dds::write(writer_.get(), beacon).ok()) {
+    block_.send_errors.fetch_add(1, std::memory_order_relaxed);
+  }
+  return due_;
+}
+
+void Beacons::on_data(dds::Handle reader, void* self) {
+  static_cast<Beacons*>(self)->take(reader);
+}
+
+void Beacons::take(dds::Handle reader) noexcept {
+  const rt::WallTime arrival = rt::WallClock::now();
+  dds::take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds::SampleInfo& info) {
+    if (info.valid) {
+      heard(beacon, arrival);
+    }
+  });
+}
+
+void Beacons::heard(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto found =
+      std::find_if(peers_.begin(), peers_.end(), [&](const Peer& peer) { return peer.name == beacon.board; });
+  if (found == peers_.end()) {
+    return;
+  }
+  PeerRecord& record = block_.peers()[found - peers_.begin()];
+  if (found->session != beacon.session) {
+    found->session = beacon.session;
+    found->clock.reset();
+    record.clock_known.store(0, std::memory_order_relaxed);
+  }
+  found->clock.arrived((arrival - rt::wall_time(beacon.source_time_ns)).count());
+  record.epoch_wall_ns.store(beacon.epoch_ns, std::memory_order_relaxed);
+  record.clock_synchronised.store(beacon.synchronised ? 1 : 0, std::memory_order_relaxed);
+  for (std::uint32_t i = 0; i < beacon.heard._length; ++i) {
+    if (board_ == beacon.heard._buffer[i].board) {
+      const ClockCompare::Offset offset = found->clock.offset(beacon.heard._buffer[i].delay_ns);
+      record.clock_offset_ns.store(offset.ns, std::memory_order_relaxed);
+      record.clock_bound_ns.store(offset.bound, std::memory_order_relaxed);
+      record.clock_known.store(1, std::memory_order_release);
+    }
+  }
+}
+
+}  // namespace indurop::mirror

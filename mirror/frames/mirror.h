@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mirror of one board: what its modules write appears on the boards that read it, and the other way round. Runs
+// beside the schedule and never in it: the network may be absent, broken or slow, the control loop does not notice.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "mirror/frames/mirror_block.h"
+#include "mirror/frames/schedule.h"
+#include "mirror/frames/settings.h"
+#include "vars/store.h"
+
+namespace indurop::mirror {
+
+class Mirror {
+ public:
+  // Makes the shared-memory file for tools and starts the mirror's threads; joining the network goes on by itself until
+  // it succeeds. `store` and `tick` (number of the current basic period) are borrowed until the end. Not real-time
+  // safe. Errors: NoSpace, PermissionDenied, System.
+  static Result<Mirror> start(Settings settings, const std::string& node, vars::Store& store,
+                              const std::atomic<std::uint64_t>& tick);
+  Mirror(Mirror&&) noexcept;
+  Mirror& operator=(Mirror&&) noexcept;
+  Mirror(const Mirror&) = delete;
+  Mirror& operator=(const Mirror&) = delete;
+  ~Mirror();  // as stop()
+
+  // Something may have changed in the store: looks and sends soon. Real-time safe, any thread.
+  void notify() noexcept;
+
+  // What tools are shown; lives as long as the mirror. Any thread.
+  [[nodiscard]] const MirrorBlock& block() const noexcept;
+
+  // The schedule has begun: for comparison with other boards'.
+  void announce(const Schedule& schedule) noexcept;
+
+  // Leaves the plant: other boards see this one as silent at once. Not real-time safe.
+  void stop() noexcept;
+
+ private:
+  struct Impl;
+  explicit Mirror(std::unique_ptr<Impl> impl) noexcept;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace indurop::mirror

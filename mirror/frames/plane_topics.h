@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names and quality of the topics that boards of one plant exchange values by.
+
+#pragma once
+
+#include <string>
+
+#include "dds/endpoint.h"
+#include "mirror/frames/packing.h"
+#include "mirror/frames/settings.h"
+
+namespace indurop::mirror {
+
+std::string frames_topic(const std::string& plant, const std::string& board, Stream stream);
+std::string catalogue_topic(const std::string& plant);
+std::string beacon_topic(const std::string& plant);
+
+// Reliable or not, last value kept for late joiners, liveliness with the plant's lease.
+dds::Qos plane_qos(const Settings& settings, Stream stream);
+
+}  // namespace indurop::mirror

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames of one other board -> the landings of its variables in this board's store.
+
+#pragma once
+
+#include <indurop/idl/wire.h>
+#include <indurop/result.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/problem.h"
+#include "dds/endpoint.h"
+#include "mirror/frames/landing.h"
+#include "mirror/frames/mirror_block.h"
+#include "mirror/frames/packing.h"
+#include "mirror/frames/settings.h"
+#include "mirror/frames/staging.h"
+#include "mirror/frames/update_word.h"
+
+namespace indurop::mirror {
+
+class Receiver {
+ public:
+  // `mutex` guards the landings; taken by DDS's receive thread and the mirror's manager, never by the control loop.
+  Receiver(std::string board, const std::vector<Landing*>& landings, std::mutex& mutex, PeerRecord& record);
+  Receiver(const Receiver&) = delete;
+  Receiver& operator=(const Receiver&) = delete;
+
+  [[nodiscard]] const std::string& board() const noexcept { return board_; }
+
+  // The board announced itself (again). Compares its variables with this board's and, if they agree, reads its frames
+  // from now on; last values arrive at once. Called by the mirror's manager only.
+  void announced(const indurop_wire_Catalogue& catalogue, dds::Handle participant, const Settings& settings);
+  // The board fell silent: its values are no longer confirmed.
+  void silent() noexcept;
+  // The board is there, but with a release whose protocol is another one; an empty problem: not any more. Called by the
+  // mirror's manager only.
+  void other_release(const std::string& problem);
+  // Stops reading.
+  void close() noexcept;
+
+ private:
+  struct Item {
+    Landing* landing = nullptr;
+    std::size_t source = 0;  // this board's number there
+  };
+  struct Arrival {  // where the board put an item
+    std::uint32_t item = 0;
+    std::uint32_t offset = 0;
+  };
+  struct Inbox {
+    std::uint32_t size = 0;    // least number of bytes a frame must have
+    std::uint64_t update = 0;  // newest one taken over, if it travels alone
+    std::vector<Arrival> content;
+  };
+  struct Port {  // one per stream, known to DDS's listener
+    Receiver* receiver = nullptr;
+    dds::Endpoint reader;
+    std::uint64_t newest_update = 0;
+  };
+
+  static void on_data(dds::Handle reader, void* port);
+  void take(dds::Handle reader, Port& port) noexcept;
+  void accept(const indurop_wire_Frame& frame, Port& port) noexcept;
+  void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
+  void apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
+  void deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word, std::int64_t now_ns) noexcept;
+  // Where the board puts what is read from it. Errors: its variables are not what this board knows.
+  Result<std::vector<Inbox>, base::Problem> match(const indurop_wire_Catalogue& catalogue) const;
+
+  std::string board_;
+  std::mutex& mutex_;
+  PeerRecord& record_;
+  std::vector<Item> items_;
+  std::uint64_t session_ = 0;
+  std::uint64_t layout_ = 0;
+  bool other_release_ = false;
+  bool matched_ = false;        // this session's variables agree with ours
+  std::vector<Inbox> inboxes_;  // by part, all parts of the board
+  Staging staging_;
+  UpdateWord word_;
+  std::array<Port, kStreams> ports_;
+};
+
+}  // namespace indurop::mirror

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Store -> frames: looks which of the board's outgoing variables changed and sends their parts.
+
+#pragma once
+
+#include <indurop/detail/abi.h>
+#include <indurop/idl/wire.h>
+#include <indurop/result.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/problem.h"
+#include "dds/endpoint.h"
+#include "mirror/frames/collector.h"
+#include "mirror/frames/mirror_block.h"
+#include "mirror/frames/packing.h"
+#include "mirror/frames/settings.h"
+#include "schema/schema.h"
+#include "vars/store.h"
+
+namespace indurop::mirror {
+
+class Sender {
+ public:
+  // `session` tells this run of the board from earlier ones. Variables the store does not hold are left out.
+  // `store` and `settings.writers` are borrowed until the end.
+  Sender(vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
+
+  // Makes the writers and publishes the catalogue.
+  Result<void, base::Problem> open(dds::Handle participant, const Settings& settings);
+  // Deletes them. Nobody may be in cycle().
+  void close() noexcept;
+
+  // Sends what changed, and what has not been sent for its keep-alive time. Only with `bulk` the large values. One
+  // thread at a time for each of the two. True: look again soon, values wait for the end of a run nobody tells.
+  bool cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept;
+
+  [[nodiscard]] bool has_bulk() const noexcept;
+  [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
+
+ private:
+  struct Outbox {
+    Part part;
+    std::vector<const vars::DirectoryEntry*> content;  // as of part.content
+    std::vector<std::uint8_t> image;
+    std::uint64_t update = 0;  // number of the last one that has this part
+    std::int64_t sent_ns = 0;
+    bool dirty = true;
+    bool due = false;
+    // Its values change together with those of other parts.
+    [[nodiscard]] bool together() const noexcept { return part.stream == Stream::Prompt && part.every_ns == 0; }
+  };
+
+  bool choose(std::int64_t now_ns, bool bulk) noexcept;
+  void send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns) noexcept;
+  void publish_catalogue() noexcept;
+
+  vars::Store& store_;
+  MirrorBlock& block_;
+  std::uint64_t session_;
+  std::uint64_t layout_ = 0;
+  std::string board_;
+  std::string schema_text_;
+  std::vector<Outbox> parts_;
+  std::array<Collector, 2> collectors_;  // of the prompt and of the bulk thread
+  std::array<dds::Endpoint, kStreams> writers_;
+  dds::Endpoint catalogue_;
+  std::array<std::uint64_t, 2> updates_{};  // likewise
+  std::uint64_t update_sum_ = 0;            // of the parts that change together
+};
+
+}  // namespace indurop::mirror

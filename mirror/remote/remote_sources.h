@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boards in the network by what they tell of themselves (external_directory.h): which variables they show, and which
+// other boards there should be.
+
+#pragma once
+
+#include <indurop/idl/wire.h>
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dds/guid.h"
+#include "schema/schema.h"
+
+namespace indurop::mirror {
+
+class RemoteSources {
+ public:
+  // A participant that shows variables.
+  struct Source {
+    std::string board;
+    std::string plant;
+    schema::Schema schema;
+    std::set<std::string> writable;
+    std::uint64_t session = 0;
+  };
+
+  // Takes what this reader of directories has got.
+  void take(dds::Handle directories);
+  // Null if none is heard.
+  [[nodiscard]] const Source* at(const dds::Guid& participant) const;
+  [[nodiscard]] const Source* of(const std::string& board) const;
+  [[nodiscard]] const dds::Guid* participant_of(const std::string& board) const;
+
+  [[nodiscard]] const std::map<dds::Guid, Source>& all() const noexcept { return sources_; }
+  // name -> plant, also of those not heard.
+  [[nodiscard]] const std::map<std::string, std::string>& boards() const noexcept { return boards_; }
+  [[nodiscard]] std::uint64_t generation() const noexcept { return generation_; }
+
+ private:
+  void take_one(dds::Handle directories, const indurop_wire_Directory& told, const dds::SampleInfo& info);
+
+  std::map<dds::Guid, Source> sources_;
+  std::map<std::string, std::string> boards_;
+  std::uint64_t generation_ = 0;
+};
+
+}  // namespace indurop::mirror

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/checked.h"
+
+#include "config/xml/plant_reader.h"
+#include "config/xml/reader.h"
+#include "node/plant_part.h"
+
+namespace indurop::node {
+namespace {
+
+struct Reading {
+  bool ok = false;
+  Checked checked;
+  std::vector<base::Diagnostic> diagnostics;
+  std::vector<std::string> boards;  // of the plant
+
+  void add(const std::vector<base::Diagnostic>& more) {
+    diagnostics.insert(diagnostics.end(), more.begin(), more.end());
+  }
+};
+
+Reading read_modules(const Options& options) {
+  Reading out;
+  config::ReadResult read = config::read_config(options.config);
+  out.add(read.diagnostics);
+  if (!read.ok()) {
+    return out;
+  }
+  Checked& checked = out.checked;
+  checked.config = std::move(read.config);
+  checked.check = config::check_config(checked.config, {true, options.adjust});
+  out.add(checked.check.diagnostics);
+  checked.external.configure(checked.config, checked.check);
+  out.ok = checked.check.ok();
+  return out;
+}
+
+Reading read_plant(const Options& options) {
+  Reading out;
+  config::ReadPlant read = config::read_plant(options.config);
+  out.add(read.diagnostics);
+  if (!read.ok()) {
+    return out;
+  }
+  config::Plant& plant = read.plant;
+  config::PlantCheck check = config::check_plant(plant, {true, options.adjust, true, options.board});
+  out.add(check.diagnostics);
+  for (std::size_t i = 0; i < plant.boards.size(); ++i) {
+    out.boards.push_back(plant.boards[i].name);
+    if (plant.boards[i].name == options.board) {
+      out.checked.mirror = mirror_settings(plant, check, i);
+      out.checked.mirror->network.one_host = options.one_host;
+      out.checked.external.configure(plant, check, i, options.one_host);
+      out.checked.config = std::move(plant.boards[i].config);
+      out.checked.check = std::move(check.boards[i]);
+    }
+  }
+  out.ok = check.ok();
+  return out;
+}
+
+}  // namespace
+
+Result<Checked, Ending> check(const Options& options, const Console& console) {
+  const bool plant = config::is_plant_file(options.config);
+  if (plant == options.board.empty()) {
+    console.error("{} {}", options.config.string(),
+                  plant ? "is the manifest of a plant: say with --board NAME which of its boards this is"
+                        : "is not the manifest of a plant, so there is no --board");
+    return Ending{kUsage};
+  }
+  Reading reading = plant ? read_plant(options) : read_modules(options);
+  for (const base::Diagnostic& diagnostic : reading.diagnostics) {
+    // Where all boards are on one host, whoever starts them says warnings once.
+    const bool said = diagnostic.severity == base::Diagnostic::Severity::Note ||
+                      (options.one_host && diagnostic.severity == base::Diagnostic::Severity::Warning);
+    if (!said) {
+      fmt::print(stderr, "{}\n", base::to_string(diagnostic));
+    }
+  }
+  if (reading.ok && plant && !reading.checked.mirror) {
+    console.error("the plant has no board {}; it has {}", options.board, fmt::join(reading.boards, ", "));
+    return Ending{kUsage};
+  }
+  if (!reading.ok) {
+    return Ending{kCheckFailed};
+  }
+  return std::move(reading.checked);
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// First phase of a run: the configuration is read and checked, and what is wrong with it is said.
+
+#pragma once
+
+#include <optional>
+
+#include "config/check/check.h"
+#include "mirror/frames/settings.h"
+#include "node/ending.h"
+#include "node/external_part.h"
+#include "node/options.h"
+
+namespace indurop::node {
+
+struct Checked {
+  config::Config config;
+  config::CheckResult check;
+  std::optional<mirror::Settings> mirror;  // of a board of a plant
+  ExternalPart external;
+};
+
+Result<Checked, Ending> check(const Options& options, const Console& console);
+
+}  // namespace indurop::node

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a run of the node ends. A phase that cannot go on returns it instead of what it makes; it has said itself what
+// there was to say.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <optional>
+#include <string>
+
+#include "base/exit_code.h"
+#include "base/stop_signal.h"
+
+namespace indurop::node {
+
+struct Ending {
+  int code = kOk;           // of the program
+  std::string reason = {};  // for the run block; empty: the duration is over, or it could not start
+};
+
+// The ending that a stop signal asks for, if one has come.
+std::optional<Ending> interruption(base::StopSignal& signals);
+
+// "cannot lock the file: No such file or directory"
+std::string describe(const Error& error);
+
+}  // namespace indurop::node

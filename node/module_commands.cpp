@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/module_commands.h"
+
+#include <algorithm>
+
+#include "rt/clock.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::ModuleCommand;
+using scheduler::ModuleState;
+using scheduler::Operation;
+
+constexpr std::int64_t kLaunchNs = 5'000'000'000;  // until a process is ready to be released
+constexpr std::int64_t kLookNs = 1'000'000;
+
+}  // namespace
+
+bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
+  return parts_.config.modules[module].type == scheduler::ModuleType::Process;
+}
+
+bool ModuleCommands::answer(const Work& work, CommandResult result) {
+  const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
+  if (result == CommandResult::Done) {
+    parts_.console.info("module {}: {} by command", record(work.module).name, done);
+  } else if (result == CommandResult::Failed) {
+    parts_.console.error("module {}: could not be {} as commanded", record(work.module).name, done);
+  }
+  scheduler::answer_command(record(work.module), result);
+  return true;
+}
+
+void ModuleCommands::look(std::int64_t now_ns) {
+  for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
+    const ModuleCommand command = scheduler::waiting_command(record(i));
+    const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
+    if (command != ModuleCommand::None && !taken) {
+      take(i, command, now_ns);
+    }
+  }
+  std::erase_if(works_, [&](Work& work) { return go_on(work, now_ns); });
+}
+
+void ModuleCommands::take(std::uint32_t module, ModuleCommand command, std::int64_t now_ns) {
+  const ModuleState state = record(module).state.load();
+  const bool stopped = state == ModuleState::Stopped;
+  const bool runs = state == ModuleState::Running || state == ModuleState::Starting;
+  Work work{module, command, Step::Leaving, now_ns, {nullptr, [](Phases::Call* /*none*/) {}}};
+  if ((command == ModuleCommand::Stop && stopped) || (command == ModuleCommand::Start && runs)) {
+    scheduler::answer_command(record(module), CommandResult::Unchanged);
+    return;
+  }
+  if (!stopped) {
+    leave(work, now_ns);
+  } else if (begin_start(work, now_ns)) {
+    return;
+  }
+  works_.push_back(std::move(work));
+}
+
+bool ModuleCommands::go_on(Work& work, std::int64_t now_ns) {
+  switch (work.step) {
+    case Step::Leaving:
+      return has_left(work, now_ns) && call_stop(work, now_ns);
+    case Step::Stopping:
+      if (!parts_.phases.ended(*work.call, now_ns, Phases::kGraceNs)) {
+        return false;
+      }
+      (void)parts_.phases.conclude(std::move(work.call));  // that it failed is said; stopped it is all the same
+      return rest(work, now_ns);
+    case Step::Starting:
+      return parts_.phases.ended(*work.call, now_ns, 0) &&
+             (parts_.phases.conclude(std::move(work.call)) ? enter(work) : answer(work, CommandResult::Failed));
+    case Step::Launching:
+      return launched(work, now_ns);
+  }
+  return true;
+}
+
+void ModuleCommands::leave(const Work& work, std::int64_t now_ns) {
+  if (is_process(work.module)) {
+    parts_.processes.stop(work.module, now_ns);
+  } else if (!parts_.engine.disable(work.module)) {
+    parts_.normal_threads.halt(work.module, now_ns);
+  }
+}
+
+bool ModuleCommands::has_left(const Work& work, std::int64_t now_ns) {
+  return parts_.processes.has_ended(work.module) && parts_.engine.at_rest(work.module) &&
+         parts_.normal_threads.has_ended(work.module, now_ns);
+}
+
+// No run of it is in progress any more: stop() follows.
+bool ModuleCommands::call_stop(Work& work, std::int64_t now_ns) {
+  record(work.module).state.store(ModuleState::Stopped);
+  if (auto* stop = parts_.libraries[work.module].functions().stop; stop != nullptr) {
+    work.call = parts_.phases.begin(work.module, "stop", stop);
+    work.step = Step::Stopping;
+  }
+  return work.call == nullptr && rest(work, now_ns);
+}
+
+// The last word is with the values declared for the case that it is gone.
+bool ModuleCommands::rest(Work& work, std::int64_t now_ns) {
+  record(work.module).state.store(ModuleState::Stopped);
+  parts_.failsafe.apply(work.module);
+  return work.command == ModuleCommand::Stop ? answer(work, CommandResult::Done) : begin_start(work, now_ns);
+}
+
+bool ModuleCommands::begin_start(Work& work, std::int64_t now_ns) {
+  work.began_ns = now_ns;
+  if (is_process(work.module)) {
+    work.step = Step::Launching;
+    return !parts_.processes.start(work.module) && answer(work, CommandResult::Failed);
+  }
+  auto* start = parts_.libraries[work.module].functions().start;
+  if (start == nullptr) {
+    return enter(work);
+  }
+  work.call = parts_.phases.begin(work.module, "start", start);
+  work.step = Step::Starting;
+  return work.call == nullptr && answer(work, CommandResult::Failed);
+}
+
+bool ModuleCommands::enter(Work& work) {
+  if (parts_.config.modules[work.module].operation == Operation::NonReal) {
+    return answer(work, parts_.normal_threads.launch(work.module) ? CommandResult::Done : CommandResult::Failed);
+  }
+  record(work.module).state.store(ModuleState::Running);
+  parts_.engine.enable(work.module);
+  return answer(work, CommandResult::Done);
+}
+
+bool ModuleCommands::launched(Work& work, std::int64_t now_ns) {
+  switch (record(work.module).state.load()) {
+    case ModuleState::Running:
+    case ModuleState::Exited:
+      return answer(work, CommandResult::Done);
+    case ModuleState::Restarting:
+    case ModuleState::Faulted:
+      return answer(work, CommandResult::Failed);
+    case ModuleState::Loaded:
+    case ModuleState::Starting:
+    case ModuleState::Stopped:
+      break;
+  }
+  return now_ns - work.began_ns > kLaunchNs && answer(work, CommandResult::Failed);
+}
+
+void ModuleCommands::end() {
+  for (Work& work : works_) {
+    if (work.call != nullptr) {
+      while (!parts_.phases.ended(*work.call, rt::now_ns(), Phases::kGraceNs)) {
+        rt::sleep_until(rt::now_ns() + kLookNs);
+      }
+      if (parts_.phases.conclude(std::move(work.call)) && work.step == Step::Starting) {
+        record(work.module).state.store(ModuleState::Loaded);  // it has started, so it gets its stop()
+      }
+    }
+    scheduler::answer_command(record(work.module), CommandResult::Ending);
+  }
+  works_.clear();
+}
+
+}  // namespace indurop::node

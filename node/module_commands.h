@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Carries out commands about single modules while the node runs: a module is taken out of the schedule and put back,
+// its start() and stop() are called beside it, the others do not notice. Called by the thread that supervises the node.
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "node/failsafe.h"
+#include "node/normal_threads.h"
+#include "node/phases.h"
+#include "node/processes.h"
+#include "scheduler/engine.h"
+#include "scheduler/module_command.h"
+
+namespace indurop::node {
+
+class ModuleCommands {
+ public:
+  // What the commands are carried out with.
+  struct Parts {
+    const config::Config& config;
+    scheduler::RunBlock& run;
+    const std::vector<ModuleLibrary>& libraries;
+    scheduler::Engine& engine;
+    Processes& processes;
+    NormalThreads& normal_threads;
+    Phases& phases;
+    FailSafe& failsafe;
+    Console& console;
+  };
+  explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
+
+  // Takes new commands and goes on with those under way.
+  void look(std::int64_t now_ns);
+  // The node ends, its schedule has: waits for calls in progress and answers what is left.
+  void end();
+
+ private:
+  // Where a command is.
+  enum class Step { Leaving, Stopping, Starting, Launching };
+  struct Work {
+    std::uint32_t module;
+    scheduler::ModuleCommand command;
+    Step step;
+    std::int64_t began_ns;
+    Phases::CallPointer call;
+  };
+  void take(std::uint32_t module, scheduler::ModuleCommand command, std::int64_t now_ns);
+  // True when there is nothing left to do for it.
+  bool go_on(Work& work, std::int64_t now_ns);
+  void leave(const Work& work, std::int64_t now_ns);
+  bool has_left(const Work& work, std::int64_t now_ns);
+  bool call_stop(Work& work, std::int64_t now_ns);
+  bool rest(Work& work, std::int64_t now_ns);
+  bool begin_start(Work& work, std::int64_t now_ns);
+  bool enter(Work& work);
+  bool launched(Work& work, std::int64_t now_ns);
+  bool answer(const Work& work, scheduler::CommandResult result);
+  [[nodiscard]] bool is_process(std::uint32_t module) const noexcept;
+  [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
+    return parts_.run.modules()[module];
+  }
+
+  Parts parts_;
+  std::vector<Work> works_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/prepared.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "node/setup.h"
+#include "rt/clock.h"
+#include "vars/process.h"
+
+namespace indurop::node {
+namespace {
+
+bool ended_well(const std::string& node) {
+  const auto file = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  return file.ok() &&
+         static_cast<const scheduler::RunBlock*>(file.value().data())->state.load() == scheduler::NodeState::Stopped;
+}
+
+Ending no_memory(const char* what, const Error& error, const Console& console) {
+  console.error("cannot make {}: {}{}", what, describe(error),
+                error.code == Errc::NoSpace ? "; free space in /dev/shm (`indurop clean`, `df /dev/shm`)" : "");
+  return Ending{kFailed};
+}
+
+// Values of the last run go on after a crash; an orderly new run begins with initial and retained ones.
+void begin_values(vars::Store& store, Retainer& retainer, bool previous_run_ended_well, Console& console) {
+  if (store.origin() == vars::Origin::Fresh) {
+    retainer.load(console);
+  } else if (previous_run_ended_well) {
+    store.reset(true);
+  }
+}
+
+}  // namespace
+
+ClaimedName::ClaimedName(std::string node, vars::NodeLock lock) : node_(std::move(node)), lock_(std::move(lock)) {
+  const auto known = vars::list_nodes();
+  leave_nothing_ = std::find(known.begin(), known.end(), node_) == known.end();
+}
+
+ClaimedName::ClaimedName(ClaimedName&& other) noexcept
+    : node_(std::move(other.node_)),
+      lock_(std::move(other.lock_)),
+      leave_nothing_(std::exchange(other.leave_nothing_, false)) {}
+
+ClaimedName::~ClaimedName() {
+  lock_.reset();
+  if (leave_nothing_) {
+    (void)vars::remove_node(node_);  // busy: somebody has just taken the name over
+  }
+}
+
+Result<ClaimedName, Ending> ClaimedName::claim(const std::string& node, const Console& console) {
+  pid_t holder = 0;
+  auto lock = vars::NodeLock::acquire(node, holder);
+  if (lock) {
+    return ClaimedName(node, std::move(lock).value());
+  }
+  if (lock.error().code == Errc::Busy) {
+    console.error(
+        "a node of this name is already running{}; stop it with `indurop stop --node {}` or choose another "
+        "name with --node",
+        holder > 0 ? fmt::format(" (pid {})", holder) : "", node);
+  } else {
+    console.error("{}; choose another name with --node, or let their owner remove /dev/shm/indurop.{}*",
+                  describe(lock.error()), node);
+  }
+  return Ending{kFailed};
+}
+
+Result<Prepared, Ending> prepare(const Options& options, const Checked& checked, Console& console,
+                                 base::StopSignal& signals) {
+  auto name = ClaimedName::claim(options.node, console);
+  if (!name) {
+    return std::move(name).error();
+  }
+  if (auto ending = interruption(signals)) {
+    return *std::move(ending);
+  }
+  auto rights = obtain_rights(options, checked.config, console);
+  if (!rights) {
+    return std::move(rights).error();
+  }
+  const bool previous_run_ended_well = ended_well(options.node);
+  auto made = vars::Store::create(options.node, checked.check.schema);
+  if (!made) {
+    return no_memory("the shared variables", made.error(), console);
+  }
+  auto store = std::make_unique<vars::Store>(std::move(made).value());
+  auto setup = make_run_setup(checked.config, checked.check, options.node, {rights->core, rights->realtime()});
+  setup.deployment = options.deployment;
+  auto file = vars::RunFile::create(options.node, scheduler::run_block_size(setup));
+  if (!file) {
+    return no_memory("the run's shared memory", file.error(), console);
+  }
+  auto& run = *static_cast<scheduler::RunBlock*>(file->data());
+  run.node_pid.store(::getpid());
+  run.node_start_time = vars::process_start_time(::getpid());
+  run.started_wall_ns = rt::wall_ns();
+  run.obtained = rights->obtained;
+  scheduler::init_run_block(run, setup);
+  if (!checked.mirror) {
+    (void)vars::remove_shm_file(vars::mirror_file(options.node));  // of an earlier run as a board
+  }
+  auto failsafe = std::make_unique<FailSafe>(*store, checked.config);
+  auto retainer = std::make_unique<Retainer>(*store, options.node);
+  begin_values(*store, *retainer, previous_run_ended_well, console);
+  console.watch(run);
+  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),   std::move(store),
+                  std::move(file).value(), std::move(failsafe),       std::move(retainer)};
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Second phase of a run: the node's name is claimed, the rights are obtained, and the memory it shares with processes
+// and tools is there, with the values the run begins with.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "node/checked.h"
+#include "node/failsafe.h"
+#include "node/retainer.h"
+#include "node/rights.h"
+#include "scheduler/run_block_setup.h"
+#include "vars/node_lock.h"
+#include "vars/run_file.h"
+#include "vars/store.h"
+
+namespace indurop::node {
+
+// The name is this node's as long as this lives. Nothing of the node is left behind if nothing was there before, unless
+// somebody says keep().
+class ClaimedName {
+ public:
+  static Result<ClaimedName, Ending> claim(const std::string& node, const Console& console);
+  ClaimedName(ClaimedName&& other) noexcept;
+  ClaimedName(const ClaimedName&) = delete;
+  ClaimedName& operator=(const ClaimedName&) = delete;
+  ClaimedName& operator=(ClaimedName&&) = delete;
+  ~ClaimedName();
+  void keep() noexcept { leave_nothing_ = false; }
+
+ private:
+  ClaimedName(std::string node, vars::NodeLock lock);
+  std::string node_;
+  std::optional<vars::NodeLock> lock_;
+  bool leave_nothing_;
+};
+
+struct Prepared {
+  ClaimedName name;
+  Rights rights;
+  scheduler::RunBlockSetup setup;
+  std::unique_ptr<vars::Store> store;
+  vars::RunFile run_file;
+  std::unique_ptr<FailSafe> failsafe;
+  std::unique_ptr<Retainer> retainer;
+  [[nodiscard]] scheduler::RunBlock& run() const noexcept {
+    return *static_cast<scheduler::RunBlock*>(run_file.data());
+  }
+};
+
+// The console watches the run from then on.
+Result<Prepared, Ending> prepare(const Options& options, const Checked& checked, Console& console,
+                                 base::StopSignal& signals);
+
+}  // namespace indurop::node

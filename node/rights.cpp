@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/rights.h"
+
+#include <algorithm>
+#include <array>
+
+#include "rt/copy_text.h"
+#include "rt/thread.h"
+#include "scheduler/bands.h"
+
+namespace indurop::node {
+
+Result<Rights, Ending> obtain_rights(const Options& options, const config::Config& config, const Console& console) {
+  Rights rights;
+  const auto cores = rt::allowed_cores();
+  rights.core = cores.empty() ? 0 : cores.back();
+  if (options.core || config.core >= 0) {
+    rights.core = options.core.value_or(config.core);
+    if (std::find(cores.begin(), cores.end(), rights.core) == cores.end()) {
+      console.error("core {} cannot be used by this process; it may use {}", rights.core, fmt::join(cores, ", "));
+      return Ending{kUsage};
+    }
+  }
+  const Status fifo = rt::set_fifo(scheduler::kTickPriority);
+  scheduler::Obtained& obtained = rights.obtained;
+  obtained.fifo = fifo.ok() ? 1 : 0;
+  (void)rt::set_fifo(0);
+  obtained.tick_priority = fifo.ok() ? scheduler::kTickPriority : 0;
+  obtained.pinned = obtained.fifo;
+  obtained.tick_core = fifo.ok() ? rights.core : -1;
+  if (auto idle = rt::ShortIdle::hold(); idle) {
+    rights.idle = std::move(idle).value();
+    obtained.cpu_dma_latency = 1;
+  }
+  obtained.preempt_rt = rt::kernel_is_preempt_rt() ? 1 : 0;
+  obtained.throttle_permille = static_cast<std::uint32_t>(rt::throttle_permille());
+  if (!fifo.ok()) {
+    rt::copy_text(obtained.why,
+                  "SCHED_FIFO refused: run as root, or give the user rtprio 95 and memlock unlimited in "
+                  "/etc/security/limits.d, or the program CAP_SYS_NICE and CAP_IPC_LOCK");
+    if (options.require_rt) {
+      console.error("real-time rights not obtained (--require-rt): {}", obtained.why);
+      return Ending{kNoRealTime};
+    }
+    console.warning("NOT REAL TIME: {}. Order is kept, timing is best effort", obtained.why);
+  }
+  return rights;
+}
+
+Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,
+                                 const Console& console) {
+  // Used while starting, and by the threads that talk to other boards, which are not real-time.
+  constexpr std::array<std::string_view, 5> kNotNeeded{"libddsc", "libcrypto", "libssl", "libiceoryx", "libtinyxml2"};
+  if (const Status locked = rt::lock_memory(kNotNeeded); locked) {
+    run.obtained.memory_locked = 1;
+  } else if (rights.realtime()) {
+    rt::copy_text(run.obtained.why, "mlockall refused: raise the limit of locked memory (memlock unlimited)");
+    if (options.require_rt) {
+      console.error("real-time rights not obtained (--require-rt): {}", run.obtained.why);
+      return Ending{kNoRealTime};
+    }
+    console.warning("memory is not locked: {}", run.obtained.why);
+  }
+  return {};
+}
+
+std::vector<int> cores_without_modules(const config::Config& config, const Rights& rights) {
+  std::vector<int> cores = rt::allowed_cores();
+  std::erase_if(cores, [&](int core) {
+    return core == rights.core || std::any_of(config.modules.begin(), config.modules.end(),
+                                              [core](const config::Module& module) { return module.core == core; });
+  });
+  return cores;
+}
+
+config::SpinSetting spin_setting(const Options& options, const config::Config& config) {
+  return options.spin.value_or(config.spin.value_or(config::SpinSetting{}));
+}
+
+}  // namespace indurop::node

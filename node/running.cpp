@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/running.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+
+#include "node/plant_part.h"
+#include "rt/clock.h"
+#include "runtime/host.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::ModuleState;
+using scheduler::ModuleType;
+
+constexpr std::int64_t kLookNs = 10'000'000;
+constexpr std::int64_t kEnrolNs = 500'000'000;  // how long the first tick waits for process modules
+
+scheduler::SpinSettings to_spin(const config::SpinSetting& setting) {
+  switch (setting.mode) {
+    case config::SpinSetting::Mode::Off:
+      return {scheduler::SpinMode::Off, 0};
+    case config::SpinSetting::Mode::Fixed:
+      return {scheduler::SpinMode::Fixed, setting.fixed.count()};
+    case config::SpinSetting::Mode::Auto:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+Running::Running(const Options& options, Console& console, base::StopSignal& signals, Checked& checked,
+                 Prepared& prepared, Loaded& loaded)
+    : options_(options),
+      console_(console),
+      signals_(signals),
+      checked_(checked),
+      prepared_(prepared),
+      run_(prepared.run()),
+      tasks_(loaded.tasks),
+      engine_(run_, tasks_, engine_settings(), hooks(), clock_),
+      phases_(checked.config, run_, loaded.libraries, console, signals, hooks()),
+      normal_threads_(checked.config, run_, loaded.libraries, hooks()),
+      processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe),
+      commands_(ModuleCommands::Parts{checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
+                                      phases_, *prepared.failsafe, console}) {}
+
+scheduler::EngineSettings Running::engine_settings() const {
+  const scheduler::RunBlockSetup& setup = prepared_.setup;
+  scheduler::EngineSettings settings;
+  settings.basic_period_ns = setup.basic_period_ns;
+  settings.primary_core = prepared_.rights.core;
+  settings.realtime = prepared_.rights.realtime();
+  settings.spin = to_spin(spin_setting(options_, checked_.config));
+  if (checked_.mirror) {
+    // Boards with the same macro period begin it together, as far as their clocks agree. A long one is not waited for.
+    settings.grid_ns = setup.macro_period_ns <= rt::kNanosPerSecond ? setup.macro_period_ns : setup.basic_period_ns;
+    settings.phase_ns = (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
+  }
+  return settings;
+}
+
+scheduler::Hooks Running::hooks() {
+  scheduler::Hooks hooks;
+  hooks.context = this;
+  hooks.entering = [](void*, std::uint32_t module) noexcept { runtime::set_current_module(module); };
+  hooks.faulted = [](void* context, std::uint32_t module) noexcept {
+    const Prepared& prepared = static_cast<Running*>(context)->prepared_;
+    prepared.store->release_locks_of_this_thread();
+    runtime::release_calls_of_this_thread();
+    prepared.failsafe->apply(module);
+  };
+  hooks.stop_node = [](void* context, std::uint32_t module, const char* /*reason*/) noexcept {
+    auto& self = *static_cast<Running*>(context);
+    self.stop_order_.store(module + 1, std::memory_order_release);
+    self.engine_.request_stop();
+  };
+  if (checked_.mirror) {
+    hooks.worked = [](void* context) noexcept {
+      auto& self = *static_cast<Running*>(context);
+      if (self.mirror_) {
+        self.mirror_->notify();
+      }
+    };
+  }
+  return hooks;
+}
+
+Result<void, Ending> Running::start() {
+  if (auto done = start_modules(); !done) {
+    return done;
+  }
+  if (auto done = launch_processes(); !done) {
+    return done;
+  }
+  return start_schedule();
+}
+
+Result<void, Ending> Running::start_modules() {
+  prepared_.name.keep();  // from here on there is something to look at
+  const bool ok = phases_.call_all("start", &ModuleDescriptor::start);
+  console_.report(rt::now_ns(), false);
+  started_ = true;
+  if (auto ending = interruption(signals_)) {
+    return *std::move(ending);
+  }
+  if (!ok) {
+    console_.error("a module could not be started: nothing was run");
+    return Ending{kFailed};
+  }
+  const Rights& rights = prepared_.rights;
+  const int service = rights.realtime() ? scheduler::kServicePriority : 0;
+  if (const Status served = runtime::start_function_servers(service, rights.realtime() ? rights.core : -1); !served) {
+    console_.error("shared functions cannot be served: {}", describe(served.error()));
+    return Ending{kFailed};
+  }
+  return {};
+}
+
+Result<void, Ending> Running::launch_processes() {
+  if (!processes_.launch_all()) {
+    return Ending{kFailed};
+  }
+  const std::int64_t patience = rt::now_ns() + kEnrolNs;
+  while (!processes_.ready() && rt::now_ns() < patience) {
+    signals_.wait(kLookNs / 10);
+    if (processes_.supervise(rt::now_ns())) {
+      return Ending{kFailed, processes_.reason()};
+    }
+    console_.report(rt::now_ns(), false);
+  }
+  if (auto ending = interruption(signals_)) {
+    return *std::move(ending);
+  }
+  return {};
+}
+
+Result<void, Ending> Running::start_schedule() {
+  if (checked_.mirror) {
+    name_writers(*checked_.mirror, checked_.config, checked_.check, engine_);
+  }
+  checked_.check = {};  // not needed any more, and what is there now stays in memory
+  prepared_.store->prefault();
+  prepared_.run_file.prefault();
+  if (auto locked = lock_memory(options_, prepared_.rights, run_, console_); !locked) {
+    return locked;
+  }
+  for (const scheduler::Task& task : tasks_) {
+    if (task.type == ModuleType::Thread) {
+      run_.modules()[task.index].state.store(ModuleState::Running);
+    }
+  }
+  prepared_.retainer->start();
+  if (auto mirrored = start_mirror(); !mirrored) {
+    return mirrored;
+  }
+  const config::Config& config = checked_.config;
+  checked_.external.start(options_.node, *prepared_.store, mirror_ ? &mirror_->block() : nullptr,
+                          cores_without_modules(config, prepared_.rights), console_);
+  if (const Status started = engine_.start(ticks()); !started) {
+    console_.error("cannot start the schedule: {}", describe(started.error()));
+    return Ending{kFailed};
+  }
+  const scheduler::RunBlockSetup& setup = prepared_.setup;
+  if (mirror_) {
+    mirror_->announce({rt::WallClock::now() + (rt::mono_time(run_.epoch_ns) - rt::MonoClock::now()),
+                       std::chrono::nanoseconds{setup.basic_period_ns},
+                       std::chrono::nanoseconds{setup.macro_period_ns}});
+  }
+  normal_threads_.start();
+  run_.state.store(scheduler::NodeState::Running);
+  console_.info("running {} modules of {}: basic period {}, macro period {}{}", config.modules.size(),
+                config.file.filename().string(), base::format_duration(base::Nanos(setup.basic_period_ns)),
+                base::format_duration(base::Nanos(setup.macro_period_ns)),
+                prepared_.rights.realtime()
+                    ? fmt::format(", FIFO {} on core {}", scheduler::kTickPriority, prepared_.rights.core)
+                    : "");
+  return {};
+}
+
+// 0: without end.
+std::uint64_t Running::ticks() const noexcept {
+  if (!options_.duration) {
+    return 0;
+  }
+  const std::int64_t basic = prepared_.setup.basic_period_ns;
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(1, (options_.duration->count() + basic - 1) / basic));
+}
+
+Result<void, Ending> Running::start_mirror() {
+  if (!checked_.mirror) {
+    return {};
+  }
+  mirror::Settings& settings = *checked_.mirror;
+  const bool realtime = prepared_.rights.realtime();
+  settings.network.fifo_priority = realtime ? scheduler::kMirrorPriority : 0;
+  // Not where the modules are, if there is another core.
+  const std::vector<int> cores = cores_without_modules(checked_.config, prepared_.rights);
+  const auto spin = spin_setting(options_, checked_.config);
+  settings.spin = !cores.empty() && spin.mode != config::SpinSetting::Mode::Off && realtime;
+  settings.cores = cores.empty() ? rt::allowed_cores() : cores;
+  auto started = mirror::Mirror::start(std::move(settings), options_.node, *prepared_.store, run_.tick);
+  if (!started) {
+    console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
+    return Ending{kFailed};
+  }
+  mirror_ = std::move(started).value();
+  return {};
+}
+
+Ending Running::supervise() {
+  Ending ending;
+  while (!engine_.finished()) {
+    const int number = signals_.wait(kLookNs);
+    const std::int64_t now = rt::now_ns();
+    prepared_.store->beat(now);
+    if (number != 0) {
+      ending = {number == SIGINT ? kInterrupted : kOk, fmt::format("signal {} ({})", number, ::strsignal(number))};
+      break;
+    }
+    if (processes_.supervise(now)) {
+      ending = {kFailed, processes_.reason()};
+      break;
+    }
+    commands_.look(now);
+    forces_.look(*prepared_.store, console_);
+    console_.report(now, false);
+  }
+  if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
+    const scheduler::ModuleRecord& module = run_.modules()[order - 1];
+    ending.code = kFailed;
+    if (ending.reason.empty()) {
+      ending.reason =
+          fmt::format("module {}: {}", module.name,
+                      module.faults.load() > 0 ? "faulted (policy stop-node)" : "overrun (policy stop-node)");
+    }
+  }
+  return ending;
+}
+
+void Running::stop() {
+  run_.state.store(scheduler::NodeState::Stopping);
+  engine_.request_stop();
+  engine_.join();
+  normal_threads_.stop();
+  processes_.end_all();
+  runtime::stop_function_servers();
+  commands_.end();
+  if (started_) {
+    (void)phases_.call_all("stop", &ModuleDescriptor::stop);
+  }
+  checked_.external.stop();
+  mirror_.reset();  // what stop() wrote still travels; then the other boards see at once that this one is gone
+}
+
+}  // namespace indurop::node

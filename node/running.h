@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Last phase of a run: modules, processes, mirrors and the schedule are started, watched and ended, in this order and
+// back. A stop request is heard all the time.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "mirror/frames/mirror.h"
+#include "node/force_watch.h"
+#include "node/loaded.h"
+#include "node/module_commands.h"
+#include "node/normal_threads.h"
+#include "node/phases.h"
+#include "node/processes.h"
+#include "scheduler/engine.h"
+
+namespace indurop::node {
+
+class Running {
+ public:
+  // Everything is borrowed.
+  Running(const Options& options, Console& console, base::StopSignal& signals, Checked& checked, Prepared& prepared,
+          Loaded& loaded);
+  ~Running() = default;
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  Result<void, Ending> start();
+  // Until the duration is over or something ends the run.
+  Ending supervise();
+  // Ends what was started, in reverse. Once, whatever start() returned.
+  void stop();
+
+ private:
+  Result<void, Ending> start_modules();
+  Result<void, Ending> launch_processes();
+  Result<void, Ending> start_mirror();
+  Result<void, Ending> start_schedule();
+  [[nodiscard]] std::uint64_t ticks() const noexcept;
+  scheduler::Hooks hooks();
+  [[nodiscard]] scheduler::EngineSettings engine_settings() const;
+
+  const Options& options_;
+  Console& console_;
+  base::StopSignal& signals_;
+  Checked& checked_;
+  Prepared& prepared_;
+  scheduler::RunBlock& run_;
+  const std::vector<scheduler::Task>& tasks_;
+  bool started_ = false;                      // start() of the modules was called, so stop() is
+  std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
+  scheduler::SystemClock clock_;
+  ForceWatch forces_;
+  std::optional<mirror::Mirror> mirror_;  // of a board of a plant
+  scheduler::Engine engine_;
+  Phases phases_;
+  NormalThreads normal_threads_;
+  Processes processes_;
+  ModuleCommands commands_;
+};
+
+}  // namespace indurop::node

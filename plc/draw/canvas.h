@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Characters in rows: lines that join to the right box-drawing characters, and text. Says which characters are part of
+// something that power flows through; how that looks is the caller's.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace indurop::plc::draw {
+
+// Characters of a row that look the same.
+struct Run {
+  enum class Look : std::uint8_t { Plain, Powered, Name, Value };
+  std::string text;
+  Look look = Look::Plain;
+};
+using Row = std::vector<Run>;
+
+// Without its looks.
+[[nodiscard]] std::string plain(const Row& row);
+
+class Canvas {
+ public:
+  Canvas(int width, int height, bool unicode);
+
+  // In halves of characters, as in Picture. Lines of one net join where they meet; net -1 joins with everything.
+  // Powered ones are heavy.
+  void horizontal(int x1, int x2, int y, int net, bool powered);
+  void vertical(int x, int y1, int y2, int net, bool powered);
+  void text(int x, int y, std::string_view text, Run::Look look = Run::Look::Plain);
+  // One character, instead of a line.
+  void mark(int x, int y, std::string_view unicode, std::string_view ascii, Run::Look look = Run::Look::Plain);
+
+  // White space at the ends is left out.
+  [[nodiscard]] std::vector<Row> rows() const;
+
+ private:
+  struct Cell {
+    std::uint8_t arms = 0;
+    int across = kNoNet;
+    int down = kNoNet;
+    bool powered = false;
+    std::string glyph;
+    Run::Look look = Run::Look::Plain;
+  };
+  static constexpr int kNoNet = -2;
+
+  Cell* cell(int x, int y);
+  [[nodiscard]] std::string glyph_of(const Cell& cell) const;
+
+  int width_;
+  int height_;
+  bool unicode_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace indurop::plc::draw

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns of the items of a layout.
+
+#pragma once
+
+#include "plc/draw/layout_graph.h"
+
+namespace indurop::plc::draw {
+
+// Puts every item behind what feeds it, values beside what takes them, coils into the last column; then makes nets that
+// skip columns pass through pieces of wire.
+void assign_columns(Graph& graph, bool rails);
+
+}  // namespace indurop::plc::draw

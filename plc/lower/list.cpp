@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/lower/list.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "plc/lower/list_operators.h"
+#include "plc/model/make.h"
+#include "plc/st/expression_parser.h"
+#include "plc/st/token_reader.h"
+
+namespace indurop::plc::lower {
+namespace {
+
+using ast::Expression;
+using ast::Operator;
+using st::Token;
+using st::TokenKind;
+
+class ListLowering {
+ public:
+  ListLowering(st::TokenReader& in, const Place& origin, std::string prefix, Diagnostics& diagnostics)
+      : in_(in), designators_(in), origin_(origin), prefix_(std::move(prefix)), diagnostics_(diagnostics) {}
+
+  Lowered run(const std::vector<Token>& tokens) {
+    joints_ = find_joints(tokens, prefix_);
+    while (!in_.at_end()) {
+      const std::size_t before = in_.position();
+      if (!instruction()) {
+        skip_line(before);
+      }
+    }
+    if (!open_.empty()) {
+      in_.error(open_.back().at, "this '(' is never closed; write ')' on a line of its own");
+    }
+    lowered_.value = std::move(accumulator_);
+    return std::move(lowered_);
+  }
+
+ private:
+  struct Open {
+    Place at;
+    Operator op = Operator::None;
+    bool negated = false;
+    std::optional<Expression> before;
+  };
+
+  void skip_line(std::size_t before) {
+    const int line = in_.position() == before ? in_.peek().line : in_.previous().line;
+    while (!in_.at_end() && in_.peek().line == line) {
+      in_.take();
+    }
+  }
+
+  // False after an error.
+  bool instruction() {
+    if (in_.accept(";")) {
+      return true;
+    }
+    if (in_.peek().kind == TokenKind::Word && in_.peek(1).is(":")) {
+      label(in_.take());
+      in_.take();
+      return true;
+    }
+    if (in_.peek().is(")")) {
+      return close();
+    }
+    if (in_.peek().kind != TokenKind::Word && !in_.peek().is("&")) {
+      in_.error(in_.peek(), fmt::format("expected an operator, found {}", st::TokenReader::spelled(in_.peek())));
+      return false;
+    }
+    return operation(in_.take());
+  }
+
+  // Where the code behind a label uses what is loaded, all ways to it bring it in one variable.
+  void label(const Token& word) {
+    const Place at = in_.place(word);
+    const auto joint = joints_.find(upper(word.text));
+    if (joint != joints_.end() && accumulator_) {
+      bring(joint->second);
+    }
+    lowered_.body.push_back(make::label(at, std::string(word.text)));
+    accumulator_.reset();
+    if (joint != joints_.end()) {
+      accumulator_ = make::name(at, joint->second);
+    }
+  }
+  void bring(const std::string& variable) {
+    const Place at = accumulator_->at;
+    if (brought_.insert(variable).second) {
+      lowered_.variables.push_back(make::variable(ast::Section::Temp, variable, make::inferred_type(at)));
+    }
+    lowered_.body.push_back(make::assign(make::name(at, variable), *accumulator_));
+  }
+
+  bool operation(const Token& word) {
+    if (word.is("LD") || word.is("LDN")) {
+      auto value = operand();
+      if (value) {
+        accumulator_ = word.is("LDN") ? make::negation(std::move(*value)) : std::move(*value);
+      }
+      return value.has_value();
+    }
+    if (word.is("ST") || word.is("STN") || word.is("S") || word.is("R")) {
+      return store(word);
+    }
+    if (word.is("NOT")) {
+      return loaded(word) && (accumulator_ = make::negation(std::move(*accumulator_)), true);
+    }
+    if (const auto known = binary_word(word)) {
+      return binary(word, known->op, known->negated);
+    }
+    if (const auto when = conditional(word.text, "JMP")) {
+      return jump(word, *when);
+    }
+    if (const auto when = conditional(word.text, "RET")) {
+      return leave(word, {}, *when);
+    }
+    if (const auto when = conditional(word.text, "CAL")) {
+      return call(word, *when);
+    }
+    return function(word);
+  }
+
+  bool loaded(const Token& word) {
+    if (!accumulator_) {
+      in_.error(word,
+                fmt::format("nothing is loaded that {} could use; begin with LD", st::TokenReader::spelled(word)));
+    }
+    return accumulator_.has_value();
+  }
+
+  // Behind what changes variables the value stays what it was.
+  void keep() {
+    const bool fresh = in_.at_end() || in_.next_is({"LD", "LDN"}) || in_.peek(1).is(":");
+    const bool kept = accumulator_->kind == Expression::Kind::Name && accumulator_->name.starts_with("_il");
+    if (fresh || kept || accumulator_->kind == Expression::Kind::Literal) {
+      return;
+    }
+    const Place at = accumulator_->at;
+    const std::string name = fmt::format("_il{}{}", prefix_, ++kept_);
+    lowered_.variables.push_back(make::variable(ast::Section::Temp, name, make::inferred_type(at)));
+    lowered_.body.push_back(make::assign(make::name(at, name), std::move(*accumulator_)));
+    accumulator_ = make::name(at, name);
+  }
+
+  bool store(const Token& word) {
+    auto target = designators_.designator();
+    if (!target || !loaded(word)) {
+      return false;
+    }
+    keep();
+    if (word.is("S") || word.is("R")) {
+      ast::Body body;
+      body.push_back(make::assign(std::move(*target), make::truth(in_.place(word), word.is("S"))));
+      lowered_.body.push_back(make::when(*accumulator_, std::move(body)));
+    } else {
+      lowered_.body.push_back(
+          make::assign(std::move(*target), word.is("STN") ? make::negation(*accumulator_) : *accumulator_));
+    }
+    return true;
+  }
+
+  // An expression that ends with its line, before a comma or a bracket that was opened before it: the operator of the
+  // next line is none of it.
+  std::optional<Expression> operand() {
+    std::vector<Token> tokens;
+    int depth = 0;
+    const int line = in_.peek().line;
+    while (!in_.at_end() && in_.peek().line == line) {
+      const Token& next = in_.peek();
+      depth += next.is("(") || next.is("[") ? 1 : next.is(")") || next.is("]") ? -1 : 0;
+      if (depth < 0 || (depth == 0 && (next.is(",") || next.is(";")))) {
+        break;
+      }
+      tokens.push_back(in_.take());
+    }
+    Token end;
+    end.line = line;
+    end.column = tokens.empty() ? in_.previous().column : tokens.back().column + 1;
+    tokens.push_back(end);
+    st::TokenReader reader(tokens, origin_, diagnostics_);
+    auto value = st::ExpressionParser(reader).expression();
+    if (value && !reader.at_end()) {
+      reader.error(reader.peek(),
+                   fmt::format("{} is too much here, remove it", st::TokenReader::spelled(reader.peek())));
+      return std::nullopt;
+    }
+    return value;
+  }
+
+  // AND x; AND( x ... )
+  bool binary(const Token& word, Operator op, bool negated) {
+    if (!loaded(word)) {
+      return false;
+    }
+    const bool deferred = in_.peek().is("(") && !closed_on_line();
+    if (deferred) {
+      in_.take();
+      open_.push_back({in_.place(word), op, negated, std::move(accumulator_)});
+      accumulator_.reset();
+      if (in_.peek().line == word.line && !in_.at_end()) {
+        accumulator_ = operand();
+        return accumulator_.has_value();
+      }
+      return true;
+    }
+    auto value = operand();
+    if (value) {
+      apply(op, negated, std::move(*value));
+    }
+    return value.has_value();
+  }
+
+  // ADD (a + b) on one line is a value in brackets.
+  [[nodiscard]] bool closed_on_line() const {
+    int depth = 0;
+    for (std::size_t i = 0; in_.peek(i).kind != TokenKind::End && in_.peek(i).line == in_.peek().line; ++i) {
+      depth += in_.peek(i).is("(") ? 1 : in_.peek(i).is(")") ? -1 : 0;
+    }
+    return depth == 0;
+  }
+
+  void apply(Operator op, bool negated, Expression operand) {
+    accumulator_ =
+        make::binary(op, std::move(*accumulator_), negated ? make::negation(std::move(operand)) : std::move(operand));
+  }
+
+  bool close() {
+    const Token& bracket = in_.take();
+    if (open_.empty()) {
+      in_.error(bracket, "this ')' closes nothing; remove it");
+      return false;
+    }
+    if (!loaded(bracket)) {
+      return false;
+    }
+    Open open = std::move(open_.back());
+    open_.pop_back();
+    Expression inner = std::move(*accumulator_);
+    accumulator_ = std::move(open.before);
+    apply(open.op, open.negated, std::move(inner));
+    return true;
+  }
+
+  bool jump(const Token& word, When when) {
+    if (!in_.expect_name("a label")) {
+      return false;
+    }
+    const std::string label(in_.take().text);
+    const auto joint = joints_.find(upper(label));
+    if (joint != joints_.end()) {
+      if (!loaded(word)) {
+        return false;
+      }
+      bring(joint->second);
+    }
+    return leave(word, label, when) && (when != When::Always || (accumulator_.reset(), true));
+  }
+
+  bool leave(const Token& word, std::string label, When when) {
+    auto condition = condition_of(word, when);
+    if (condition) {
+      lowered_.body.push_back(make::leave(in_.place(word), std::move(label), std::move(*condition)));
+    }
+    return condition.has_value();
+  }
+
+  std::optional<Expression> condition_of(const Token& word, When when) {
+    if (when == When::Always) {
+      return make::truth(in_.place(word), true);
+    }
+    if (!loaded(word)) {
+      return std::nullopt;
+    }
+    keep();
+    return when == When::True ? *accumulator_ : make::negation(*accumulator_);
+  }
+
+  bool call(const Token& word, When when) {
+    auto callee = designators_.designator();
+    if (!callee) {
+      return false;
+    }
+    auto condition = condition_of(word, when);
+    if (!condition) {
+      return false;
+    }
+    if (callee->kind != Expression::Kind::Call) {
+      const Place at = callee->at;
+      callee = make::call(at, std::move(*callee), {});
+    }
+    ast::Statement statement = make::call_statement(std::move(*callee));
+    if (when != When::Always) {
+      ast::Body body;
+      body.push_back(std::move(statement));
+      statement = make::when(std::move(*condition), std::move(body));
+    }
+    lowered_.body.push_back(std::move(statement));
+    return true;
+  }
+
+  // LIMIT 0, 10 has the accumulator as its first value; LIMIT(MN := 0, ...) has not.
+  bool function(const Token& word) {
+    const Place at = in_.place(word);
+    std::vector<ast::Argument> arguments;
+    const bool formal = in_.peek().is("(");
+    if (formal) {
+      in_.take();
+      while (!in_.accept(")")) {
+        if (!formal_argument(arguments) ||
+            (!in_.accept(",") && !in_.peek().is(")") && !in_.expect(")", "behind the arguments"))) {
+          return false;
+        }
+      }
+    } else {
+      if (!loaded(word)) {
+        return false;
+      }
+      arguments.push_back(make::argument({}, std::move(*accumulator_)));
+      accumulator_.reset();
+      while (!in_.at_end() && in_.peek().line == word.line) {
+        auto value = operand();
+        if (!value) {
+          return false;
+        }
+        arguments.push_back(make::argument({}, std::move(*value)));
+        if (!in_.accept(",")) {
+          break;
+        }
+      }
+    }
+    accumulator_ = make::call(at, make::name(at, std::string(word.text)), std::move(arguments));
+    return true;
+  }
+
+  bool formal_argument(std::vector<ast::Argument>& arguments) {
+    std::string name;
+    bool output = false;
+    if (in_.peek().kind == TokenKind::Word && (in_.peek(1).is(":=") || in_.peek(1).is("=>"))) {
+      name = std::string(in_.take().text);
+      output = in_.take().is("=>");
+    }
+    auto value = operand();
+    if (value) {
+      arguments.push_back(make::argument(std::move(name), std::move(*value)));
+      arguments.back().output = output;
+    }
+    return value.has_value();
+  }
+
+  st::TokenReader& in_;
+  st::ExpressionParser designators_;
+  const Place& origin_;
+  std::string prefix_;
+  Diagnostics& diagnostics_;
+  Lowered lowered_;
+  std::optional<Expression> accumulator_;
+  std::vector<Open> open_;
+  std::map<std::string, std::string> joints_;  // labels and the variables with what is loaded there
+  std::set<std::string> brought_;
+  int kept_ = 0;
+};
+
+}  // namespace
+
+Lowered lower_list(const st::Text& text, const std::string& prefix, Diagnostics& diagnostics) {
+  const auto tokens = st::tokenize(text.text, text.at, diagnostics);
+  st::TokenReader in(tokens, text.at, diagnostics);
+  return ListLowering(in, text.at, prefix, diagnostics).run(tokens);
+}
+
+}  // namespace indurop::plc::lower

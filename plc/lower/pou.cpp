@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/lower/pou.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_set>
+
+#include "plc/lower/chart.h"
+#include "plc/lower/flow.h"
+#include "plc/lower/list.h"
+#include "plc/lower/networks.h"
+#include "plc/model/make.h"
+#include "plc/st/parser.h"
+
+namespace indurop::plc::lower {
+namespace {
+
+using network::Body;
+using network::NamedBody;
+using network::PouCode;
+using Language = Body::Language;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+// Of ":= x AND y;", as editors write conditions: x AND y.
+std::string_view condition_text(std::string_view text) {
+  text = trimmed(text);
+  if (text.ends_with(';')) {
+    text = trimmed(text.substr(0, text.size() - 1));
+  }
+  if (text.starts_with(":=")) {
+    text = trimmed(text.substr(2));
+  }
+  return text;
+}
+
+// Statements that leave the body they stand in.
+const ast::Statement* leaving(const ast::Body& body) {
+  for (const ast::Statement& statement : body) {
+    using Kind = ast::Statement::Kind;
+    if (statement.kind == Kind::Label || statement.kind == Kind::Jump || statement.kind == Kind::Return) {
+      return &statement;
+    }
+    for (const ast::Branch& branch : statement.branches) {
+      if (const ast::Statement* found = leaving(branch.body)) {
+        return found;
+      }
+    }
+    if (const ast::Statement* found = leaving(statement.body)) {
+      return found;
+    }
+  }
+  return nullptr;
+}
+
+class PouLowering {
+ public:
+  PouLowering(PouCode& pou_code, const ReadOptions& read_options, Project& project, ast::Pou& pou,
+              Diagnostics& diagnostics)
+      : pou_code_(pou_code),
+        read_options_(read_options),
+        project_(project),
+        pou_(pou),
+        diagnostics_(diagnostics),
+        what_("POU " + pou.name) {}
+
+  void run() {
+    Lowered code = pou_code_.body.language == Language::Sfc ? chart() : lower(pou_code_.body, what_, "");
+    std::move(code.variables.begin(), code.variables.end(), std::back_inserter(pou_.variables));
+    pou_.body = std::move(code.body);
+  }
+
+ private:
+  Lowered lower(Body& body, const std::string& what, const std::string& prefix) {
+    Lowered code;
+    switch (body.language) {
+      case Language::None:
+        break;
+      case Language::St:
+        code.body = st::parse_body({body.text, body.text_at}, diagnostics_);
+        call_actions(code.body, code.variables);
+        break;
+      case Language::Il:
+        code = lower_list({body.text, body.text_at}, prefix, diagnostics_);
+        break;
+      case Language::Ld:
+      case Language::Fbd: {
+        const Sheet sheet = network::make_sheet(body, what, diagnostics_);
+        NetworkOptions options;
+        options.prefix = prefix;
+        options.project = &project_;
+        options.flow = read_options_.watch && &body == &pou_code_.body && pou_.kind == ast::Pou::Kind::Program;
+        LoweredNetworks lowered = lower_networks(sheet, options, diagnostics_);
+        if (options.flow) {
+          add_flow(lowered, pou_, project_.globals);
+        }
+        code = {std::move(lowered.body), std::move(lowered.variables), std::nullopt};
+        break;
+      }
+      case Language::Sfc:
+        diagnostics_.error(body.at, "a chart inside a chart is not supported; write this action in another language");
+        break;
+    }
+    return code;
+  }
+
+  // "Open();" of an action of this POU: its code, here.
+  void call_actions(ast::Body& body, std::vector<ast::Variable>& variables) {
+    for (ast::Statement& statement : body) {
+      call_actions(statement.body, variables);
+      for (ast::Branch& branch : statement.branches) {
+        call_actions(branch.body, variables);
+      }
+      if (statement.kind != ast::Statement::Kind::Call || !statement.value->arguments.empty() ||
+          statement.value->operands[0].kind != ast::Expression::Kind::Name) {
+        continue;
+      }
+      const std::string& name = statement.value->operands[0].name;
+      Body* called = find(pou_code_.actions, name);
+      if (called == nullptr) {
+        continue;
+      }
+      if (!open_actions_.insert(called).second) {
+        diagnostics_.error(statement.at, fmt::format("recursion is not possible: action {} calls itself", name));
+        continue;
+      }
+      Lowered code = action(*called, fmt::format("c{}_", ++calls_));
+      open_actions_.erase(called);
+      std::move(code.variables.begin(), code.variables.end(), std::back_inserter(variables));
+      statement = make::when(make::truth(statement.at, true), std::move(code.body));
+    }
+  }
+
+  // Contacts and boxes of a chart are conditions of transitions.
+  Lowered chart() {
+    Body& body = pou_code_.body;
+    const Sheet sheet = network::make_sheet(body, what_, diagnostics_);
+    const network::Chart read = network::read_chart(body.diagram, diagnostics_);
+    NetworkOptions options;
+    options.project = &project_;
+    for (const Element& element : body.diagram.elements) {
+      if (element.condition) {
+        options.wanted.push_back({&element, &*element.condition});
+      }
+    }
+    LoweredNetworks drawn = lower_networks(sheet, options, diagnostics_);
+    ChartSurroundings around;
+    around.action = [this](const std::string& name) { return find(pou_code_.actions, name); };
+    around.transition = [this](const std::string& name) { return find(pou_code_.transitions, name); };
+    around.declared = [this](const std::string& name) { return declares(name); };
+    for (const char* ignored : {"SFCInit", "SFCPause", "SFCTip", "SFCTipMode", "SFCEnableLimit"}) {
+      if (declares(ignored)) {
+        diagnostics_.warning(pou_.at,
+                             fmt::format("{} is an ordinary variable here; charts obey SFCReset only", ignored));
+      }
+    }
+    around.action_code = [this](Body& code, const std::string& prefix) { return action(code, prefix); };
+    around.condition_code = [this](Body& code, const std::string& name, const std::string& prefix) {
+      return condition(code, name, prefix);
+    };
+    around.drawn_condition = [&](const Element& element) {
+      const auto wanted = std::find_if(options.wanted.begin(), options.wanted.end(),
+                                       [&](const auto& each) { return each.element == &element; });
+      return drawn.wanted[static_cast<std::size_t>(wanted - options.wanted.begin())];
+    };
+    Lowered code = lower_chart(read, around, diagnostics_);
+    std::move(drawn.variables.begin(), drawn.variables.end(), std::back_inserter(code.variables));
+    code.body.insert(code.body.begin(), std::make_move_iterator(drawn.body.begin()),
+                     std::make_move_iterator(drawn.body.end()));
+    return code;
+  }
+
+  static Body* find(std::vector<NamedBody>& bodies, const std::string& name) {
+    const auto found =
+        std::find_if(bodies.begin(), bodies.end(), [&](const NamedBody& each) { return same_name(each.name, name); });
+    return found == bodies.end() ? nullptr : &found->body;
+  }
+
+  [[nodiscard]] bool declares(const std::string& name) const {
+    return std::any_of(pou_.variables.begin(), pou_.variables.end(),
+                       [&](const ast::Variable& variable) { return same_name(variable.name, name); });
+  }
+
+  [[nodiscard]] std::string what_of(const Body& body) const {
+    return body.at.within == nullptr ? what_ : *body.at.within;
+  }
+
+  Lowered action(Body& body, const std::string& prefix) {
+    Lowered code = lower(body, what_of(body), prefix);
+    stays_inside(code);
+    return code;
+  }
+
+  void stays_inside(const Lowered& code) {
+    if (const ast::Statement* found = leaving(code.body)) {
+      diagnostics_.error(found->at, "labels, jumps and RETURN are not possible in actions and transitions; use IF");
+    }
+  }
+
+  // `name`: of the transition; the variable its networks write.
+  Lowered condition(Body& body, const std::string& name, const std::string& prefix) {
+    if (body.language == Language::St) {
+      Lowered code;
+      code.value = st::parse_expression({condition_text(body.text), body.text_at}, diagnostics_);
+      return code;
+    }
+    Lowered code = lower(body, what_of(body), prefix);
+    stays_inside(code);
+    if (code.value) {
+      return code;
+    }
+    if (name.empty()) {
+      diagnostics_.error(body.at, "a drawn condition has a name, which its coil or output writes; give it one");
+      return code;
+    }
+    if (!declares(name) && conditions_.insert(upper(name)).second) {
+      code.variables.push_back(make::variable(ast::Section::Temp, name, make::type(body.at, Elementary::Bool)));
+    }
+    code.value = make::name(body.at, name);
+    return code;
+  }
+
+  PouCode& pou_code_;
+  const ReadOptions& read_options_;
+  Project& project_;
+  ast::Pou& pou_;
+  Diagnostics& diagnostics_;
+  std::string what_;
+  std::unordered_set<std::string> conditions_;
+  std::unordered_set<const Body*> open_actions_;
+  int calls_ = 0;
+};
+
+}  // namespace
+
+void lower_pou(PouCode& pou_code, const ReadOptions& options, Project& project, ast::Pou& pou,
+               Diagnostics& diagnostics) {
+  PouLowering(pou_code, options, project, pou, diagnostics).run();
+}
+
+}  // namespace indurop::plc::lower

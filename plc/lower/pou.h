@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The code of one POU to statements, in whichever languages it is.
+
+#pragma once
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+#include "plc/model/read_options.h"
+#include "plc/network/diagram.h"
+
+namespace indurop::plc::lower {
+
+// Adds statements and hidden variables to `pou`, which is one of `project`; with ReadOptions::watch also globals.
+void lower_pou(network::PouCode& pou_code, const ReadOptions& options, Project& project, ast::Pou& pou,
+               Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::lower

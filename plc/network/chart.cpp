@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/network/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "plc/model/elementary.h"
+
+namespace indurop::plc::network {
+namespace {
+
+using Kind = Element::Kind;
+
+template <class Function>
+void each_source(const Element& element, const Index& index, Diagnostics& diagnostics, Function&& function) {
+  for (const Pin& pin : element.inputs) {
+    for (const Connection& connection : pin.connections) {
+      if (const Element* from = index.find(connection.from)) {
+        function(*from);
+      } else {
+        diagnostics.error(
+            connection.at,
+            fmt::format("is connected to element {}, which does not exist; draw the line anew", connection.from));
+      }
+    }
+  }
+}
+
+class Reader {
+ public:
+  Reader(const Diagram& diagram, Diagnostics& diagnostics)
+      : diagram_(diagram), index_(diagram), diagnostics_(diagnostics) {}
+
+  Chart read() {
+    collect();
+    for (Transition& transition : chart_.transitions) {
+      before(*transition.element, transition.from);
+      if (transition.from.empty()) {
+        diagnostics_.error(transition.element->at, "no step leads to this transition; draw a line from one");
+      }
+    }
+    for (const Element& element : diagram_.elements) {
+      if (element.kind == Kind::Step) {
+        into(element, steps_.at(&element));
+        for (const ActionLine& line : element.actions) {
+          chart_.actions.push_back({steps_.at(&element), &line});
+        }
+      } else if (element.kind == Kind::JumpStep) {
+        jump(element);
+      } else if (element.kind == Kind::ActionBlock) {
+        actions(element);
+      }
+    }
+    for (const Transition& transition : chart_.transitions) {
+      if (transition.to.empty()) {
+        diagnostics_.error(transition.element->at, "this transition leads to no step; draw a line to one, or a jump");
+      }
+    }
+    return std::move(chart_);
+  }
+
+ private:
+  void collect() {
+    std::vector<const Element*> transitions;
+    for (const Element& element : diagram_.elements) {
+      if (element.kind == Kind::Step) {
+        step(element);
+      } else if (element.kind == Kind::Transition) {
+        transitions.push_back(&element);
+      }
+    }
+    const auto key = [](const Element* e) {
+      return std::tuple(e->priority > 0 ? e->priority : std::numeric_limits<int>::max(), e->x);
+    };
+    std::stable_sort(transitions.begin(), transitions.end(),
+                     [&](const Element* a, const Element* b) { return key(a) < key(b); });
+    for (const Element* element : transitions) {
+      numbers_.emplace(element, chart_.transitions.size());
+      chart_.transitions.push_back({element, {}, {}});
+    }
+    const auto initial =
+        std::count_if(chart_.steps.begin(), chart_.steps.end(), [](const Step& s) { return s.initial; });
+    if (initial != 1 && !chart_.steps.empty()) {
+      diagnostics_.error(chart_.steps.front().element->at,
+                         initial == 0 ? "this chart has no initial step; mark one as initial"
+                                      : fmt::format("this chart has {} initial steps; it begins in one", initial));
+    }
+    if (chart_.steps.empty()) {
+      diagnostics_.error(diagram_.elements.empty() ? Place{} : diagram_.elements.front().at, "this chart has no step");
+    }
+  }
+
+  void step(const Element& element) {
+    if (element.text.empty()) {
+      diagnostics_.error(element.at, "this step has no name; write one");
+    }
+    if (!names_.try_emplace(upper(element.text), chart_.steps.size()).second) {
+      diagnostics_.error(element.at, fmt::format("a second step '{}'; steps have different names", element.text));
+    }
+    steps_.emplace(&element, chart_.steps.size());
+    chart_.steps.push_back({&element, element.text, element.initial});
+  }
+
+  // Steps before a transition: one, or all those of a simultaneous convergence.
+  void before(const Element& element, std::vector<std::size_t>& into) {
+    if (!passed_.insert(&element).second) {
+      return;  // a circle without a step: reported as a transition without one
+    }
+    each_source(element, index_, diagnostics_, [&](const Element& from) {
+      switch (from.kind) {
+        case Kind::Step:
+          into.push_back(steps_.at(&from));
+          break;
+        case Kind::SelectionDivergence:
+        case Kind::SimultaneousConvergence:
+          before(from, into);
+          break;
+        default:
+          diagnostics_.error(element.at, fmt::format("{} stands before it, where a step must be", title_of(from)));
+      }
+    });
+    passed_.erase(&element);
+  }
+
+  // Transitions that lead into `element` get the step.
+  void into(const Element& element, std::size_t step) {
+    if (!passed_.insert(&element).second) {
+      return;
+    }
+    each_source(element, index_, diagnostics_, [&](const Element& from) {
+      switch (from.kind) {
+        case Kind::Transition: {
+          auto& to = chart_.transitions[numbers_.at(&from)].to;
+          if (std::find(to.begin(), to.end(), step) == to.end()) {
+            to.push_back(step);
+          }
+          break;
+        }
+        case Kind::SelectionConvergence:
+        case Kind::SimultaneousDivergence:
+          into(from, step);
+          break;
+        case Kind::JumpStep:
+          if (element.kind == Kind::SelectionConvergence) {
+            break;  // CODESYS closes branches that end in a jump, too
+          }
+          [[fallthrough]];
+        default:
+          diagnostics_.error(element.at,
+                             fmt::format("{} stands before it, where a transition must be", title_of(from)));
+      }
+    });
+    passed_.erase(&element);
+  }
+
+  void jump(const Element& element) {
+    const auto target = names_.find(upper(element.text));
+    if (target == names_.end()) {
+      diagnostics_.error(element.at, fmt::format("there is no step '{}' to jump to", element.text));
+    } else {
+      into(element, target->second);
+    }
+  }
+
+  void actions(const Element& element) {
+    bool connected = false;
+    each_source(element, index_, diagnostics_, [&](const Element& from) {
+      if (from.kind != Kind::Step) {
+        diagnostics_.error(element.at, fmt::format("is connected to {}; actions belong to steps", title_of(from)));
+        return;
+      }
+      connected = true;
+      for (const ActionLine& line : element.actions) {
+        chart_.actions.push_back({steps_.at(&from), &line});
+      }
+    });
+    if (!connected) {
+      diagnostics_.error(element.at, "these actions belong to no step; draw a line to one");
+    }
+  }
+
+  const Diagram& diagram_;
+  Index index_;
+  Diagnostics& diagnostics_;
+  Chart chart_;
+  std::unordered_map<const Element*, std::size_t> steps_;
+  std::unordered_map<const Element*, std::size_t> numbers_;  // of transitions
+  std::unordered_map<std::string, std::size_t> names_;
+  std::unordered_set<const Element*> passed_;
+};
+
+}  // namespace
+
+Chart read_chart(const Diagram& diagram, Diagnostics& diagnostics) {
+  return Reader(diagram, diagnostics).read();
+}
+
+}  // namespace indurop::plc::network

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/set_point_gate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kRounding = 1e-4;  // part of a limit: what plans lose to rounding
+constexpr double kEdge = 1e-9;      // rad, likewise at the end of an axis
+
+// Speed at the end if the acceleration becomes `a` in this period and is then taken back as fast as possible.
+double unloaded(double velocity, double a, double step, double period) noexcept {
+  const double size = std::abs(a);
+  const double steps = std::max(0.0, std::ceil(size / step) - 1);
+  return velocity + period * (a + std::copysign(steps * size - step * steps * (steps + 1) / 2, a));
+}
+
+}  // namespace
+
+void SetPointGate::stand(double position) noexcept {
+  state_ = {position, 0, 0};
+}
+
+LineLimits SetPointGate::harder(double hardness) const noexcept {
+  return {limits_.velocity, limits_.acceleration * hardness, limits_.jerk * hardness * hardness};
+}
+
+LineState SetPointGate::after(double position) const noexcept {
+  const double velocity = (position - state_.position) / period_;
+  return {position, velocity, (velocity - state_.velocity) / period_};
+}
+
+void SetPointGate::pass(double position) noexcept {
+  state_ = after(position);
+}
+
+// The differences between set points are what is limited, so the ramp is made of differences: exact for any period.
+LineState SetPointGate::braked(LineState state, const LineLimits& limits) const noexcept {
+  const double step = limits.jerk * period_;
+  const double most = limits.acceleration;
+  double low = std::clamp(state.acceleration - step, -most, most);
+  double high = std::clamp(state.acceleration + step, -most, most);
+  if (std::abs(state.velocity) < 1e-12 && low <= 0 && high >= 0) {
+    return {state.position, 0, 0};
+  }
+  const auto end = [&](double a) { return unloaded(state.velocity, a, step, period_); };
+  if (end(low) > 0) {
+    high = low;
+  } else if (end(high) < 0) {
+    low = high;
+  }
+  // Once the acceleration is being taken back, this is it.
+  const double back = state.acceleration > 0 ? low : high;
+  if (std::abs(end(back)) < 1e-13) {
+    low = high = back;
+  }
+  for (int i = 0; i < 60 && high - low > 1e-15 * most; ++i) {
+    const double middle = (low + high) / 2;
+    (end(middle) > 0 ? high : low) = middle;
+  }
+  state.acceleration = (low + high) / 2;
+  state.velocity += state.acceleration * period_;
+  state.position += state.velocity * period_;
+  return state;
+}
+
+void SetPointGate::brake(double hardness) noexcept {
+  state_ = braked(state_, harder(hardness));
+}
+
+bool SetPointGate::can_rest(LineState state, const LineLimits& limits) const noexcept {
+  const auto inside = [this](double position) {
+    return position >= range_.lower - kEdge && position <= range_.upper + kEdge;
+  };
+  // Far from the ends an estimate that is too long does.
+  const double speed = std::abs(state.velocity) + period_ * std::abs(state.acceleration);
+  const double unload = limits.acceleration / limits.jerk + period_;
+  const double longest =
+      speed * (speed / (2 * limits.acceleration) + 3 * unload) + std::abs(state.acceleration) * unload * unload;
+  if (state.position - longest > range_.lower && state.position + longest < range_.upper) {
+    return true;
+  }
+  while (state.velocity != 0 || state.acceleration != 0) {
+    if (!inside(state.position)) {
+      return false;
+    }
+    state = braked(state, limits);
+  }
+  return inside(state.position);
+}
+
+ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
+  if (!std::isfinite(position)) {
+    return ErrorCode::Value;
+  }
+  const LineLimits limits = harder(hardness);
+  const LineState next = after(position);
+  const double margin = 1 + kRounding;
+  if (!range_.endless && !(position >= range_.lower - kEdge && position <= range_.upper + kEdge)) {
+    return ErrorCode::JointLimit;
+  }
+  if (std::abs(next.velocity) > limits.velocity * margin) {
+    return ErrorCode::Speed;
+  }
+  if (std::abs(next.acceleration) > limits.acceleration * margin) {
+    return ErrorCode::Acceleration;
+  }
+  if (std::abs(next.acceleration - state_.acceleration) > limits.jerk * period_ * margin) {
+    return ErrorCode::Jerk;
+  }
+  // What is so fast that taking back its acceleration makes it too fast will have to be refused later: refuse it now.
+  if (std::abs(unloaded(next.velocity, next.acceleration, limits.jerk * period_, period_) -
+               period_ * next.acceleration) > limits.velocity * margin) {
+    return ErrorCode::Speed;
+  }
+  return range_.endless || can_rest(next, limits) ? ErrorCode::Ok : ErrorCode::JointLimit;
+}
+
+}  // namespace indurop::robot

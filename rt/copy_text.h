@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Text into a field of fixed size, as the structures in shared memory have them.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace indurop::rt {
+
+// As much of `from` as fits, always with an end. What is behind that end stays. Real-time safe.
+template <std::size_t N>
+void copy_text(char (&to)[N], std::string_view from) noexcept {
+  const std::size_t length = std::min(from.size(), N - 1);
+  std::memcpy(to, from.data(), length);
+  to[length] = '\0';
+}
+
+}  // namespace indurop::rt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any text is either a job that can be stepped or an error with its place, never a crash.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "robot/job.h"
+#include "robot/job_runner.h"
+
+namespace {
+
+class Nothing final : public indurop::robot::Signals, public indurop::robot::MotionPort {
+ public:
+  double read(std::size_t /*index*/) noexcept override { return 1; }
+  void write(std::size_t /*index*/, double /*value*/) noexcept override {}
+  [[nodiscard]] bool ready() const noexcept override { return true; }
+  [[nodiscard]] bool settled() const noexcept override { return true; }
+  indurop::robot::Fault move(const indurop::robot::MoveCommand& /*command*/) noexcept override { return {}; }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::string> errors;
+  const auto book = indurop::robot::parse_jobs({{"a.job", {reinterpret_cast<const char*>(data), size}}}, errors);
+  for (const std::string& error : errors) {
+    if (!error.starts_with("a.job:")) {
+      std::abort();
+    }
+  }
+  if (errors.empty()) {
+    indurop::robot::JobRunner runner(book);
+    Nothing port;
+    runner.start(0);
+    for (int i = 0; i < 10; ++i) {
+      runner.step(0.01, port, port);
+    }
+  }
+  return 0;
+}

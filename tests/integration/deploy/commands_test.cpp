@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands to boards from elsewhere, and boards that a deployment leaves out.
+
+#include <cstdlib>
+
+#include "plant_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Commands : public PlantTest {
+ protected:
+  std::string deployed(const std::string& file) {
+    const Outcome done = deploy(file);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.code == 0 ? done.json()["deployment"].get<std::string>() : "";
+  }
+  void start_plant() {
+    start_agent("a");
+    start_agent("b");
+    id_ = deployed(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+    ASSERT_TRUE(wait_until([&] { return runs("a", id_) && runs("b", id_); }));
+  }
+  std::string module_state(const std::string& name) {
+    const Json all = indurop_here({"status", "--node", board(name), "-o", "json"}).json();
+    return all.is_object() && !all["modules"].empty() ? all["modules"][0]["state"].get<std::string>() : "none";
+  }
+  std::string id_;
+};
+
+TEST_F(Commands, Stop_and_start_a_module_of_one_board_only) {
+  start_plant();
+  const Outcome stopped = indurop({"stop", "steady@" + board("a")});
+  ASSERT_EQ(stopped.code, 0) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr("steady@" + board("a") + " stopped after"));
+  EXPECT_EQ(module_state("a"), "stopped");
+  EXPECT_EQ(module_state("b"), "running");
+  EXPECT_THAT(indurop({"stop", "steady@" + board("a")}).err, HasSubstr("is stopped already"));
+  EXPECT_EQ(indurop({"start", "steady@" + board("a")}).code, 0);
+  EXPECT_EQ(module_state("a"), "running");
+  EXPECT_EQ(indurop({"restart", "steady@" + board("a"), "steady@" + board("b")}).code, 0);
+  EXPECT_EQ(module_state("b"), "running");
+}
+
+TEST_F(Commands, The_node_tells_what_was_deployed) {
+  start_plant();
+  EXPECT_EQ(indurop_here({"status", "--node", board("a"), "-o", "json"}).json()["deployment"], id_);
+  EXPECT_THAT(indurop_here({"status", "--node", board("a")}).out, HasSubstr("deployed  " + id_.substr(0, 12)));
+}
+
+TEST_F(Commands, A_board_stopped_by_command_stays_down_until_it_is_told_to_start) {
+  start_plant();
+  const pid_t first = vars::running_node(board("b"));
+  ASSERT_EQ(indurop({"stop", "@" + board("b")}).code, 0);
+  EXPECT_EQ(vars::running_node(board("b")), 0);
+  const Json seen = report("b");
+  EXPECT_EQ(seen["state"], "stopped");
+  EXPECT_THAT(seen["message"].get<std::string>(), HasSubstr("stopped by command from"));
+  EXPECT_THAT(indurop({"stop", "@" + board("b")}).err, HasSubstr("is stopped already"));
+  EXPECT_EQ(indurop({"stop", "steady@" + board("b")}).code, 1) << "there is no node to command";
+  const Outcome started = indurop({"start", "@" + board("b")});
+  EXPECT_EQ(started.code, 0) << started.err;
+  EXPECT_TRUE(runs("b", id_));
+  EXPECT_NE(vars::running_node(board("b")), first);
+  const pid_t second = vars::running_node(board("b"));
+  EXPECT_EQ(indurop({"restart", "@" + board("b")}).code, 0);
+  EXPECT_NE(vars::running_node(board("b")), second);
+  EXPECT_TRUE(runs("b", id_));
+}
+
+TEST_F(Commands, A_deployment_starts_a_stopped_board_and_a_bad_one_leaves_it_stopped) {
+  start_plant();
+  ASSERT_EQ(indurop({"stop", "@" + board("b")}).code, 0);
+  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "faulty"}, {"b", "other"}}), {"--health", "5s"}).code, 5);
+  EXPECT_TRUE(wait_until([&] { return runs("a", id_) && report("b")["state"] == "stopped"; }));
+  const std::string next = deployed(manifest("v3.xml", {{"a", "other"}, {"b", "other"}}));
+  EXPECT_TRUE(wait_until([&] { return runs("a", next) && runs("b", next); }));
+}
+
+TEST_F(Commands, Unknown_boards_and_modules_are_named) {
+  start_plant();
+  const Outcome board_wrong = indurop({"stop", "steady@nobody", "--timeout", "1s"});
+  EXPECT_EQ(board_wrong.code, 6);
+  EXPECT_THAT(board_wrong.err, HasSubstr("board nobody was not heard"));
+  const Outcome module_wrong = indurop({"stop", "stedy@" + board("a")});
+  EXPECT_EQ(module_wrong.code, 1);
+  EXPECT_THAT(module_wrong.err, HasSubstr("it has no module stedy; it has steady"));
+}
+
+TEST_F(Commands, A_board_with_a_key_takes_signed_commands_only) {
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("keys")}).code, 0);
+  const std::string plant = "p" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder() / "etc");
+  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / plant, std::filesystem::copy_options::recursive);
+  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  start_agent("a");
+  start_agent("b");
+  ::unsetenv("INDUROP_KEYS_DIR");
+  const Outcome done = deploy(file, {"--keys", path("keys")});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Outcome refused = indurop({"stop", "steady@" + board("a")});
+  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("it is not signed, and this board has a key of plant " + plant));
+  EXPECT_EQ(module_state("a"), "running");
+  const Outcome good = indurop({"stop", "steady@" + board("a"), "--keys", path("keys")});
+  EXPECT_EQ(good.code, 0) << good.err;
+  EXPECT_EQ(module_state("a"), "stopped");
+}
+
+TEST_F(Commands, A_board_left_out_of_the_plant_stops_with_the_switch) {
+  start_plant();
+  const Outcome done = deploy(manifest("v2.xml", {{"a", "other"}}));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("board " + board("b") + " is not part of the plant any more: its node ends"));
+  EXPECT_EQ(vars::running_node(board("b")), 0);
+  const Json seen = report("b");
+  EXPECT_EQ(seen["state"], "empty");
+  EXPECT_THAT(seen["message"].get<std::string>(), HasSubstr("not part of plant"));
+  // Its agent comes back and knows it.
+  stop_agent("b", SIGKILL);
+  start_agent("b");
+  EXPECT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  EXPECT_EQ(vars::running_node(board("b")), 0);
+  EXPECT_THAT(deploy(manifest("v3.xml", {{"a", "steady"}})).err, testing::Not(HasSubstr("not part of the plant")));
+  // And belongs to it again when the manifest says so.
+  const std::string both = deployed(path("v1.xml"));
+  EXPECT_TRUE(wait_until([&] { return runs("b", both); }));
+}
+
+TEST_F(Commands, A_board_left_out_goes_on_if_the_deployment_is_taken_back) {
+  start_plant();
+  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "faulty"}}), {"--health", "5s"}).code, 5);
+  EXPECT_TRUE(wait_until([&] { return runs("a", id_) && runs("b", id_); }));
+}
+
+TEST_F(Commands, A_board_left_out_while_it_was_away_stops_when_it_is_back) {
+  start_plant();
+  stop_agent("b", SIGKILL);  // its node goes on
+  ASSERT_TRUE(wait_until([&] { return report("b").is_null(); }));
+  const Outcome done = deploy(manifest("v2.xml", {{"a", "other"}}));
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("was not heard: its node ends when it comes back"));
+  EXPECT_NE(vars::running_node(board("b")), 0);
+  start_agent("b");
+  EXPECT_TRUE(wait_until([&] { return vars::running_node(board("b")) == 0; }));
+}
+
+}  // namespace
+}  // namespace indurop::test

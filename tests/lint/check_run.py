@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""What a run of ctest passes over in silence: tests that were skipped, and tests that passed at the second try only.
+check_run.py JUNIT LOG. Where $CI is set, a test skipped without a line in may_skip.txt fails, and so do more than two retried."""
+
+import fnmatch
+import os
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree
+
+import common
+
+MAX_RETRIED = 2
+RESULT = re.compile(r"^\s*(?:\d+/\d+ )?Test\s+#\d+: (.*?) \.*\s*(?:\*\*\*)?(\w[\w ]*?)\s+[\d.]+ sec", re.MULTILINE)
+
+
+def skipped(junit):
+    """Name and reason of each test that was skipped."""
+    for case in xml.etree.ElementTree.parse(junit).iter("testcase"):
+        if case.find("skipped") is not None:
+            said = [line.strip() for line in (case.findtext("system-out") or "").splitlines() if line.strip()]
+            # GoogleTest says it before it says SKIPPED; a script in its last line.
+            marks = [i for i, line in enumerate(said) if "SKIPPED" in line]
+            yield case.get("name"), said[max(marks[0] - 1, 0)] if marks else (said or ["no reason given"])[-1]
+
+
+def retried(log):
+    results = {}
+    for name, result in RESULT.findall(log):
+        results.setdefault(name, []).append(result)
+    return sorted(name for name, all_of_it in results.items() if len(all_of_it) > 1 and all_of_it[-1] == "Passed")
+
+
+def allowed(file):
+    """Patterns of tests that may be skipped; each has its reason on the line."""
+    lines = [line.split("  ", 1) for line in file.read_text().splitlines() if line.strip() and line[0] != "#"]
+    return [words[0] for words in lines if len(words) == 2 and words[1].strip()]
+
+
+def check(junit, log, patterns):
+    findings = [f"{name}: skipped ({reason}) and not in may_skip.txt" for name, reason in skipped(junit)
+                if not any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)]
+    again = retried(log)
+    if len(again) > MAX_RETRIED:
+        findings.append(f"{len(again)} tests failed at the first try, {MAX_RETRIED} may: {', '.join(again)}")
+    return findings
+
+
+def main():
+    junit, log = sys.argv[1], pathlib.Path(sys.argv[2]).read_text(errors="replace")
+    for name, reason in skipped(junit):
+        print(f"skipped: {name}: {reason}")
+    for name in retried(log):
+        print(f"passed at the second try only: {name}")
+    if os.environ.get("CI"):
+        common.report(check(junit, log, allowed(pathlib.Path(__file__).with_name("may_skip.txt"))))
+
+
+if __name__ == "__main__":
+    main()

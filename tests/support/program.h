@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program started by a test, with what it prints; killed at the latest when the object ends.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/support/wait_until.h"
+
+namespace indurop::test {
+
+struct Environment {
+  std::vector<std::string> variables{};  // "NAME=value" on top of the test's own
+  uid_t user = static_cast<uid_t>(-1);   // run as this user (needs root)
+  std::function<bool()> prepare{};       // runs in the new process before the program; false: the program is not run
+};
+
+class Program {
+ public:
+  // Exit code of a program whose preparation failed.
+  static constexpr int kNotPrepared = 126;
+
+  explicit Program(const std::vector<std::string>& command, const Environment& environment = {});
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+  [[nodiscard]] bool running();
+  void signal(int number) const;
+  void kill();
+  // Exit code or 128 + signal once it has ended by itself; -1 if it does not.
+  int wait();
+
+  void input(const std::string& text) const;
+  [[nodiscard]] std::string out() const { return contents(out_); }
+  [[nodiscard]] std::string err() const { return contents(err_); }
+  bool prints(const std::string& text);  // on stdout, sooner or later
+  bool says(const std::string& text);    // on stderr
+
+ private:
+  static std::string contents(int file);
+  int in_ = -1;
+  int out_ = -1;
+  int err_ = -1;
+  pid_t pid_ = -1;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+// False also for a process that has ended and that its parent has not asked about yet.
+bool alive(pid_t pid);
+
+// Makes mounts of the calling process, which has one thread, its own. False if it may not.
+bool own_mounts();
+
+// For Environment::prepare: a private view of the file system with an empty one of this size at `folder`.
+bool mount_small(const std::string& folder, const std::string& size);
+
+}  // namespace indurop::test

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole configurations against what is expected of them, one folder each. Files of a case that exist are compared:
+// expected.err (diagnostics of reading and of the schedule), .table, .json, .csv, .svg, and .adjusted (the table with
+// --adjust). INDUROP_UPDATE_GOLDEN=1 writes them instead.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "config/plan/plan.h"
+#include "config/xml/plant_reader.h"
+#include "config/xml/reader.h"
+#include "tests/golden/golden.h"
+
+namespace indurop::config {
+namespace {
+
+class Golden : public testing::TestWithParam<std::string> {
+ protected:
+  void compare(const std::string& name, const std::string& sut) {
+    const std::filesystem::path file = folder() / ("expected." + name);
+    if (golden::updating()) {
+      if (std::filesystem::exists(file) || (name != "svg" && name != "csv")) {
+        std::ofstream(file, std::ios::binary) << sut;
+      }
+      return;
+    }
+    if (std::filesystem::exists(file)) {
+      EXPECT_EQ(sut, golden::slurp(file)) << file;
+    } else {
+      EXPECT_TRUE(name == "svg" || name == "csv") << file << " is missing";
+    }
+  }
+  template <class Kind>
+  void run();
+  [[nodiscard]] static std::filesystem::path folder() { return std::filesystem::path(GOLDEN_CONFIG) / GetParam(); }
+};
+
+ReadResult read(const std::string& xml, const Config& /*kind*/) {
+  return read_config_text(xml, "in.xml");
+}
+ReadPlant read(const std::string& xml, const Plant& /*kind*/) {
+  return read_plant_text(xml, "in.xml");
+}
+Config& content(ReadResult& read) {
+  return read.config;
+}
+Plant& content(ReadPlant& read) {
+  return read.plant;
+}
+CheckResult check(Config& config, const CheckOptions& options) {
+  return check_config(config, options);
+}
+PlantCheck check(Plant& plant, const CheckOptions& options) {
+  return check_plant(plant, options);
+}
+
+std::string text(const std::vector<base::Diagnostic>& diagnostics) {
+  std::string text;
+  for (const base::Diagnostic& d : diagnostics) {
+    text += base::to_string(d) + "\n";
+  }
+  return text;
+}
+
+// `Kind`: Config or Plant.
+template <class Kind>
+void Golden::run() {
+  auto read_file = read(golden::slurp(folder() / "in.xml"), Kind{});
+  if (!read_file.ok()) {
+    compare("err", text(read_file.diagnostics));
+    return;
+  }
+  Kind& kind = content(read_file);
+  const auto checked = check(kind, {.files = false, .adjust = false});
+  compare("err", text(read_file.diagnostics) + text(checked.diagnostics));
+  if (!checked.ok()) {
+    const auto adjusted = check(kind, {.files = false, .adjust = true});
+    compare("adjusted", plan_table(kind, adjusted));
+    return;
+  }
+  compare("table", plan_table(kind, checked));
+  compare("json", plan_json(kind, checked));
+  compare("csv", plan_csv(kind, checked));
+  compare("svg", plan_svg(kind, checked));
+}
+
+TEST_P(Golden, Is_as_expected) {
+  if (is_plant_file(folder() / "in.xml")) {
+    run<Plant>();
+  } else {
+    run<Config>();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Deploy, Golden, testing::ValuesIn(golden::cases(GOLDEN_CONFIG, "in.xml")),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace indurop::config

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random jobs with holds, overrides, stops, emergencies and failing drives at random instants: no set point of any axis
+// breaks a limit of position, speed, acceleration or jerk. INDUROP_ROBOT_JOBS says how many jobs, INDUROP_ROBOT_SEED
+// from which one on.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "group_cell.h"
+
+namespace indurop::robot {
+namespace {
+
+constexpr double kEmergency = 1.5;  // Settings::emergency_factor
+
+// Differences between set points of drives that follow them, each against its limit.
+class Judge {
+ public:
+  explicit Judge(double period) : period_(period) {}
+
+  // Empty, or what is broken.
+  std::string look(const Cell& cell, double hardness) {
+    std::string broken;
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      Seen& seen = seen_[i];
+      const double p = radians(cell.out.command[i]);
+      if (cell.in.drives[i].status != 0x27 || cell.in.drives[i].mode != 8) {
+        seen = {p, 0, 0};
+        continue;
+      }
+      const auto k = static_cast<Eigen::Index>(i);
+      const Axis& axis = arm_.axis(static_cast<int>(i));
+      const double v = (p - seen.p) / period_, a = (v - seen.v) / period_, j = (a - seen.a) / period_;
+      const double beyond = std::max(axis.lower - p, p - axis.upper);
+      if (!axis.endless && !(beyond <= 1e-6)) {
+        broken += fmt::format("axis {} is {} rad beyond its range; ", i + 1, beyond);
+      }
+      judge(broken, i, "speed", v / limits_.velocity[k]);
+      judge(broken, i, "acceleration", a / limits_.acceleration[k] / hardness);
+      judge(broken, i, "jerk", j / limits_.jerk[k] / hardness / hardness);
+      seen = {p, v, a};
+    }
+    return broken;
+  }
+
+ private:
+  struct Seen {
+    double p = 0, v = 0, a = 0;
+  };
+  static void judge(std::string& broken, std::size_t axis, const char* what, double part) {
+    if (!(std::abs(part) <= 1.001)) {
+      broken += fmt::format("axis {}: {} {:.3f} times its limit; ", axis + 1, what, part);
+    }
+  }
+
+  double period_;
+  Arm arm_ = cell_arm();
+  JointLimits limits_ = limits_of(Settings{});
+  std::array<Seen, kJoints> seen_{};
+
+  static JointLimits limits_of(const Settings& settings) {
+    auto cell = cell_limits();
+    cell.acceleration = cell.velocity / settings.time_to_speed;
+    cell.jerk = cell.acceleration / settings.time_to_acceleration;
+    return cell;
+  }
+};
+
+std::string random_job(std::mt19937& random) {
+  const Arm arm = cell_arm();
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
+  std::string text;
+  Joints place = anywhere(arm, random, 0.1);
+  const double spread = in(0.02, 1);
+  const int points = 2 + one_of(5);
+  for (int i = 0; i < points; ++i) {
+    Joints q = place;
+    for (int tries = 0; tries < 50; ++tries) {
+      for (int k = 0; k < kAxes; ++k) {
+        q[k] = place[k] + in(-spread, spread);
+      }
+      if (arm.beyond_limits(q) < 0) {
+        break;
+      }
+      q = place;
+    }
+    if (one_of(2) == 0) {
+      const Joints d = q * (180 / kPi);
+      text += fmt::format("POINT Q{} = JOINT {} {} {} {} {} {}\n", i, d[0], d[1], d[2], d[3], d[4], d[5]);
+    } else {
+      const Pose pose = arm.forward(q);
+      const Vec3 rpy = to_rpy(pose.orientation) * (180 / kPi);
+      text += fmt::format("POINT Q{} = POSE {} {} {} RPY {} {} {}\n", i, 1000 * pose.position[0],
+                          1000 * pose.position[1], 1000 * pose.position[2], rpy[0], rpy[1], rpy[2]);
+    }
+    place = q;
+  }
+  text += "MOVJ Q0\n";
+  for (int i = 0; i < 8; ++i) {
+    switch (one_of(6)) {
+      case 0:
+        text += fmt::format("SPEED {}%\n", 1 + one_of(100));
+        break;
+      case 1:
+        text += fmt::format("ZONE {} mm\n", one_of(3) * one_of(60));
+        break;
+      case 2:
+        text += fmt::format("MOVJ Q{}\n", one_of(points));
+        break;
+      case 3:
+        text += fmt::format("MOVC Q{} Q{}\n", one_of(points), one_of(points));
+        break;
+      default:
+        text += fmt::format("MOVL Q{}\n", one_of(points));
+    }
+  }
+  return text;
+}
+
+class Random_jobs : public testing::Test {
+ protected:
+  // What happened, by name.
+  std::map<std::string, int> ends;
+
+  void run(unsigned seed) {
+    std::mt19937 random(seed);
+    const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;
+    const std::string job = random_job(random);
+    std::unique_ptr<Cell> cell;
+    ASSERT_NO_THROW(cell = std::make_unique<Cell>(job, period_ms)) << job;
+    ASSERT_TRUE(cell->serve(Service::GroupEnable));
+    Judge judge(period_ms / 1000);
+    cell->in.service.job = 1;
+    cell->ask(Service::JobStart);
+    std::uniform_real_distribution<double> part(0, 1);
+    const double often = part(random) < 0.4 ? 0 : 5 * period_ms / 1000;  // events per period
+    bool emergency = false;
+    for (int i = 0; i < 20000 / period_ms; ++i) {
+      if (part(random) < often) {
+        disturb(*cell, random);
+      }
+      emergency = emergency || cell->in.emergency;
+      cell->step();
+      const std::string broken = judge.look(*cell, emergency ? kEmergency : 1);
+      ASSERT_EQ(broken, "") << "seed " << seed << ", period " << i << " of " << period_ms << " ms, state "
+                            << static_cast<int>(cell->out.state) << ", " << to_string(cell->out.error) << "\n"
+                            << job;
+      if (i > 10 && cell->out.state != GroupState::Moving && cell->out.state != GroupState::Stopping) {
+        break;
+      }
+    }
+    ends[cell->out.state == GroupState::ErrorStop ? to_string(cell->out.error) : "ended well"] += 1;
+  }
+
+ private:
+  static void disturb(Cell& cell, std::mt19937& random) {
+    switch (std::uniform_int_distribution<int>(0, 15)(random)) {
+      case 0:
+      case 1:
+        cell.in.hold = !cell.in.hold;
+        break;
+      case 2:
+      case 3:
+      case 4:
+        cell.in.speed_override = std::uniform_real_distribution<double>(0, 100)(random);
+        break;
+      case 5:
+        cell.ask(Service::Stop);
+        break;
+      case 6:
+        cell.in.emergency = true;
+        break;
+      case 7:
+        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, 5)(random)].status = Cell::kFault;
+        break;
+      case 8:
+        cell.ask(Service::GroupDisable);
+        break;
+      default:
+        cell.in.hold = false;
+    }
+  }
+};
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
+TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1);
+  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500);
+  for (int i = 0; i < jobs; ++i) {
+    run(static_cast<unsigned>(first + i));
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  for (const auto& [end, many] : ends) {
+    fmt::print("{:6} {}\n", many, end);
+  }
+}
+
+// An accepted line whose joint speeds peak where the check did not look: axes ran away from there.
+TEST_F(Random_jobs, A_trip_on_a_path_brakes_within_the_limits) {
+  for (const double period_ms : {1.0, 4.0, 10.0}) {
+    Cell cell(
+        "POINT A = JOINT -46.613047 -76.185167 40.922607 -68.094120 -1.170863 36.025398\n"
+        "POINT B = POSE -221.4792 -147.4714 1312.3754 RPY -17.01162 49.08639 -79.68231\nMOVJ A\nMOVL B\n",
+        period_ms);
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    Judge judge(period_ms / 1000);
+    cell.in.service.job = 1;
+    cell.ask(Service::JobStart);
+    for (int i = 0; i < 20000 / period_ms; ++i) {
+      cell.step();
+      ASSERT_EQ(judge.look(cell, 1), "") << "period " << i << " of " << period_ms << " ms";
+    }
+    EXPECT_NE(cell.out.state, GroupState::Moving);
+  }
+}
+
+}  // namespace
+}  // namespace indurop::robot

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/command/output.h"
+
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+namespace indurop::tools {
+namespace {
+
+bool utf8_locale() {
+  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0') {
+      const std::string_view text(value);
+      return text.find("UTF-8") != std::string_view::npos || text.find("utf8") != std::string_view::npos;
+    }
+  }
+  return false;
+}
+
+bool wants_color(ColorWhen when, int fd) {
+  if (when != ColorWhen::Auto) {
+    return when == ColorWhen::Always;
+  }
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return isatty(fd) == 1 && (no_color == nullptr || *no_color == '\0') &&
+         (term == nullptr || std::string_view(term) != "dumb");
+}
+
+const char* code_of(Style style) {
+  switch (style) {
+    case Style::None:
+      return "";
+    case Style::Bold:
+      return "\x1b[1m";
+    case Style::Dim:
+      return "\x1b[2m";
+    case Style::Good:
+      return "\x1b[32m";
+    case Style::Warn:
+      return "\x1b[33m";
+    case Style::Bad:
+      return "\x1b[1;31m";
+    case Style::Accent:
+      return "\x1b[36m";
+  }
+  return "";
+}
+
+std::string painted(bool color, Style style, std::string_view text) {
+  if (!color || style == Style::None || text.empty()) {
+    return std::string(text);
+  }
+  std::string out = code_of(style);
+  out += text;
+  out += "\x1b[0m";
+  return out;
+}
+
+// 0 or errno.
+int write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(fd, text.data(), text.size());
+    if (n >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(n));
+    } else if (errno == EAGAIN) {
+      pollfd wait{fd, POLLOUT, 0};
+      constexpr int kSlowReaderMs = 1000;
+      poll(&wait, 1, kSlowReaderMs);
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+Output::Output(ColorWhen when, bool quiet) {
+  configure(when, quiet);
+}
+
+void Output::configure(ColorWhen when, bool quiet) {
+  terminal_ = isatty(STDOUT_FILENO) == 1;
+  unicode_ = utf8_locale();
+  color_ = wants_color(when, STDOUT_FILENO);
+  color_messages_ = wants_color(when, STDERR_FILENO);
+  quiet_ = quiet;
+}
+
+bool Output::flush() {
+  if (write_errno_ == 0 && !pending_.empty()) {
+    write_errno_ = write_all(STDOUT_FILENO, pending_);
+    reader_gone_ = write_errno_ == EPIPE;
+  }
+  pending_.clear();
+  return write_errno_ == 0;
+}
+
+void Output::message_line(std::string_view text) {
+  flush();
+  static_cast<void>(write_all(STDERR_FILENO, std::string(text) + '\n'));  // nowhere left to say that stderr is broken
+}
+
+void Output::message(std::string_view kind, Style style, std::string_view text) {
+  message_line("indurop: " + painted(color_messages_, style, kind) + std::string(text));
+}
+
+void Output::error(std::string_view text) {
+  message("error: ", Style::Bad, text);
+}
+
+void Output::note(std::string_view text) {
+  if (!quiet_) {
+    message("", Style::None, text);
+  }
+}
+
+Extent Output::extent() const {
+  winsize size{};
+  if (terminal_ && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
+    return {size.ws_col, size.ws_row};
+  }
+  return {};
+}
+
+std::string Output::paint(Style style, std::string_view text) const {
+  return painted(color_, style, text);
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a verb of `indurop` is: a name, a help text, options, and an action. One file per verb (tools/verbs); the list
+// of all is in verbs.cpp.
+
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/exit_code.h"
+#include "base/options.h"
+#include "dds/network_settings.h"
+#include "tools/command/failure.h"
+#include "tools/command/output.h"
+#include "tools/command/table.h"
+
+namespace indurop::tools {
+
+enum class Format { Table, Json, Csv, Svg };
+
+// Variables of boards in the network instead of a node here.
+struct FarOptions {
+  bool wanted = false;
+  dds::NetworkSettings network;
+  std::int64_t wait_ns = 3'000'000'000;  // for boards and values to be heard
+};
+class ValueSource;
+
+// What every verb gets besides its own options.
+struct Context {
+  Output out;
+  Format format = Format::Table;
+  std::string node;  // as given by --node, else empty
+  FarOptions far;
+  std::shared_ptr<ValueSource> values;  // once open_store() has opened them
+};
+
+using Action = std::function<int(Context&)>;
+
+struct Verb {
+  const char* name = "";
+  const char* group = "";    // heading in the list of verbs
+  const char* summary = "";  // one line
+  const char* details = "";  // below the options: what it prints, examples
+  // Adds the verb's options to `app` and returns what to do once they are parsed.
+  Action (*declare)(base::Options& app, Context& context) = nullptr;
+};
+
+std::span<const Verb> all_verbs();
+
+// Options several verbs share. The first format is the default.
+void add_node_option(base::Options& app, Context& context);
+// --remote and what belongs to it.
+void add_far_options(base::Options& app, Context& context);
+void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats);
+
+// A time given in seconds or with a unit, into nanoseconds; wrong text is a usage error.
+void add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns, const std::string& help);
+
+// Prints `head` with "schema_version" in front and the table's rows under `rows_key`, or the table as text or CSV.
+void print_table(Context& context, const Table& table, const JsonValue& head, const std::string& rows_key);
+// A JSON document that begins with "schema_version".
+JsonValue document();
+
+}  // namespace indurop::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether iceoryx's daemon RouDi runs on this machine, found out without iceoryx: its own way to ask blocks for a
+// minute and then aborts the program.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+
+namespace indurop::iceoryx {
+
+struct Roudi {
+  enum class State { Absent, NoPermission, There };
+  State state = State::Absent;
+  // Which one it is, to notice another that took its place.
+  ino_t inode = 0;
+  std::int64_t since_ns = 0;
+
+  bool operator==(const Roudi&) const = default;
+};
+
+Roudi find_roudi() noexcept;
+
+}  // namespace indurop::iceoryx

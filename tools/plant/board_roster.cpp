@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plant/board_roster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents speak twice a second
+
+}  // namespace
+
+void add_link_options(base::Options& app, deploy::LinkSettings& settings) {
+  app.add("--domain", "N", settings.network.domain,
+          fmt::format("DDS domain of the agents (default: {})", deploy::LinkSettings::kDefaultDomain))
+      .range(0, 230);
+  app.add("--interface", "IF", settings.network.interface_name,
+          "Network interface to the boards (default: the only one)");
+  app.flag("--one-host", settings.network.one_host, "The agents run on this host: stay on loopback");
+}
+
+std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings) {
+  settings.self = deploy::new_session();
+  auto opened = deploy::DeployLink::open(settings);
+  if (!opened) {
+    context.out.error(opened.error().text);
+    return nullptr;
+  }
+  if (!opened->note.empty()) {
+    context.out.note(opened->note);
+  }
+  return std::move(opened->link);
+}
+
+void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vector<Gone>* gone) {
+  for (auto& news : link.take_boards()) {
+    const auto key = std::pair(news.report.board, news.report.agent);
+    if (news.gone) {
+      boards_.erase(key);
+      if (gone != nullptr) {
+        gone->push_back({key.first, key.second});
+      }
+    } else {
+      boards_[key] = {std::move(news.report), now_ns};
+    }
+  }
+  others_ = link.other_agents();
+}
+
+void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {
+  const std::int64_t deadline = rt::now_ns() + time_ns;
+  while (!interrupted() && rt::now_ns() < deadline) {
+    link.wait(std::min(deadline, rt::now_ns() + kLookNs));
+    listen(link, rt::now_ns());
+    if (enough(context)) {
+      return;
+    }
+  }
+}
+
+const BoardRoster::Entry* BoardRoster::find(const std::string& board) const {
+  const Entry* best = nullptr;
+  for (auto at = boards_.lower_bound({board, 0}); at != boards_.end() && at->first.first == board; ++at) {
+    if (best == nullptr || at->second.heard_ns >= best->heard_ns) {
+      best = &at->second;
+    }
+  }
+  return best;
+}
+
+std::string BoardRoster::twins(const std::string& board, std::int64_t now_ns) const {
+  std::string hosts;
+  int count = 0;
+  for (auto at = boards_.lower_bound({board, 0}); at != boards_.end() && at->first.first == board; ++at) {
+    if (now_ns - at->second.heard_ns < kSilentNs) {
+      hosts += (count++ > 0 ? " and " : "") + at->second.report.host;
+    }
+  }
+  return count > 1 ? hosts : std::string{};
+}
+
+}  // namespace indurop::tools

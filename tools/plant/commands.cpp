@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plant/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tools/plant/board_roster.h"
+
+namespace indurop::tools {
+
+using scheduler::ModuleCommand;
+
+const char* past_of(ModuleCommand command) {
+  return command == ModuleCommand::Stop ? "stopped" : command == ModuleCommand::Start ? "started" : "restarted";
+}
+
+void add_command_options(base::Options& app, Context& context, CommandOptions& options) {
+  app.add("targets", "TARGET", options.targets, "MODULE of the node here; MODULE@BOARD or @BOARD of a plant, anywhere")
+      .completes(base::Completion::Module);
+  add_node_option(app, context);
+  add_time_option(app, "--timeout", options.timeout_ns, "How long to wait (default 10 s)");
+  add_link_options(app, options.link);
+  app.add("--keys", "DIR", options.keys, "Folder of the plant's keys, if its boards have some");
+}
+
+int carry_out(Context& context, ModuleCommand command, CommandOptions& options) {
+  std::vector<CommandTarget> remote;
+  std::vector<std::string> here;
+  for (const std::string& text : options.targets) {
+    const auto at = text.find('@');
+    if (at == std::string::npos) {
+      here.push_back(text);
+    } else if (at + 1 < text.size()) {
+      remote.push_back({text.substr(0, at), text.substr(at + 1)});
+    } else {
+      context.out.error(fmt::format("'{}' names no board; write MODULE@BOARD or @BOARD", text));
+      return kUsage;
+    }
+  }
+  for (const std::string& module : here) {
+    if (const int code = command_here(context, command, module, options.timeout_ns); code != kOk) {
+      return code;
+    }
+  }
+  return remote.empty() ? kOk : command_remote(context, command, remote, options);
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stop, start and restart have in common: modules of a node of this machine, and modules and nodes of boards
+// anywhere in the network.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "deploy/link/deploy_link.h"
+#include "scheduler/module_command.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+struct CommandOptions {
+  std::vector<std::string> targets;  // MODULE, MODULE@BOARD, @BOARD
+  std::int64_t timeout_ns = 10'000'000'000;
+  deploy::LinkSettings link;
+  std::filesystem::path keys;
+};
+
+struct CommandTarget {
+  std::string module;  // empty: the node
+  std::string board;   // empty: on this machine
+};
+
+void add_command_options(base::Options& app, Context& context, CommandOptions& options);
+
+// In the order given; the first that fails ends it. Returns the exit code.
+int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);
+
+// The two ways (commands_here.cpp, commands_remote.cpp).
+int command_here(Context& context, scheduler::ModuleCommand command, const std::string& module,
+                 std::int64_t timeout_ns);
+int command_remote(Context& context, scheduler::ModuleCommand command, const std::vector<CommandTarget>& targets,
+                   CommandOptions& options);
+
+const char* past_of(scheduler::ModuleCommand command);  // "stopped"
+
+}  // namespace indurop::tools

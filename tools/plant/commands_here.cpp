@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands about modules of a node of this machine, through its run block.
+#include <fmt/format.h>
+
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
+#include "tools/command/suggest.h"
+#include "tools/command/units.h"
+#include "tools/plant/commands.h"
+#include "tools/values/node_choice.h"
+
+namespace indurop::tools {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::ModuleCommand;
+
+constexpr std::int64_t kLookNs = 2'000'000;
+
+// The module's record; null after an error message.
+scheduler::ModuleRecord* find_module(Context& context, RunView& run, const std::string& node,
+                                     const std::string& module) {
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < run.module_count(); ++i) {
+    names.push_back(fixed_text(run.module(i).name));
+    if (names.back() == module) {
+      return &run.module_to_command(i);
+    }
+  }
+  context.out.error(fmt::format("node '{}' has no module '{}'.{} indurop status lists them", node, printable(module),
+                                did_you_mean(module, names)));
+  return nullptr;
+}
+
+int conclude(Context& context, ModuleCommand command, const scheduler::ModuleRecord& record, CommandResult result,
+             std::int64_t took_ns) {
+  const std::string module = printable(fixed_text(record.name));
+  switch (result) {
+    case CommandResult::Done:
+      context.out.note(fmt::format("module '{}' {} after {}", module, past_of(command), human_ns(took_ns)));
+      return kOk;
+    case CommandResult::Unchanged:
+      context.out.note(
+          fmt::format("module '{}' {} already", module, command == ModuleCommand::Stop ? "is stopped" : "runs"));
+      return kOk;
+    case CommandResult::Ending:
+      context.out.error(fmt::format("module '{}' was not {}: the node itself ends", module, past_of(command)));
+      return kUnreachable;
+    case CommandResult::Failed:
+    case CommandResult::None:
+      break;
+  }
+  const std::string why = printable(fixed_text(record.last_fault));
+  context.out.error(
+      fmt::format("module '{}' could not be {}{}", module, past_of(command), why.empty() ? "" : ": " + why));
+  return kFailed;
+}
+
+}  // namespace
+
+int command_here(Context& context, ModuleCommand command, const std::string& module, std::int64_t timeout_ns) {
+  const auto node = choose_node(context.node);
+  if (!node) {
+    return report(context.out, node.error());
+  }
+  auto run = RunView::open(*node, vars::Mode::ReadWrite);
+  if (!run.ok()) {
+    context.out.error(run.error().code == Errc::NotFound ? fmt::format("node '{}' does not run", *node)
+                                                         : explain_open_error(run.error(), *node, true));
+    return exit_code_of(run.error());
+  }
+  if (!run.value().node_alive() || run.value().block().state.load() != scheduler::NodeState::Running) {
+    context.out.error(fmt::format("node '{}' does not run, so there is no module to be {}", *node, past_of(command)));
+    return kUnreachable;
+  }
+  scheduler::ModuleRecord* record = find_module(context, run.value(), *node, module);
+  if (record == nullptr) {
+    return kFailed;
+  }
+  const std::int64_t begin = rt::now_ns();
+  std::optional<scheduler::CommandTicket> ticket;
+  while (rt::now_ns() < begin + timeout_ns && !interrupted() && run.value().node_alive()) {
+    if (!ticket) {
+      ticket = scheduler::place_command(*record, command);
+    } else if (const auto result = scheduler::result_of(*record, *ticket); result != CommandResult::None) {
+      return conclude(context, command, *record, result, rt::now_ns() - begin);
+    }
+    wait_until(rt::now_ns() + kLookNs);
+  }
+  if (interrupted()) {
+    return interrupt_code();
+  }
+  context.out.error(run.value().node_alive()
+                        ? fmt::format("module '{}' was not {} within {}; the node is still at it (indurop status)",
+                                      printable(module), past_of(command), human_age(timeout_ns))
+                        : fmt::format("node '{}' has ended meanwhile", *node));
+  return kUnreachable;
+}
+
+}  // namespace indurop::tools

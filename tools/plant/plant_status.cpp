@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plant/plant_status.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+
+#include "rt/clock.h"
+#include "tools/command/units.h"
+#include "tools/plant/board_table.h"
+#include "tools/plant/board_texts.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kHearNs = 1'500'000'000;  // agents speak twice a second
+
+// What an agent says; nothing if it is not what one of this version says.
+std::optional<std::vector<mirror::MirroredVariable>> variables_in(const std::string& text) {
+  const JsonValue whole = JsonValue::parse(text).value_or(JsonValue());
+  const JsonValue* list = whole.find("variables");
+  if (list == nullptr) {
+    return std::nullopt;
+  }
+  std::vector<mirror::MirroredVariable> variables;
+  for (const JsonValue& one : list->values()) {
+    mirror::MirroredVariable& variable = variables.emplace_back();
+    variable.age_ns = -1;
+    if (!read(one, "name", variable.name) || !read(one, "owner", variable.owner) ||
+        !read(one, "valid", variable.valid) || (!one["age_ns"].is_null() && !read(one, "age_ns", variable.age_ns))) {
+      return std::nullopt;
+    }
+  }
+  return variables;
+}
+
+VariablesRead ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
+  std::vector<std::uint64_t> agents;
+  for (const auto& [key, entry] : roster.all()) {
+    agents.push_back(key.second);
+  }
+  VariablesRead read;
+  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, agents)) {
+    if (auto variables = variables_in(text)) {
+      read.emplace(agent, std::move(*variables));
+    }
+  }
+  return read;
+}
+
+}  // namespace
+
+int PlantStatus::show(Context& context) {
+  if (open_ == nullptr) {
+    open_ = open_link(context, link);
+    if (open_ == nullptr) {
+      return kUnreachable;
+    }
+    roster_.gather(*open_, kHearNs, [&] { return false; });
+  }
+  const VariablesRead read = ask(*open_, link.self, roster_);
+  const std::int64_t now = rt::now_ns();
+  roster_.listen(*open_, now);
+  const Table table = board_table(roster_, now, &read);
+  const std::vector<std::string> missing = boards_not_heard(roster_);
+  if (table.empty()) {
+    context.out.error(
+        fmt::format("no board was heard on domain {} within {}; agents are started with indurop-agent "
+                    "--board NAME",
+                    link.network.domain, human_age(kHearNs)));
+  } else if (!missing.empty()) {
+    context.out.error(fmt::format("not heard: {}", fmt::join(missing, ", ")));
+  }
+  note_others(context, roster_);
+  print_table(context, table,
+              {{"domain", link.network.domain}, {"not_heard", missing}, {"other_releases", json_of_others(roster_)}},
+              "boards");
+  return table.empty() || !missing.empty() ? kUnreachable : kOk;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop status --plant: all boards with an agent, and what they read from each other, from anywhere in the network.
+
+#pragma once
+
+#include <memory>
+
+#include "tools/command/verb.h"
+#include "tools/plant/board_roster.h"
+
+namespace indurop::tools {
+
+struct PlantStatus {
+  bool wanted = false;
+  deploy::LinkSettings link;
+
+  // Once more each time; returns the exit code.
+  int show(Context& context);
+
+ private:
+  std::unique_ptr<deploy::DeployLink> open_;
+  BoardRoster roster_;
+};
+
+}  // namespace indurop::tools

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes a deployment through on all its boards: what deploy and rollback have in common.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "base/problem.h"
+#include "deploy/link/blob_server.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/words/deployment_words.h"
+#include "tools/command/table.h"
+#include "tools/command/verb.h"
+#include "tools/plant/board_roster.h"
+
+namespace indurop::tools {
+
+struct Deployment {
+  deploy::Order order;  // who, what, for whom
+  std::string key;      // private key that signs orders; empty: unsigned
+  deploy::BlobServer::Find files;
+  std::int64_t patience_ns = 0;  // how long nothing at all may happen
+  JsonValue head;                // of the result as JSON
+  std::string title;             // "plant cell, deployment 0123456789ab"
+};
+
+// Prints progress and the result; returns the exit code.
+int run_deployment(Context& context, deploy::DeployLink& link, BoardRoster& roster, Deployment deployment);
+
+// Private key of the deployer in a folder of keys (indurop keys init). With no folder none, and a note says what that
+// means.
+Result<std::string, base::Problem> read_deploy_key(Context& context, const std::filesystem::path& folder);
+// A generation above all those heard.
+std::uint64_t next_generation(const BoardRoster& roster);
+// Those boards of `wanted` that are there, at least one. Fails if some are missing (and `allow_missing` is not set), or
+// two have one name.
+Result<std::vector<std::string>, Failure> present_boards(Context& context, deploy::DeployLink& link,
+                                                         BoardRoster& roster, const std::vector<std::string>& wanted,
+                                                         bool allow_missing, std::int64_t timeout_ns);
+
+}  // namespace indurop::tools

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plc/plc_build.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/replace_file.h"
+#include "plc/front/compiler.h"
+#include "tools/command/child.h"
+#include "tools/command/self.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlcRequest {
+  plc::CompileOptions compile;
+  std::string folder = ".";  // -o
+  bool only_sources = false;
+};
+
+void print_messages(Context& context, const std::string& messages) {
+  std::size_t from = 0;
+  while (from < messages.size()) {
+    const std::size_t end = std::min(messages.find('\n', from), messages.size());
+    context.out.message_line(messages.substr(from, end - from));
+    from = end + 1;
+  }
+}
+
+bool save(Context& context, const fs::path& path, const std::string& text) {
+  const auto saved = base::replace_file(path, text, base::Durable::No);
+  if (!saved) {
+    context.out.error(base::cannot_write(path, saved.error()));
+  }
+  return saved.ok();
+}
+
+// Our programs, library and headers: beside this program, in the build directory as in an installation.
+struct Parts {
+  fs::path glb2idl;
+  fs::path headers;
+  fs::path library;
+};
+
+bool find_parts(Context& context, Parts& parts) {
+  const fs::path programs = program_folder();
+  const fs::path prefix = programs.parent_path();
+  std::error_code error;
+  parts.glb2idl = programs / "glb2idl";
+  parts.headers = prefix / "include";
+  std::vector<fs::path> folders{prefix / "lib", prefix / "lib64"};
+  for (const auto& entry : fs::directory_iterator(prefix / "lib", error)) {
+    folders.push_back(entry.path());  // lib/x86_64-linux-gnu
+  }
+  for (const fs::path& folder : folders) {
+    if (fs::exists(folder / "libindurop.so", error)) {
+      parts.library = folder;
+    }
+  }
+  for (const fs::path& needed : {parts.glb2idl, parts.headers / "indurop/indurop.h"}) {
+    if (!fs::exists(needed, error)) {
+      context.out.error(fmt::format("{} is not there; is InduRoP installed completely?", needed.string()));
+      return false;
+    }
+  }
+  if (parts.library.empty()) {
+    context.out.error(
+        fmt::format("there is no libindurop.so in {}/lib; is InduRoP installed completely?", prefix.string()));
+  }
+  return !parts.library.empty();
+}
+
+bool run(Context& context, const std::vector<std::string>& arguments) {
+  std::string problem;
+  const int code = run_child(arguments, problem);
+  if (code != 0) {
+    context.out.error(problem.empty() ? fmt::format("{} failed with exit code {}", arguments[0], code) : problem);
+  }
+  return code == 0;
+}
+
+std::string compiler() {
+  const char* chosen = std::getenv("CXX");  // NOLINT(concurrency-mt-unsafe): one thread
+  return chosen != nullptr && *chosen != '\0' ? chosen : "g++";
+}
+
+bool build_modules(Context& context, const PlcRequest& request, const plc::Compiled& compiled) {
+  Parts parts;
+  if (!find_parts(context, parts)) {
+    return false;
+  }
+  const fs::path folder = request.folder;
+  const fs::path generated = folder / (compiled.name + ".generated");
+  std::vector<std::string> glb{parts.glb2idl.string(), "-o", generated.string()};
+  glb.insert(glb.end(), request.compile.glb_files.begin(), request.compile.glb_files.end());
+  glb.push_back((folder / (compiled.name + ".glb")).string());
+  if (!run(context, glb)) {
+    return false;
+  }
+  for (const plc::ModuleText& one : compiled.modules) {
+    const fs::path module = folder / (one.name + ".so");
+    // The flags of indurop_add_module().
+    const std::vector<std::string> arguments{compiler(),
+                                             "-std=c++20",
+                                             "-O2",
+                                             "-g1",
+                                             "-fPIC",
+                                             "-fno-gnu-unique",
+                                             "-shared",
+                                             "-Wl,--no-undefined",
+                                             "-isystem" + parts.headers.string(),
+                                             "-isystem" + generated.string(),
+                                             (folder / (one.name + ".cpp")).string(),
+                                             "-o",
+                                             module.string(),
+                                             "-L" + parts.library.string(),
+                                             "-lindurop",
+                                             "-Wl,-rpath," + parts.library.string()};
+    if (!run(context, arguments)) {
+      return false;
+    }
+    context.out.note("made " + module.string());
+  }
+  return true;
+}
+
+// Prints what is wrong, else one line.
+int check_plc(Context& context, const PlcRequest& request) {
+  const plc::Compiled compiled = plc::compile(request.compile);
+  print_messages(context, compiled.messages);
+  if (!compiled.ok) {
+    return kCheckFailed;
+  }
+  context.out.note(
+      fmt::format("{} module{}, no errors", compiled.modules.size(), compiled.modules.size() == 1 ? "" : "s"));
+  return kOk;
+}
+
+// Writes <name>.glb and, for each task, .cpp and .so; prints the modules for module.xml.
+int build_plc(Context& context, const PlcRequest& request) {
+  const plc::Compiled compiled = plc::compile(request.compile);
+  print_messages(context, compiled.messages);
+  if (!compiled.ok) {
+    return kCheckFailed;
+  }
+  const fs::path folder = request.folder;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    context.out.error(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+    return kFailed;
+  }
+  bool saved = save(context, folder / (compiled.name + ".glb"), compiled.glb);
+  for (const plc::ModuleText& one : compiled.modules) {
+    saved = saved && save(context, folder / (one.name + ".cpp"), one.cpp);
+  }
+  if (!saved || (!request.only_sources && !build_modules(context, request, compiled))) {
+    return kFailed;
+  }
+  if (!context.out.quiet()) {
+    context.out.write(plc::module_xml(compiled.modules));
+  }
+  return kOk;
+}
+
+void add_sources(base::Options& app, PlcRequest& request) {
+  app.add("files", "FILE", request.compile.files, "The program: .st and PLCopen .xml files").required();
+  app.add("--glb", "FILE", request.compile.glb_files,
+          "A .glb file whose shared variables the program uses (repeatable)")
+      .one_at_a_time();
+  app.add("--name", "NAME", request.compile.name, "Name of the module (default: the first file's)");
+  app.add("--namespace", "NAME", request.compile.space,
+          "Namespace of its shared variables (default: the module's name)");
+  app.flag("--show-locals", request.compile.show_locals, "Make the variables of programs shared variables too");
+}
+
+}  // namespace
+
+void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  const auto request = std::make_shared<PlcRequest>();
+  const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const PlcRequest&)) {
+    base::Options& made = app.command(name, help, [request, chosen, action] {
+      *chosen = [request, action](Context& c) { return action(c, *request); };
+    });
+    add_sources(made, *request);
+    return &made;
+  };
+  base::Options* build = verb("build", "Make modules (.so) of a program, and its shared variables (.glb)", &build_plc);
+  build->add("-o,--output", "DIR", request->folder, "Where to write them (default: here)");
+  build->flag("--watch", request->compile.watch, "Let `indurop plc watch` see the power in drawn programs");
+  build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
+  verb("check", "Say what is wrong with a program", &check_plc);
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plc/plc_print.h"
+
+#include <fmt/format.h>
+
+#include "base/replace_file.h"
+#include "plc/print/print.h"
+#include "tools/plc/plc_file.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Request {
+  std::string file;
+  std::string svg;
+  std::string pou;
+};
+
+std::string names_of(const plc::plcopen::Document& document) {
+  std::string names;
+  for (const plc::plcopen::PouDocument& each : document.pous) {
+    names += (names.empty() ? "" : ", ") + each.pou.name;
+  }
+  return names;
+}
+
+int print(Context& context, const Request& request) {
+  std::string bytes;
+  if (!read_plc_file(context, request.file, bytes)) {
+    return kFailed;
+  }
+  plc::Diagnostics diagnostics;
+  plc::plcopen::Document document = plc::plcopen::read_document(bytes, request.file, diagnostics);
+  const auto bodies = plc::printed_bodies(document, request.pou);
+  const bool only_svg = !request.svg.empty();
+  const std::string out = diagnostics.failed() ? std::string()
+                          : only_svg           ? plc::print_svg(bodies, diagnostics)
+                                               : plc::print_text(bodies, context.out.unicode(), diagnostics);
+  if (diagnostics.failed()) {
+    context.out.message_line(diagnostics.render());
+    return kCheckFailed;
+  }
+  if (bodies.empty()) {
+    const std::string names = names_of(document);
+    context.out.error(names.empty() ? fmt::format("{} has no program to print, only types or variables", request.file)
+                                    : fmt::format("{} has no POU '{}'; it has {}", request.file, request.pou, names));
+    return kFailed;
+  }
+  if (!only_svg) {
+    context.out.write(out);
+    return kOk;
+  }
+  if (const auto saved = base::replace_file(request.svg, out, base::Durable::No); !saved) {
+    context.out.error(base::cannot_write(request.svg, saved.error()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("picture written to {}", request.svg));
+  return kOk;
+}
+
+}  // namespace
+
+void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  auto request = std::make_shared<Request>();
+  base::Options& made =
+      app.command("print", "Print the networks of a PLCopen XML file as text or as a picture",
+                  [request, chosen] { *chosen = [request](Context& c) { return print(c, *request); }; });
+  made.add("file", "FILE.xml", request->file, "PLCopen XML file").required();
+  made.add("--svg", "FILE", request->svg, "Draw the networks into this SVG file instead");
+  made.add("--pou", "NAME", request->pou, "This program, function or function block only");
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/assignment.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace indurop::tools {
+namespace {
+
+// Empty after an error message.
+std::vector<std::pair<std::string, std::string>> split(Context& context, const char* verb,
+                                                       const std::vector<std::string>& words) {
+  std::vector<std::pair<std::string, std::string>> out;
+  // '=' inside a value (a text in quotes) does not make the first word an assignment.
+  if (words.size() == 2 && words[0].find('=') == std::string::npos) {
+    return {{words[0], words[1]}};
+  }
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      context.out.error(
+          fmt::format("'{}' is not an assignment; write: indurop {} NAME VALUE, or NAME=VALUE ...", word, verb));
+      return {};
+    }
+    out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  return out;
+}
+
+bool parse_one(Context& context, const vars::Store& store, const char* verb, const std::string& name,
+               const std::string& text, std::vector<Assignment>& out) {
+  std::vector<Item> items;
+  if (is_glob(name)) {
+    context.out.error(fmt::format("'{}': {} takes names, not globs", name, verb));
+    return false;
+  }
+  if (!select_items(context, store, {name}, items)) {
+    return false;
+  }
+  Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size())};
+  const auto& place = assignment.item.place;
+  // Parts of a value that are not mentioned keep what they have.
+  std::string problem;
+  assignment.bytes = read_item(store, assignment.item, problem);
+  std::string message;
+  const Status parsed = schema::parse_value(place.type, text, assignment.bytes, message);
+  if (!parsed.ok()) {
+    context.out.error(fmt::format(
+        "{}: {}", assignment.item.name,
+        message.empty() ? fmt::format("'{}' is not a valid {}", text, schema::display_name(place.type)) : message));
+    return false;
+  }
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  const schema::Range range = place.range.value_or(schema::Range{-kUnlimited, kUnlimited});
+  const Status in_range = schema::check_range(range, place.type, assignment.bytes, message);
+  if (!in_range.ok()) {
+    context.out.error(fmt::format("{}: {}", assignment.item.name, message));
+    return false;
+  }
+  out.push_back(std::move(assignment));
+  return true;
+}
+
+}  // namespace
+
+Result<std::vector<Assignment>, Failure> read_assignments(Context& context, const vars::Store& store, const char* verb,
+                                                          const std::vector<std::string>& words) {
+  const auto pairs = split(context, verb, words);
+  if (pairs.empty()) {
+    return Failure{kUsage, {}};
+  }
+  std::vector<Assignment> assignments;
+  bool good = true;
+  for (const auto& [name, text] : pairs) {
+    good = parse_one(context, store, verb, name, text, assignments) && good;
+  }
+  if (good) {
+    return assignments;
+  }
+  if (pairs.size() > 1) {
+    context.out.note("nothing was changed");
+  }
+  return Failure{kFailed, {}};
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/force_view.h"
+
+#include <fmt/format.h>
+
+#include "rt/clock.h"
+#include "tools/command/units.h"
+#include "tools/values/variables.h"
+
+namespace indurop::tools {
+
+std::vector<ForceView> view_forces(const vars::Store& store) {
+  std::vector<ForceView> views;
+  const std::int64_t now = rt::now_ns();
+  for (const vars::Force& force : store.forces()) {
+    const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
+    views.push_back({part.name, schema::format_value(part.type, force.bytes()), raw_value(part.type, force.bytes()),
+                     force.until_ns == vars::kForever ? vars::kForever : force.until_ns - now});
+  }
+  return views;
+}
+
+std::string force_line(const std::vector<ForceView>& forces) {
+  constexpr std::size_t kShown = 3;
+  std::string line;
+  for (std::size_t i = 0; i < forces.size() && i < kShown; ++i) {
+    const ForceView& one = forces[i];
+    line += fmt::format("{}{} = {}", i == 0 ? "" : ", ", one.name, one.value);
+    line += one.left_ns == vars::kForever ? "" : fmt::format(" ({} left)", human_age(one.left_ns));
+  }
+  return forces.size() > kShown ? line + fmt::format(" and {} more", forces.size() - kShown) : line;
+}
+
+JsonValue json_of(const std::vector<ForceView>& forces) {
+  JsonValue list = JsonValue::array();
+  for (const ForceView& one : forces) {
+    list.push_back({{"name", one.name},
+                    {"value", one.raw},
+                    {"left_ns", one.left_ns == vars::kForever ? JsonValue() : JsonValue(one.left_ns)}});
+  }
+  return list;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/node_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "rt/clock.h"
+#include "tools/command/suggest.h"
+#include "tools/command/units.h"
+#include "tools/values/here_source.h"
+#include "tools/values/remote_source.h"
+#include "vars/process.h"
+#include "vars/shm_file.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr const char* kDefaultNode = "local";
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Result<std::string, Failure> named_node(const std::string& name, const char* origin) {
+  if (!vars::valid_node_name(name)) {
+    return Failure{
+        kUsage, fmt::format("'{}' ({}) is not a valid node name: 1 to 40 of A-Z a-z 0-9 _ -", printable(name), origin)};
+  }
+  const auto names = vars::list_nodes();
+  if (contains(names, name)) {
+    return name;
+  }
+  return Failure{kUnreachable,
+                 names.empty() ? fmt::format("there is no node '{}', nor any other on this machine. Start one: indurop "
+                                             "run module.xml",
+                                             name)
+                               : fmt::format("there is no node '{}'.{} Nodes here: {}", name, did_you_mean(name, names),
+                                             fmt::join(names, ", "))};
+}
+
+Result<vars::Store, Failure> open_remote(Context& context) {
+  if (!context.node.empty()) {
+    return Failure{kUsage, "--node names a node of this machine; boards in the network are chosen by NAME@BOARD"};
+  }
+  std::vector<std::string> notes;
+  auto source = RemoteSource::open(context.far.network, context.far.wait_ns, notes);
+  for (const std::string& note : notes) {
+    context.out.note(note);
+  }
+  if (!source.ok()) {
+    return std::move(source).error();
+  }
+  context.values = std::move(source).value();
+  auto store = context.values->attach();
+  if (!store.ok()) {
+    return Failure{kFailed, fmt::format("no memory for the values: {}", store.error().where)};
+  }
+  return std::move(store).value();
+}
+
+}  // namespace
+
+Result<std::string, Failure> choose_node(const std::string& asked) {
+  if (!asked.empty()) {
+    return named_node(asked, "--node");
+  }
+  const char* environment = std::getenv("INDUROP_NODE");
+  if (environment != nullptr && *environment != '\0') {
+    return named_node(environment, "$INDUROP_NODE");
+  }
+  const auto names = vars::list_nodes();
+  if (contains(names, kDefaultNode)) {
+    return std::string(kDefaultNode);
+  }
+  if (names.size() == 1) {
+    return names.front();
+  }
+  if (names.empty()) {
+    return Failure{kUnreachable,
+                   "no node on this machine. Start one: indurop run module.xml; boards in the network: --remote"};
+  }
+  return Failure{kUsage, fmt::format("there are several nodes; say which with --node: {}", fmt::join(names, ", "))};
+}
+
+std::string explain_open_error(const Error& error, const std::string& node, bool for_writing) {
+  switch (error.code) {
+    case Errc::NotFound:
+      return fmt::format("node '{}' is gone. Start it again: indurop run module.xml --node {}", node, node);
+    case Errc::PermissionDenied:
+      return fmt::format("no permission to {} node '{}': run as the user it belongs to (ls -l /dev/shm/indurop.{})",
+                         for_writing ? "change values of" : "look at", node, node);
+    case Errc::VersionMismatch:
+      return fmt::format(
+          "node '{}' was started by another version of InduRoP: use that version's `indurop`, or restart the node",
+          node);
+    case Errc::Corrupt:
+      return fmt::format("the shared memory of node '{}' is damaged ({}). If it does not run: indurop clean --node {}",
+                         node, error.where, node);
+    case Errc::Busy:
+    case Errc::Timeout:
+      return fmt::format("node '{}' is just starting; try again", node);
+    default:
+      return fmt::format("node '{}': {}{}{}", node, error.where, error.sys_errno != 0 ? ": " : "",
+                         error.sys_errno != 0 ? std::strerror(error.sys_errno) : "");
+  }
+}
+
+int exit_code_of(const Error& error) {
+  switch (error.code) {
+    case Errc::NotFound:
+    case Errc::Busy:
+    case Errc::Timeout:
+    case Errc::Dead:
+      return kUnreachable;
+    case Errc::VersionMismatch:
+    case Errc::TypeMismatch:
+      return kSchemaMismatch;
+    default:
+      return kFailed;
+  }
+}
+
+Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode) {
+  if (context.far.wanted) {
+    return open_remote(context);
+  }
+  auto node = choose_node(context.node);
+  if (!node.ok()) {
+    return std::move(node).error();
+  }
+  context.values = std::make_shared<HereSource>(*node, mode);
+  auto store = context.values->attach();
+  if (!store.ok()) {
+    return Failure{exit_code_of(store.error()),
+                   explain_open_error(store.error(), *node, mode == vars::Mode::ReadWrite)};
+  }
+  context.node = *node;
+  return std::move(store).value();
+}
+
+Result<ChosenRun, Failure> open_run(const std::string& asked) {
+  auto node = choose_node(asked);
+  if (!node.ok()) {
+    return std::move(node).error();
+  }
+  auto run = RunView::open(*node);
+  if (!run.ok()) {
+    return Failure{exit_code_of(run.error()),
+                   run.error().code == Errc::NotFound
+                       ? fmt::format("node '{}' does not run and left no statistics behind", *node)
+                       : explain_open_error(run.error(), *node, false)};
+  }
+  return ChosenRun{std::move(node).value(), std::move(run).value()};
+}
+
+bool store_alive(const vars::BlockHeader& header) {
+  return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
+                             header.node_start_time.load(std::memory_order_relaxed));
+}
+
+std::string store_absence(const vars::BlockHeader& header) {
+  if (store_alive(header)) {
+    return {};
+  }
+  const std::int64_t beat = header.heartbeat_ns.load(std::memory_order_relaxed);
+  const std::int64_t age = rt::now_ns() - beat;
+  return beat > 0 && age >= 0 ? fmt::format("not running, last seen {} ago", human_age(age)) : "not running";
+}
+
+}  // namespace indurop::tools

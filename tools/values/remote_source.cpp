@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/remote_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
+#include "tools/command/units.h"
+#include "vars/shm_file.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{20};
+constexpr std::int64_t kQuietNs = 200'000'000;  // nothing new for so long: that was all
+constexpr std::int64_t kSetNs = 3'000'000'000;
+constexpr std::int64_t kRepeatNs = 300'000'000;
+constexpr int kMostRepeats = 4;
+constexpr std::chrono::milliseconds kPoll{20};
+
+std::vector<std::string> silent(const std::vector<mirror::RemoteBoard>& boards) {
+  std::vector<std::string> names;
+  for (const mirror::RemoteBoard& board : boards) {
+    if (!board.heard) {
+      names.push_back(board.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RemoteSource>, Failure> RemoteSource::open(const dds::NetworkSettings& network,
+                                                                  std::int64_t wait_ns,
+                                                                  std::vector<std::string>& notes) {
+  auto opened = mirror::RemotePlane::open(network);
+  if (!opened) {
+    return Failure{kUnreachable, opened.error().text};
+  }
+  if (!opened->note.empty()) {
+    notes.push_back(opened->note);
+  }
+  std::unique_ptr<RemoteSource> made(new RemoteSource(std::move(opened->plane), wait_ns));
+  if (auto gathered = made->gather(network.domain, notes); !gathered.ok()) {
+    return std::move(gathered).error();
+  }
+  made->thread_ = std::thread([&self = *made] { self.feed(); });
+  return made;
+}
+
+RemoteSource::~RemoteSource() {
+  stop_.store(true);
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+// Until nothing new has come for a while and nobody is missing, or the time is over.
+Result<void, Failure> RemoteSource::gather(int domain, std::vector<std::string>& notes) {
+  const std::int64_t end = rt::now_ns() + wait_ns_;
+  std::int64_t changed_ns = rt::now_ns();
+  std::uint64_t generation = plane_->generation();
+  while (!interrupted() && rt::now_ns() < end) {
+    plane_->look(rt::MonoClock::now() + kLook);
+    if (plane_->generation() != generation) {
+      generation = plane_->generation();
+      changed_ns = rt::now_ns();
+    }
+    if (plane_->complete() && rt::now_ns() - changed_ns > kQuietNs) {
+      break;
+    }
+  }
+  update();
+  title_ = fmt::format("DDS domain {}", domain);
+  std::set<std::string> plants;
+  for (const mirror::RemoteBoard& board : boards_) {
+    plants.insert(board.plant);
+  }
+  if (plants.size() == 1 && !plants.begin()->empty()) {
+    title_ = "plant " + *plants.begin();
+  }
+  for (const std::string& why : hidden_) {
+    notes.push_back(fmt::format("not shown: {}", printable(why)));
+  }
+  if (const auto missing = silent(boards_); !missing.empty()) {
+    notes.push_back(fmt::format("{}: not heard within {}: {}", title_, human_age(wait_ns_), fmt::join(missing, ", ")));
+  }
+  if (interrupted()) {
+    return Failure{interrupt_code(), {}};
+  }
+  if (variables_.empty()) {
+    return Failure{kUnreachable,
+                   fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
+                               "names <types>; other networks: --domain, --interface, --peer",
+                               domain, human_age(wait_ns_))};
+  }
+  return {};
+}
+
+void RemoteSource::feed() {
+  while (!stop_.load()) {
+    plane_->look(rt::MonoClock::now() + kLook);
+    update();
+  }
+}
+
+// What the plane knows now, and what is wanted of it.
+void RemoteSource::update() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  boards_ = plane_->boards();
+  if (plane_->generation() != plane_generation_) {
+    plane_generation_ = plane_->generation();
+    hidden_ = plane_->hidden();
+    rebuild(plane_->variables());
+  }
+  for (const std::string& variable : followed_) {
+    const auto known = variables_.find(variable);
+    if (known != variables_.end()) {
+      plane_->follow(variable, known->second.owner);
+    }
+  }
+  // The board may come to know this writer after the writer knew the board: what was sent between is lost.
+  if (order_ && order_->repeats < kMostRepeats && order_->answer != order_->value && rt::now_ns() >= order_->next_ns &&
+      plane_->send(order_->variable, variables_.at(order_->variable).owner, order_->value)) {
+    order_->sent = true;
+    order_->next_ns = rt::now_ns() + kRepeatNs;
+    ++order_->repeats;
+  }
+  plane_->take([this](const std::string& variable, const std::string& board, std::span<const std::uint8_t> value) {
+    value_came(variable, board, value);
+  });
+  news_.notify_all();
+}
+
+void RemoteSource::value_came(const std::string& variable, const std::string& board,
+                              std::span<const std::uint8_t> value) {
+  const auto known = variables_.find(variable);
+  if (known == variables_.end() || known->second.owner != board || !store_ ||
+      value.size() != known->second.declared.type.size()) {
+    return;
+  }
+  const auto* entry = store_->find(known->second.declared.name_hash());
+  if (entry != nullptr && store_->write(*entry, 0, value).ok()) {
+    arrived_.insert(variable);
+  }
+  if (order_ && order_->sent && order_->variable == variable) {
+    order_->shown = true;
+    order_->answer.assign(value.begin(), value.end());
+  }
+}
+
+// Boards that are gone keep their variables: the last values stay, and go on when the board is back, or come from
+// another one that shows them now (a standby).
+void RemoteSource::rebuild(const std::vector<mirror::RemoteVariable>& variables) {
+  const auto shows = [&](const std::string& variable, const std::string& board) {
+    return std::any_of(variables.begin(), variables.end(),
+                       [&](const auto& seen) { return seen.board == board && seen.declared.name == variable; });
+  };
+  bool other = !store_;
+  for (const mirror::RemoteVariable& seen : variables) {
+    auto& known = variables_[seen.declared.name];
+    const bool first = known.boards.empty();
+    const bool stands_in = !seen.board.empty() && known.owner != seen.board && !known.chosen;
+    if (first || (stands_in && !shows(seen.declared.name, known.owner))) {
+      known.owner = seen.board;
+    }
+    const bool replaced = first || (known.owner == seen.board && known.declared.type_hash != seen.declared.type_hash);
+    if (replaced) {
+      known.declared = seen.declared;
+      plane_->reopen(seen.declared.name);
+      known.declared.kind = abi::Kind::Ring;  // numbers what comes
+      other = true;
+    }
+    known.boards[seen.board] = seen.writable;
+  }
+  if (other && !variables_.empty()) {
+    (void)renew_store();
+  }
+}
+
+Status RemoteSource::renew_store() {
+  schema::Schema schema;
+  for (const auto& [name, known] : variables_) {
+    schema.variables.push_back(known.declared);
+  }
+  const std::string name = fmt::format("far-{}-{}", ::getpid(), ++stores_);
+  auto fresh = vars::Store::create(name, schema);
+  if (!fresh) {
+    return fresh.error();
+  }
+  auto view = vars::Store::attach(name, vars::Mode::ReadOnly);
+  (void)vars::remove_shm_file(vars::block_file(name));  // only this process has it
+  if (!view) {
+    return view.error();
+  }
+  std::vector<std::uint8_t> bytes;
+  for (const vars::DirectoryEntry& entry : fresh.value().directory()) {
+    const auto* old = store_ ? store_->find(entry.name_hash) : nullptr;
+    if (old != nullptr && old->type_hash == entry.type_hash) {
+      bytes.resize(entry.value_size);
+      if (store_->read(*old, 0, bytes).ok()) {
+        (void)fresh.value().write(entry, 0, bytes);
+      }
+    }
+  }
+  store_ = std::move(fresh).value();
+  view_ = std::move(view).value();
+  generation_.fetch_add(1);
+  return {};
+}
+
+Result<vars::Store> RemoteSource::attach() {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  if (!view_) {
+    return Error{Errc::Busy, 0, "variables of the network"};
+  }
+  vars::Store view = std::move(*view_);
+  view_.reset();
+  return view;
+}
+
+std::string RemoteSource::absence(const vars::Store* /*store*/) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto missing = silent(boards_);
+  return missing.empty() ? std::string{} : fmt::format("not heard: {}", fmt::join(missing, ", "));
+}
+
+std::string RemoteSource::prefer(const std::string& pattern, const std::string& board) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  bool any = false;
+  for (auto& [name, known] : variables_) {
+    if (known.boards.contains(board) && (name == pattern || schema::glob_match(pattern, name))) {
+      known.owner = board;
+      known.chosen = true;
+      any = true;
+    }
+  }
+  const bool there = std::any_of(boards_.begin(), boards_.end(), [&](const auto& one) { return one.name == board; });
+  return any     ? std::string{}
+         : there ? fmt::format("board {} shows no variable '{}'", board, pattern)
+                 : fmt::format("there is no board {}", board);
+}
+
+std::string RemoteSource::owner(const std::string& variable) const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto known = variables_.find(variable);
+  return known == variables_.end() ? std::string{} : known->second.owner;
+}
+
+std::vector<std::string> RemoteSource::follow(const std::set<std::string>& variables) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  followed_.insert(variables.begin(), variables.end());
+  const std::int64_t end = rt::now_ns() + wait_ns_;
+  std::vector<std::string> missing;
+  do {
+    missing.clear();
+    std::set_difference(variables.begin(), variables.end(), arrived_.begin(), arrived_.end(),
+                        std::back_inserter(missing));
+  } while (!missing.empty() && !interrupted() && rt::now_ns() < end && (news_.wait_for(lock, kPoll), true));
+  return missing;
+}
+
+Result<void, Failure> RemoteSource::set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,
+                                        const schema::Place& place, std::span<const std::uint8_t> bytes) {
+  std::vector<std::uint8_t> whole(place.variable->type.size());
+  if (const Status read = store.read(entry, 0, whole); !read.ok()) {
+    return Failure{kFailed, fmt::format("{} cannot be read: {}", name, read.error().where)};
+  }
+  std::copy(bytes.begin(), bytes.end(), whole.begin() + place.offset);
+  auto done = set_whole(place.variable->name, whole);
+  if (!done.ok()) {
+    return Failure{done.error().code, fmt::format("{} was not set: {}", name, done.error().text)};
+  }
+  return {};
+}
+
+Result<void, Failure> RemoteSource::set_whole(const std::string& variable, std::span<const std::uint8_t> value) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto known = variables_.find(variable);
+  if (known == variables_.end() || !known->second.boards[known->second.owner]) {
+    return Failure{kFailed, known != variables_.end() && known->second.owner.empty()
+                                ? "the program that shows it is not a board of InduRoP"
+                                : "its board does not let it be set from outside: external=\"write\" in the manifest"};
+  }
+  order_.emplace();
+  order_->variable = variable;
+  order_->value.assign(value.begin(), value.end());
+  const std::int64_t end = rt::now_ns() + kSetNs;
+  const auto taken = [&] { return order_->shown && order_->answer == order_->value; };
+  while (!taken() && !interrupted() && rt::now_ns() < end) {
+    news_.wait_for(lock, kPoll);
+  }
+  const RemoteOrder order = std::move(*order_);
+  order_.reset();
+  if (!order.shown) {
+    return Failure{kUnreachable,
+                   fmt::format("board {} did not answer within {}", known->second.owner, human_age(kSetNs))};
+  }
+  if (order.answer != order.value) {
+    return Failure{
+        kFailed, fmt::format("board {} shows {}: it was refused there, or a module writes it too", known->second.owner,
+                             schema::format_value(known->second.declared.type, order.answer))};
+  }
+  return {};
+}
+
+}  // namespace indurop::tools

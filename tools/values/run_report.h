@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run block says about the node as a whole, for `status` and `nodes`.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/command/verb.h"
+#include "tools/values/run_view.h"
+
+namespace indurop::tools {
+
+struct NodeReport {
+  std::string node;
+  bool alive = false;
+  std::string state;  // "running", or "not running" after a kill
+  std::int32_t pid = 0;
+  std::string config_file;
+  std::string deployment;  // empty: none
+  std::string stop_reason;
+  std::int64_t basic_period_ns = 0;
+  std::int64_t macro_period_ns = 0;
+  std::uint64_t ticks = 0;
+  std::uint64_t lost_ticks = 0;
+  std::int64_t uptime_ns = 0;  // since tick 0; 0 if unknown or not running
+  std::uint32_t modules = 0;
+  std::uint64_t overruns = 0;  // of all modules
+  std::uint64_t faults = 0;
+  scheduler::Obtained rt{};
+  scheduler::Summary lateness;
+};
+
+NodeReport report_of(const std::string& node, const RunView& run);
+// Two or three lines: state, figures, real-time rights.
+std::vector<std::string> header_lines(const NodeReport& report, const Output& output);
+// "FIFO 90 on core 1, memory locked" or "no FIFO, ...".
+std::string rt_text(const scheduler::Obtained& rt);
+JsonValue json_of(const NodeReport& report);
+
+}  // namespace indurop::tools

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run block of a node, mapped read-only and checked before anything in it is believed: looking can neither disturb
+// the node nor be crashed by a damaged file.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scheduler/quantile.h"
+#include "scheduler/run_block.h"
+#include "scheduler/words.h"
+#include "vars/run_file.h"
+
+namespace indurop::tools {
+
+// Entries of the logs as plain values; `number` counts them from 0 since the node's start.
+struct SlotSample {
+  std::uint64_t number = 0;
+  std::uint64_t tick = 0;
+  std::uint64_t slot = 0;
+  std::uint32_t module = 0;
+  std::int64_t release_ns = 0;
+  std::int64_t start_ns = 0;
+  std::int64_t end_ns = 0;
+};
+struct OverrunSample {
+  std::uint64_t number = 0;
+  std::uint64_t tick = 0;
+  std::uint64_t slot = 0;
+  std::uint32_t module = 0;
+  std::int64_t own_ns = 0;
+  std::int64_t latency_ns = 0;
+  std::int32_t previous = -1;
+  std::int64_t previous_ns = 0;
+  bool started = false;
+};
+
+class RunView {
+ public:
+  // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
+  // VersionMismatch (another version of InduRoP), Busy (the node is still building it).
+  static Result<RunView> open(const std::string& node, vars::Mode mode = vars::Mode::ReadOnly);
+
+  [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
+  [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
+  [[nodiscard]] const scheduler::ModuleRecord& module(std::uint32_t index) const noexcept;
+  // Opened read-write: to place orders in (scheduler/module_command.h), nothing else.
+  [[nodiscard]] scheduler::ModuleRecord& module_to_command(std::uint32_t index) noexcept;
+  // Name for an index found in a log; "?" if it leads nowhere.
+  [[nodiscard]] std::string module_name(std::int64_t index) const;
+  [[nodiscard]] bool node_alive() const noexcept;
+
+  // The newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left out.
+  [[nodiscard]] std::vector<SlotSample> slot_log(std::uint64_t most) const;
+  [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
+
+ private:
+  // What was checked, so that nobody can change it under us afterwards.
+  struct Checked {
+    const scheduler::ModuleRecord* modules = nullptr;
+    const scheduler::SlotEntry* slots = nullptr;
+    const scheduler::OverrunEntry* overruns = nullptr;
+    std::uint32_t module_count = 0;
+    std::uint32_t slot_capacity = 0;
+    std::uint32_t overrun_capacity = 0;
+  };
+  RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block,
+          const Checked& checked) noexcept
+      : mapping_(std::move(mapping)), block_(block), checked_(checked) {}
+  static bool check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept;
+
+  std::shared_ptr<const vars::RunFile> mapping_;
+  const scheduler::RunBlock* block_;
+  Checked checked_;
+};
+
+// Text of a fixed char array, NUL or not.
+template <std::size_t N>
+std::string fixed_text(const char (&text)[N]) {
+  const std::string_view whole(text, N);
+  return std::string(whole.substr(0, whole.find('\0')));
+}
+
+}  // namespace indurop::tools

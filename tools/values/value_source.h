@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where values come from: a node of this machine, or boards anywhere in the network. Knows nothing of a command line.
+
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/command/failure.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+
+class ValueSource {
+ public:
+  ValueSource() = default;
+  ValueSource(const ValueSource&) = delete;
+  ValueSource& operator=(const ValueSource&) = delete;
+  virtual ~ValueSource() = default;
+
+  // The present store. Another generation() than after this, or a store that has retired: attach again.
+  virtual Result<vars::Store> attach() = 0;
+  [[nodiscard]] virtual std::uint64_t generation() const = 0;
+
+  // Why values are old: "not running, last seen 3.2 s ago", "not heard: control"; empty if all is well. `store`: the
+  // one that was attached last, null if the next one could not be.
+  virtual std::string absence(const vars::Store* store) = 0;
+
+  [[nodiscard]] virtual bool here() const = 0;          // in memory of this machine
+  [[nodiscard]] virtual std::string title() const = 0;  // for JSON: "local", "plant cell"
+  [[nodiscard]] virtual std::string whose() const = 0;  // for messages: "node 'local'", "plant cell"
+  [[nodiscard]] virtual std::string gone(const std::string& absence) const = 0;  // "node 'local' is not running"
+  [[nodiscard]] virtual std::string back() const = 0;                            // "node 'local' runs again"
+
+  // Writes `bytes` at `offset` of a variable of the store.
+  virtual Result<void, Failure> set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,
+                                    const schema::Place& place, std::span<const std::uint8_t> bytes) = 0;
+
+  // NAME@BOARD: of variables that several boards show, those whose names match are this board's from now on. Returns
+  // why that cannot be, else nothing.
+  virtual std::string prefer(const std::string& pattern, const std::string& board) = 0;
+  // Board whose value of the variable is shown; empty: none.
+  [[nodiscard]] virtual std::string owner(const std::string& variable) const = 0;
+  // Waits until each of these has a value, at most so long as it may. Returns those without.
+  virtual std::vector<std::string> follow(const std::set<std::string>& variables) = 0;
+};
+
+}  // namespace indurop::tools

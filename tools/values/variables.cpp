@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/variables.h"
+
+#include <fmt/format.h>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tools/command/units.h"
+#include "tools/values/node_choice.h"
+#include "tools/values/value_source.h"
+
+namespace indurop::tools {
+namespace {
+
+bool add_item(const vars::Store& store, std::string name, const schema::Place& place, std::vector<Item>& items) {
+  const auto* entry = store.find(place.variable->name_hash());
+  if (entry == nullptr) {
+    return false;
+  }
+  const bool known = std::any_of(items.begin(), items.end(), [&](const Item& item) {
+    return item.entry == entry && item.place.offset == place.offset && item.name == name;
+  });
+  if (!known) {
+    items.push_back({std::move(name), place, entry});
+  }
+  return true;
+}
+
+schema::Place whole(const schema::Variable& variable) {
+  return {&variable, variable.type, 0, variable.unit, variable.range};
+}
+
+// Full name of a part that was named without its leading namespaces.
+std::string full_name(const std::string& text, const schema::Place& place) {
+  const std::string& variable = place.variable->name;
+  // The variable's last part ends where an index or a field begins.
+  const auto last = variable.rfind("::");
+  const std::string base = last == std::string::npos ? variable : variable.substr(last + 2);
+  std::size_t at = text.find(base);
+  while (at != std::string::npos) {
+    const std::size_t end = at + base.size();
+    const bool starts = at == 0 || text[at - 1] == ':' || text[at - 1] == '.';
+    if (starts && (end == text.size() || text[end] == '[' || text[end] == '.')) {
+      return variable + text.substr(end);
+    }
+    at = text.find(base, at + 1);
+  }
+  return variable;
+}
+
+// "NAME@BOARD" is taken apart. False after an error message.
+bool take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
+  const auto at = name.rfind('@');
+  if (context.values->here() || at == std::string::npos) {
+    return true;
+  }
+  board = name.substr(at + 1);
+  name.resize(at);
+  std::string pattern = name;
+  if (!is_glob(name)) {
+    std::string message;
+    const auto place = schema::find_place(store.schema(), name, message);
+    pattern = place.ok() ? place.value().variable->name : name;
+  }
+  const std::string problem = context.values->prefer(pattern, board);
+  if (!problem.empty()) {
+    context.out.error(problem);
+  }
+  return problem.empty();
+}
+
+}  // namespace
+
+bool is_glob(std::string_view text) {
+  if (text.find_first_of("*?") != std::string_view::npos) {
+    return true;
+  }
+  // "[...]" is a set of letters unless it is an index.
+  for (auto open = text.find('['); open != std::string_view::npos; open = text.find('[', open + 1)) {
+    const auto close = text.find(']', open);
+    if (close == std::string_view::npos) {
+      return false;
+    }
+    const auto inner = text.substr(open + 1, close - open - 1);
+    if (inner.empty() || inner.find_first_not_of("0123456789 ") != std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+                  std::vector<Item>& items, Values values) {
+  bool all_found = true;
+  for (std::string name : names) {
+    std::string board;
+    if (!take_board(context, store, name, board)) {
+      all_found = false;
+      continue;
+    }
+    if (!is_glob(name)) {
+      std::string message;
+      const auto place = schema::find_place(store.schema(), name, message);
+      if (!place.ok() || !add_item(store, full_name(name, place.value()), place.value(), items)) {
+        context.out.error(message.empty() ? fmt::format("there is no variable '{}'", name) : message);
+        all_found = false;
+      }
+      continue;
+    }
+    bool any = false;
+    for (const auto& variable : store.schema().variables) {
+      const bool meant = board.empty() || context.values->owner(variable.name) == board;
+      if (meant && schema::glob_match(name, variable.name)) {
+        any = add_item(store, variable.name, whole(variable), items) || any;
+      }
+    }
+    if (!any) {
+      context.out.error(
+          fmt::format("no variable of {} matches '{}' (indurop vars lists all)", context.values->whose(), name));
+      all_found = false;
+    }
+  }
+  if (all_found && values == Values::Needed) {
+    std::set<std::string> variables;
+    for (const Item& item : items) {
+      variables.insert(item.place.variable->name);
+    }
+    if (const auto missing = context.values->follow(variables); !missing.empty()) {
+      context.out.note(
+          fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.far.wait_ns)));
+    }
+  }
+  return all_found;
+}
+
+std::vector<std::uint8_t> read_item(const vars::Store& store, const Item& item, std::string& problem) {
+  std::vector<std::uint8_t> bytes(item.place.type.size());
+  const Status status = store.read(*item.entry, item.place.offset, bytes);
+  if (!status.ok()) {
+    problem =
+        fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code));
+  }
+  return bytes;
+}
+
+JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes) {
+  return JsonValue::parse(schema::value_to_json(type, bytes)).value_or(JsonValue());
+}
+
+std::string range_text(const std::optional<schema::Range>& range) {
+  if (!range) {
+    return {};
+  }
+  const auto end = [](double value) { return std::isinf(value) ? std::string() : fmt::format("{}", value); };
+  return end(range->min) + ".." + end(range->max);
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Variables and parts of them as a verb's arguments name them, their values, and what a declared range allows.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tools/command/verb.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+
+// A variable or a part of it. Points into the store's schema: keep the store.
+struct Item {
+  std::string name;  // full name with the part, "knu::Robot::joints[1].y"
+  schema::Place place;
+  const vars::DirectoryEntry* entry = nullptr;
+};
+
+// Items for names (exact parts) and globs, in the order given, no item twice. False after an error message for each
+// name that is nothing.
+// Those of boards in the network have a value then, if it comes in time, or are named in a message.
+enum class Values { Needed, NotNeeded };
+bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+                  std::vector<Item>& items, Values values = Values::Needed);
+bool is_glob(std::string_view text);
+
+// One consistent version of the item's bytes. `problem` is set if there is none.
+std::vector<std::uint8_t> read_item(const vars::Store& store, const Item& item, std::string& problem);
+
+// Value for JSON and CSV.
+JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes);
+
+// "0..10", "0.." without maximum, "" without range.
+std::string range_text(const std::optional<schema::Range>& range);
+
+}  // namespace indurop::tools

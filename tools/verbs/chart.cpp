@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop chart: values over time as a picture.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <iterator>
+#include <utility>
+
+#include "base/read_file.h"
+#include "base/replace_file.h"
+#include "tools/pictures/chart_svg.h"
+#include "tools/pictures/chart_text.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string svg_file;
+  std::string title;
+};
+
+int chart(Context& context, const Options& options) {
+  const bool piped = options.file == "-";
+  std::string text;
+  if (piped) {
+    text.assign(std::istreambuf_iterator<char>(std::cin), {});
+  } else if (auto content = base::read_file(options.file)) {
+    text = std::move(*content);
+  } else {
+    context.out.error(
+        fmt::format("cannot read '{}': {}; record one with `indurop watch NAME... -o csv > {}`, or give - "
+                    "and pipe it in",
+                    options.file, content.error().text, options.file));
+    return kFailed;
+  }
+  Recording recording;
+  const std::string problem = read_recording(text, piped ? "stdin" : options.file, recording);
+  if (!problem.empty()) {
+    context.out.message_line(problem);
+    return kFailed;
+  }
+  if (options.svg_file.empty() && context.format == Format::Table) {
+    for (const std::string& line : chart_lines(recording, context.out.extent().columns, context.out.unicode())) {
+      context.out.line(line);
+    }
+    return kOk;
+  }
+  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, recording);
+  if (options.svg_file.empty()) {
+    context.out.write(picture);
+    return kOk;
+  }
+  if (const auto saved = base::replace_file(options.svg_file, picture, base::Durable::No); !saved) {
+    context.out.error(base::cannot_write(options.svg_file, saved.error()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("wrote {}", options.svg_file));
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("file", "FILE.csv", options->file, "Recording; - reads it from stdin").required();
+  app.add("--svg", "FILE", options->svg_file, "Write a picture to FILE");
+  app.add("--title", "TEXT", options->title, "Heading of the picture");
+  add_format_option(app, context, {Format::Table, Format::Svg});
+  return [options](Context& c) { return chart(c, *options); };
+}
+
+}  // namespace
+
+const Verb kChartVerb{
+    "chart", "Variables", "Draw recorded values over time, in the terminal or as SVG",
+    "Reads what `indurop watch -o csv` wrote. Numbers are drawn as lines, the elements of an array together,\n"
+    "what has few values (bool, enumerators, small counters) as a lane of bars.\n"
+    "Examples:\n"
+    "  indurop watch 'joints' motor_on state --hz 50 --timeout 20s -o csv > run.csv\n"
+    "  indurop chart run.csv\n"
+    "  indurop chart run.csv --svg run.svg --title 'First run'\n",
+    &declare};
+
+}  // namespace indurop::tools

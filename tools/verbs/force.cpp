@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop force, unforce, forces: values that hold whoever writes them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rt/clock.h"
+#include "tools/command/units.h"
+#include "tools/values/assignment.h"
+#include "tools/values/force_view.h"
+#include "tools/values/node_choice.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+// Opens the store of a node that runs: forces end with it.
+Result<vars::Store, Failure> open_running(Context& context) {
+  auto store = open_store(context, vars::Mode::ReadWrite);
+  if (store) {
+    if (const std::string absence = context.values->absence(&*store); !absence.empty()) {
+      return Failure{kUnreachable, context.values->gone(absence) + ": forces are for a node that runs"};
+    }
+  }
+  return store;
+}
+
+std::string what_failed(const Error& error) {
+  if (error.code == Errc::NoSpace) {
+    return fmt::format("{} values are forced already, which is the most; let some go: indurop unforce",
+                       vars::kMostForces);
+  }
+  return error.code == Errc::Busy ? fmt::format("{}: somebody who has it is stopped; try again", error.where)
+                                  : fmt::format("{} ({})", error.where, to_string(error.code));
+}
+
+bool is_number(const schema::Type& type) {
+  return type.dims.empty() && type.base != schema::Base::Struct && type.base != schema::Base::Text;
+}
+
+struct ForceOptions {
+  std::vector<std::string> words;
+  std::int64_t for_ns = 0;
+};
+
+int force(Context& context, const ForceOptions& options) {
+  auto store = open_running(context);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  const auto assignments = read_assignments(context, *store, "force", options.words);
+  if (!assignments) {
+    return report(context.out, assignments.error());
+  }
+  int code = kOk;
+  for (const Assignment& one : *assignments) {
+    if (!is_number(one.item.place.type)) {
+      context.out.error(fmt::format("{} is a {}; force its numbers one by one", one.item.name,
+                                    schema::display_name(one.item.place.type)));
+      code = kFailed;
+    }
+  }
+  if (code != kOk) {
+    return code;
+  }
+  const std::int64_t until = options.for_ns > 0 ? rt::now_ns() + options.for_ns : vars::kForever;
+  for (const auto& [item, bytes] : *assignments) {
+    const Status forced = store->force(*item.entry, item.place.offset, bytes, until);
+    if (!forced.ok()) {
+      context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
+      return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
+    }
+  }
+  return kOk;
+}
+
+struct UnforceOptions {
+  std::vector<std::string> names;
+  bool all = false;
+};
+
+bool lies_in(const vars::Force& force, const Item& item) {
+  const std::uint64_t begin = item.place.offset;
+  return force.variable == item.entry && force.offset >= begin && force.offset < begin + item.place.type.size();
+}
+
+int unforce(Context& context, const UnforceOptions& options) {
+  if (options.names.empty() != options.all) {
+    context.out.error("name what to release: names, globs, or --all");
+    return kUsage;
+  }
+  auto store = open_store(context, vars::Mode::ReadWrite);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  std::vector<Item> items;
+  if (!options.all && !select_items(context, *store, options.names, items)) {
+    return kFailed;
+  }
+  std::size_t gone = 0;
+  for (const vars::Force& one : store->forces()) {
+    if (!options.all && std::none_of(items.begin(), items.end(), [&](const Item& i) { return lies_in(one, i); })) {
+      continue;
+    }
+    const Status status = store->let_go(*one.variable, one.offset);
+    if (!status.ok() && status.error().code != Errc::NotFound) {
+      context.out.error(what_failed(status.error()));
+      return kUnreachable;
+    }
+    ++gone;
+  }
+  if (gone == 0) {
+    context.out.note("none of these is forced");
+  }
+  return kOk;
+}
+
+int forces(Context& context) {
+  const auto store = open_store(context, vars::Mode::ReadOnly);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right}, {"LEFT", "left_ns", Align::Right}});
+  for (const ForceView& one : view_forces(*store)) {
+    const bool forever = one.left_ns == vars::kForever;
+    table.add({Cell(one.name), Cell(one.value, one.raw),
+               Cell(forever ? "until unforced" : human_age(one.left_ns), forever ? JsonValue() : JsonValue(one.left_ns),
+                    Style::None)});
+  }
+  if (table.empty() && context.format == Format::Table) {
+    context.out.note("nothing is forced");
+  }
+  print_table(context, table, {{"node", context.node}}, "forces");
+  return kOk;
+}
+
+Action declare_force(base::Options& app, Context& context) {
+  auto options = std::make_shared<ForceOptions>();
+  app.add("assignment", "TEXT", options->words, "NAME VALUE, or NAME=VALUE ...")
+      .required()
+      .completes(base::Completion::Variable);
+  add_time_option(app, "--for", options->for_ns, "Let go by itself after this time (default: until unforce)");
+  add_node_option(app, context);
+  return [options](Context& c) { return force(c, *options); };
+}
+
+Action declare_unforce(base::Options& app, Context& context) {
+  auto options = std::make_shared<UnforceOptions>();
+  app.add("names", "NAME", options->names, "Forced values, or what they are parts of, or globs")
+      .completes(base::Completion::Variable);
+  app.flag("--all", options->all, "Everything that is forced");
+  add_node_option(app, context);
+  return [options](Context& c) { return unforce(c, *options); };
+}
+
+Action declare_forces(base::Options& app, Context& context) {
+  add_node_option(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [](Context& c) { return forces(c); };
+}
+
+}  // namespace
+
+const Verb kForceVerb{"force", "Variables", "Hold numbers at a value, whoever writes them",
+                      "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
+                      "input can be simulated and an output be held while the program runs. Programs see the forced\n"
+                      "value, and boards that mirror the variable do too: force on the board that owns it. Other\n"
+                      "elements and fields go on. A force ends with unforce, after --for, or when the node ends; the\n"
+                      "value then stays until it is written. 'indurop status' shows what is forced.\n"
+                      "Examples:\n"
+                      "  indurop force PLC_ROBOT::I0 true --for 30s\n"
+                      "  indurop force 'joints[1].y=-0.5' mode=AUTO\n",
+                      &declare_force};
+
+const Verb kUnforceVerb{"unforce", "Variables", "Let forced values go",
+                        "Examples:\n"
+                        "  indurop unforce PLC_ROBOT::I0 'joints[1]'\n"
+                        "  indurop unforce --all\n",
+                        &declare_unforce};
+
+const Verb kForcesVerb{"forces", "Variables", "List what is forced, and for how long", "", &declare_forces};
+
+}  // namespace indurop::tools

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop get: values of variables or parts of them, once.
+#include <fmt/format.h>
+
+#include "tools/values/node_choice.h"
+#include "tools/values/variables.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::size_t kAlignedValue = 24;
+
+int get(Context& context, const std::vector<std::string>& names) {
+  const auto store = open_store(context, vars::Mode::ReadOnly);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  const std::string absence = context.values->absence(&*store);
+  if (!absence.empty() && context.values->here()) {
+    context.out.note(context.values->gone(absence) + ": these are the last values");
+  }
+  std::vector<Item> items;
+  if (!select_items(context, *store, names, items)) {
+    return kFailed;
+  }
+  Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
+  for (const Item& item : items) {
+    std::string problem;
+    const auto bytes = read_item(*store, item, problem);
+    if (!problem.empty()) {
+      context.out.error(problem);
+      return kFailed;
+    }
+    const std::string text = schema::format_value(item.place.type, bytes);
+    // The usual `x=$(indurop get NAME)`: one name, nothing but its value.
+    if (context.format == Format::Table && items.size() == 1) {
+      context.out.line(item.place.unit.empty() || !context.out.terminal() ? text : text + " " + item.place.unit);
+      return kOk;
+    }
+    table.add({Cell(item.name), Cell(text, raw_value(item.place.type, bytes)), Cell(item.place.unit)});
+  }
+  print_table(context, table, {{"node", context.values->title()}, {"running", absence.empty()}}, "values");
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto names = std::make_shared<std::vector<std::string>>();
+  app.add("names", "NAME", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
+      .required()
+      .completes(base::Completion::Variable);
+  add_node_option(app, context);
+  add_far_options(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [names](Context& c) { return get(c, *names); };
+}
+
+}  // namespace
+
+const Verb kGetVerb{"get", "Variables", "Print the value of variables or parts of them",
+                    "Leading namespaces may be left out if the rest is unique; '.' and '::' both separate them.\n"
+                    "One name prints nothing but its value, so that x=$(indurop get tick) works.\n"
+                    "Examples:\n"
+                    "  indurop get tick\n"
+                    "  indurop get 'joints[1].y' 'joints[2]'\n"
+                    "  indurop get 'knu::Robot::*' -o json\n",
+                    &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop history: earlier deployments, as the boards remember them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <ctime>
+#include <tuple>
+
+#include "rt/clock.h"
+#include "tools/command/units.h"
+#include "tools/plant/board_history.h"
+#include "tools/plant/board_roster.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+struct Options {
+  std::string board;
+  deploy::LinkSettings link;
+  std::int64_t wait_ns = 1'000'000'000;
+};
+
+std::string local_time(std::int64_t wall_ns) {
+  const std::time_t seconds = wall_ns / rt::kNanosPerSecond;
+  std::tm parts{};
+  ::localtime_r(&seconds, &parts);
+  char text[32] = "";
+  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
+}
+
+struct Row {
+  PastDeployment past;
+  std::vector<std::string> boards;
+  bool current = false;
+};
+
+// What several boards say of one deployment is one row.
+void merge(std::vector<Row>& rows, const std::string& board, const PastDeployment& past, bool current) {
+  const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+    return std::tie(row.past.deployment, row.past.generation, row.past.outcome, row.past.host) ==
+           std::tie(past.deployment, past.generation, past.outcome, past.host);
+  });
+  if (same == rows.end()) {
+    rows.push_back({past, {board}, current});
+    return;
+  }
+  if (same->boards.back() != board) {
+    same->boards.push_back(board);
+  }
+  same->current = same->current || current;
+}
+
+int history(Context& context, Options& options) {
+  auto link = open_link(context, options.link);
+  if (link == nullptr) {
+    return kUnreachable;
+  }
+  BoardRoster roster;
+  roster.gather(*link, options.wait_ns,
+                [&] { return !options.board.empty() && roster.find(options.board) != nullptr; });
+  std::vector<Row> rows;
+  bool heard = false;
+  for (const auto& [key, entry] : roster.all()) {
+    if (!options.board.empty() && key.first != options.board) {
+      continue;
+    }
+    heard = true;
+    for (const PastDeployment& past : fetch_history(*link, options.link.self, key.second)) {
+      const bool current = past.deployment == entry.report.current && past.generation == entry.report.generation;
+      merge(rows, key.first, past, current && past.outcome == "committed");
+    }
+  }
+  if (!heard) {
+    context.out.error(options.board.empty() ? "no board was heard"
+                                            : fmt::format("board {} was not heard", options.board));
+    return kUnreachable;
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.past.generation < b.past.generation; });
+  Table table({{"", "generation"},
+               {"", "current"},
+               {"DEPLOYMENT", "deployment"},
+               {"PLANT", "plant"},
+               {"WHEN", "wall_ns"},
+               {"FROM", "host"},
+               {"BOARDS", "boards"},
+               {"OUTCOME", "outcome"}});
+  for (const Row& row : rows) {
+    const bool committed = row.past.outcome == "committed";
+    table.add({{"", row.past.generation},
+               {"", row.current},
+               {deploy::shown_id(row.past.deployment) + (row.current ? " *" : ""), row.past.deployment, Style::Bold},
+               Cell(printable(row.past.plant)),
+               {local_time(row.past.wall_ns), row.past.wall_ns},
+               Cell(printable(row.past.host)),
+               {fmt::format("{}", fmt::join(row.boards, ", ")), row.boards},
+               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad}});
+  }
+  if (table.empty()) {
+    context.out.note("nothing was deployed yet");
+  }
+  print_table(context, table, JsonValue::object(), "deployments");
+  return kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("--board", "NAME", options->board, "Only what this board remembers");
+  add_link_options(app, options->link);
+  add_time_option(app, "--wait", options->wait_ns, "Listen so long for boards (default: 1s)");
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return [options](Context& c) { return history(c, *options); };
+}
+
+}  // namespace
+
+const Verb kHistoryVerb{
+    "history", "Plants", "Show what was deployed to the boards before, and what became of it",
+    "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n", &declare};
+
+}  // namespace indurop::tools

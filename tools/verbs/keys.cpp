@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop keys: who may take part in a plant.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "config/xml/plant_reader.h"
+#include "config/xml/plant_rules.h"
+#include "keys/plant_keys.h"
+#include "tools/command/config_file.h"
+#include "tools/command/suggest.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDefaultDays = 3650;
+constexpr int kMostDays = 36500;
+
+struct Request {
+  std::string folder;               // --dir
+  std::string plant = "plant.xml";  // of init
+  std::vector<std::string> boards;  // of add, renew, revoke
+  int days = kDefaultDays;
+};
+
+keys::Instant until(const Request& request) {
+  return keys::instant_now() + std::chrono::days(request.days);
+}
+
+// --dir, else what the manifest here says, else "keys".
+keys::PlantKeys keys_of(const Request& request) {
+  if (!request.folder.empty()) {
+    return keys::PlantKeys(request.folder);
+  }
+  std::error_code ignored;
+  if (fs::exists(request.plant, ignored)) {
+    const config::ReadPlant read = config::read_plant(request.plant);
+    return keys::PlantKeys(read.plant.security.empty() ? fs::path(request.plant).parent_path() / "keys"
+                                                       : read.plant.security.lexically_proximate(fs::current_path()));
+  }
+  return keys::PlantKeys("keys");
+}
+
+const char* to_text(keys::Role role) {
+  switch (role) {
+    case keys::Role::Board:
+      return "board";
+    case keys::Role::Viewer:
+      return "viewer";
+    case keys::Role::Deployer:
+      return "deployer";
+  }
+  return "";
+}
+
+// Keys must be there, and for changes the authority's private one.
+bool usable(Context& context, const keys::PlantKeys& keys) {
+  if (keys.plant().empty()) {
+    context.out.error(
+        fmt::format("there are no keys in {}; make them with indurop keys init PLANT, or say with --dir "
+                    "where they are",
+                    keys.folder().string()));
+    return false;
+  }
+  return true;
+}
+
+int list(Context& context, const Request& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  const keys::Instant now = keys::instant_now();
+  Table table({{"ROLE", "role"},
+               {"NAME", "name"},
+               {"VALID UNTIL", "valid_until"},
+               {"DAYS", "days_left", Align::Right},
+               {"PROBLEM", "problem", Align::Left, 1},
+               {"FOLDER", "folder", Align::Left, 2}});
+  bool ok = true;
+  for (const keys::KeyListing& each : keys.list(now)) {
+    const auto days = std::chrono::floor<std::chrono::days>(each.validity.until - now).count();
+    table.add({Cell(to_text(each.role)), Cell(each.name), Cell(keys::utc_text(each.validity.until)),
+               Cell(std::to_string(days), JsonValue(days)), Cell(each.problem), Cell(each.folder.string())});
+    ok = ok && (each.problem.empty() || each.revoked);
+  }
+  print_table(context, table, {{"plant", keys.plant()}, {"folder", keys.folder().string()}}, "keys");
+  return ok ? kOk : kFailed;
+}
+
+void say_what_is_there(Context& context, const keys::PlantKeys& keys) {
+  std::string names;
+  for (const keys::KeyListing& each : keys.list(keys::instant_now())) {
+    names += (names.empty() ? "" : ", ") + each.name;
+  }
+  context.out.error(
+      fmt::format("{} holds the keys of plant {} already, for {}; private keys are never replaced. A board that has "
+                  "come: indurop keys add BOARD; an end that is near: indurop keys renew; all: indurop keys list",
+                  keys.folder().string(), keys.plant(), names));
+}
+
+int init(Context& context, const Request& request) {
+  std::error_code ignored;
+  if (!fs::exists(request.plant, ignored)) {
+    context.out.error(fmt::format("there is no file '{}'; name the manifest of the plant", request.plant));
+    return kFailed;
+  }
+  const config::ReadPlant read = config::read_plant(request.plant);
+  if (!read.ok()) {
+    print_diagnostics(context, read.diagnostics, false);
+    return kCheckFailed;
+  }
+  const keys::PlantKeys keys = keys_of(request);
+  if (keys.exist()) {
+    say_what_is_there(context, keys);
+    return kFailed;
+  }
+  std::vector<std::string> boards;
+  for (const config::Board& board : read.plant.boards) {
+    boards.push_back(board.name);
+  }
+  if (const std::string problem = keys.make(read.plant.name, boards, until(request)); !problem.empty()) {
+    context.out.error(problem);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made the keys of plant {} in {}: for {}, a viewer and a deployer, valid until {}",
+                               read.plant.name, keys.folder().string(), counted(boards.size(), "board"),
+                               keys::utc_text(until(request)).substr(0, 10)));
+  if (read.plant.security.empty()) {
+    const fs::path here = fs::absolute(request.plant, ignored).lexically_normal().parent_path();
+    const fs::path there = fs::absolute(keys.folder(), ignored).lexically_normal();
+    context.out.note(fmt::format("next: write <security>{}</security> into {}",
+                                 there.lexically_proximate(here).string(), request.plant));
+  }
+  context.out.note(
+      fmt::format("copy {}/boards/BOARD to /etc/indurop/keys/{}/BOARD of each board, for its node's user "
+                  "alone; keep {}/ca.key away from the plant",
+                  keys.folder().string(), read.plant.name, keys.folder().string()));
+  return kOk;
+}
+
+int add(Context& context, const Request& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  for (const std::string& board : request.boards) {
+    if (!config::is_node_name(board)) {
+      context.out.error(
+          fmt::format("'{}' is not a valid board name: use up to 40 letters, digits, '_' and '-'", board));
+      return kUsage;
+    }
+  }
+  for (const std::string& board : request.boards) {
+    if (const std::string problem = keys.add(board, until(request)); !problem.empty()) {
+      context.out.error(problem);
+      return kFailed;
+    }
+    context.out.line(fmt::format("made {}", keys.board(board).string()));
+  }
+  return kOk;
+}
+
+// Those that are named, boards before others of the same name; empty after an error.
+std::vector<keys::KeyListing> chosen(Context& context, const keys::PlantKeys& keys,
+                                     const std::vector<std::string>& names) {
+  const std::vector<keys::KeyListing> all = keys.list(keys::instant_now());
+  std::vector<std::string> known;
+  std::transform(all.begin(), all.end(), std::back_inserter(known), [](const auto& each) { return each.name; });
+  std::vector<keys::KeyListing> found;
+  for (const std::string& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      context.out.error(
+          fmt::format("there are no keys of '{}' in {}.{}", name, keys.folder().string(), did_you_mean(name, known)));
+      return {};
+    }
+    found.push_back(all[static_cast<std::size_t>(at - known.begin())]);
+  }
+  return found;
+}
+
+int renew(Context& context, const Request& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  std::vector<keys::KeyListing> whose;
+  if (request.boards.empty()) {
+    whose = keys.list(keys::instant_now());
+    std::erase_if(whose, [](const keys::KeyListing& each) { return each.revoked; });
+  } else {
+    whose = chosen(context, keys, request.boards);
+  }
+  for (const keys::KeyListing& each : whose) {
+    const std::string problem =
+        each.revoked ? fmt::format("{} was revoked; move {} away and give it new keys: indurop keys add {}", each.name,
+                                   each.folder.string(), each.name)
+                     : keys.renew(each, until(request));
+    if (!problem.empty()) {
+      context.out.error(problem);
+      return kFailed;
+    }
+    context.out.line(fmt::format("{} is valid until {}: copy identity.pem and permissions.p7s of {} to it", each.name,
+                                 keys::utc_text(until(request)).substr(0, 10), each.folder.string()));
+  }
+  return whose.empty() ? kFailed : kOk;
+}
+
+int revoke(Context& context, const Request& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  const auto whose = chosen(context, keys, request.boards);
+  for (const keys::KeyListing& each : whose) {
+    if (const std::string problem = keys.revoke(each); !problem.empty()) {
+      context.out.error(problem);
+      return kFailed;
+    }
+    context.out.line(fmt::format("{} is revoked: copy revoked.pem to every board, and restart its node", each.name));
+  }
+  return whose.empty() ? kFailed : kOk;
+}
+
+void add_common(base::Options& verb, Request& request) {
+  verb.add("--dir", "DIR", request.folder, "Folder of the keys (default: <security> of ./plant.xml, else ./keys)");
+}
+
+void add_days(base::Options& verb, Request& request) {
+  verb.add("--days", "N", request.days, fmt::format("How long they are valid (default: {})", kDefaultDays))
+      .range(1, kMostDays);
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto request = std::make_shared<Request>();
+  auto chosen_action = std::make_shared<Action>();
+  const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const Request&)) {
+    base::Options& made = app.command(name, help, [request, chosen_action, action] {
+      *chosen_action = [request, action](Context& c) { return action(c, *request); };
+    });
+    add_common(made, *request);
+    return &made;
+  };
+  base::Options* made =
+      verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init);
+  made->add("plant", "PLANT", request->plant, "Manifest of the plant (default: plant.xml)");
+  add_days(*made, *request);
+  made = verb("add", "Make the keys of a further board", &add);
+  made->add("boards", "BOARD", request->boards, "Names of the boards").required();
+  add_days(*made, *request);
+  add_format_option(*verb("list", "Show who has keys, and until when they are valid", &list), context,
+                    {Format::Table, Format::Json, Format::Csv});
+  made = verb("renew", "Issue new certificates for the same private keys", &renew);
+  made->add("names", "NAME", request->boards, "Whose (default: all)");
+  add_days(*made, *request);
+  made = verb("revoke", "Make certificates void", &revoke);
+  made->add("names", "NAME", request->boards, "Whose").required();
+  return [chosen_action](Context& c) { return (*chosen_action)(c); };
+}
+
+}  // namespace
+
+const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plant",
+                     "Only holders of keys of the plant can read or write its variables once the manifest says\n"
+                     "<security>keys</security>. docs/security.md tells which file belongs where.\n"
+                     "Private keys are readable by their owner alone and never replaced.\n",
+                     &declare};
+
+}  // namespace indurop::tools

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/verbs/new_templates.h"
+
+#include <array>
+
+namespace indurop::tools {
+namespace {
+
+constexpr const char* kCMakeLists = R"text(# Builds the modules of @NAME@ into build/. `make` does all of it.
+cmake_minimum_required(VERSION 3.25)
+project(@NAME@ LANGUAGES C CXX)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+endif()
+find_package(InduRoP @VERSION@ REQUIRED)
+
+# Shared variables: whoever names the target below can include <indurop/generated.h>.
+indurop_add_glb(variables FILES demo.glb)
+
+# Thread modules (.so) run inside the node, process modules (.exe) beside it.
+indurop_add_module(wave SOURCES src/wave.cpp GLB variables)
+indurop_add_module(smooth SOURCES src/smooth.cpp GLB variables)
+indurop_add_module(monitor PROCESS SOURCES src/monitor.cpp GLB variables)
+)text";
+
+constexpr const char* kMakefile =
+    R"text(# make: build    make check: look for mistakes    make run: run until Ctrl-C    make clean
+# Where InduRoP was when this project was made; if it is there no more, CMake and PATH are searched.
+INDUROP_PACKAGE ?= @PACKAGE@
+INDUROP_PROGRAMS ?= @PROGRAMS@
+INDUROP = $(firstword $(wildcard $(INDUROP_PROGRAMS)/indurop) indurop)
+
+MAKEFLAGS += --no-print-directory
+.PHONY: all check run clean
+all:
+	@cmake -S . -B build $(if $(wildcard $(INDUROP_PACKAGE)/InduRoPConfig.cmake),"-DInduRoP_DIR=$(INDUROP_PACKAGE)")
+	@cmake --build build
+
+check: all
+	@"$(INDUROP)" check module.xml
+
+run: all
+	@"$(INDUROP)" run module.xml
+
+clean:
+	@rm -rf build
+)text";
+
+constexpr const char* kGlb =
+    R"text(// Variables that all modules of @NAME@ share. A comment behind a declaration is its description.
+namespace demo;
+
+double gain = 1.0 @range(0, 10);  // amplitude of the wave: try `indurop set gain 2.5`
+double wave @unit("mm");          // written by wave, every millisecond
+double smoothed @unit("mm");      // written by smooth, every 10 milliseconds
+uint32_t starts = 0 @retain;      // how often this project was started; outlives the power
+
+struct {
+  double lowest @unit("mm");
+  double highest @unit("mm");
+  uint32_t samples;
+} seen;  // written by monitor, every 100 milliseconds
+)text";
+
+constexpr const char* kWave = R"text(// Thread module, every millisecond: makes a sine wave.
+#include <indurop/indurop.h>
+#include <indurop/generated.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace demo;
+
+namespace {
+double seconds_per_wave = 2.0;
+double phase = 0;
+}  // namespace
+
+// Before the first run and not real-time: the place for files, memory, properties.
+void on_start() {
+  seconds_per_wave = irp::property("seconds per wave", 2.0);
+  ++starts;
+}
+
+// Real-time: no memory allocation, no files, no waiting.
+void on_run() {
+  constexpr double kPeriod = 0.001;
+  phase += 2 * std::numbers::pi * kPeriod / seconds_per_wave;
+  phase = std::fmod(phase, 2 * std::numbers::pi);
+  wave = gain * std::sin(phase);
+}
+
+INDUROP_MODULE(start = &::on_start, run = &::on_run, name = "wave")
+)text";
+
+constexpr const char* kSmooth = R"text(// Thread module, every 10 milliseconds: smooths the wave.
+#include <indurop/indurop.h>
+#include <indurop/generated.h>
+
+using namespace demo;
+
+void on_run() {
+  constexpr double kPart = 0.2;
+  smoothed += kPart * (wave - smoothed);
+}
+
+INDUROP_MODULE(run = &::on_run, name = "smooth")
+)text";
+
+constexpr const char* kMonitor =
+    R"text(// Process module, every 100 milliseconds: watches the smoothed wave. A crash here does not touch the other modules.
+#include <indurop/indurop.h>
+#include <indurop/generated.h>
+
+#include <algorithm>
+
+int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;  // the reason was printed
+  }
+  while (irp::waitPeriod()) {
+    const double now = demo::smoothed;
+    auto seen = lock(demo::seen);  // one commit when the scope ends
+    seen->lowest = std::min(seen->lowest, now);
+    seen->highest = std::max(seen->highest, now);
+    seen->samples += 1;
+    if (seen->samples % 10 == 0) {
+      irp::printf("smoothed %6.3f mm, between %6.3f and %6.3f\n", now, seen->lowest, seen->highest);
+    }
+  }
+  return 0;
+}
+)text";
+
+constexpr const char* kModuleXml = R"text(<?xml version="1.0" encoding="UTF-8"?>
+<!-- What runs, how often and in which order: the lowest priority value comes first in each period. -->
+<root>
+  <module>
+    <filename>./build/wave.so</filename>
+    <moduletype>thread</moduletype>
+    <operationtype>periodic</operationtype>
+    <period>1ms</period>
+    <priority>1</priority>
+    <property>
+      <value name="seconds per wave">2.0</value>
+    </property>
+  </module>
+  <module>
+    <filename>./build/smooth.so</filename>
+    <moduletype>thread</moduletype>
+    <operationtype>periodic</operationtype>
+    <period>10ms</period>
+    <priority>2</priority>
+  </module>
+  <module>
+    <filename>./build/monitor.exe</filename>
+    <moduletype>process</moduletype>
+    <operationtype>periodic</operationtype>
+    <period>100ms</period>
+    <priority>3</priority>
+  </module>
+</root>
+)text";
+
+constexpr const char* kReadme = R"text(# @NAME@
+
+An InduRoP project: two thread modules and a process module that share variables.
+
+| file | what it is |
+|---|---|
+| `demo.glb` | the shared variables |
+| `src/wave.cpp`, `src/smooth.cpp` | thread modules |
+| `src/monitor.cpp` | process module |
+| `module.xml` | periods, priorities, properties |
+
+    make                      # builds into build/
+    indurop check             # mistakes, who reads and writes what
+    indurop plan              # which module runs in which basic period
+    indurop run &             # runs module.xml in the background
+    indurop status
+    indurop watch 'demo::*'   # q quits
+    indurop set gain 2.5
+    indurop jitter
+    indurop stop
+
+Real-time priority needs rights; without them everything works, only less exactly. `indurop doctor` says what is missing.
+If `indurop` is not found, put it into PATH: `export PATH=@PROGRAMS@:$PATH`.
+)text";
+
+constexpr const char* kGitignore = "build/\n";
+
+constexpr std::array<ProjectFile, 9> kFiles{{{"CMakeLists.txt", kCMakeLists},
+                                             {"Makefile", kMakefile},
+                                             {"demo.glb", kGlb},
+                                             {"src/wave.cpp", kWave},
+                                             {"src/smooth.cpp", kSmooth},
+                                             {"src/monitor.cpp", kMonitor},
+                                             {"module.xml", kModuleXml},
+                                             {"README.md", kReadme},
+                                             {".gitignore", kGitignore}}};
+
+}  // namespace
+
+std::span<const ProjectFile> project_files() {
+  return kFiles;
+}
+
+}  // namespace indurop::tools

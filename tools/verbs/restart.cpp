@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop restart: modules, and nodes of boards.
+#include "tools/plant/commands.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<CommandOptions>();
+  add_command_options(app, context, *options);
+  return [options](Context& c) {
+    if (options->targets.empty()) {
+      c.out.error("restart what? MODULE, MODULE@BOARD or @BOARD");
+      return kUsage;
+    }
+    return carry_out(c, scheduler::ModuleCommand::Restart, *options);
+  };
+}
+
+}  // namespace
+
+const Verb kRestartVerb{
+    "restart", "Start and stop", "Stop and start modules, or the node of a board",
+    "The stop() and start() of the module are called while the others keep their ticks; a process module ends and is\n"
+    "launched again. A .so stays loaded. MODULE@BOARD and @BOARD are those of indurop start.\n"
+    "Examples:\n"
+    "  indurop restart vision\n"
+    "  indurop restart vision@control --keys keys\n",
+    &declare};
+
+}  // namespace indurop::tools

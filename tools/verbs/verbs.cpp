@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/verbs/verbs.h"
+
+#include <array>
+
+namespace indurop::tools {
+
+std::span<const Verb> all_verbs() {
+  // In the order `indurop help` shows them.
+  static const std::array kVerbs{
+      kNewVerb,    kCheckVerb,    kPlanVerb,    kPlcVerb,    kKeysVerb,     kDoctorVerb,  kRunVerb,   kStopVerb,
+      kStartVerb,  kRestartVerb,  kResetVerb,   kCleanVerb,  kStatusVerb,   kNodesVerb,   kVarsVerb,  kGetVerb,
+      kSetVerb,    kForceVerb,    kUnforceVerb, kForcesVerb, kWatchVerb,    kChartVerb,   kHzVerb,    kTypeofVerb,
+      kJitterVerb, kOverrunsVerb, kLogVerb,     kDeployVerb, kRollbackVerb, kHistoryVerb, kBoardsVerb};
+  return kVerbs;
+}
+
+}  // namespace indurop::tools
