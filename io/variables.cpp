@@ -61,16 +61,9 @@ void store_scalar(void* entry, std::uint32_t size, std::uint64_t bits) noexcept 
 // The way of detail::ring_read for a size that is known at run time only.
 void load_ring(const abi::Ref& row, std::uint32_t offset, void* to, std::uint32_t size) noexcept {
   abi::RingHeader* ring = ring_of(row);
-  constexpr int kTries = 16;
-  for (int i = 0; i < kTries; ++i) {
-    const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
-    detail::copy_from_shared(to, detail::slot(ring, seq, abi::slot_stride(row.value_size)) + offset, size);
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (ring->seq.load(std::memory_order_relaxed) - seq <= abi::kSlots - 2) {
-      return;
-    }
+  if (!detail::try_copies(ring, abi::slot_stride(row.value_size), to, offset, size)) {
+    indurop_read_slow(ring, to, offset, size);
   }
-  indurop_read_slow(ring, to, offset, size);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept {
   indurop::vars::commit(*ring);
 }
 void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept {
-  indurop::vars::abort(*ring);
+  indurop::vars::discard(*ring);
 }
 
 bool indurop_hold_scalar(void* entry) noexcept {

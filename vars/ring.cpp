@@ -160,7 +160,7 @@ void commit(RingHeader& ring) noexcept {
   rt::unlock(ring.lock);
 }
 
-void abort(RingHeader& ring) noexcept {
+void discard(RingHeader& ring) noexcept {
   rt::unlock(ring.lock);
 }
 
@@ -172,17 +172,7 @@ void release_if_mine(RingHeader& ring, pid_t thread) noexcept {
 
 bool try_read(const RingHeader& ring, std::uint32_t value_size, std::uint32_t offset, void* to,
               std::uint32_t length) noexcept {
-  const auto* slots = reinterpret_cast<const unsigned char*>(&ring) + sizeof(RingHeader);
-  const std::size_t stride = abi::slot_stride(value_size);
-  for (int i = 0; i < kReadTries; ++i) {
-    const std::uint64_t before = ring.seq.load(std::memory_order_acquire);
-    detail::copy_from_shared(to, slots + (before % kSlots) * stride + offset, length);
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (ring.seq.load(std::memory_order_relaxed) - before <= kSlots - 2) {
-      return true;
-    }
-  }
-  return false;
+  return detail::try_copies(&ring, abi::slot_stride(value_size), to, offset, length);
 }
 
 bool check_ring(RingHeader& ring, std::uint32_t value_size) noexcept {

@@ -14,7 +14,6 @@ namespace indurop::vars {
 
 // Values up to this size are copied whole from version to version; larger ones only where versions differ.
 inline constexpr std::uint32_t kWholeCopyLimit = 512;
-inline constexpr int kReadTries = 16;
 
 // Fills a new entry: version 0 holds `initial` (value_size bytes, null: all zero). `memory` is zeroed, aligned to
 // abi::kAlign and abi::entry_size() long. False if the system has no robust locks. Not real-time safe.
@@ -22,12 +21,12 @@ bool init_ring(void* memory, std::uint32_t value_size, const void* initial) noex
 
 // Takes the lock and returns the next version's slot, equal to the current version everywhere outside
 // [offset, offset + length), which must lie inside the value and be filled by the caller. Null, and one more
-// lost_writes, if the lock was not free within 5 ms or the caller has it. Ends with commit() or abort().
+// lost_writes, if the lock was not free within 5 ms or the caller has it. Ends with commit() or discard().
 void* begin_write(abi::RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept;
 // The same for changes anywhere: the slot is a copy of the current version.
 void* begin_edit(abi::RingHeader& ring) noexcept;
-void commit(abi::RingHeader& ring) noexcept;  // readers see the new version from here on
-void abort(abi::RingHeader& ring) noexcept;   // the current version stays
+void commit(abi::RingHeader& ring) noexcept;   // readers see the new version from here on
+void discard(abi::RingHeader& ring) noexcept;  // the current version stays
 
 // True if the entry is what init_ring made of this size and its lock works or is held by a living thread. Repairs
 // what a killed writer left. Does not wait.
@@ -37,8 +36,9 @@ bool check_ring(abi::RingHeader& ring, std::uint32_t value_size) noexcept;
 // its gettid(), asked for once when there are many rings.
 void release_if_mine(abi::RingHeader& ring, pid_t thread) noexcept;
 
-// One consistent version of value bytes [offset, offset + length). False if kReadTries copies were all overtaken by
-// three commits. Works on read-only memory. `value_size` is the caller's: what the memory says is not trusted.
+// One consistent version of value bytes [offset, offset + length). False if detail::kReadTries copies were all
+// overtaken by three commits. Works on read-only memory. `value_size` is the caller's: what the memory says is not
+// trusted.
 bool try_read(const abi::RingHeader& ring, std::uint32_t value_size, std::uint32_t offset, void* to,
               std::uint32_t length) noexcept;
 // Always succeeds: asks writers to wait through the lock. Needs writable memory.

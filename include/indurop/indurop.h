@@ -15,4 +15,6 @@
 #include <indurop/string.h>
 #include <indurop/var.h>
 
+// Not for us: Figure 13 of the chapter writes to std::cout and includes nothing else of ours or of the standard
+// library.
 #include <iostream>

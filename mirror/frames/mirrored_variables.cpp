@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mirror/frames/mirrored_variables.h"
 
+#include <indurop/detail/freshness.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -23,11 +25,11 @@ std::vector<MirroredVariable> mirrored_variables(const std::string& node, const 
     const char* owner = block.peers()[record.peer].name;
     const std::int64_t confirmed =
         abi::confirmed_of(store.value().entry(entry->name_hash, 0), entry->kind).load(std::memory_order_acquire);
-    const bool never = confirmed == abi::kNeverConfirmed;
+    const auto now_ns = [now] { return rt::to_ns(now); };
     const std::int64_t age =
-        never ? -1 : std::max<std::int64_t>(0, rt::to_ns(now) - (confirmed < 0 ? -confirmed : confirmed));
+        confirmed == abi::kNeverConfirmed ? -1 : std::max<std::int64_t>(0, detail::age_of(confirmed, now_ns).count());
     variables.push_back({variable.name, std::string(owner, ::strnlen(owner, kBoardName)), age,
-                         confirmed > 0 && (variable.maxage_ns == 0 || age <= variable.maxage_ns)});
+                         detail::is_valid(confirmed, variable.maxage_ns, now_ns)});
   }
   return variables;
 }

@@ -90,34 +90,45 @@ INDUROP_ALWAYS_INLINE T scalar_modify(void* entry, Change change) noexcept {
 INDUROP_ALWAYS_INLINE unsigned char* slot(abi::RingHeader* ring, std::uint64_t seq, std::size_t stride) noexcept {
   return reinterpret_cast<unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
 }
+INDUROP_ALWAYS_INLINE const unsigned char* slot(const abi::RingHeader* ring, std::uint64_t seq,
+                                                std::size_t stride) noexcept {
+  return reinterpret_cast<const unsigned char*>(ring) + sizeof(abi::RingHeader) + (seq % abi::kSlots) * stride;
+}
 
 // Copies a part of the current version; false if writers overtook it. The slot is written again only after three more
 // commits: two are harmless.
-template <std::size_t Size>
-INDUROP_ALWAYS_INLINE bool try_copy(abi::RingHeader* ring, std::uint64_t seq, void* to, std::uint32_t offset,
-                                    std::size_t length) noexcept {
-  copy_from_shared(to, slot(ring, seq, abi::slot_stride(Size)) + offset, length);
+INDUROP_ALWAYS_INLINE bool try_copy(const abi::RingHeader* ring, std::size_t stride, std::uint64_t seq, void* to,
+                                    std::uint32_t offset, std::size_t length) noexcept {
+  copy_from_shared(to, slot(ring, seq, stride) + offset, length);
   std::atomic_thread_fence(std::memory_order_acquire);
   return ring->seq.load(std::memory_order_relaxed) - seq <= abi::kSlots - 2;
+}
+
+// False if that many copies were all overtaken.
+inline constexpr int kReadTries = 16;
+INDUROP_ALWAYS_INLINE bool try_copies(const abi::RingHeader* ring, std::size_t stride, void* to, std::uint32_t offset,
+                                      std::size_t length) noexcept {
+  for (int i = 0; i < kReadTries; ++i) {
+    if (try_copy(ring, stride, ring->seq.load(std::memory_order_acquire), to, offset, length)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 template <std::size_t Size>
 [[gnu::noinline, gnu::cold]] void ring_read_again(abi::RingHeader* ring, void* to, std::uint32_t offset,
                                                   std::size_t length) noexcept {
-  constexpr int kTries = 15;
-  for (int i = 0; i < kTries; ++i) {
-    if (try_copy<Size>(ring, ring->seq.load(std::memory_order_acquire), to, offset, length)) {
-      return;
-    }
+  if (!try_copies(ring, abi::slot_stride(Size), to, offset, length)) {
+    indurop_read_slow(ring, to, offset, static_cast<std::uint32_t>(length));
   }
-  indurop_read_slow(ring, to, offset, static_cast<std::uint32_t>(length));
 }
 
 template <class T, std::size_t Size>
 INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
   const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
   T value;  // declared here, so that its initial zeros are seen to be overwritten and cost nothing
-  if (!try_copy<Size>(ring, seq, &value, offset, sizeof(T))) [[unlikely]] {
+  if (!try_copy(ring, abi::slot_stride(Size), seq, &value, offset, sizeof(T))) [[unlikely]] {
     ring_read_again<Size>(ring, &value, offset, sizeof(T));
   }
   return value;

@@ -25,25 +25,39 @@ inline std::int64_t steady_ns() noexcept {
       .count();
 }
 
-template <class Tag>
-std::chrono::nanoseconds age() noexcept {
-  const std::int64_t confirmed = abi::confirmed_of(Tag::ref().entry, Tag::kKind).load(std::memory_order_acquire);
+// What abi::confirmed_of() says, decoded. `now_ns` gives the time; it is asked only where it matters.
+template <class Now>
+std::chrono::nanoseconds age_of(std::int64_t confirmed, Now now_ns) noexcept {
   if (confirmed == 0) {
     return std::chrono::nanoseconds::zero();
   }
   if (confirmed == abi::kNeverConfirmed) {
     return std::chrono::nanoseconds::max();
   }
-  return std::chrono::nanoseconds(steady_ns() - (confirmed > 0 ? confirmed : -confirmed));
+  return std::chrono::nanoseconds(now_ns() - (confirmed > 0 ? confirmed : -confirmed));
+}
+
+template <class Now>
+bool is_valid(std::int64_t confirmed, std::int64_t max_age, Now now_ns) noexcept {
+  if (confirmed <= 0) {
+    return confirmed == 0;
+  }
+  return max_age == 0 || now_ns() - confirmed <= max_age;
+}
+
+template <class Tag>
+std::int64_t confirmed() noexcept {
+  return abi::confirmed_of(Tag::ref().entry, Tag::kKind).load(std::memory_order_acquire);
+}
+
+template <class Tag>
+std::chrono::nanoseconds age() noexcept {
+  return age_of(confirmed<Tag>(), steady_ns);
 }
 
 template <class Tag>
 bool valid() noexcept {
-  const std::int64_t confirmed = abi::confirmed_of(Tag::ref().entry, Tag::kKind).load(std::memory_order_acquire);
-  if (confirmed <= 0) {
-    return confirmed == 0;
-  }
-  return max_age_ns<Tag>() == 0 || steady_ns() - confirmed <= max_age_ns<Tag>();
+  return is_valid(confirmed<Tag>(), max_age_ns<Tag>(), steady_ns);
 }
 
 }  // namespace indurop::detail

@@ -82,7 +82,7 @@ TEST_P(RingOfSize, Behaves_like_an_array) {
     }
     std::memset(slot + offset, i & 0xFF, length);
     if (give_up) {
-      abort(*sut);
+      discard(*sut);
     } else {
       std::memset(model.data() + offset, i & 0xFF, length);
       commit(*sut);
@@ -106,9 +106,9 @@ TEST(Ring, Writer_holding_the_lock_may_not_begin_again) {
   ASSERT_NE(begin_edit(*sut), nullptr);
   EXPECT_EQ(begin_write(*sut, 0, 8), nullptr);
   EXPECT_EQ(sut->lost_writes.load(), 1U);
-  abort(*sut);
+  discard(*sut);
   EXPECT_NE(begin_write(*sut, 0, 8), nullptr);
-  abort(*sut);
+  discard(*sut);
 }
 
 TEST(Ring, Lock_of_a_stopped_holder_is_given_up) {
@@ -120,7 +120,7 @@ TEST(Ring, Lock_of_a_stopped_holder_is_given_up) {
       EXPECT_EQ(begin_write(*sut, 0, 8), nullptr);
       EXPECT_GE(std::chrono::steady_clock::now() - before, rt::kLockLimit);
     }).join();
-    abort(*sut);
+    discard(*sut);
   }).join();
   EXPECT_EQ(sut->lost_writes.load(), 1U);
   EXPECT_TRUE(check_ring(*sut, 24));
