@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <utility>
+
 #include "plc/model/make.h"
-#include "plc/st/parser.h"
 
 namespace indurop::plc::lower {
 namespace {
@@ -81,9 +83,12 @@ void add_flow(LoweredNetworks& lowered, const ast::Pou& pou, std::vector<ast::Va
     }
   }
   if (bits > 0) {
-    Diagnostics none;
-    const auto type = st::parse_type({fmt::format("ARRAY[0..{}] OF BYTE", (bits - 1) / kBits), pou.at}, none);
-    declare(flow, *type);
+    ast::TypeSpec bytes;
+    bytes.kind = ast::TypeSpec::Kind::Array;
+    bytes.at = pou.at;
+    bytes.dimensions.push_back({number(pou.at, 0), number(pou.at, (bits - 1) / kBits)});
+    bytes.element = std::make_shared<ast::TypeSpec>(make::type(pou.at, Elementary::Byte));
+    declare(flow, std::move(bytes));
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "plc/model/elementary.h"
 #include "plc/plcopen/body_reader.h"
-#include "plc/plcopen/type_text.h"
+#include "plc/plcopen/type_reader.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc::plcopen {
@@ -28,54 +28,41 @@ bool is_true(const Node& node, std::string_view attribute) {
   return node.attribute(attribute) == "true" || node.attribute(attribute) == "1";
 }
 
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string::npos ? std::string() : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
-std::string comment_of(const Node& node) {
-  const Node* documentation = node.child("documentation");
-  return documentation == nullptr ? std::string() : one_line(formatted_text(*documentation));
-}
-
-void read_address(std::string_view text, ast::Variable& variable, Diagnostics& diagnostics) {
-  const auto address = st::parse_expression({text, variable.at}, diagnostics);
+void read_address(const Node& node, ast::Variable& variable, Diagnostics& diagnostics) {
+  const std::string_view text = node.attribute("address");
+  Place at = node.value_at("address");
+  at.within = variable.at.within;
+  const auto address = st::parse_expression({text, at}, diagnostics);
   if (!address) {
     return;
   }
   if (address->kind == ast::Expression::Kind::Direct) {
     variable.address = address->address;
   } else {
-    diagnostics.error(variable.at, fmt::format("address=\"{}\" is not an address such as %IX0.0 or %QW2", text));
+    diagnostics.error(at, fmt::format("address=\"{}\" is not an address such as %IX0.0 or %QW2", text));
   }
 }
 
 void read_variable(const Node& node, ast::Variable variable, const std::string& what, std::vector<ast::Variable>& into,
                    Diagnostics& diagnostics) {
   variable.name = std::string(node.attribute("name"));
-  variable.at = within(node.at, fmt::format("{}, variable {}", what, variable.name));
+  const std::string whole = fmt::format("{}, variable {}", what, variable.name);
+  variable.at = within(node.at, whole);
   variable.comment = comment_of(node);
   const Node* type = node.child("type");
   if (variable.name.empty() || type == nullptr) {
     diagnostics.error(variable.at, "a <variable> has a name and a <type>");
     return;
   }
-  const std::string text = type_text(*type, diagnostics);
-  auto parsed = text.empty() ? std::nullopt : st::parse_type({text, variable.at}, diagnostics);
-  if (!parsed) {
+  auto read = read_type(*type, whole, diagnostics);
+  if (!read) {
     return;
   }
-  variable.type = std::move(*parsed);
+  variable.type = std::move(*read);
   if (!node.attribute("address").empty()) {
-    read_address(node.attribute("address"), variable, diagnostics);
+    read_address(node, variable, diagnostics);
   }
-  const Node* initial = node.child("initialValue");
-  const std::string value = initial == nullptr ? std::string() : value_text(*initial);
-  if (!value.empty()) {
-    variable.initial = st::parse_initial({value, variable.at}, diagnostics);
-  }
+  variable.initial = read_initial(node, whole, diagnostics);
   into.push_back(std::move(variable));
 }
 
@@ -109,8 +96,7 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
     if (list != kLists.end()) {
       read_variables(node, list->second, what, pou.variables, diagnostics);
     } else if (node.name == "returnType") {
-      const std::string text = type_text(node, diagnostics);
-      pou.result = text.empty() ? std::nullopt : st::parse_type({text, within(node.at, what)}, diagnostics);
+      pou.result = read_type(node, what, diagnostics);
     } else if (node.name == "accessVars") {
       diagnostics.error(within(node.at, what), "VAR_ACCESS is not supported; globals are shared variables anyway");
     } else if (node.name != "addData" && node.name != "documentation") {
@@ -159,24 +145,20 @@ void quote_texts(Node& root) {
 void read_data_type(const Node& node, std::vector<ast::TypeDeclaration>& into, Diagnostics& diagnostics) {
   ast::TypeDeclaration declared;
   declared.name = std::string(node.attribute("name"));
-  declared.at = within(node.at, "type " + declared.name);
+  const std::string what = "type " + declared.name;
+  declared.at = within(node.at, what);
   declared.comment = comment_of(node);
   const Node* base = node.child("baseType");
   if (declared.name.empty() || base == nullptr) {
     diagnostics.error(declared.at, "a <dataType> has a name and a <baseType>");
     return;
   }
-  const std::string text = type_text(*base, diagnostics);
-  auto parsed = text.empty() ? std::nullopt : st::parse_type({text, declared.at}, diagnostics);
-  if (!parsed) {
+  auto read = read_type(*base, what, diagnostics);
+  if (!read) {
     return;
   }
-  declared.type = std::move(*parsed);
-  const Node* initial = node.child("initialValue");
-  const std::string value = initial == nullptr ? std::string() : value_text(*initial);
-  if (!value.empty()) {
-    declared.initial = st::parse_initial({value, declared.at}, diagnostics);
-  }
+  declared.type = std::move(*read);
+  declared.initial = read_initial(node, what, diagnostics);
   into.push_back(std::move(declared));
 }
 

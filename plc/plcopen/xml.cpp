@@ -29,7 +29,7 @@ Node node_of(base::Element&& from, const std::shared_ptr<const std::string>& fil
   node.text = std::move(from.text);
   node.text_at = {from.text_place, file, nullptr};
   for (base::Attribute& attribute : from.attributes) {
-    node.attributes.push_back({local_name(attribute.name), std::move(attribute.value)});
+    node.attributes.push_back({local_name(attribute.name), std::move(attribute.value), attribute.value_place});
   }
   for (base::Element& child : from.children) {
     node.children.push_back(node_of(std::move(child), file));
@@ -46,6 +46,17 @@ std::string_view Node::attribute(std::string_view wanted) const noexcept {
     }
   }
   return {};
+}
+
+Place Node::value_at(std::string_view wanted) const {
+  Place out = at;
+  for (const Attribute& each : attributes) {
+    if (each.name == wanted) {
+      out.line = each.value_at.line;
+      out.column = each.value_at.column;
+    }
+  }
+  return out;
 }
 
 bool Node::has(std::string_view wanted) const noexcept {

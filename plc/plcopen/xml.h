@@ -21,6 +21,7 @@ inline constexpr std::size_t kMaxXmlAttributes = 1000;  // of one element
 struct Attribute {
   std::string name;  // without a namespace prefix, as all names here
   std::string value;
+  base::SourcePlace value_at;  // of its first character
 };
 
 struct Node {
@@ -34,6 +35,8 @@ struct Node {
   // "" where there is none.
   [[nodiscard]] std::string_view attribute(std::string_view wanted) const noexcept;
   [[nodiscard]] bool has(std::string_view wanted) const noexcept;
+  // Where its value begins; the place of the element where there is none.
+  [[nodiscard]] Place value_at(std::string_view wanted) const;
   // The first child of that name, or null.
   [[nodiscard]] const Node* child(std::string_view wanted) const noexcept;
 };
