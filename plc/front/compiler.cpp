@@ -82,7 +82,8 @@ class Compiler {
       translate();
     }
     out_.ok = !diagnostics_.failed();
-    out_.messages = foreign_messages_ + diagnostics_.render();
+    const std::vector<base::Diagnostic> found = diagnostics_.list();
+    out_.diagnostics.insert(out_.diagnostics.end(), found.begin(), found.end());
     return std::move(out_);
   }
 
@@ -92,9 +93,9 @@ class Compiler {
     // C++ keeps the name main for itself.
     check_options.space = !options_.space.empty() ? options_.space : out_.name == "main" ? "plc" : out_.name;
     if (!options_.glb_files.empty()) {
-      const auto foreign = glb2idl::compile(options_.glb_files, read_);
+      auto foreign = glb2idl::compile(options_.glb_files, read_);
       if (!foreign.ok) {
-        foreign_messages_ = base::to_text(foreign.diagnostics, "glb2idl");
+        out_.diagnostics = std::move(foreign.diagnostics);
         diagnostics_.error({}, "the .glb files above have errors, correct them first");
         return;
       }
@@ -124,7 +125,6 @@ class Compiler {
   const glb2idl::FileReader& read_;
   Compiled out_;
   Diagnostics diagnostics_;
-  std::string foreign_messages_;
 };
 
 std::string duration(std::int64_t ns) {

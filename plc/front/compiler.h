@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "glb2idl/source.h"
 
 namespace indurop::plc {
@@ -28,7 +29,7 @@ struct ModuleText {
 
 struct Compiled {
   bool ok = false;
-  std::string messages;  // errors and warnings, ready to print
+  std::vector<base::Diagnostic> diagnostics;  // in the order of the files; errors in .glb files come first
   std::string name;
   std::string glb;  // text of <name>.glb, with includes of the other files
   std::vector<ModuleText> modules;

@@ -52,8 +52,4 @@ std::vector<base::Diagnostic> Diagnostics::list() const {
   return list;
 }
 
-std::string Diagnostics::render() const {
-  return base::to_text(list(), "indurop plc");
-}
-
 }  // namespace indurop::plc

@@ -31,9 +31,6 @@ class Diagnostics {
 
   // Files in the order in which they were first complained about, lines ascending.
   [[nodiscard]] std::vector<base::Diagnostic> list() const;
-  // "prog.st:12:5: error: text" or, with Place::within, "prog.xml:80:3: error: POU main, rung 3: text", then the line
-  // of the source where it is known, with a mark.
-  [[nodiscard]] std::string render() const;
 
  private:
   static constexpr std::size_t kLimit = 100;

@@ -10,6 +10,7 @@
 #include "plc/front/compiler.h"
 #include "tools/command/child.h"
 #include "tools/command/self.h"
+#include "tools/plc/plc_file.h"
 
 namespace indurop::tools {
 namespace {
@@ -21,15 +22,6 @@ struct PlcRequest {
   std::string folder = ".";  // -o
   bool only_sources = false;
 };
-
-void print_messages(Context& context, const std::string& messages) {
-  std::size_t from = 0;
-  while (from < messages.size()) {
-    const std::size_t end = std::min(messages.find('\n', from), messages.size());
-    context.out.message_line(messages.substr(from, end - from));
-    from = end + 1;
-  }
-}
 
 bool save(Context& context, const fs::path& path, const std::string& text) {
   const auto saved = base::replace_file(path, text, base::Durable::No);
@@ -131,7 +123,7 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
 // Prints what is wrong, else one line.
 int check_plc(Context& context, const PlcRequest& request) {
   const plc::Compiled compiled = plc::compile(request.compile);
-  print_messages(context, compiled.messages);
+  print_diagnostics(context, compiled.diagnostics);
   if (!compiled.ok) {
     return kCheckFailed;
   }
@@ -143,7 +135,7 @@ int check_plc(Context& context, const PlcRequest& request) {
 // Writes <name>.glb and, for each task, .cpp and .so; prints the modules for module.xml.
 int build_plc(Context& context, const PlcRequest& request) {
   const plc::Compiled compiled = plc::compile(request.compile);
-  print_messages(context, compiled.messages);
+  print_diagnostics(context, compiled.diagnostics);
   if (!compiled.ok) {
     return kCheckFailed;
   }

@@ -20,4 +20,12 @@ bool read_plc_file(Context& context, const std::string& file, std::string& bytes
   return true;
 }
 
+void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& diagnostics) {
+  std::string text = base::to_text(diagnostics, "indurop plc");
+  if (!text.empty()) {
+    text.pop_back();  // message_line() ends the last line
+    context.out.message_line(text);
+  }
+}
+
 }  // namespace indurop::tools

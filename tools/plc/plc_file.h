@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the source of a PLC program.
+// Reads the source of a PLC program, and prints what is wrong with it.
 
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "base/diagnostic.h"
 #include "tools/command/verb.h"
 
 namespace indurop::tools {
 
 // All bytes of an ordinary file. False after an error message.
 bool read_plc_file(Context& context, const std::string& file, std::string& bytes);
+// "prog.st:12:5: error: text" or, of what is drawn, "prog.xml:80:3: error: POU main, rung 3: text", then the line of
+// the source where it is known, with a mark.
+void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& diagnostics);
 
 }  // namespace indurop::tools

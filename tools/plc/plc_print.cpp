@@ -37,7 +37,7 @@ int print(Context& context, const Request& request) {
                           : only_svg           ? plc::print_svg(bodies, diagnostics)
                                                : plc::print_text(bodies, context.out.unicode(), diagnostics);
   if (diagnostics.failed()) {
-    context.out.message_line(diagnostics.render());
+    print_diagnostics(context, diagnostics.list());
     return kCheckFailed;
   }
   if (bodies.empty()) {

@@ -252,7 +252,7 @@ int watch(Context& context, const Request& request) {
   plc::plcopen::Document document = plc::plcopen::read_document(bytes, request.file, diagnostics);
   auto programs = plc::live_programs(document, request.pou, diagnostics);
   if (diagnostics.failed()) {
-    context.out.message_line(diagnostics.render());
+    print_diagnostics(context, diagnostics.list());
     return kCheckFailed;
   }
   if (programs.empty()) {

@@ -28,7 +28,7 @@ void compile(const std::string& text, bool drawn) {
   const auto compiled = plc::compile(options, [&](const std::string& name) {
     return glb2idl::ReadResult{text, name, ""};
   });
-  require(compiled.ok ? !compiled.modules.empty() : !compiled.messages.empty());
+  require(compiled.ok ? !compiled.modules.empty() : !compiled.diagnostics.empty());
 }
 
 void print(const std::string& text) {
@@ -37,7 +37,7 @@ void print(const std::string& text) {
   const auto bodies = plc::printed_bodies(document, "");
   (void)plc::print_text(bodies, true, diagnostics);
   require(plc::print_svg(bodies, diagnostics).starts_with("<svg"));
-  require(!diagnostics.failed() || !diagnostics.render().empty());
+  require(!diagnostics.failed() || !diagnostics.list().empty());
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST_P(Golden, Output_or_errors_are_as_expected) {
   for (const ModuleText& one : compiled.modules) {
     cpp += one.cpp;
   }
-  expect_file(folder / "expected.err", compiled.messages);
+  expect_file(folder / "expected.err", base::to_text(compiled.diagnostics, "indurop plc"));
   expect_file(folder / "expected.cpp", compiled.ok ? cpp : "");
   expect_file(folder / "expected.glb", compiled.ok ? compiled.glb : "");
   expect_file(folder / "expected.xml", compiled.ok ? module_xml(compiled.modules) : "");
@@ -51,7 +51,7 @@ TEST_P(Golden, A_program_cut_off_anywhere_does_no_harm) {
   constexpr std::size_t kStep = 23;
   for (std::size_t length = 0; length < whole.size(); length += kStep) {
     const Compiled compiled = compile_case(folder, whole.substr(0, length));
-    EXPECT_TRUE(compiled.ok || !compiled.messages.empty()) << length;
+    EXPECT_TRUE(compiled.ok || !compiled.diagnostics.empty()) << length;
   }
 }
 
