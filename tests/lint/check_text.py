@@ -10,7 +10,7 @@ import common
 SPDX = "// SPDX-License-Identifier: Apache-2.0"
 MAX_LINES = {".h": 400, ".cpp": 400, ".py": 600, ".cmake": 600, ".sh": 600}
 # Still longer than that; an entry that is no longer needed is a finding.
-LONG = ("glb2idl/emit_cpp.cpp", "robot/job_parser.cpp", "schema/json.cpp")
+LONG = ("robot/job_parser.cpp",)
 CODE = (".h", ".cpp", ".py", ".cmake", ".sh", ".glb", ".xml", ".xsd", ".txt", ".md", ".json", ".yml")
 # Printed in the specification; kept as they are.
 VERBATIM = ("examples/chapter/", "tests/install/project/", "LICENSE")
