@@ -144,7 +144,7 @@ void Json::write(std::string& out, int indent, int depth) const {
   const auto new_line = [&](int level) {
     if (indent >= 0) {
       out += '\n';
-      out.append(static_cast<std::size_t>(indent * level), ' ');
+      out.append(static_cast<std::size_t>(indent) * static_cast<std::size_t>(level), ' ');
     }
   };
   switch (type_) {

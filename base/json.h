@@ -25,16 +25,11 @@ class Json {
   Json(std::string text);
   Json(std::string_view text);
   template <std::same_as<bool> T>  // nothing is converted to bool
-  Json(T value) noexcept : Json() {
-    type_ = Type::Boolean;
-    integer_ = value ? 1 : 0;
-  }
+  Json(T value) noexcept : Json(Type::Boolean, value ? 1 : 0) {}
   template <std::integral T>
   requires(!std::same_as<T, bool>) Json(T value)
-  noexcept : Json() {
-    type_ = std::signed_integral<T> && value < 0 ? Type::Integer : Type::Natural;
-    integer_ = static_cast<std::uint64_t>(value);
-  }
+  noexcept
+      : Json(std::signed_integral<T> && value < 0 ? Type::Integer : Type::Natural, static_cast<std::uint64_t>(value)) {}
   Json(double value) noexcept;
   Json(const std::vector<std::string>& texts);
   // An object if all values are arrays of a text and a value, else an array.
@@ -79,6 +74,8 @@ class Json {
   [[nodiscard]] std::optional<bool> boolean() const noexcept;
 
  private:
+  Json(Type type, std::uint64_t integer) noexcept : type_(type), integer_(integer) {}
+
   void write(std::string& out, int indent, int depth) const;
 
   Type type_ = Type::Null;

@@ -281,7 +281,7 @@ Fault Planner::look_closer() noexcept {
   constexpr int kDeepest = 3;
   const Window window = window_[static_cast<std::size_t>(--windows_)];
   std::array<Joints, kParts + 1> places;
-  std::array<double, kParts + 1> volumes;
+  std::array<double, kParts + 1> volumes{};
   places[0] = window.start;
   volumes[0] = volume(places[0]);
   const double spacing = window.length / kParts;

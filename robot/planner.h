@@ -77,7 +77,7 @@ class Planner {
   static constexpr int kParts = 8;  // of a stretch
   std::array<Window, 256> window_{};
   int windows_ = 0;
-  std::array<Rates, 3 * kMost> rates_{};
+  std::array<Rates, std::size_t{3} * kMost> rates_{};
   int noted_ = 0;
   double wanted_ = 1;  // part of full speed, before the joints were asked
 };

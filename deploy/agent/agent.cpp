@@ -293,7 +293,7 @@ class Agent {
     const Committed& committed = state_.committed();
     const Order& order = transaction_.order();
     BoardReport out;
-    static_cast<CommittedDeployment&>(out) = committed;
+    static_cast<CommittedDeployment&>(out) = static_cast<const CommittedDeployment&>(committed);
     static_cast<FetchProgress&>(out) = fetcher_.progress();
     static_cast<NodeFigures&>(out) = process_.figures();
     out.board = options_.board;

@@ -147,10 +147,10 @@ consteval std::size_t count_fields() {
 // `Parts`: bases of the word, each of which counts as one field.
 template <class Word, class... Parts>
 consteval bool all_fields_travel() {
-  constexpr std::size_t listed = std::tuple_size_v<decltype(Wire<Word>::kFields)>;
-  constexpr std::size_t of_parts = (count_fields<Parts>() + ... + 0);
-  return listed == count_fields<typename Wire<Word>::Sample>() &&
-         listed == count_fields<Word>() - sizeof...(Parts) + of_parts;
+  constexpr std::size_t kListed = std::tuple_size_v<decltype(Wire<Word>::kFields)>;
+  constexpr std::size_t kOfParts = (count_fields<Parts>() + ... + 0);
+  return kListed == count_fields<typename Wire<Word>::Sample>() &&
+         kListed == count_fields<Word>() - sizeof...(Parts) + kOfParts;
 }
 static_assert(all_fields_travel<BoardReport, CommittedDeployment, FetchProgress, NodeFigures>());
 static_assert(all_fields_travel<Order>());

@@ -37,7 +37,6 @@ void StatementChecker::list(ast::Body& body) {
   for (Statement& one : body) {
     if (left && one.kind != Statement::Kind::Label && one.kind != Statement::Kind::Empty) {
       context_.warning(one.at, "this statement is never reached");
-      left = false;
     }
     statement(one);
     const bool leaves = one.kind == Statement::Kind::Exit || one.kind == Statement::Kind::Continue ||

@@ -18,14 +18,14 @@ class StatementChecker {
 
  private:
   void list(ast::Body& body);
-  void statement(ast::Statement& statement);
-  void assign(ast::Statement& statement);
-  bool infer(ast::Statement& statement);
+  void statement(ast::Statement& one);
+  void assign(ast::Statement& one);
+  bool infer(ast::Statement& one);
   void condition(ast::Expression& expression);
-  void if_statement(ast::Statement& statement);
-  void case_statement(ast::Statement& statement);
+  void if_statement(ast::Statement& one);
+  void case_statement(ast::Statement& one);
   void case_label(ast::CaseLabel& label, const Type& type);
-  void for_statement(ast::Statement& statement);
+  void for_statement(ast::Statement& one);
   void collect_labels(ast::Body& body, bool outermost);
 
   struct Used {

@@ -52,7 +52,7 @@ bool is_glb_enum(const Type& type) noexcept {
 
 class GlbEmitter {
  public:
-  GlbEmitter(const Program& program, std::string sources) : program_(program) {
+  GlbEmitter(const Program& program, const std::string& sources) : program_(program) {
     line("// Written by indurop plc from " + sources + ": change that, not this.");
     line(fmt::format("namespace {};", program.space));
     for (const Global& global : program.globals) {

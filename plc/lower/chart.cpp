@@ -163,10 +163,10 @@ class ChartLowering {
 
   static std::string step_timer(std::size_t i) { return fmt::format("_st{}", i); }
   static ast::Expression forever(const Place& at) {
-    constexpr std::int64_t kYear_ns = 31'536'000'000'000'000;
+    constexpr std::int64_t kYearNs = 31'536'000'000'000'000;
     ast::Expression literal;
     literal.at = at;
-    literal.value = 100 * kYear_ns;
+    literal.value = 100 * kYearNs;
     literal.value_type = Elementary::Time;
     return literal;
   }

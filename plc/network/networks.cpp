@@ -64,10 +64,14 @@ struct Draft {
   std::size_t first = std::numeric_limits<std::size_t>::max();
 };
 
+bool has_places(const std::vector<Element>& elements) {
+  return std::any_of(elements.begin(), elements.end(), [](const Element& e) { return e.x != 0 || e.y != 0; });
+}
+
 class Splitter {
  public:
-  explicit Splitter(const Diagram& diagram) : elements_(diagram.elements), index_(diagram), groups_(elements_.size()) {
-    drawn_ = std::any_of(elements_.begin(), elements_.end(), [](const Element& e) { return e.x != 0 || e.y != 0; });
+  explicit Splitter(const Diagram& diagram)
+      : elements_(diagram.elements), index_(diagram), groups_(elements_.size()), drawn_(has_places(elements_)) {
     for (std::size_t i = 0; i < elements_.size(); ++i) {
       positions_.emplace(&elements_[i], i);
     }

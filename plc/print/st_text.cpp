@@ -55,10 +55,10 @@ std::string literal_text(const Expression& expression) {
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
   }
   if (const auto* time = std::get_if<std::int64_t>(&expression.value)) {
-    constexpr std::int64_t kMillisecond_ns = 1'000'000;
+    constexpr std::int64_t kMillisecondNs = 1'000'000;
     const std::string_view type = name_of(expression.value_type.value_or(Elementary::Time));
-    return *time % kMillisecond_ns == 0 ? fmt::format("{}#{}ms", type, *time / kMillisecond_ns)
-                                        : fmt::format("{}#{}ns", type, *time);
+    return *time % kMillisecondNs == 0 ? fmt::format("{}#{}ms", type, *time / kMillisecondNs)
+                                       : fmt::format("{}#{}ns", type, *time);
   }
   return "'" + std::get<std::string>(expression.value) + "'";
 }

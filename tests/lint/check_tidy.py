@@ -42,15 +42,15 @@ def cache_folder(build):
 
 def clang_arguments(entry):
     words = shlex.split(entry["command"])
-    words = words[1:] if words[0].endswith("ccache") else words
+    compiler = next(place for place, word in enumerate(words) if re.search(r"(c|g|clang)\+\+[-.0-9]*$", word))
     drop_next = False
     kept = []
-    for word in words[1:]:
+    for word in words[compiler + 1:]:
         if drop_next:
             drop_next = False
-        elif word in ("-o", "-c"):
-            drop_next = word == "-o"
-        elif not word.endswith(".cpp") and word not in ("-fno-gnu-unique",):
+        elif word in ("-o", "-include"):
+            drop_next = True  # what is included so is g++'s precompiled header
+        elif word not in ("-c", "-Winvalid-pch") and not word.endswith(".cpp") and word not in ("-fno-gnu-unique",):
             kept.append(word)
     return kept
 

@@ -216,7 +216,7 @@ class Format(Sample):
 
 class Headers(Sample):
     def test_public_header_with_missing_include(self):
-        self.put("include/indurop/a.h", HEAD + "#pragma once\nstd::string a();\n")
+        self.put("include/indurop/a.h", HEAD + "#pragma once\nstd::size_t a();\n")
         found = check_headers.check(self.root, [])
         self.assertEqual(len(found), 2, found)  # both compilers
 
@@ -238,8 +238,15 @@ class Headers(Sample):
         self.put("rt/b.h", HEAD + "#pragma once\nstruct C {};\n")
         self.found(check_headers.check(self.root, [], self.root), "rt/a.h")
 
+    def test_precompiled_header_not_included(self):
+        self.put("rt/a.h", HEAD + "#pragma once\n#include <string>\n")
+        self.put("rt/a.cpp", HEAD + '#include "rt/a.h"\nstd::string text;  // std::map<int, int>\nstd::vector<int> list;\n')
+        findings = check_headers.check(self.root, [])
+        self.found(findings, "rt/a.cpp", "<vector>")
+        self.assertEqual(len(findings), 1, findings)
+
     def test_own_header_not_first(self):
-        self.put("rt/a.h", HEAD + "#pragma once\nstd::string a();\n")
+        self.put("rt/a.h", HEAD + "#pragma once\nstd::size_t a();\n")
         self.put("rt/a.cpp", HEAD + '#include <string>\n#include "rt/a.h"\n')
         self.found(check_headers.check(self.root, []), "rt/a.cpp", "first include")
 

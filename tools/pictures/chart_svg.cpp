@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/xml_text.h"
 #include "tools/command/units.h"
@@ -96,8 +97,8 @@ std::string lane(const Recording& recording, const Series& series, const Scale& 
 }
 
 std::string panel(const Recording& recording, const Series& series, const Scale& x, double top) {
-  double low = INFINITY;
-  double high = -INFINITY;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   for (const auto& line : series.lines) {
     for (const double value : line) {
       low = std::isfinite(value) ? std::min(low, value) : low;
@@ -158,8 +159,10 @@ std::vector<double> round_values(double from, double to, int about) {
     step = decade * factor >= rough ? decade * factor : step;
   }
   std::vector<double> out;
-  for (double i = std::ceil(from / step); i * step <= to; ++i) {
-    out.push_back(i * step);
+  const double first = std::ceil(from / step);
+  const double last = std::floor(to / step);
+  for (int i = 0; first + i <= last; ++i) {
+    out.push_back((first + i) * step);
   }
   return out;
 }

@@ -139,7 +139,7 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
   head["forces"] = json_of(forces);
   head["external"] = external ? json_of(*external) : JsonValue();
-  print_table(context, module_table(run, report.alive), std::move(head), "modules");
+  print_table(context, module_table(run, report.alive), head, "modules");
   return report.alive ? kOk : kUnreachable;
 }
 

@@ -56,7 +56,7 @@ Uses known_uses(const std::string& node) {
 }
 
 std::string shortened(const std::string& text) {
-  return text.size() <= kLongestValue ? text : text.substr(0, kLongestValue - 3) + "...";
+  return text.size() <= kLongestValue ? text : fmt::format("{:.{}}...", text, kLongestValue - 3);
 }
 
 Cell name_list(const std::vector<std::string>& names) {

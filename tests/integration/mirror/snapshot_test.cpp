@@ -2,6 +2,7 @@
 // 400 variables that one board writes in every tick, read together on another one: over the network, with loss, and
 // when the writing board is killed in the middle of it. Needs root and the ip command.
 
+#include <array>
 #include "lab.h"
 
 namespace indurop::test {

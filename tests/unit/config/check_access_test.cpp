@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the access map tells: writers, readers, order and age, fail-safe values.
 
+#include <algorithm>
 #include "configuration.h"
 #include "module_file.h"
 
