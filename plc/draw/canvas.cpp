@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "base/utf8.h"
+
 namespace indurop::plc::draw {
 namespace {
 
@@ -64,7 +66,7 @@ void Canvas::vertical(int x, int y1, int y2, int net, bool powered) {
 void Canvas::text(int x, int y, std::string_view text, Run::Look look) {
   for (std::size_t i = 0; i < text.size(); ++x) {
     std::size_t end = i + 1;
-    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    while (end < text.size() && base::continues_utf8(text[end])) {
       ++end;
     }
     if (Cell* at = cell(x, y)) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/utf8.h"
+
 namespace indurop::plc::draw {
 namespace {
 
@@ -42,8 +44,8 @@ Shape block_shape(const Element& block) {
 }  // namespace
 
 int text_width(std::string_view text) noexcept {
-  return static_cast<int>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<int>(text.size()) -
+         static_cast<int>(std::count_if(text.begin(), text.end(), base::continues_utf8));
 }
 
 const char* mark_of(const Element& element) noexcept {

@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "base/utf8.h"
+
 namespace indurop::plc::st {
 namespace {
 
@@ -60,7 +62,7 @@ class Lexer {
       if (text_[at_] == '\n') {
         ++line_;
         column_ = 1;
-      } else if ((static_cast<unsigned char>(text_[at_]) & 0xC0U) != 0x80U) {
+      } else if (!base::continues_utf8(text_[at_])) {
         ++column_;
       }
     }
