@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/draw/svg_picture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 
-#include "base/xml_text.h"
 #include "plc/draw/svg_symbols.h"
 
 namespace indurop::plc::draw {
@@ -49,7 +46,7 @@ std::vector<std::pair<int, int>> joints_of(const Picture& picture) {
   return joints;
 }
 
-class Svg {
+class Sheets {
  public:
   std::string run(const std::vector<SvgSheet>& sheets) {
     int width = 0;
@@ -64,8 +61,8 @@ class Svg {
     }
     for (const SvgSheet& sheet : sheets) {
       y_ += kHeading;
-      text(kMargin, y_ - 12, sheet.heading, "font-size=\"17\" font-weight=\"bold\" fill=\"#16324F\"");
-      line(kMargin, y_ - 2, width, y_ - 2, "stroke=\"#C9D3DF\" stroke-width=\"1\"");
+      out_.text(kMargin, y_ - 12, sheet.heading, "font-size=\"17\" font-weight=\"bold\" fill=\"#16324F\"");
+      out_.line(kMargin, y_ - 2, width, y_ - 2, "stroke=\"#C9D3DF\" stroke-width=\"1\"");
       y_ += kGap / 2;
       if (!sheet.chart.elements.empty()) {
         part(sheet.chart.elements, sheet.chart.height);
@@ -74,73 +71,59 @@ class Svg {
         draw(network);
       }
     }
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-        "font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" font-size=\"12\">\n"
-        "<rect width=\"{0}\" height=\"{1}\" fill=\"#FFFFFF\"/>\n{2}</svg>\n",
-        width + kMargin, y_ + kMargin, out_);
+    return base::svg_document(width + kMargin, y_ + kMargin, out_);
   }
 
  private:
   void draw(const SvgNetwork& network) {
-    out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"30\" height=\"20\" rx=\"10\" fill=\"#E6EDF5\"/>\n",
-                        kMargin - 6, y_ - 1);
-    text(kMargin + 9, y_ + 13, std::to_string(network.number),
-         "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#2B4C7E\"");
+    out_.rect(kMargin - 6, y_ - 1, 30, 20, R"(rx="10" fill="#E6EDF5")");
+    out_.text(kMargin + 9, y_ + 13, std::to_string(network.number),
+              "text-anchor=\"middle\" font-weight=\"bold\" fill=\"#2B4C7E\"");
     for (const std::string& remark : network.remarks) {
-      text(kLeft, y_ + 13, remark, "fill=\"#5B6B7B\" font-style=\"italic\"");
+      out_.text(kLeft, y_ + 13, remark, "fill=\"#5B6B7B\" font-style=\"italic\"");
       y_ += kRemark;
     }
     for (const std::string& label : network.labels) {
-      text(kLeft, y_ + 13, label + ":", "font-weight=\"bold\" fill=\"#8A4B08\"");
+      out_.text(kLeft, y_ + 13, label + ":", "font-weight=\"bold\" fill=\"#8A4B08\"");
       y_ += kRemark;
     }
     y_ += network.remarks.empty() && network.labels.empty() ? 0 : kRemark / 3;
-    const std::size_t begin = out_.size();
-    picture(network.picture);
-    std::string drawn = out_.substr(begin);
-    out_.resize(begin);
-    part(drawn, network.picture.height * kCellHeight);
+    part(drawn(network.picture), network.picture.height * kCellHeight);
   }
 
-  void part(const std::string& elements, int height) {
-    out_ += fmt::format("<g transform=\"translate({},{})\">\n{}</g>\n", kLeft, y_, elements);
+  void part(const base::SvgPart& elements, int height) {
+    out_.part(kLeft, y_, elements);
     y_ += height + kGap;
   }
 
-  void picture(const Picture& picture) {
+  static base::SvgPart drawn(const Picture& picture) {
+    base::SvgPart out;
     for (const Line& each : picture.lines) {
-      line(half_x(each.x1), half_y(each.y1), half_x(each.x2), half_y(each.y2),
-           "stroke=\"#1F2D3D\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
+      out.line(half_x(each.x1), half_y(each.y1), half_x(each.x2), half_y(each.y2),
+               "stroke=\"#1F2D3D\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
     }
     for (const auto& [x, y] : joints_of(picture)) {
-      out_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"2.6\" fill=\"#1F2D3D\"/>\n", half_x(x), half_y(y));
+      out.circle(half_x(x), half_y(y), 2.6, R"(fill="#1F2D3D")");
     }
     if (picture.rails) {
       for (const int x : {1, 2 * picture.width - 1}) {
-        line(half_x(x), 0, half_x(x), picture.height * kCellHeight, "stroke=\"#16324F\" stroke-width=\"4\"");
+        out.line(half_x(x), 0, half_x(x), picture.height * kCellHeight, "stroke=\"#16324F\" stroke-width=\"4\"");
       }
     }
     for (const Symbol& symbol : picture.symbols) {
-      out_ += svg_symbol(symbol);
+      svg_symbol(symbol, out);
     }
+    return out;
   }
 
-  void line(double x1, double y1, double x2, double y2, const char* attributes) {
-    out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", x1, y1, x2, y2, attributes);
-  }
-  void text(int x, int y, std::string_view text, const char* attributes) {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, base::xml_text(text));
-  }
-
-  std::string out_;
+  base::SvgPart out_;
   int y_ = 0;
 };
 
 }  // namespace
 
 std::string draw_svg(const std::vector<SvgSheet>& sheets) {
-  return Svg().run(sheets);
+  return Sheets().run(sheets);
 }
 
 }  // namespace indurop::plc::draw

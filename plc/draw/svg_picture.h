@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/svg.h"
 #include "plc/draw/picture.h"
 
 namespace indurop::plc::draw {
@@ -18,7 +19,7 @@ struct SvgNetwork {
 };
 // Something drawn already, from 0, 0.
 struct SvgPart {
-  std::string elements;
+  base::SvgPart elements;
   int width = 0;
   int height = 0;
 };

@@ -3,24 +3,29 @@
 
 #include <fmt/format.h>
 
-#include "base/xml_text.h"
-
 namespace indurop::plc::draw {
 namespace {
 
 using Kind = Element::Kind;
 
 constexpr const char* kStroke = "stroke=\"#1F2D3D\" stroke-width=\"1.6\" fill=\"none\" stroke-linecap=\"square\"";
+constexpr const char* kBold = R"(stroke="#1F2D3D" stroke-width="2" fill="none")";
 constexpr const char* kName = "fill=\"#0B4A8F\"";
 constexpr const char* kValue = "fill=\"#8A4B08\"";
 
+std::string move_to(double x, double y) {
+  return fmt::format("M{} {}", base::svg_number(x), base::svg_number(y));
+}
+
 class Drawing {
  public:
-  std::string run(const Symbol& symbol) {
+  explicit Drawing(base::SvgPart& out) : out_(out) {}
+
+  void run(const Symbol& symbol) {
     if (symbol.element == nullptr) {
       const bool source = symbol.shape.inputs.empty();
       value(symbol, symbol.text, source);
-      return std::move(out_);
+      return;
     }
     const Element& element = *symbol.element;
     switch (element.kind) {
@@ -49,13 +54,11 @@ class Drawing {
       default:
         value(symbol, shown_text(element), symbol.shape.inputs.empty());
     }
-    return std::move(out_);
   }
 
  private:
   void text(double x, double y, std::string_view text, const char* anchor, const char* attributes) {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" {}>{}</text>\n", x, y, anchor, attributes,
-                        base::xml_text(text));
+    out_.text(x, y, text, fmt::format("text-anchor=\"{}\" {}", anchor, attributes));
   }
 
   void switch_symbol(const Symbol& symbol) {
@@ -65,20 +68,16 @@ class Drawing {
     const double middle = x + half_x(kSymbolWidth);
     const bool coil = element.kind == Kind::Coil;
     text(middle, half_y(2 * symbol.y) + 15, element.text, "middle", kName);
-    out_ += fmt::format("<path d=\"M{} {}h{}\" {}/>\n", x, y, coil ? 4 : 8, kStroke);
-    out_ += fmt::format("<path d=\"M{} {}h{}\" {}/>\n", x + 27, y, coil ? -4 : -8, kStroke);
+    out_.path(fmt::format("{}h{}", move_to(x, y), coil ? 4 : 8), kStroke);
+    out_.path(fmt::format("{}h{}", move_to(x + 27, y), coil ? -4 : -8), kStroke);
     if (coil) {
-      out_ += fmt::format(
-          "<path d=\"M{0} {1}q-9 9 0 18M{2} {1}q9 9 0 18\" stroke=\"#1F2D3D\" stroke-width=\"2\" "
-          "fill=\"none\"/>\n",
-          x + 8.5, y - 9, x + 18.5);
+      out_.path(fmt::format("{}q-9 9 0 18{}q9 9 0 18", move_to(x + 8.5, y - 9), move_to(x + 18.5, y - 9)), kBold);
     } else {
-      out_ += fmt::format("<path d=\"M{0} {1}v18M{2} {1}v18\" stroke=\"#1F2D3D\" stroke-width=\"2\" fill=\"none\"/>\n",
-                          x + 8, y - 9, x + 19);
+      out_.path(fmt::format("{}v18{}v18", move_to(x + 8, y - 9), move_to(x + 19, y - 9)), kBold);
     }
     const std::string_view mark = mark_of(element);
     if (mark == "/") {
-      out_ += fmt::format("<path d=\"M{} {}l{} -16\" {}/>\n", x + 9.5, y + 8, 8, kStroke);
+      out_.path(fmt::format("{}l8 -16", move_to(x + 9.5, y + 8)), kStroke);
     } else if (mark != " ") {
       text(middle, y + 4, mark, "middle", "font-size=\"11\" font-weight=\"bold\" fill=\"#1F2D3D\"");
     }
@@ -92,10 +91,7 @@ class Drawing {
     const double bottom = half_y(2 * (symbol.y + symbol.shape.height) - 1);
     const double middle = (left + right) / 2;
     text(middle, top - 5, element.instance, "middle", kName);
-    out_ += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\" fill=\"#F2F6FB\" stroke=\"#2B4C7E\" "
-        "stroke-width=\"1.6\"/>\n",
-        left, top, right - left, bottom - top);
+    out_.rect(left, top, right - left, bottom - top, R"(rx="3" fill="#F2F6FB" stroke="#2B4C7E" stroke-width="1.6")");
     text(middle, top + 14, element.type, "middle", "font-weight=\"bold\" fill=\"#2B4C7E\"");
     pins(element.inputs, symbol, 0, true, left);
     pins(element.in_outs, symbol, element.inputs.size(), true, left);
@@ -111,15 +107,13 @@ class Drawing {
       text(left ? border + inside : border - inside, y + 4, list[i].name, left ? "start" : "end",
            "font-size=\"11\" fill=\"#1F2D3D\"");
       if (list[i].negated) {
-        out_ += fmt::format(
-            "<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"#FFFFFF\" stroke=\"#2B4C7E\" "
-            "stroke-width=\"1.6\"/>\n",
-            left ? border - 4 : border + 4, y);
+        out_.circle(left ? border - 4 : border + 4, y, 4, R"(fill="#FFFFFF" stroke="#2B4C7E" stroke-width="1.6")");
       }
       if (edge) {
         const bool rising = list[i].edge == ast::Edge::Rising;
-        out_ += fmt::format("<path d=\"M{} {}l{} 5l{} 5\" {}/>\n", rising ? border : border + 8, y - 5, rising ? 8 : -8,
-                            rising ? -8 : 8, kStroke);
+        out_.path(
+            fmt::format("{}l{} 5l{} 5", move_to(rising ? border : border + 8, y - 5), rising ? 8 : -8, rising ? -8 : 8),
+            kStroke);
       }
     }
   }
@@ -136,20 +130,17 @@ class Drawing {
   void box_around(const Symbol& symbol, const std::string& shown) {
     const double x = half_x(2 * symbol.x);
     const double width = half_x(2 * symbol.shape.width);
-    out_ += fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"18\" rx=\"3\" fill=\"#FFF8EC\" "
-        "stroke=\"#8A4B08\"/>\n",
-        x, half_y(2 * symbol.y) + 1, width);
+    out_.rect(x, half_y(2 * symbol.y) + 1, width, 18, R"(rx="3" fill="#FFF8EC" stroke="#8A4B08")");
     text(x + width / 2, half_y(2 * symbol.y + 1) + 4, shown, "middle", kValue);
   }
 
-  std::string out_;
+  base::SvgPart& out_;
 };
 
 }  // namespace
 
-std::string svg_symbol(const Symbol& symbol) {
-  return Drawing().run(symbol);
+void svg_symbol(const Symbol& symbol, base::SvgPart& out) {
+  Drawing(out).run(symbol);
 }
 
 }  // namespace indurop::plc::draw

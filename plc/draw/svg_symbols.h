@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <string>
-#include <string_view>
-
+#include "base/svg.h"
 #include "plc/draw/picture.h"
 
 namespace indurop::plc::draw {
@@ -21,6 +19,6 @@ inline constexpr int kCellHeight = 20;
   return y * kCellHeight / 2.0;
 }
 
-[[nodiscard]] std::string svg_symbol(const Symbol& symbol);
+void svg_symbol(const Symbol& symbol, base::SvgPart& out);
 
 }  // namespace indurop::plc::draw

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "base/xml_text.h"
 #include "plc/draw/shape.h"
 #include "plc/draw/svg_symbols.h"
 #include "plc/print/chart_layout.h"
@@ -113,29 +112,22 @@ class Drawing {
     if (x1 == x2 && y1 == y2) {
       return;
     }
-    out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", x1, y1, x2, y2, kLine);
+    out_.line(x1, y1, x2, y2, kLine);
   }
   // What begins or ends together.
   void double_line(int x1, int x2, int y) {
     line(std::min(x1, x2) - 10, y - 2, std::max(x1, x2) + 10, y - 2);
     line(std::min(x1, x2) - 10, y + 2, std::max(x1, x2) + 10, y + 2);
   }
-  void text(int x, int y, std::string_view text, const char* attributes) {
-    out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", x, y, attributes, base::xml_text(text));
-  }
-  void box(int x, int y, int width, int height, const char* attributes) {
-    out_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}/>\n", x, y, width, height, attributes);
-  }
-
   void step(std::size_t i) {
     const int x = x_of(layout_.steps[i]);
     const int y = y_of(layout_.steps[i]);
     const int half = half_step(i);
-    box(x - half, y, 2 * half, kStep, R"(fill="#F2F6FB" stroke="#2B4C7E" stroke-width="1.6")");
+    out_.rect(x - half, y, 2 * half, kStep, R"(fill="#F2F6FB" stroke="#2B4C7E" stroke-width="1.6")");
     if (chart_.steps[i].initial) {
-      box(x - half + 4, y + 4, 2 * half - 8, kStep - 8, R"(fill="none" stroke="#2B4C7E" stroke-width="1.2")");
+      out_.rect(x - half + 4, y + 4, 2 * half - 8, kStep - 8, R"(fill="none" stroke="#2B4C7E" stroke-width="1.2")");
     }
-    text(x, y + kStep / 2 + 4, chart_.steps[i].name, R"(text-anchor="middle" font-weight="bold" fill="#2B4C7E")");
+    out_.text(x, y + kStep / 2 + 4, chart_.steps[i].name, R"(text-anchor="middle" font-weight="bold" fill="#2B4C7E")");
     const auto lines = actions_of(i);
     if (lines.empty()) {
       return;
@@ -145,10 +137,11 @@ class Drawing {
     const int width = width_of_actions(lines, qualifiers);
     int top = y + (lines.size() == 1 ? (kStep - kAction) / 2 : 0);
     for (const network::ActionLine* each : lines) {
-      box(x + half + 24, top, width, kAction, R"(fill="#FFF8EC" stroke="#8A4B08")");
+      out_.rect(x + half + 24, top, width, kAction, R"(fill="#FFF8EC" stroke="#8A4B08")");
       line(x + half + 24 + qualifiers, top, x + half + 24 + qualifiers, top + kAction);
-      text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each), R"(text-anchor="middle" fill="#8A4B08")");
-      text(x + half + 24 + qualifiers + 8, top + 15, action_text(*each), R"(fill="#0B4A8F")");
+      out_.text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each),
+                R"(text-anchor="middle" fill="#8A4B08")");
+      out_.text(x + half + 24 + qualifiers + 8, top + 15, action_text(*each), R"(fill="#0B4A8F")");
       top += kAction;
     }
   }
@@ -219,15 +212,14 @@ class Drawing {
   // An arrow with the name of the step.
   void jump(int x, int y, const std::string& name) {
     line(x, y, x, y + 14);
-    out_ += fmt::format("<path d=\"M{} {}h12l-6 8z\" fill=\"#1F2D3D\"/>\n", x - 6, y + 14);
-    text(x + 11, y + 22, name, R"(font-weight="bold" fill="#2B4C7E")");
+    out_.path(fmt::format("M{} {}h12l-6 8z", x - 6, y + 14), R"(fill="#1F2D3D")");
+    out_.text(x + 11, y + 22, name, R"(font-weight="bold" fill="#2B4C7E")");
   }
 
   void transition(std::size_t t) {
     const int x = x_of(layout_.transitions[t]);
-    out_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#1F2D3D\" stroke-width=\"4\"/>\n",
-                        x - kBar, bar_of(t), x + kBar, bar_of(t));
-    text(x + kBar + 8, bar_of(t) + 4, condition_text(*chart_.transitions[t].element), R"(fill="#1F2D3D")");
+    out_.line(x - kBar, bar_of(t), x + kBar, bar_of(t), R"(stroke="#1F2D3D" stroke-width="4")");
+    out_.text(x + kBar + 8, bar_of(t) + 4, condition_text(*chart_.transitions[t].element), R"(fill="#1F2D3D")");
   }
 
   const network::Chart& chart_;
@@ -235,7 +227,7 @@ class Drawing {
   std::vector<int> columns_;
   std::vector<int> rows_;
   int width_ = 0;
-  std::string out_;
+  base::SvgPart out_;
 };
 
 }  // namespace

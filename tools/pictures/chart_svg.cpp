@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/xml_text.h"
 #include "tools/command/units.h"
 #include "tools/pictures/svg_parts.h"
 
@@ -56,7 +55,8 @@ std::string path(const std::vector<double>& time, const std::vector<double>& lin
     std::sort(kept.begin(), kept.end());
     const auto* const stop = std::unique(kept.begin(), kept.end());
     for (const auto* k = kept.begin(); k != stop; ++k) {
-      out += fmt::format("{}{:.1f} {:.1f}", pen ? "L" : "M", x.at(time[*k]), y.at(line[*k]));
+      out +=
+          fmt::format("{}{} {}", pen ? "L" : "M", base::svg_number(x.at(time[*k])), base::svg_number(y.at(line[*k])));
       pen = true;
     }
     i = end;
@@ -65,10 +65,10 @@ std::string path(const std::vector<double>& time, const std::vector<double>& lin
 }
 
 // Stretches of one value: a bar for what is on, its value or word inside if there is room.
-std::string lane(const Recording& recording, const Series& series, const Scale& x, double top) {
+void lane(const Recording& recording, const Series& series, const Scale& x, double top, base::SvgPart& out) {
   const std::vector<double>& line = series.lines.front();
   const double base = top + kLane - 6;
-  std::string out = svg_line(kLeft, base, kLeft + kPlot, base, "grid");
+  svg_line(out, kLeft, base, kLeft + kPlot, base, "grid");
   for (std::size_t i = 0; i < line.size();) {
     std::size_t end = i + 1;
     while (end < line.size() && (line[end] == line[i] || (std::isnan(line[end]) && std::isnan(line[i])))) {
@@ -80,23 +80,20 @@ std::string lane(const Recording& recording, const Series& series, const Scale& 
       const double width = std::max(1.0, x.at(recording.time_s[std::min(end, line.size() - 1)]) - left);
       const std::string value = series.words.empty() ? plain(line[i]) : series.words[static_cast<std::size_t>(line[i])];
       const auto color = static_cast<std::size_t>(std::abs(line[i])) % kColors;
-      out += fmt::format(
-          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"s{}\"><title>{} from {:.3f} "
-          "s</title></rect>\n",
-          left, top + 2, width, kLane - 8, series.words.empty() ? (line[i] == 1 ? 0 : color) : color,
-          base::xml_text(printable(value)), recording.time_s[i]);
+      out.rect(left, top + 2, width, kLane - 8,
+               svg_class(fmt::format("s{}", series.words.empty() && line[i] == 1 ? 0 : color)),
+               fmt::format("{} from {:.3f} s", printable(value), recording.time_s[i]));
       constexpr double kLetter = 6.6;
       const bool says = !series.words.empty() || line[i] != 1;
       if (says && width > kLetter * static_cast<double>(value.size()) + 4) {
-        out += svg_text(left + width / 2, base - 5, "middle", "inside", value);
+        svg_text(out, left + width / 2, base - 5, "middle", "inside", value);
       }
     }
     i = end;
   }
-  return out;
 }
 
-std::string panel(const Recording& recording, const Series& series, const Scale& x, double top) {
+void panel(const Recording& recording, const Series& series, const Scale& x, double top, base::SvgPart& out) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const auto& line : series.lines) {
@@ -106,42 +103,39 @@ std::string panel(const Recording& recording, const Series& series, const Scale&
     }
   }
   if (low > high) {
-    return svg_text(kLeft + kPlot / 2, top + kPanel / 2, "middle", "label", "no values");
+    svg_text(out, kLeft + kPlot / 2, top + kPanel / 2, "middle", "label", "no values");
+    return;
   }
   const double room = std::max((high - low) * 0.06, std::max(std::abs(high), 1.0) * 1e-6);
   const double height = kPanel - 2 * kGap;
   const Scale y{low - room, high + room, top + kGap + height, -height};
-  std::string out;
   for (const double value : round_values(y.from, y.to, 4)) {
-    out += svg_line(kLeft, y.at(value), kLeft + kPlot, y.at(value), "grid");
-    out += svg_text(kLeft - 6, y.at(value) + 4, "end", "label", plain(value));
+    svg_line(out, kLeft, y.at(value), kLeft + kPlot, y.at(value), "grid");
+    svg_text(out, kLeft - 6, y.at(value) + 4, "end", "label", plain(value));
   }
   for (std::size_t i = 0; i < series.lines.size(); ++i) {
-    out += fmt::format("<path d=\"{}\" class=\"l{}\"/>\n", path(recording.time_s, series.lines[i], x, y), i % kColors);
+    out.path(path(recording.time_s, series.lines[i], x, y), svg_class(fmt::format("l{}", i % kColors)));
     const auto last =
         std::find_if(series.lines[i].rbegin(), series.lines[i].rend(), [](double v) { return !std::isnan(v); });
     if (series.lines.size() > 1 && last != series.lines[i].rend()) {
       const double line_at = top + kGap + 12 + 15 * static_cast<double>(i);
-      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"3\" class=\"s{}\"/>\n",
-                         kLeft + kPlot + 8, line_at - 5, i % kColors);
-      out += svg_text(kLeft + kPlot + 24, line_at, "start", "label", fmt::format("[{}]", i));
+      out.rect(kLeft + kPlot + 8, line_at - 5, 12, 3, svg_class(fmt::format("s{}", i % kColors)));
+      svg_text(out, kLeft + kPlot + 24, line_at, "start", "label", fmt::format("[{}]", i));
     }
   }
-  return out;
 }
 
 std::string style() {
   constexpr std::array<const char*, kColors> kPalette{"#2f6fb0", "#c2492f", "#3f8f4f", "#8a5fb0",
                                                       "#c08a1e", "#2f9aa0", "#7a5a44", "#5b6770"};
-  std::string out =
-      "<style>text{font-family:Helvetica,Arial,sans-serif;fill:#22303c}.head{font-size:19px;font-weight:bold}"
-      ".name{font-size:13px}.label{font-size:11px;fill:#55636f}.inside{font-size:11px;fill:#ffffff}"
-      ".grid{stroke:#e4e9ed}.axis{stroke:#22303c;stroke-width:1.2}path{fill:none;stroke-width:1.4;stroke-linejoin:"
-      "round}";
+  std::string out = kSvgStyle;
+  out +=
+      ".name{font-size:13px}.inside{font-size:11px;fill:#ffffff}"
+      "path{fill:none;stroke-width:1.4;stroke-linejoin:round}";
   for (std::size_t i = 0; i < kColors; ++i) {
     out += fmt::format(".s{0}{{fill:{1}}}.l{0}{{stroke:{1}}}", i, kPalette[i]);
   }
-  return out + "</style>\n";
+  return out;
 }
 
 std::string name_of(const Series& series) {
@@ -170,27 +164,25 @@ std::vector<double> round_values(double from, double to, int about) {
 std::string chart_svg(const std::string& heading, const Recording& recording) {
   const double end = std::max(recording.time_s.back(), 1e-9);
   const Scale x{0, end, kLeft, kPlot};
-  std::string body;
+  base::SvgPart body;
   double y = kHead;
   for (const Series& series : recording.series) {
     if (series.lines.empty()) {
       continue;  // never had a value
     }
-    body += svg_text(14, y + (series.steps ? kLane / 2 + 3 : kPanel / 2), "start", "name", name_of(series));
-    body += series.steps ? lane(recording, series, x, y) : panel(recording, series, x, y);
+    svg_text(body, 14, y + (series.steps ? kLane / 2 + 3 : kPanel / 2), "start", "name", name_of(series));
+    (series.steps ? lane : panel)(recording, series, x, y, body);
     y += series.steps ? kLane : kPanel;
   }
-  std::string grid;
+  base::SvgPart out;
+  svg_text(out, 14, 32, "start", "head", heading);
   for (const double second : round_values(0, end, 10)) {
-    grid += svg_line(x.at(second), kHead, x.at(second), y + 4, "grid");
-    grid += svg_text(x.at(second), y + 18, "middle", "label", plain(second) + " s");
+    svg_line(out, x.at(second), kHead, x.at(second), y + 4, "grid");
+    svg_text(out, x.at(second), y + 18, "middle", "label", plain(second) + " s");
   }
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-             "{1:.0f}\">\n{2}<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-             kWidth, y + 34, style()) +
-         svg_text(14, 32, "start", "head", heading) + grid + svg_line(kLeft, y, kLeft + kPlot, y, "axis") + body +
-         "</svg>\n";
+  svg_line(out, kLeft, y, kLeft + kPlot, y, "axis");
+  out.add(body);
+  return base::svg_document(static_cast<int>(kWidth), static_cast<int>(y) + 34, out, style());
 }
 
 }  // namespace indurop::tools

@@ -76,10 +76,9 @@ struct Marker {
   std::int64_t value;
 };
 
-std::string markers(const scheduler::Summary& summary, const LogScale& x, double top) {
+void markers(const scheduler::Summary& summary, const LogScale& x, double top, base::SvgPart& out) {
   const std::array<Marker, 4> all{
       {{"p50", summary.p50}, {"p99", summary.p99}, {"p99.9", summary.p99_9}, {"max", summary.max}}};
-  std::string out;
   constexpr double kLabelWidth = 92;
   // Labels that would touch go one line higher.
   std::array<double, 3> busy_until{};
@@ -93,22 +92,21 @@ std::string markers(const scheduler::Summary& summary, const LogScale& x, double
     }
     busy_until[row] = center + kLabelWidth / 2;
     const double y = top - 6 - 13 * static_cast<double>(row);
-    out += svg_line(at, y + 3, at, top + kPlotHeight, "mark");
-    out += svg_text(center, y, "middle", "label", fmt::format("{} {}", marker.name, human_ns(marker.value)));
+    svg_line(out, at, y + 3, at, top + kPlotHeight, "mark");
+    svg_text(out, center, y, "middle", "label", fmt::format("{} {}", marker.name, human_ns(marker.value)));
   }
-  return out;
 }
 
-std::string panel_svg(const HistogramPanel& panel, double y0) {
-  std::string out = svg_text(kLeft, y0 + 18, "start", "title", panel.title);
-  out +=
-      svg_text(kWidth - kRight, y0 + 18, "end", "label",
-               fmt::format("{}, {} runs, mean {}", panel.subtitle, panel.summary.count, human_ns(panel.summary.mean)));
+void panel_svg(const HistogramPanel& panel, double y0, base::SvgPart& out) {
+  svg_text(out, kLeft, y0 + 18, "start", "title", panel.title);
+  svg_text(out, kWidth - kRight, y0 + 18, "end", "label",
+           fmt::format("{}, {} runs, mean {}", panel.subtitle, panel.summary.count, human_ns(panel.summary.mean)));
   const double top = y0 + kTop;
   const double base = top + kPlotHeight;
   const auto bins = gather(panel.counts, kMostBars);
   if (bins.empty()) {
-    return out + svg_text(kWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
+    svg_text(out, kWidth / 2, top + kPlotHeight / 2, "middle", "label", "nothing measured");
+    return;
   }
   const double from = positive(bins.front().from_ns);
   const double to = std::max(from * 1.5, positive(bins.back().to_ns));
@@ -119,56 +117,50 @@ std::string panel_svg(const HistogramPanel& panel, double y0) {
   }
   const LogScale height(0.7, highest * 1.3, 0, kPlotHeight);
   for (const double count : tick_values(1, highest, height.decades() < 2)) {
-    out += svg_line(kLeft, base - height.at(count), kWidth - kRight, base - height.at(count), "grid");
-    out += svg_text(kLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
+    svg_line(out, kLeft, base - height.at(count), kWidth - kRight, base - height.at(count), "grid");
+    svg_text(out, kLeft - 8, base - height.at(count) + 4, "end", "label", count_text(count));
   }
   for (const double ns : tick_values(from, to, x.decades() < 2.5)) {
-    out += svg_line(x.at(ns), top, x.at(ns), base + 4, "grid");
+    svg_line(out, x.at(ns), top, x.at(ns), base + 4, "grid");
     const std::string name = ns >= 1e9   ? fmt::format("{:g} s", ns / 1e9)
                              : ns >= 1e6 ? fmt::format("{:g} ms", ns / 1e6)
                              : ns >= 1e3 ? fmt::format("{:g} us", ns / 1e3)
                                          : fmt::format("{:g} ns", ns);
-    out += svg_text(x.at(ns), base + 18, "middle", "label", name);
+    svg_text(out, x.at(ns), base + 18, "middle", "label", name);
   }
   for (const Bin& bin : bins) {
     if (bin.count > 0) {
       const double left = x.at(positive(bin.from_ns));
       const double width = std::max(1.0, x.at(positive(bin.to_ns)) - left - 0.6);
       const double h = height.at(static_cast<double>(bin.count));
-      out += fmt::format(
-          "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"bar\"><title>{} to {}: "
-          "{}</title></rect>\n",
-          left, base - h, width, h, human_ns(static_cast<std::int64_t>(bin.from_ns)),
-          human_ns(static_cast<std::int64_t>(bin.to_ns)), bin.count);
+      out.rect(left, base - h, width, h, svg_class("bar"),
+               fmt::format("{} to {}: {}", human_ns(static_cast<std::int64_t>(bin.from_ns)),
+                           human_ns(static_cast<std::int64_t>(bin.to_ns)), bin.count));
     }
   }
-  out += svg_line(kLeft, base, kWidth - kRight, base, "axis");
-  return out + markers(panel.summary, x, top);
+  svg_line(out, kLeft, base, kWidth - kRight, base, "axis");
+  markers(panel.summary, x, top, out);
 }
 
 }  // namespace
 
 std::string histogram_svg(const std::string& heading, std::span<const HistogramPanel> panels) {
   const double height = kHead + kPanel * static_cast<double>(std::max<std::size_t>(1, panels.size())) + 12;
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
-      "{1:.0f}\">\n"
-      "<style>text{{font-family:Helvetica,Arial,sans-serif;fill:#22303c}}.head{{font-size:19px;font-weight:bold}}"
-      ".title{{font-size:15px;font-weight:bold}}.label{{font-size:11px;fill:#55636f}}.grid{{stroke:#e4e9ed}}"
-      ".axis{{stroke:#22303c;stroke-width:1.2}}.bar{{fill:#3b7dbf}}.mark{{stroke:#c2492f;stroke-dasharray:3 "
-      "3}}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      kWidth, height);
-  out += svg_text(kLeft, 34, "start", "head", heading);
+  base::SvgPart out;
+  svg_text(out, kLeft, 34, "start", "head", heading);
   if (panels.empty()) {
-    out += svg_text(kLeft, kHead + 30, "start", "label", "nothing measured");
+    svg_text(out, kLeft, kHead + 30, "start", "label", "nothing measured");
   }
   double y = kHead;
   for (const auto& panel : panels) {
-    out += panel_svg(panel, y);
+    panel_svg(panel, y, out);
     y += kPanel;
   }
-  return out + "</svg>\n";
+  std::string style = kSvgStyle;
+  style +=
+      ".title{font-size:15px;font-weight:bold}.bar{fill:#3b7dbf}"
+      ".mark{stroke:#c2492f;stroke-dasharray:3 3}";
+  return base::svg_document(static_cast<int>(kWidth), static_cast<int>(height), out, style);
 }
 
 }  // namespace indurop::tools

@@ -3,19 +3,20 @@
 
 #include <fmt/format.h>
 
-#include "base/xml_text.h"
 #include "tools/command/units.h"
 
 namespace indurop::tools {
 
-std::string svg_text(double x, double y, const char* anchor, const char* kind, std::string_view content) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x, y, anchor, kind,
-                     base::xml_text(printable(content)));
+std::string svg_class(std::string_view kind) {
+  return fmt::format("class=\"{}\"", kind);
 }
 
-std::string svg_line(double x1, double y1, double x2, double y2, const char* kind) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                     kind);
+void svg_text(base::SvgPart& out, double x, double y, const char* anchor, const char* kind, std::string_view content) {
+  out.text(x, y, printable(content), fmt::format("text-anchor=\"{}\" {}", anchor, svg_class(kind)));
+}
+
+void svg_line(base::SvgPart& out, double x1, double y1, double x2, double y2, const char* kind) {
+  out.line(x1, y1, x2, y2, svg_class(kind));
 }
 
 }  // namespace indurop::tools
