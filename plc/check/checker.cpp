@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plc/check/global_table.h"
+#include "plc/check/identifier_checker.h"
 #include "plc/check/pou_checker.h"
 #include "plc/check/task_checker.h"
 #include "plc/check/type_builder.h"
@@ -39,6 +40,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   program->foreign = std::move(options.foreign);
   program->space = std::move(options.space);
   Context context{*program, diagnostics};
+  check_identifiers(context);
   declare_pous(context);
   declare_globals(context, true);
   declare_types(context);

@@ -15,6 +15,25 @@ namespace {
 using ast::Expression;
 using Meaning = Resolved::Meaning;
 
+// What can stand left of := : a name, with members, indices and bits of it.
+bool is_designator(const Expression& expression) noexcept {
+  switch (expression.kind) {
+    case Expression::Kind::Name:
+    case Expression::Kind::Direct:
+      return true;
+    case Expression::Kind::Member:
+    case Expression::Kind::Bit:
+    case Expression::Kind::Index:
+      return is_designator(expression.operands[0]);
+    case Expression::Kind::Literal:
+    case Expression::Kind::Call:
+    case Expression::Kind::Unary:
+    case Expression::Kind::Binary:
+      break;
+  }
+  return false;
+}
+
 const Expression& root_of(const Expression& expression) noexcept {
   const Expression* at = &expression;
   while (!at->operands.empty() && (!at->resolved || at->resolved->meaning == Meaning::Value)) {
@@ -305,7 +324,9 @@ const Type* ExpressionChecker::reference(Expression& expression) {
 
 bool ExpressionChecker::writable(const Expression& expression) {
   const Expression& root = root_of(expression);
-  const Meaning meaning = root.resolved ? root.resolved->meaning : Meaning::Value;
+  const Meaning meaning = !is_designator(expression) ? Meaning::Value
+                          : root.resolved            ? root.resolved->meaning
+                                                     : Meaning::Value;
   if (meaning == Meaning::FunctionResult) {
     return true;
   }

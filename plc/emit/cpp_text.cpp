@@ -194,6 +194,14 @@ std::string quoted(std::string_view text) {
   return '"' + glb2idl::escape(text) + '"';
 }
 
+std::string comment_text(std::string_view text) {
+  std::string out(text);
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  out.resize(out.find_last_not_of(" \\") + 1);  // g++ takes a backslash for the last character even before blanks
+  return out;
+}
+
 std::string cpp_place(const Place& place, std::string_view pou) {
   Place shown = place;
   if (place.file) {  // the folder would make the module depend on where it was built

@@ -28,6 +28,8 @@ namespace indurop::plc {
 [[nodiscard]] std::string cpp_initial(const Type& type, const ast::Initial* initial);
 // "text with escapes" as a literal.
 [[nodiscard]] std::string quoted(std::string_view text);
+// What may stand behind "//": one line that does not go on in the next one.
+[[nodiscard]] std::string comment_text(std::string_view text);
 // {"prog.st:12:5", "MAIN"}
 [[nodiscard]] std::string cpp_place(const Place& place, std::string_view pou);
 // In parentheses if it is more than one operand.

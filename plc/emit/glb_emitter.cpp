@@ -9,6 +9,7 @@
 
 #include "base/utf8.h"
 #include "plc/check/value_tree.h"
+#include "plc/emit/cpp_text.h"
 #include "plc/emit/task_use.h"
 
 namespace indurop::plc {
@@ -53,7 +54,7 @@ bool is_glb_enum(const Type& type) noexcept {
 class GlbEmitter {
  public:
   GlbEmitter(const Program& program, const std::string& sources) : program_(program) {
-    line("// Written by indurop plc from " + sources + ": change that, not this.");
+    line("// Written by indurop plc from " + comment_text(sources) + ": change that, not this.");
     line(fmt::format("namespace {};", program.space));
     for (const Global& global : program.globals) {
       if (global.kind == Global::Kind::Own) {
@@ -182,7 +183,7 @@ class GlbEmitter {
   }
 
   static std::string description(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    text = comment_text(text);
     std::erase(text, '\\');
     if (base::first_invalid_utf8(text)) {
       return "";  // in another code, as some editors write it

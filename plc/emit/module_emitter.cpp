@@ -33,7 +33,7 @@ class ModuleEmitter {
   }
 
   std::string run() {
-    out_.line("// Written by indurop plc from " + options_.sources + ": change that, not this.");
+    out_.line("// Written by indurop plc from " + comment_text(options_.sources) + ": change that, not this.");
     out_.line("#include <indurop/indurop.h>");
     out_.line("#include <indurop/plc/library.h>");
     out_.line("#include <indurop/plc/program.h>");

@@ -35,10 +35,8 @@ void members(const Pou& pou, TextWriter& out) {
     if (!is_own(one) || one.section == Section::Temp) {
       continue;
     }
-    const std::string comment = one.declared->comment.find('\n') == std::string::npos &&
-                                        !one.declared->comment.empty() && one.declared->comment.back() != '\\'
-                                    ? "  // " + one.declared->comment
-                                    : "";
+    const std::string comment =
+        one.declared->comment.empty() ? std::string() : "  // " + comment_text(one.declared->comment);
     if (one.section == Section::InOut) {
       out.line(fmt::format("{}* {} = nullptr;{}", cpp_type(*one.type), name_of(one), comment));
     } else if (one.is_constant) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/check/expression_checker.h"
+#include "plc/emit/cpp_text.h"
 #include "plc/emit/loop_check.h"
 
 namespace indurop::plc {
@@ -34,11 +35,7 @@ void StatementEmitter::comment(const std::string& text) {
   std::size_t from = 0;
   while (from < text.size()) {
     const std::size_t end = std::min(text.find('\n', from), text.size());
-    std::string line = text.substr(from, end - from);
-    while (!line.empty() && (line.back() == '\\' || line.back() == '\r' || line.back() == ' ')) {
-      line.pop_back();  // a backslash at the end would make the next line a comment
-    }
-    out_.line("// " + line);
+    out_.line("// " + comment_text(text.substr(from, end - from)));
     from = end + 1;
   }
 }

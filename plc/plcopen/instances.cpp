@@ -179,6 +179,8 @@ class Reader {
     made.type = std::string(node.attribute("typeName").empty() ? node.attribute("type") : node.attribute("typeName"));
     if (made.type.empty()) {
       made.type = made.name;
+    } else if (made.name.empty()) {
+      made.name = made.type;
     }
     if (made.type.find('.') != std::string::npos) {
       diagnostics_.warning(made.at, "this is a program of a library, which is not in the file; it is left out");

@@ -12,12 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "plc/model/identifier.h"
 #include "plc/st/lexer.h"
 
 namespace indurop::plc::st {
-
-// Whether the word means something in the language and so cannot be a name.
-[[nodiscard]] bool is_keyword(std::string_view word) noexcept;
 
 // Parse functions built on it report what they miss and then return nullopt or false.
 class TokenReader {

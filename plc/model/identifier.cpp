@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plc/st/token_reader.h"
+#include "plc/model/identifier.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 
-namespace indurop::plc::st {
+#include "plc/model/elementary.h"
+
+namespace indurop::plc {
+namespace {
+
+bool is_letter(char c) noexcept {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+}  // namespace
 
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
@@ -87,4 +99,17 @@ bool is_keyword(std::string_view word) noexcept {
   return std::any_of(kWords.begin(), kWords.end(), [&](std::string_view one) { return same_name(one, word); });
 }
 
-}  // namespace indurop::plc::st
+bool is_identifier(std::string_view text) noexcept {
+  return !text.empty() && is_letter(text.front()) &&
+         std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
+}
+
+std::string why_no_name(std::string_view text) {
+  if (!is_identifier(text)) {
+    return fmt::format("'{}' is no name; use letters, digits and '_', and begin with a letter or '_'", text);
+  }
+  return is_keyword(text) ? fmt::format("'{}' is a word of the language and cannot be a name; use another one", text)
+                          : std::string();
+}
+
+}  // namespace indurop::plc
