@@ -208,7 +208,10 @@ std::string ExpressionEmitter::unary(const Expression& expression) const {
   if (expression.op == Operator::Not) {
     return operand.type->is(Elementary::Bool) ? "!" + wrapped(text) : fmt::format("iec::bit_not({})", text);
   }
-  return is_real(operand.type->elementary) ? "-" + wrapped(text) : fmt::format("iec::neg({})", text);
+  if (!is_real(operand.type->elementary)) {
+    return fmt::format("iec::neg({})", text);
+  }
+  return text.starts_with('-') ? fmt::format("-({})", text) : "-" + wrapped(text);  // "--x" would change x
 }
 
 std::string ExpressionEmitter::binary(const Expression& expression) const {
