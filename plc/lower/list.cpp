@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <set>
 #include <utility>
 
+#include "plc/lower/accumulator.h"
 #include "plc/lower/list_operators.h"
 #include "plc/model/make.h"
 #include "plc/st/expression_parser.h"
@@ -22,11 +22,17 @@ using st::TokenKind;
 
 class ListLowering {
  public:
-  ListLowering(st::TokenReader& in, const Place& origin, std::string prefix, Diagnostics& diagnostics)
-      : in_(in), designators_(in), origin_(origin), prefix_(std::move(prefix)), diagnostics_(diagnostics) {}
+  ListLowering(const std::vector<Token>& tokens, st::TokenReader& in, const Place& origin, std::string prefix,
+               const HasInput& has_input, Diagnostics& diagnostics)
+      : in_(in),
+        designators_(in),
+        origin_(origin),
+        has_input_(has_input),
+        diagnostics_(diagnostics),
+        joints_(find_joints(tokens, prefix)),
+        accumulator_(std::move(prefix), lowered_) {}
 
-  Lowered run(const std::vector<Token>& tokens) {
-    joints_ = find_joints(tokens, prefix_);
+  Lowered run(ListUse use) {
     while (!in_.at_end()) {
       const std::size_t before = in_.position();
       if (!instruction()) {
@@ -36,7 +42,10 @@ class ListLowering {
     if (!open_.empty()) {
       in_.error(open_.back().at, "this '(' is never closed; write ')' on a line of its own");
     }
-    lowered_.value = std::move(accumulator_);
+    if (use == ListUse::Statements) {
+      accumulator_.drop();
+    }
+    lowered_.value = accumulator_.take();
     return std::move(lowered_);
   }
 
@@ -79,28 +88,25 @@ class ListLowering {
   void label(const Token& word) {
     const Place at = in_.place(word);
     const auto joint = joints_.find(upper(word.text));
-    if (joint != joints_.end() && accumulator_) {
-      bring(joint->second);
+    if (joint != joints_.end() && accumulator_.loaded()) {
+      accumulator_.bring_to(joint->second);
     }
+    accumulator_.drop();
     lowered_.body.push_back(make::label(at, std::string(word.text)));
-    accumulator_.reset();
+    accumulator_.clear();
     if (joint != joints_.end()) {
-      accumulator_ = make::name(at, joint->second);
+      accumulator_.load_joint(at, joint->second);
     }
   }
-  void bring(const std::string& variable) {
-    const Place at = accumulator_->at;
-    if (brought_.insert(variable).second) {
-      lowered_.variables.push_back(make::variable(ast::Section::Temp, variable, make::inferred_type(at)));
-    }
-    lowered_.body.push_back(make::assign(make::name(at, variable), *accumulator_));
-  }
-
   bool operation(const Token& word) {
+    if (is_input(word)) {
+      return input(word);
+    }
     if (word.is("LD") || word.is("LDN")) {
+      accumulator_.drop();
       auto value = operand();
       if (value) {
-        accumulator_ = word.is("LDN") ? make::negation(std::move(*value)) : std::move(*value);
+        accumulator_.load(word.is("LDN") ? make::negation(std::move(*value)) : std::move(*value));
       }
       return value.has_value();
     }
@@ -108,7 +114,10 @@ class ListLowering {
       return store(word);
     }
     if (word.is("NOT")) {
-      return loaded(word) && (accumulator_ = make::negation(std::move(*accumulator_)), true);
+      if (loaded(word)) {
+        accumulator_.load(make::negation(*accumulator_.take()));
+      }
+      return accumulator_.loaded();
     }
     if (const auto known = binary_word(word)) {
       return binary(word, known->op, known->negated);
@@ -126,25 +135,34 @@ class ListLowering {
   }
 
   bool loaded(const Token& word) {
-    if (!accumulator_) {
+    if (!accumulator_.loaded()) {
       in_.error(word,
                 fmt::format("nothing is loaded that {} could use; begin with LD", st::TokenReader::spelled(word)));
     }
-    return accumulator_.has_value();
+    return accumulator_.loaded();
   }
 
-  // Behind what changes variables the value stays what it was.
-  void keep() {
-    const bool fresh = in_.at_end() || in_.next_is({"LD", "LDN"}) || in_.peek(1).is(":");
-    const bool kept = accumulator_->kind == Expression::Kind::Name && accumulator_->name.starts_with("_il");
-    if (fresh || kept || accumulator_->kind == Expression::Kind::Literal) {
-      return;
+  // "CU c" with an instance c is "CAL c(CU := what is loaded)" (Tables 53.3 and 54), also for names that mean something
+  // else in front of other variables: R, S, LD.
+  [[nodiscard]] bool is_input(const Token& word) const {
+    const Token& instance = in_.peek();
+    return instance.kind == TokenKind::Word && instance.line == word.line && has_input_(instance.text, word.text) &&
+           (in_.peek(1).kind == TokenKind::End || in_.peek(1).line != word.line || in_.peek(1).is(";"));
+  }
+  bool input(const Token& word) {
+    const Place at = in_.place(word);
+    const std::string instance(in_.take().text);
+    if (!loaded(word)) {
+      return false;
     }
-    const Place at = accumulator_->at;
-    const std::string name = fmt::format("_il{}{}", prefix_, ++kept_);
-    lowered_.variables.push_back(make::variable(ast::Section::Temp, name, make::inferred_type(at)));
-    lowered_.body.push_back(make::assign(make::name(at, name), std::move(*accumulator_)));
-    accumulator_ = make::name(at, name);
+    std::vector<ast::Argument> arguments;
+    arguments.push_back(make::argument(std::string(word.text), use()));
+    lowered_.body.push_back(make::call_statement(make::call(at, make::name(at, instance), std::move(arguments))));
+    return true;
+  }
+
+  const Expression& use() {
+    return accumulator_.use(!in_.at_end() && !in_.next_is({"LD", "LDN"}) && !in_.peek(1).is(":"));
   }
 
   bool store(const Token& word) {
@@ -152,14 +170,13 @@ class ListLowering {
     if (!target || !loaded(word)) {
       return false;
     }
-    keep();
+    const Expression& value = use();
     if (word.is("S") || word.is("R")) {
       ast::Body body;
       body.push_back(make::assign(std::move(*target), make::truth(in_.place(word), word.is("S"))));
-      lowered_.body.push_back(make::when(*accumulator_, std::move(body)));
+      lowered_.body.push_back(make::when(value, std::move(body)));
     } else {
-      lowered_.body.push_back(
-          make::assign(std::move(*target), word.is("STN") ? make::negation(*accumulator_) : *accumulator_));
+      lowered_.body.push_back(make::assign(std::move(*target), word.is("STN") ? make::negation(value) : value));
     }
     return true;
   }
@@ -200,11 +217,13 @@ class ListLowering {
     const bool deferred = in_.peek().is("(") && !closed_on_line();
     if (deferred) {
       in_.take();
-      open_.push_back({in_.place(word), op, negated, std::move(accumulator_)});
-      accumulator_.reset();
+      open_.push_back({in_.place(word), op, negated, accumulator_.take()});
       if (in_.peek().line == word.line && !in_.at_end()) {
-        accumulator_ = operand();
-        return accumulator_.has_value();
+        auto first = operand();
+        if (first) {
+          accumulator_.load(std::move(*first));
+        }
+        return first.has_value();
       }
       return true;
     }
@@ -225,8 +244,8 @@ class ListLowering {
   }
 
   void apply(Operator op, bool negated, Expression operand) {
-    accumulator_ =
-        make::binary(op, std::move(*accumulator_), negated ? make::negation(std::move(operand)) : std::move(operand));
+    accumulator_.load(
+        make::binary(op, *accumulator_.take(), negated ? make::negation(std::move(operand)) : std::move(operand)));
   }
 
   bool close() {
@@ -240,8 +259,8 @@ class ListLowering {
     }
     Open open = std::move(open_.back());
     open_.pop_back();
-    Expression inner = std::move(*accumulator_);
-    accumulator_ = std::move(open.before);
+    Expression inner = *accumulator_.take();
+    accumulator_.load(std::move(*open.before));
     apply(open.op, open.negated, std::move(inner));
     return true;
   }
@@ -256,9 +275,15 @@ class ListLowering {
       if (!loaded(word)) {
         return false;
       }
-      bring(joint->second);
+      accumulator_.bring_to(joint->second);
     }
-    return leave(word, label, when) && (when != When::Always || (accumulator_.reset(), true));
+    if (when != When::Always) {
+      return leave(word, label, when);
+    }
+    accumulator_.drop();
+    const bool left = leave(word, label, when);
+    accumulator_.clear();
+    return left;
   }
 
   bool leave(const Token& word, std::string label, When when) {
@@ -276,8 +301,8 @@ class ListLowering {
     if (!loaded(word)) {
       return std::nullopt;
     }
-    keep();
-    return when == When::True ? *accumulator_ : make::negation(*accumulator_);
+    const Expression& value = use();
+    return when == When::True ? value : make::negation(value);
   }
 
   bool call(const Token& word, When when) {
@@ -309,6 +334,7 @@ class ListLowering {
     std::vector<ast::Argument> arguments;
     const bool formal = in_.peek().is("(");
     if (formal) {
+      accumulator_.drop();
       in_.take();
       while (!in_.accept(")")) {
         if (!formal_argument(arguments) ||
@@ -320,8 +346,7 @@ class ListLowering {
       if (!loaded(word)) {
         return false;
       }
-      arguments.push_back(make::argument({}, std::move(*accumulator_)));
-      accumulator_.reset();
+      arguments.push_back(make::argument({}, *accumulator_.take()));
       while (!in_.at_end() && in_.peek().line == word.line) {
         auto value = operand();
         if (!value) {
@@ -333,7 +358,7 @@ class ListLowering {
         }
       }
     }
-    accumulator_ = make::call(at, make::name(at, std::string(word.text)), std::move(arguments));
+    accumulator_.load(make::call(at, make::name(at, std::string(word.text)), std::move(arguments)));
     return true;
   }
 
@@ -355,22 +380,21 @@ class ListLowering {
   st::TokenReader& in_;
   st::ExpressionParser designators_;
   const Place& origin_;
-  std::string prefix_;
+  const HasInput& has_input_;
   Diagnostics& diagnostics_;
   Lowered lowered_;
-  std::optional<Expression> accumulator_;
-  std::vector<Open> open_;
   std::map<std::string, std::string> joints_;  // labels and the variables with what is loaded there
-  std::set<std::string> brought_;
-  int kept_ = 0;
+  Accumulator accumulator_;
+  std::vector<Open> open_;
 };
 
 }  // namespace
 
-Lowered lower_list(const st::Text& text, const std::string& prefix, Diagnostics& diagnostics) {
+Lowered lower_list(const st::Text& text, const std::string& prefix, const HasInput& has_input, ListUse use,
+                   Diagnostics& diagnostics) {
   const auto tokens = st::tokenize(text.text, text.at, diagnostics);
   st::TokenReader in(tokens, text.at, diagnostics);
-  return ListLowering(in, text.at, prefix, diagnostics).run(tokens);
+  return ListLowering(tokens, in, text.at, prefix, has_input, diagnostics).run(use);
 }
 
 }  // namespace indurop::plc::lower

@@ -4,7 +4,10 @@
 
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "plc/lower/lowered.h"
 #include "plc/model/diagnostics.h"
@@ -12,8 +15,14 @@
 
 namespace indurop::plc::lower {
 
-// The value is what is in the accumulator at the end. `prefix`: of the names of variables, different for each body of a
-// POU.
-[[nodiscard]] Lowered lower_list(const st::Text& text, const std::string& prefix, Diagnostics& diagnostics);
+// Whether the POU has a variable of this name that is a function block with this input.
+using HasInput = std::function<bool(std::string_view instance, std::string_view input)>;
+
+enum class ListUse : std::uint8_t { Statements, Condition };
+
+// The value of a condition is what is in the accumulator at the end. `prefix`: of the names of variables, different for
+// each body of a POU.
+[[nodiscard]] Lowered lower_list(const st::Text& text, const std::string& prefix, const HasInput& has_input,
+                                 ListUse use, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::lower

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <unordered_set>
 
+#include "plc/library/standard.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/flow.h"
 #include "plc/lower/list.h"
@@ -78,7 +79,7 @@ class PouLowering {
   }
 
  private:
-  Lowered lower(Body& body, const std::string& what, const std::string& prefix) {
+  Lowered lower(Body& body, const std::string& what, const std::string& prefix, ListUse use = ListUse::Statements) {
     Lowered code;
     switch (body.language) {
       case Language::None:
@@ -88,7 +89,10 @@ class PouLowering {
         call_actions(code.body, code.variables);
         break;
       case Language::Il:
-        code = lower_list({body.text, body.text_at}, prefix, diagnostics_);
+        code = lower_list(
+            {body.text, body.text_at}, prefix,
+            [this](std::string_view instance, std::string_view input) { return has_input(instance, input); }, use,
+            diagnostics_);
         break;
       case Language::Ld:
       case Language::Fbd: {
@@ -109,6 +113,24 @@ class PouLowering {
         break;
     }
     return code;
+  }
+
+  [[nodiscard]] bool has_input(std::string_view instance, std::string_view input) const {
+    const auto variable = std::find_if(pou_.variables.begin(), pou_.variables.end(),
+                                       [&](const ast::Variable& one) { return same_name(one.name, instance); });
+    if (variable == pou_.variables.end() || variable->type.kind != ast::TypeSpec::Kind::Named) {
+      return false;
+    }
+    const std::string& type = variable->type.name;
+    for (const ast::Pou& other : project_.pous) {
+      if (same_name(other.name, type)) {
+        return std::any_of(other.variables.begin(), other.variables.end(), [&](const ast::Variable& one) {
+          return one.section == ast::Section::Input && same_name(one.name, input);
+        });
+      }
+    }
+    const LibraryBlock* block = find_block(type);
+    return block != nullptr && block->input(input) != nullptr;
   }
 
   // "Open();" of an action of this POU: its code, here.
@@ -211,7 +233,7 @@ class PouLowering {
       code.value = st::parse_expression({condition_text(body.text), body.text_at}, diagnostics_);
       return code;
     }
-    Lowered code = lower(body, what_of(body), prefix);
+    Lowered code = lower(body, what_of(body), prefix, ListUse::Condition);
     stays_inside(code);
     if (code.value) {
       return code;
