@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::node {
@@ -32,7 +33,12 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   if (options.node.empty()) {
-    options.node = options.board.empty() ? "local" : options.board;
+    options.node = options.board.empty() ? vars::default_node() : options.board;
+    if (const std::string owner = vars::other_owner("local");
+        options.board.empty() && !owner.empty() && !options.quiet) {
+      std::fprintf(stderr, "indurop-node: note: the name 'local' is in use by user %s: this node is '%s'\n",
+                   owner.c_str(), options.node.c_str());
+    }
   }
   if (!vars::valid_node_name(options.node)) {
     std::fprintf(

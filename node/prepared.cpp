@@ -65,8 +65,9 @@ Result<ClaimedName, Ending> ClaimedName::claim(const std::string& node, const Co
         "name with --node",
         holder > 0 ? fmt::format(" (pid {})", holder) : "", node);
   } else {
-    console.error("{}; choose another name with --node, or let their owner remove /dev/shm/indurop.{}*",
-                  describe(lock.error()), node);
+    const std::string owner = vars::other_owner(node);
+    console.error("{}; choose another name with --node, or let {} remove /dev/shm/indurop.{}*", describe(lock.error()),
+                  owner.empty() ? "their owner" : "user " + owner, node);
   }
   return Ending{kFailed};
 }

@@ -5,6 +5,7 @@
 #include "vars/node_lock.h"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -135,6 +136,23 @@ NodeLock::~NodeLock() {
   if (file_ >= 0) {
     ::close(file_);
   }
+}
+
+std::string other_owner(const std::string& node) {
+  struct stat status {};
+  if (::lstat(path_of(node).c_str(), &status) != 0 || status.st_uid == ::geteuid()) {
+    return {};
+  }
+  passwd entry{};
+  passwd* found = nullptr;
+  char text[1024];
+  const bool known = ::getpwuid_r(status.st_uid, &entry, text, sizeof(text), &found) == 0 && found != nullptr;
+  return known ? found->pw_name : std::to_string(status.st_uid);
+}
+
+std::string default_node() {
+  const std::string name = "local";
+  return other_owner(name).empty() ? name : name + "_" + std::to_string(::geteuid());
 }
 
 pid_t running_node(const std::string& node) {

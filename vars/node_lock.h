@@ -28,6 +28,12 @@ class NodeLock {
   int file_ = -1;
 };
 
+// User who has the files of a node of this name, by name or number; empty if it is us or nobody.
+std::string other_owner(const std::string& node);
+
+// Name of a node that was given none: "local", or "local_UID" as long as another user has the files of a "local".
+std::string default_node();
+
 // Pid of the process that runs the node, 0 if none does. Any user may ask.
 pid_t running_node(const std::string& node);
 

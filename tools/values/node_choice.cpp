@@ -13,16 +13,22 @@
 #include "tools/command/units.h"
 #include "tools/values/here_source.h"
 #include "tools/values/remote_source.h"
+#include "tools/values/starting_node.h"
+#include "vars/node_lock.h"
 #include "vars/process.h"
 #include "vars/shm_file.h"
 
 namespace indurop::tools {
 namespace {
 
-constexpr const char* kDefaultNode = "local";
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> running_nodes() {
+  std::vector<std::string> names = vars::list_nodes();
+  std::erase_if(names, [](const std::string& name) { return vars::running_node(name) == 0; });
+  return names;
 }
 
 Result<std::string, Failure> named_node(const std::string& name, const char* origin) {
@@ -30,6 +36,7 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
     return Failure{
         kUsage, fmt::format("'{}' ({}) is not a valid node name: 1 to 40 of A-Z a-z 0-9 _ -", printable(name), origin)};
   }
+  while_starting([&] { return vars::running_node(name) != 0; });
   const auto names = vars::list_nodes();
   if (contains(names, name)) {
     return name;
@@ -72,9 +79,16 @@ Result<std::string, Failure> choose_node(const std::string& asked) {
   if (environment != nullptr && *environment != '\0') {
     return named_node(environment, "$INDUROP_NODE");
   }
-  const auto names = vars::list_nodes();
-  if (contains(names, kDefaultNode)) {
-    return std::string(kDefaultNode);
+  std::vector<std::string> names;
+  while_starting([&] {
+    names = running_nodes();
+    return !names.empty();
+  });
+  names = names.empty() ? vars::list_nodes() : names;
+  for (const std::string& usual : {vars::default_node(), std::string("local")}) {
+    if (contains(names, usual)) {
+      return usual;
+    }
   }
   if (names.size() == 1) {
     return names.front();
@@ -134,6 +148,14 @@ Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode) {
   }
   context.values = std::make_shared<HereSource>(*node, mode);
   auto store = context.values->attach();
+  // One that starts under a name that was used before still shows what the former left.
+  while_starting([&] {
+    if (store.ok() && store_alive(store->header())) {
+      return true;
+    }
+    store = context.values->attach();
+    return false;
+  });
   if (!store.ok()) {
     return Failure{exit_code_of(store.error()),
                    explain_open_error(store.error(), *node, mode == vars::Mode::ReadWrite)};
@@ -148,6 +170,13 @@ Result<ChosenRun, Failure> open_run(const std::string& asked) {
     return std::move(node).error();
   }
   auto run = RunView::open(*node);
+  while_starting([&] {
+    if (run.ok() && run->node_alive()) {
+      return true;
+    }
+    run = RunView::open(*node);
+    return false;
+  });
   if (!run.ok()) {
     return Failure{exit_code_of(run.error()),
                    run.error().code == Errc::NotFound

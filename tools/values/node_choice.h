@@ -13,7 +13,8 @@
 
 namespace indurop::tools {
 
-// `asked` (--node), else $INDUROP_NODE, "local", or the only node there is.
+// `asked` (--node), else $INDUROP_NODE; else of the nodes that run "local" or the only one; if none runs, of those that
+// left values behind. A node that is just starting is waited for.
 Result<std::string, Failure> choose_node(const std::string& asked);
 
 // The store of the chosen node, or with --remote of the boards in the network; `context.values` is then its source.

@@ -10,6 +10,7 @@
 
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
+#include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::tools {
@@ -54,8 +55,8 @@ Result<std::vector<std::string>, Failure> chosen(const Context& context, bool al
   if (all || names.size() <= 1) {
     return names;
   }
-  if (std::find(names.begin(), names.end(), "local") != names.end()) {
-    return std::vector<std::string>{"local"};
+  if (const std::string usual = vars::default_node(); std::find(names.begin(), names.end(), usual) != names.end()) {
+    return std::vector<std::string>{usual};
   }
   return Failure{kUsage,
                  fmt::format("there are several nodes; say which with --node, or --all: {}", fmt::join(names, ", "))};
@@ -75,6 +76,8 @@ int clean(Context& context, bool all) {
       ++removed;
     } else if (status.error().code == Errc::Busy && all) {
       context.out.note(fmt::format("node '{}' runs: left alone", name));
+    } else if (const std::string owner = vars::other_owner(name); all && !owner.empty()) {
+      context.out.note(fmt::format("node '{}' is user {}'s: left alone", name, owner));
     } else if (status.error().code == Errc::Busy) {
       context.out.error(fmt::format("node '{}' runs; stop it first: indurop stop --node {}", name, name));
       code = kFailed;

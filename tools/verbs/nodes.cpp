@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop nodes (ps): one line per node of this machine, running or not.
+// indurop nodes (ps): one line per node that runs on this machine; with --all also those that left values behind.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "config/xml/reader.h"
 #include "tools/command/units.h"
@@ -48,7 +50,7 @@ NodeReport without_run_block(const std::string& node, const Error& error) {
   return report;
 }
 
-int nodes(Context& context, bool names_only) {
+int nodes(Context& context, bool names_only, bool all) {
   constexpr Align kRight = Align::Right;
   Table table({{"NODE", "node"},
                {"STATE", "state"},
@@ -62,35 +64,55 @@ int nodes(Context& context, bool names_only) {
                {"FAULTS", "faults", kRight},
                {"FIFO", "fifo"},
                {"CONFIGURATION", "config_file"}});
+  std::vector<NodeReport> ended;
   for (const std::string& node : vars::list_nodes()) {
     if (names_only) {
       context.out.line(node);
       continue;
     }
     const auto run = RunView::open(node);
-    table.add(row(run.ok() ? report_of(node, run.value()) : without_run_block(node, run.error())));
+    NodeReport report = run.ok() ? report_of(node, run.value()) : without_run_block(node, run.error());
+    if (report.alive) {
+      table.add(row(report));
+    } else {
+      ended.push_back(std::move(report));
+    }
   }
   if (names_only) {
     return kOk;
   }
+  if (all) {
+    for (const NodeReport& report : ended) {
+      table.add(row(report));
+    }
+  }
   if (table.empty()) {
-    context.out.note("no node on this machine");
+    context.out.note("no node runs on this machine");
   }
   print_table(context, table, JsonValue::object(), "nodes");
+  if (!all && !ended.empty()) {
+    std::vector<std::string> names;
+    std::transform(ended.begin(), ended.end(), std::back_inserter(names),
+                   [](const auto& report) { return report.node; });
+    context.out.note(fmt::format("ended, but left values behind: {} (shown by --all, removed by indurop clean)",
+                                 fmt::join(names, ", ")));
+  }
   return kOk;
 }
 
 Action declare(base::Options& app, Context& context) {
   auto names = std::make_shared<bool>(false);
+  auto all = std::make_shared<bool>(false);
+  app.flag("--all", *all, "Also nodes that do not run and left values behind");
   app.flag("--names", *names, "Print nothing but the names");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [names](Context& c) { return nodes(c, *names); };
+  return [names, all](Context& c) { return nodes(c, *names, *all); };
 }
 
 }  // namespace
 
 const Verb kNodesVerb{
-    "nodes", "A running node", "List the nodes of this machine (also: indurop ps)",
-    "A node that does not run is listed as long as it left values behind; indurop clean removes them.\n", &declare};
+    "nodes", "A running node", "List the nodes that run on this machine (also: indurop ps)",
+    "Nodes that ended and left values behind are listed with --all; indurop clean removes what they left.\n", &declare};
 
 }  // namespace indurop::tools

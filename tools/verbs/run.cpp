@@ -12,6 +12,7 @@
 #include "config/run_options.h"
 #include "config/xml/plant_reader.h"
 #include "tools/command/self.h"
+#include "tools/plant/run_detached.h"
 #include "tools/plant/run_local.h"
 #include "tools/verbs/verbs.h"
 
@@ -52,6 +53,7 @@ std::filesystem::path find_node_program() {
 struct Request {
   config::RunOptions options;
   bool local = false;
+  bool detach = false;
 };
 
 int become_node(Context& context, const std::filesystem::path& program, const config::RunOptions& options) {
@@ -91,6 +93,10 @@ int run(Context& context, Request& request) {
       context.out.error("--local runs all boards, --board runs one of them: choose one");
       return kUsage;
     }
+    if (request.detach) {
+      context.out.error("--detach starts one node: start each board with --board NAME --one-host --detach");
+      return kUsage;
+    }
     return run_local(context, program, options);
   }
   if (plant && options.board.empty()) {
@@ -100,12 +106,13 @@ int run(Context& context, Request& request) {
                     options.config.string()));
     return kUsage;
   }
-  return become_node(context, program, options);
+  return request.detach ? run_detached(context, program, options) : become_node(context, program, options);
 }
 
 Action declare(base::Options& app, Context& /*context*/) {
   auto request = std::make_shared<Request>();
   app.flag("--local", request->local, "Run all boards of a plant on this host");
+  app.flag("--detach", request->detach, "Return when the node runs; indurop stop ends it");
   config::declare_run_options(app, request->options);
   return [request](Context& c) { return run(c, *request); };
 }
@@ -114,9 +121,11 @@ Action declare(base::Options& app, Context& /*context*/) {
 
 const Verb kRunVerb{"run", "Start and stop", "Run a configuration, or with --local all boards of a plant",
                     "Becomes indurop-node: exit code and signals are the node's own. Without FILE it runs module.xml.\n"
+                    "With --detach it goes on in the background and says where its messages are.\n"
                     "With --local the exit code is that of the first board that failed.\n"
                     "Examples:\n"
                     "  indurop run module.xml --duration 10s\n"
+                    "  indurop run module.xml --detach\n"
                     "  indurop run plant.xml --local\n",
                     &declare};
 

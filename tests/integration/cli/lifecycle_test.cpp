@@ -89,6 +89,28 @@ TEST_F(CommandLine, Clean_with_nothing_to_remove_is_content) {
   EXPECT_THAT(sut.err, HasSubstr("nothing to remove"));
 }
 
+TEST_F(CommandLine, Run_detached_returns_when_the_node_runs) {
+  const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
+  const auto sut = indurop({"run", config, "--detach", "--duration", "60s"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_THAT(sut.err, HasSubstr("node 'local' runs"));
+  EXPECT_THAT(indurop({"status"}).out, StartsWith("local  running"));
+  const fs::path log = scratch() / "state" / "local" / "node.log";
+  const auto size = fs::file_size(log);
+  const auto again = indurop({"run", config, "--detach"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, HasSubstr("indurop stop --node local"));
+  EXPECT_GE(fs::file_size(log), size) << "the running node's messages are kept";
+  EXPECT_EQ(indurop({"stop"}).code, 0);
+}
+
+TEST_F(CommandLine, Run_detached_tells_why_the_node_does_not_run) {
+  const auto sut = indurop({"run", "nothere.xml", "--detach"});
+  EXPECT_EQ(sut.code, 4);
+  EXPECT_THAT(sut.err, HasSubstr("nothere.xml: error: no such file"));
+  EXPECT_EQ(indurop({"run", TWO_BOARDS "/plant.xml", "--local", "--detach"}).code, 2);
+}
+
 TEST_F(CommandLine, Run_hands_arguments_and_exit_code_through) {
   const fs::path folder = scratch() / "bin";
   fs::create_directories(folder);

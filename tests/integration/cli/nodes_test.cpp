@@ -43,7 +43,7 @@ TEST_F(WithNode, Status_of_a_killed_node_shows_its_last_figures) {
   EXPECT_EQ(sut.code, 6);
   EXPECT_THAT(sut.out, StartsWith("local  killed"));
   EXPECT_THAT(sut.out, HasSubstr("modify"));
-  EXPECT_EQ(json_of(indurop({"nodes", "-o", "json"}))["nodes"][0]["state"], "killed");
+  EXPECT_EQ(json_of(indurop({"nodes", "--all", "-o", "json"}))["nodes"][0]["state"], "killed");
 }
 
 TEST_F(WithNode, Status_repeats_as_often_as_asked) {
@@ -75,6 +75,48 @@ TEST_F(CommandLine, Of_several_nodes_one_must_be_named) {
   Background local(fake_node("local"));
   ASSERT_TRUE(local.wait_for("ready"));
   EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["node"], "local");
+}
+
+TEST_F(CommandLine, Ended_nodes_are_listed_apart_and_do_not_count) {
+  Background ended(fake_node("local"));
+  ASSERT_TRUE(ended.wait_for("ready"));
+  ended.signal(SIGKILL);
+  ASSERT_EQ(ended.wait(), 128 + SIGKILL);
+  Background node(fake_node("press_1"));
+  ASSERT_TRUE(node.wait_for("ready"));
+  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["node"], "press_1");
+  const auto listed = indurop({"nodes"});
+  EXPECT_THAT(listed.out, HasSubstr("press_1"));
+  EXPECT_THAT(listed.out, Not(HasSubstr("local")));
+  EXPECT_THAT(listed.err, HasSubstr("ended, but left values behind: local"));
+  EXPECT_EQ(json_of(indurop({"nodes", "--all", "-o", "json"}))["nodes"][1]["node"], "local");
+}
+
+TEST_F(CommandLine, A_node_that_is_just_starting_is_waited_for) {
+  Background node(indurop_command({"run", std::string(PLC_EXAMPLE) + "/module.xml", "-q"}));
+  const auto sut = indurop({"vars"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_EQ(indurop({"status"}).code, 0);
+}
+
+TEST_F(CommandLine, Nodes_of_another_user_do_not_block_the_default_name) {
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "needs root to become another user";
+  }
+  Background other(fake_node("local"));
+  ASSERT_TRUE(other.wait_for("ready"));
+  const auto folder = scratch() / "nobody";
+  std::filesystem::create_directories(folder);
+  ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
+  const RunOptions nobody{.environment = {"INDUROP_STATE_DIR=" + folder.string()}, .user = kNobody};
+  const auto sut = indurop({"run", std::string(PLC_EXAMPLE) + "/module.xml", "--duration", "0.2s"}, nobody);
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_THAT(sut.err, HasSubstr("the name 'local' is in use by user root: this node is 'local_65534'"));
+  const auto cleaned = indurop({"clean", "--all"}, nobody);
+  EXPECT_EQ(cleaned.code, 0) << cleaned.err;
+  EXPECT_THAT(cleaned.out, HasSubstr("'local_65534'"));
+  EXPECT_THAT(cleaned.err, HasSubstr("node 'local' is user root's: left alone"));
 }
 
 TEST_F(CommandLine, Garbage_in_shared_memory_is_an_error_and_never_a_crash) {

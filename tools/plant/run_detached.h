@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop run --detach: a node that lives on after this program, which returns when the node runs.
+
+#pragma once
+
+#include <filesystem>
+
+#include "config/run_options.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+// Starts `program` (indurop-node) in a session of its own; what it prints goes to the file node.log in the node's state
+// directory. Returns when its modules run, or the node's exit code when it ended before.
+int run_detached(Context& context, const std::filesystem::path& program, const config::RunOptions& options);
+
+}  // namespace indurop::tools

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/starting_node.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <charconv>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "tools/values/run_view.h"
+#include "vars/node_lock.h"
+#include "vars/process.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr double kPatienceSeconds = 2;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A node, or `indurop run` that is about to become one.
+bool becomes_node(const std::filesystem::path& process) {
+  const std::string name = text_of(process / "comm");
+  if (name == "indurop-node\n") {
+    return true;
+  }
+  // Words end with NUL.
+  return name == "indurop\n" && text_of(process / "cmdline").find(std::string_view("\0run\0", 5)) != std::string::npos;
+}
+
+// Its /dev/shm is ours. Of another user's process nobody can say.
+bool sees_our_files(const std::filesystem::path& process) {
+  std::error_code error;
+  const auto theirs = std::filesystem::read_symlink(process / "ns/mnt", error);
+  return !error && theirs == std::filesystem::read_symlink("/proc/self/ns/mnt", error);
+}
+
+// It has become a node whose modules run.
+bool runs_already(pid_t pid) {
+  for (const std::string& node : vars::list_nodes()) {
+    if (vars::running_node(node) == pid) {
+      const auto run = RunView::open(node);
+      return run.ok() && run->block().state.load(std::memory_order_relaxed) != scheduler::NodeState::Starting;
+    }
+  }
+  return false;
+}
+
+double age_in_seconds(pid_t pid) {
+  timespec now{};
+  ::clock_gettime(CLOCK_BOOTTIME, &now);
+  const double up = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return up - static_cast<double>(vars::process_start_time(pid)) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+}  // namespace
+
+bool node_is_starting() {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    const std::string name = entry.path().filename();
+    pid_t pid = 0;
+    const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), pid);
+    if (problem == std::errc() && *end == '\0' && pid != ::getpid() && age_in_seconds(pid) < kPatienceSeconds &&
+        becomes_node(entry.path()) && sees_our_files(entry.path()) && !runs_already(pid)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace indurop::tools
