@@ -43,6 +43,9 @@ bool CallChecker::take_enable(Expression& call, bool allowed) {
     if (!is_enable(argument) && !is_enable_out(argument)) {
       continue;
     }
+    if ((is_enable(argument) ? out.enable : out.enable_out) != nullptr) {
+      context_.error(argument.at, fmt::format("{} is given twice, remove one of them", argument.name));
+    }
     if (!allowed && is_enable(argument) && argument.value && make::is_true(*argument.value)) {
       continue;
     }
@@ -153,6 +156,7 @@ void CallChecker::output_to(Argument& argument, const Type& type) {
 void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   Resolved& out = ExpressionChecker::resolved(call);
   std::size_t position = 0;
+  std::set<const LibraryParameter*> given;
   for (Argument& argument : call.arguments) {
     // EN of a block that has an input of this name is that input.
     const LibraryParameter* parameter = argument.name.empty() && position < block.inputs.size()
@@ -170,6 +174,9 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
               : fmt::format("{} has no {} '{}'{}", block.name, argument.output ? "output" : "input", argument.name,
                             did_you_mean(argument.name, names_of(argument.output ? block.outputs : block.inputs))));
       continue;
+    }
+    if (!given.insert(parameter).second) {
+      context_.error(argument.at, fmt::format("{} is given twice, remove one of them", parameter->name));
     }
     if (!argument.value) {
       continue;
@@ -228,7 +235,10 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
       if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
         context_.pou->given[upper(call.operands[0].name + "." + parameter->name)] = *argument.value;
       }
-      if (type != nullptr && !same_type(*type, *parameter->type)) {
+      const bool same =
+          type == nullptr || (same_type(*type, *parameter->type) && in_range_of(*type, *parameter->type) &&
+                              in_range_of(*parameter->type, *type));
+      if (!same) {
         context_.error(argument.value->at,
                        fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter->name,
                                    to_string(*parameter->type), with_article(*type)));

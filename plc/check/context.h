@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "plc/check/program.h"
 #include "plc/model/diagnostics.h"
@@ -16,6 +17,8 @@ struct Context {
   Program& program;
   Diagnostics& diagnostics;
   Pou* pou = nullptr;  // the one being checked
+  // The variables of the FOR statements around: a Variable or a Global, and where the loop stands.
+  std::vector<std::pair<const void*, Place>> loop_variables{};
 
   void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
   void warning(const Place& at, std::string text) { diagnostics.warning(at, located(std::move(text))); }

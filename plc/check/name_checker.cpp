@@ -340,6 +340,11 @@ bool ExpressionChecker::writable(const Expression& expression) {
     context_.error(expression.at, fmt::format("'{}' is CONSTANT and cannot be changed", root.name));
     return false;
   }
+  if (global != nullptr && global->address.starts_with("%I")) {
+    context_.error(expression.at,
+                   fmt::format("{} is an input, which only the world outside changes; use %Q or %M", global->address));
+    return false;
+  }
   // Outputs of an instance belong to its function block.
   for (const Expression* at = &expression; at != &root; at = &at->operands[0]) {
     const Type* base = at->operands[0].type;
@@ -358,6 +363,13 @@ void ExpressionChecker::note_write(const Expression& expression) {
     return;
   }
   const Resolved& root = *root_of(expression).resolved;
+  for (const auto& [variable, at] : context_.loop_variables) {
+    if (variable == root.variable || variable == root.global) {
+      context_.error(expression.at, fmt::format("this is the variable of the FOR at {}, which must not be changed "
+                                                "inside; leave the loop with EXIT, or use WHILE",
+                                                to_string(at)));
+    }
+  }
   if (root.meaning == Meaning::FunctionResult) {
     context_.pou->result_assigned = true;
   } else if (root.global != nullptr) {

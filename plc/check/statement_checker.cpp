@@ -215,9 +215,19 @@ void StatementChecker::for_statement(Statement& one) {
   if (step != nullptr && *step == Constant(Integer{0})) {
     context_.error(one.by->at, "a step of 0 never ends, use another one");
   }
+  const Resolved* control = one.target->resolved.get();
+  const void* variable = control == nullptr || type == nullptr ? nullptr
+                         : control->variable != nullptr        ? static_cast<const void*>(control->variable)
+                                                               : control->global;
+  if (variable != nullptr) {
+    context_.loop_variables.emplace_back(variable, one.at);
+  }
   ++loops_;
   list(one.body);
   --loops_;
+  if (variable != nullptr) {
+    context_.loop_variables.pop_back();
+  }
 }
 
 }  // namespace indurop::plc

@@ -62,6 +62,13 @@ bool same_type(const Type& a, const Type& b) noexcept {
   return false;
 }
 
+bool in_range_of(const Type& from, const Type& to) noexcept {
+  if (from.kind == Type::Kind::Array && to.kind == Type::Kind::Array) {
+    return in_range_of(*from.element, *to.element);
+  }
+  return !to.range || (from.range && from.range->low >= to.range->low && from.range->high <= to.range->high);
+}
+
 bool assignable(const Type& from, const Type& to) noexcept {
   if (from.kind == Type::Kind::Block) {
     return false;
@@ -69,7 +76,7 @@ bool assignable(const Type& from, const Type& to) noexcept {
   if (from.kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
     return widens(from.elementary, to.elementary);
   }
-  return same_type(from, to);
+  return same_type(from, to) && in_range_of(from, to);
 }
 
 const Type* common_type(const Type& a, const Type& b) noexcept {

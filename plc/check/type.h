@@ -66,6 +66,8 @@ struct Type {
 [[nodiscard]] std::string with_article(const Type& type);
 // The same type, for VAR_IN_OUT and whole arrays; a subrange is the same as its base.
 [[nodiscard]] bool same_type(const Type& a, const Type& b) noexcept;
+// Whether every value of `from` is one of `to`, as far as subranges say: also those in arrays.
+[[nodiscard]] bool in_range_of(const Type& from, const Type& to) noexcept;
 // Whether a value of `from` can be assigned to a `to` without a conversion function.
 [[nodiscard]] bool assignable(const Type& from, const Type& to) noexcept;
 // The smallest elementary type both widen to; null if there is none. Texts: the longer one.

@@ -86,13 +86,11 @@ std::string ExpressionEmitter::value(const Expression& expression, const Type& t
     return cpp_constant(to.kind == Type::Kind::Enum ? *known : stored(*known, to), to, exact);
   }
   const std::string text = exact && to.is_string() ? raw(expression) : converted(raw(expression), expression, to);
-  const Type& from = *expression.type;
-  const bool inside =
-      !to.range || exact || (from.range && from.range->low >= to.range->low && from.range->high <= to.range->high);
-  if (inside) {
-    return text;
-  }
-  return fmt::format("iec::in_range({}, {}, {}, {})", place(expression.at), text, to.range->low, to.range->high);
+  return exact || in_range_of(*expression.type, to) ? text : in_range(expression, text, to);
+}
+
+std::string ExpressionEmitter::in_range(const Expression& at, const std::string& text, const Type& to) const {
+  return fmt::format("iec::in_range({}, {}, {}, {})", place(at.at), text, to.range->low, to.range->high);
 }
 
 std::string ExpressionEmitter::raw(const Expression& expression) const {
@@ -307,7 +305,8 @@ std::string ExpressionEmitter::assign_output(const ast::Argument& argument, cons
   Expression output;
   output.kind = Expression::Kind::Member;  // not a call: its type is exactly `from`
   output.type = &from;
-  return assign(target, argument.negated ? "!" + text : converted(text, output, *target.type));
+  const std::string value = argument.negated ? "!" + text : converted(text, output, *target.type);
+  return assign(target, in_range_of(from, *target.type) ? value : in_range(target, value, *target.type));
 }
 
 std::string ExpressionEmitter::assign(const Expression& target, const std::string& text) const {

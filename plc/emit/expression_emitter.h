@@ -36,6 +36,8 @@ class ExpressionEmitter {
   [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.name); }
 
  private:
+  // Faults at the place of `at` if the value is none of the subrange.
+  [[nodiscard]] std::string in_range(const ast::Expression& at, const std::string& text, const Type& to) const;
   [[nodiscard]] std::string raw(const ast::Expression& expression) const;
   [[nodiscard]] std::string name(const ast::Expression& expression) const;
   [[nodiscard]] std::string global(const Global& global) const;

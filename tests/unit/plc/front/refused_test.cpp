@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What would compile to code that does something else than it says, and is refused or checked instead.
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/plc/front/compiled.h"
+
+namespace indurop::plc {
+namespace {
+
+using testing::compiled;
+using ::testing::HasSubstr;
+using testing::messages;
+using testing::wrong;
+
+constexpr const char* kBlocks = R"(TYPE Percent : INT (0..100); END_TYPE
+FUNCTION_BLOCK Doubler
+VAR_INPUT in : INT; END_VAR
+VAR_OUTPUT out : INT; END_VAR
+VAR_IN_OUT last : INT; END_VAR
+  out := 2 * in;
+  last := in;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Half
+VAR_IN_OUT part : Percent; END_VAR
+  part := part / 2;
+END_FUNCTION_BLOCK
+)";
+
+std::string program(const std::string& code) {
+  return std::string(kBlocks) +
+         "PROGRAM Main\nVAR p : Percent; i, j : INT; a : ARRAY[1..3] OF INT; b : ARRAY[1..3] OF Percent;\n"
+         "d : Doubler; h : Half; t : TON; c : CTU; x : BOOL; pump AT %IX0.0 : BOOL; lamp AT %QX0.0 : BOOL; END_VAR\n" +
+         code + "\nEND_PROGRAM\n";
+}
+
+TEST(PlcRefused, A_subrange_is_no_VAR_IN_OUT_of_its_base_type) {
+  EXPECT_THAT(wrong(program("d(in := i, last := p);")), HasSubstr("last is VAR_IN_OUT and needs a variable of type"));
+  EXPECT_THAT(wrong(program("h(part := i);")), HasSubstr("part is VAR_IN_OUT and needs a variable of type"));
+  EXPECT_EQ(wrong(program("h(part := p); d(in := p, last := i);")), "");
+}
+
+TEST(PlcRefused, An_array_does_not_become_one_of_a_subrange) {
+  EXPECT_THAT(wrong(program("b := a;")), HasSubstr("use a value of the same type"));
+  EXPECT_EQ(wrong(program("a := b;")), "");
+}
+
+TEST(PlcRefused, An_output_is_checked_against_the_subrange_it_goes_to) {
+  const Compiled sut = compiled(program("d(in := i, last := j, out => p);"));
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("p = iec::in_range({\"in.st:16:30\", \"Main\"}, d.out, 0, 100);"));
+}
+
+TEST(PlcRefused, An_input_or_output_is_given_once) {
+  EXPECT_THAT(wrong(program("t(IN := x, IN := FALSE);")), HasSubstr("IN is given twice, remove one of them"));
+  EXPECT_THAT(wrong(program("t(Q => x, Q => lamp);")), HasSubstr("Q is given twice"));
+  EXPECT_THAT(wrong(program("t(x, T#1s, PT := T#2s);")), HasSubstr("PT is given twice"));
+  EXPECT_THAT(wrong(program("c(R := x, RESET := x);")), HasSubstr("R is given twice"));
+  EXPECT_THAT(wrong(program("d(in := 1, in := 2, last := i);")), HasSubstr("in is given twice"));
+  EXPECT_THAT(wrong(program("t(EN := x, EN := x, IN := x);")), HasSubstr("EN is given twice"));
+}
+
+TEST(PlcRefused, The_variable_of_a_FOR_is_not_changed_inside) {
+  for (const char* change :
+       {"i := i + 1;", "IF x THEN i := 9; END_IF;", "d(in := 1, last := i);", "d(in := 1, last := j, out => i);",
+        "FOR i := 1 TO 2 DO j := i; END_FOR;", "FOR j := 1 TO 2 DO i := j; END_FOR;"}) {
+    EXPECT_THAT(wrong(program(std::string("FOR i := 1 TO 3 DO ") + change + " END_FOR;")),
+                HasSubstr("this is the variable of the FOR at in.st:16:1, which must not be changed inside"))
+        << change;
+  }
+  EXPECT_EQ(wrong(program("FOR i := 1 TO 3 DO j := i; END_FOR; i := 0;")), "");
+}
+
+TEST(PlcRefused, Inputs_are_not_written) {
+  EXPECT_THAT(wrong(program("pump := TRUE;")), HasSubstr("%IX0.0 is an input, which only the world outside changes"));
+  EXPECT_THAT(wrong(program("%IX0.1 := TRUE;")), HasSubstr("%IX0.1 is an input"));
+  EXPECT_THAT(wrong(program("%IW2.3 := TRUE;")), HasSubstr("is an input"));
+  EXPECT_THAT(wrong(program("t(IN := x, Q => pump);")), HasSubstr("%IX0.0 is an input"));
+  EXPECT_EQ(wrong(program("lamp := pump; %QX0.2 := %IX0.1;")), "");
+}
+
+}  // namespace
+}  // namespace indurop::plc
