@@ -28,6 +28,8 @@ target_include_directories(indurop_options INTERFACE ${PROJECT_SOURCE_DIR})
 set(INDUROP_SANITIZE "" CACHE STRING "Sanitizers, separated by commas")
 if(INDUROP_SANITIZE)
   add_compile_options(-fsanitize=${INDUROP_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # What sanitizers add hides from g++ that a value is set; the release build warns rightly.
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${INDUROP_SANITIZE})
   if(INDUROP_SANITIZE MATCHES "thread" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # It does not model fences; what our fences order is shown to it as relaxed atomics, so nothing is reported falsely.
