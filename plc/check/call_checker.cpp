@@ -191,6 +191,18 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   }
 }
 
+void CallChecker::in_out(const Expression& call, Expression& given, const Variable& parameter) {
+  const Type* type = expressions_.reference(given);
+  if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
+    context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
+  }
+  const Type& wanted = *parameter.type;
+  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type))) {
+    context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,
+                                         to_string(wanted), with_article(*type)));
+  }
+}
+
 void CallChecker::user_block(Expression& call, const Pou& pou) {
   Resolved& out = ExpressionChecker::resolved(call);
   out.pou = &pou;
@@ -231,18 +243,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     if (argument.output) {
       output_to(argument, *parameter->type);
     } else if (parameter->section == ast::Section::InOut) {
-      const Type* type = expressions_.reference(*argument.value);
-      if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
-        context_.pou->given[upper(call.operands[0].name + "." + parameter->name)] = *argument.value;
-      }
-      const bool same =
-          type == nullptr || (same_type(*type, *parameter->type) && in_range_of(*type, *parameter->type) &&
-                              in_range_of(*parameter->type, *type));
-      if (!same) {
-        context_.error(argument.value->at,
-                       fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter->name,
-                                   to_string(*parameter->type), with_article(*type)));
-      }
+      in_out(call, *argument.value, *parameter);
     } else {
       expressions_.assigned(*argument.value, *parameter->type);
     }

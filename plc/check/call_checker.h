@@ -34,6 +34,7 @@ class CallChecker {
                                const Type* wanted);
   const Type* user_function(ast::Expression& call, const Pou& pou);
   void library_block(ast::Expression& call, const LibraryBlock& block);
+  void in_out(const ast::Expression& call, ast::Expression& given, const Variable& parameter);
   void user_block(ast::Expression& call, const Pou& pou);
   void output_to(ast::Argument& argument, const Type& type);
   bool take_enable(ast::Expression& call, bool allowed);
