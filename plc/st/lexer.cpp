@@ -32,6 +32,32 @@ std::string_view trimmed(std::string_view text) noexcept {
                                          : text.substr(first, text.find_last_not_of(" \t\r\n*") - first + 1);
 }
 
+// Pragmas of editors say how to show, check and export the program, or which parts of it count.
+constexpr std::array<std::string_view, 22> kPragmas{
+    "ATTRIBUTE", "REGION", "ENDREGION", "WARNING",  "TEXT",    "INFO",  "ERROR",  "DEFINE",
+    "UNDEFINE",  "ENABLE", "DISABLE",   "ANALYSIS", "LIBRARY", "FLOW",  "NOFLOW", "IMPLICIT",
+    "OBSOLETE",  "PACK",   "IF",        "ELSIF",    "ELSE",    "END_IF"};
+
+// "extern long __tick; TX = __tick;", as Beremiz and OpenPLC pass it on to their C compiler.
+bool is_c_code(std::string_view pragma) {
+  pragma = trimmed(pragma);
+  const auto end = std::find_if_not(pragma.begin(), pragma.end(), is_word);
+  const std::string first = upper(pragma.substr(0, static_cast<std::size_t>(end - pragma.begin())));
+  if (std::find(kPragmas.begin(), kPragmas.end(), first) != kPragmas.end()) {
+    return false;
+  }
+  char quote = '\0';
+  char before = '\0';
+  for (const char c : pragma) {
+    if (quote == '\0' && (c == ';' || c == '(' || (c == '=' && before != ':'))) {
+      return true;
+    }
+    quote = quote == c ? '\0' : quote == '\0' && (c == '\'' || c == '"') ? c : quote;
+    before = c;
+  }
+  return pragma.starts_with('#');
+}
+
 class Lexer {
  public:
   Lexer(std::string_view text, const Place& at, Diagnostics& diagnostics)
@@ -159,9 +185,10 @@ class Lexer {
 
   // What changes the program is refused, other pragmas are skipped.
   void pragma() {
-    const bool c_code = peek(1) == '{';
-    const std::string_view close = c_code ? "}}" : "}";
+    const bool twice = peek(1) == '{';
+    const std::string_view close = twice ? "}}" : "}";
     const std::size_t end = text_.find(close, at_);
+    const bool c_code = twice || (end != std::string_view::npos && is_c_code(text_.substr(at_ + 1, end - at_ - 1)));
     if (end == std::string_view::npos) {
       error(fmt::format("this pragma has no end, close it with {}", close));
     } else if (c_code) {

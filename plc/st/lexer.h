@@ -19,7 +19,7 @@ enum class TokenKind : std::uint8_t {
   Text,     // 'str$N', quotes included
   Address,  // %IX0.0
   Symbol,
-  CCode,  // {{ ... }}
+  CCode,  // {{ ... }}, or { ... } with statements of C
 };
 
 struct Token {

@@ -109,9 +109,9 @@ bool ProjectParser::refuses_c_code(const ast::Pou& pou) {
     return false;
   }
   if (pou.kind == ast::Pou::Kind::Program) {
-    in_.error(*at, "C code in {{ }} is not supported, write it in ST, or as a module of its own");
+    in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
   } else {
-    in_.warning(*at, fmt::format("{} is left out, because C code in {{{{ }}}} is not supported", pou.name));
+    in_.warning(*at, fmt::format("{} is left out, because C code in {{ }} is not supported", pou.name));
   }
   return true;
 }
@@ -119,7 +119,7 @@ bool ProjectParser::refuses_c_code(const ast::Pou& pou) {
 ast::Body ProjectParser::whole_body() {
   ast::Body out = body("");
   if (const auto at = statements_.take_c_code()) {
-    in_.error(*at, "C code in {{ }} is not supported, write it in ST, or as a module of its own");
+    in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
   }
   return out;
 }

@@ -79,5 +79,30 @@ TEST(PlcRefused, Inputs_are_not_written) {
   EXPECT_EQ(wrong(program("lamp := pump; %QX0.2 := %IX0.1;")), "");
 }
 
+std::string times(const std::string& code) {
+  return "PROGRAM Main\nVAR t : TIME; d : DATE; c : TOD; s : DT; i : INT; x : BOOL; delay : TON; END_VAR\n" + code +
+         "\nEND_PROGRAM\n";
+}
+
+TEST(PlcRefused, C_code_in_braces_is_not_skipped) {
+  const std::string ticks =
+      "FUNCTION_BLOCK Ticks VAR_OUTPUT TX : TIME; END_VAR\n{extern long __tick; TX = __tick;}\n"
+      "END_FUNCTION_BLOCK\n";
+  const std::string main = "PROGRAM Main VAR x : Ticks; END_VAR x(); END_PROGRAM\n";
+  EXPECT_THAT(wrong(ticks + main), HasSubstr("in.st:2:1: warning: Ticks is left out, because C code in { } is not"));
+  EXPECT_THAT(wrong(ticks + main), HasSubstr("error: Main: there is no type and no function block 'Ticks'"));
+  for (const char* code :
+       {"{ __SET_VAR(data__->,X,,1) }", "{x = 1}", "{#include <a.h>}", "{{ x }}", "{ puts(\"}\") }"}) {
+    EXPECT_THAT(wrong(times(std::string("x := TRUE;\n") + code)), HasSubstr("in.st:4:1: error: C code in { }")) << code;
+  }
+}
+
+TEST(PlcRefused, Pragmas_of_editors_are_skipped) {
+  for (const char* pragma : {"{attribute 'symbol' := 'read; write'}", "{region Start (first)}", "{warning 'a = b;'}",
+                             "{disable code generation}", "{library private}", "{S+}", "{}"}) {
+    EXPECT_EQ(wrong(times(std::string(pragma) + "\nx := TRUE;")), "") << pragma;
+  }
+}
+
 }  // namespace
 }  // namespace indurop::plc
