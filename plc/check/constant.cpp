@@ -34,6 +34,10 @@ std::optional<Constant> compare(Operator op, const T& a, const T& b) {
   }
 }
 
+bool is_time(Elementary type) noexcept {
+  return type == Elementary::Time || is_date(type);
+}
+
 Integer product(Integer a, Integer b) noexcept {
   Integer out = 0;
   return __builtin_mul_overflow(a, b, &out) ? kMost : out;
@@ -199,6 +203,35 @@ bool fits(const Constant& value, const Type& type) noexcept {
       bits_of(type.elementary) == 64 && !is_bit(type.elementary) && !is_int(type.elementary) ? Elementary::Lint
                                                                                              : type.elementary);
   return number >= Integer{limits.low} && number <= Integer{limits.high};
+}
+
+bool adapts(const Constant& value, const Type& type) noexcept {
+  return fits(value, type) && !(type.kind == Type::Kind::Elementary && is_time(type.elementary));
+}
+
+Elementary default_type(const Constant& constant) noexcept {
+  const auto* number = std::get_if<Integer>(&constant);
+  if (number == nullptr) {
+    return std::holds_alternative<double>(constant) ? Elementary::Lreal : Elementary::Bool;
+  }
+  for (const Elementary type : {Elementary::Int, Elementary::Dint, Elementary::Lint}) {
+    const IntegerLimits limits = limits_of(type);
+    if (*number >= Integer{limits.low} && *number <= Integer{limits.high}) {
+      return type;
+    }
+  }
+  return Elementary::Ulint;
+}
+
+std::string unit_hint(const Type& type) {
+  if (type.kind != Type::Kind::Elementary || !is_time(type.elementary)) {
+    return {};
+  }
+  const char* example = type.is(Elementary::Time)        ? "T#500ms"
+                        : type.is(Elementary::Date)      ? "D#2026-01-31"
+                        : type.is(Elementary::TimeOfDay) ? "TOD#12:30:00"
+                                                         : "DT#2026-01-31-12:30:00";
+  return fmt::format("; a number has no unit, write {}", example);
 }
 
 Constant stored(const Constant& value, const Type& type) {

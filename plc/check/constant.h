@@ -24,6 +24,13 @@ using Constant = std::variant<bool, Integer, double, std::string>;
 
 // Whether the type can hold the value as it is; a whole number is fine for a real.
 [[nodiscard]] bool fits(const Constant& value, const Type& type) noexcept;
+// Whether a number without a type may become one of the type: as fits(), but a bare number says no unit of time.
+[[nodiscard]] bool adapts(const Constant& value, const Type& type) noexcept;
+// What a number without a type is where nothing wants another: INT, DINT, LINT or ULINT, the first that holds the
+// number; LREAL; BOOL.
+[[nodiscard]] Elementary default_type(const Constant& constant) noexcept;
+// What to write instead where adapts() says no because of the unit: "; a number has no unit, write T#500ms". Else "".
+[[nodiscard]] std::string unit_hint(const Type& type);
 // The value as the type stores it: integers wrap, as they do at run time. Requires the same kind, or a number for a
 // real.
 [[nodiscard]] Constant stored(const Constant& value, const Type& type);

@@ -37,7 +37,7 @@ bool is_elementary_bit(const Type& type) noexcept {
 }  // namespace
 
 bool adapt(Expression& expression, const Type& to) {
-  if (!expression.resolved || !expression.resolved->untyped || !fits(*expression.resolved->constant, to)) {
+  if (!expression.resolved || !expression.resolved->untyped || !adapts(*expression.resolved->constant, to)) {
     return false;
   }
   expression.resolved->constant = stored(*expression.resolved->constant, to);
@@ -124,8 +124,10 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
   if (!fine) {
     const Constant* known = constant_of(expression);
     if (known != nullptr && expression.resolved->untyped) {
-      context_.error(expression.at,
-                     fmt::format("{} does not fit {}, use another value or type", to_string(*known), to_string(to)));
+      context_.error(expression.at, unit_hint(to).empty() ? fmt::format("{} does not fit {}, use another value or type",
+                                                                        to_string(*known), to_string(to))
+                                                          : fmt::format("{} is not {}{}", to_string(*known),
+                                                                        with_article(to), unit_hint(to)));
     } else if (type->kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
       context_.error(
           expression.at,
@@ -175,20 +177,6 @@ const Type* ExpressionChecker::literal(Expression& expression, const Type* /*wan
   }
   out.untyped = true;
   return context_.elementary(default_type(*out.constant));
-}
-
-Elementary default_type(const Constant& constant) noexcept {
-  const auto* number = std::get_if<Integer>(&constant);
-  if (number == nullptr) {
-    return std::holds_alternative<double>(constant) ? Elementary::Lreal : Elementary::Bool;
-  }
-  for (const Elementary type : {Elementary::Int, Elementary::Dint, Elementary::Lint}) {
-    const IntegerLimits limits = limits_of(type);
-    if (*number >= Integer{limits.low} && *number <= Integer{limits.high}) {
-      return type;
-    }
-  }
-  return Elementary::Ulint;
 }
 
 const Type* ExpressionChecker::bit(Expression& expression) {
@@ -325,10 +313,15 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
   const bool scalar = a.type->kind <= Type::Kind::Enum && b.type->kind <= Type::Kind::Enum;
   const bool is_enum = a.type->kind == Type::Kind::Enum;
   const bool orders = expression.op < Operator::Equal;
+  const std::string unit = a.resolved->untyped   ? unit_hint(*b.type)
+                           : b.resolved->untyped ? unit_hint(*a.type)
+                                                 : std::string();
   if (!scalar || !meet(a, b) || (is_enum && orders)) {
     context_.error(expression.at,
                    fmt::format("{} and {} cannot be compared{}", with_article(*a.type), with_article(*b.type),
-                               scalar && !is_enum ? ", convert one of them" : ""));
+                               !scalar || is_enum ? ""
+                               : unit.empty()     ? ", convert one of them"
+                                                  : unit));
     return nullptr;
   }
   resolved(expression).operand = common_type(*a.type, *b.type);

@@ -69,8 +69,6 @@ class ExpressionChecker {
 
 // Gives an untyped constant the type if it fits. True if the value can be used as a `to` afterwards.
 bool adapt(ast::Expression& expression, const Type& to);
-// INT, DINT, LINT or ULINT, the first that holds the number; LREAL; BOOL.
-[[nodiscard]] Elementary default_type(const Constant& constant) noexcept;
 // Known value of a checked expression, or null.
 [[nodiscard]] const Constant* constant_of(const ast::Expression& expression) noexcept;
 

@@ -48,6 +48,19 @@ std::string types_of(const std::vector<Expression*>& inputs) {
   return text;
 }
 
+// Where a bare number stands beside a time.
+std::string missing_unit(const std::vector<Expression*>& inputs) {
+  if (std::none_of(inputs.begin(), inputs.end(), [](const Expression* one) { return untyped(*one); })) {
+    return {};
+  }
+  for (const Expression* one : inputs) {
+    if (std::string hint = untyped(*one) ? std::string() : unit_hint(*one->type); !hint.empty()) {
+      return hint;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 const Type* CallChecker::library_function(Expression& call, const std::vector<const LibraryFunction*>& overloads,
@@ -130,7 +143,10 @@ const Type* CallChecker::choose(Expression& at, const std::vector<const LibraryF
     context_.error(at.at, fmt::format("{} takes {}{} values, not {}", first.name, first.extensible ? "at least " : "",
                                       first.inputs.size(), inputs.size()));
   } else {
-    context_.error(at.at, fmt::format("{} does not take {}, convert them", first.name, types_of(inputs)));
+    const bool scales = first.name == "MUL" || first.name == "DIV";
+    const std::string unit = scales ? std::string() : missing_unit(inputs);
+    context_.error(at.at, fmt::format("{} does not take {}{}", first.name, types_of(inputs),
+                                      unit.empty() ? ", convert them" : unit));
   }
   return nullptr;
 }
@@ -177,7 +193,7 @@ std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& fun
 // 0: the type itself, 1: widened; none: cannot be used.
 std::optional<int> CallChecker::cost_of(const Expression& input, const Type& type) {
   if (untyped(input)) {
-    return fits(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
+    return adapts(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
   }
   if (!assignable(*input.type, type)) {
     return std::nullopt;
@@ -223,11 +239,11 @@ const Type* CallChecker::group_type(const LibraryFunction& function, Generic gen
 // The group's type after a number without a type has joined it.
 const Type* CallChecker::join_untyped(Generic generic, const Type* group, const Expression& input, const Type* wanted) {
   const Constant& number = *input.resolved->constant;
-  if (group != nullptr && fits(number, *group)) {
+  if (group != nullptr && adapts(number, *group)) {
     return group;
   }
   const bool helps = wanted != nullptr && wanted->kind == Type::Kind::Elementary && generic_accepts(generic, *wanted) &&
-                     fits(number, *wanted);
+                     adapts(number, *wanted);
   if (group == nullptr && helps) {
     return context_.elementary(wanted->elementary);
   }

@@ -84,6 +84,25 @@ std::string times(const std::string& code) {
          "\nEND_PROGRAM\n";
 }
 
+TEST(PlcRefused, A_bare_number_is_no_time) {
+  EXPECT_THAT(wrong(times("delay(IN := x, PT := 500);")),
+              HasSubstr("500 is not a TIME; a number has no unit, write T#"));
+  EXPECT_THAT(wrong(times("t := 0;")), HasSubstr("0 is not a TIME; a number has no unit, write T#500ms"));
+  EXPECT_THAT(wrong(times("t := T#1s + 5;")), HasSubstr("ADD does not take TIME and INT; a number has no unit"));
+  EXPECT_THAT(wrong(times("t := MAX(t, 5);")), HasSubstr("MAX does not take TIME and INT; a number has no unit"));
+  EXPECT_THAT(wrong(times("x := t > 5;")), HasSubstr("cannot be compared; a number has no unit, write T#500ms"));
+  EXPECT_THAT(wrong(times("x := -5 < t;")), HasSubstr("cannot be compared; a number has no unit, write T#500ms"));
+  EXPECT_THAT(wrong(times("t := SEL(x, 1, 2);")), HasSubstr("TIME"));
+  EXPECT_THAT(wrong(times("d := 5;")), HasSubstr("5 is not a DATE; a number has no unit, write D#2026-01-31"));
+  EXPECT_THAT(wrong(times("c := 5;")), HasSubstr("write TOD#12:30:00"));
+  EXPECT_THAT(wrong(times("s := 5;")), HasSubstr("write DT#2026-01-31-12:30:00"));
+  EXPECT_THAT(wrong("PROGRAM Main VAR t : TIME := 5; END_VAR t := t; END_PROGRAM"), HasSubstr("a number has no unit"));
+}
+
+TEST(PlcRefused, Times_and_numbers_go_together_where_the_standard_says_so) {
+  EXPECT_EQ(wrong(times("t := T#1s * 5; t := t / 2; x := t > T#1s * 2; t := MAX(t, T#5s); t := -T#1s;")), "");
+}
+
 TEST(PlcRefused, C_code_in_braces_is_not_skipped) {
   const std::string ticks =
       "FUNCTION_BLOCK Ticks VAR_OUTPUT TX : TIME; END_VAR\n{extern long __tick; TX = __tick;}\n"
