@@ -6,7 +6,7 @@
 namespace indurop::dds {
 namespace {
 
-constexpr std::int64_t kRetryNs = 500'000'000;
+constexpr std::chrono::milliseconds kRetry{500};
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool Joining::join(const std::atomic<bool>& stop, rt::SignalWord& wake, base::Sh
     if (tried) {
       return true;
     }
-    wake.wait_until(rt::now_ns() + kRetryNs);
+    wake.wait_until(rt::MonoClock::now() + kRetry);
   }
   return false;
 }

@@ -13,39 +13,27 @@ namespace indurop::rt {
 
 inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
-inline std::int64_t now_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kNanosPerSecond + now.tv_nsec;
-}
-
-// CLOCK_REALTIME: for stamps that another machine compares with its own; may jump.
-inline std::int64_t wall_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * kNanosPerSecond + now.tv_nsec;
-}
-
-// CLOCK_MONOTONIC as a clock of std::chrono; its epoch is the start of the machine.
-struct MonoClock {
+// A clock of the system as one of std::chrono. The clock is the tag of its times: those of two clocks do not mix.
+template <clockid_t kId, bool kSteady>
+struct SystemTime {
   using duration = std::chrono::nanoseconds;
   using rep = duration::rep;
   using period = duration::period;
-  using time_point = std::chrono::time_point<MonoClock>;
-  static constexpr bool is_steady = true;
-  static time_point now() noexcept { return time_point{duration{now_ns()}}; }
+  using time_point = std::chrono::time_point<SystemTime>;
+  static constexpr bool is_steady = kSteady;
+  static time_point now() noexcept {
+    timespec now{};
+    ::clock_gettime(kId, &now);
+    return time_point{duration{now.tv_sec * kNanosPerSecond + now.tv_nsec}};
+  }
 };
+
+// Its epoch is the start of the machine.
+using MonoClock = SystemTime<CLOCK_MONOTONIC, true>;
 using MonoTime = MonoClock::time_point;
 
-// CLOCK_REALTIME likewise; its epoch is 1970.
-struct WallClock {
-  using duration = std::chrono::nanoseconds;
-  using rep = duration::rep;
-  using period = duration::period;
-  using time_point = std::chrono::time_point<WallClock>;
-  static constexpr bool is_steady = false;
-  static time_point now() noexcept { return time_point{duration{wall_ns()}}; }
-};
+// Its epoch is 1970: for stamps that another machine compares with its own; may jump.
+using WallClock = SystemTime<CLOCK_REALTIME, false>;
 using WallTime = WallClock::time_point;
 
 // To and from the plain numbers of shared memory and of the wire: nanoseconds since the clock's epoch.
@@ -55,11 +43,17 @@ constexpr MonoTime mono_time(std::int64_t ns) noexcept {
 constexpr WallTime wall_time(std::int64_t ns) noexcept {
   return WallTime{std::chrono::nanoseconds{ns}};
 }
-constexpr std::int64_t to_ns(MonoTime time) noexcept {
+template <clockid_t kId, bool kSteady>
+constexpr std::int64_t to_ns(std::chrono::time_point<SystemTime<kId, kSteady>> time) noexcept {
   return time.time_since_epoch().count();
 }
-constexpr std::int64_t to_ns(WallTime time) noexcept {
-  return time.time_since_epoch().count();
+
+// The same at once, for what counts in numbers.
+inline std::int64_t now_ns() noexcept {
+  return to_ns(MonoClock::now());
+}
+inline std::int64_t wall_ns() noexcept {
+  return to_ns(WallClock::now());
 }
 
 constexpr timespec to_timespec(std::int64_t ns) noexcept {

@@ -3,8 +3,6 @@
 
 #include <cerrno>
 
-#include "rt/clock.h"
-
 namespace indurop::rt {
 
 void SignalWord::init(bool process_shared) noexcept {
@@ -15,9 +13,9 @@ void SignalWord::wake() noexcept {
   ::sem_post(&semaphore_);
 }
 
-bool SignalWord::wait_until(std::int64_t deadline_ns) noexcept {
-  const timespec deadline = to_timespec(deadline_ns);
-  while (::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &deadline) != 0) {
+bool SignalWord::wait_until(MonoTime deadline) noexcept {
+  const timespec until = to_timespec(to_ns(deadline));
+  while (::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until) != 0) {
     if (errno != EINTR) {
       return false;
     }

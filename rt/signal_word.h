@@ -6,7 +6,7 @@
 
 #include <semaphore.h>
 
-#include <cstdint>
+#include "rt/clock.h"
 
 namespace indurop::rt {
 
@@ -16,8 +16,8 @@ class SignalWord {
   void init(bool process_shared) noexcept;
   // Real-time safe; no system call if nobody sleeps.
   void wake() noexcept;
-  // Sleeps until woken. False if `deadline_ns` (CLOCK_MONOTONIC) passed first; a signal does not end the wait.
-  bool wait_until(std::int64_t deadline_ns) noexcept;
+  // Sleeps until woken. False if the deadline passed first; a signal does not end the wait.
+  bool wait_until(MonoTime deadline) noexcept;
   void wait() noexcept;
   bool try_wait() noexcept;
 

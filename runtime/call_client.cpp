@@ -102,7 +102,7 @@ bool give_up(CallSlot& slot, std::uint64_t sequence) noexcept {
 // Waits for the answer to `sequence`. Ok: it is there.
 Errc wait_for_answer(CallFunction& function, CallSlot& slot, std::uint64_t sequence, std::int64_t deadline) noexcept {
   for (;;) {
-    (void)slot.reply.wait_until(std::min(deadline, rt::now_ns() + kLookNs));
+    (void)slot.reply.wait_until(rt::mono_time(std::min(deadline, rt::now_ns() + kLookNs)));
     if (slot.state.load(std::memory_order_acquire) == word_of(sequence, CallState::Done)) {
       return Errc::Ok;
     }

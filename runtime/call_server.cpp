@@ -136,7 +136,7 @@ class FunctionServers::Server {
       }
       if (!serve_all()) {
         rt::SignalWord* wake = wake_.load(std::memory_order_relaxed);
-        (void)(wake != nullptr ? *wake : own_wake_).wait_until(next_look);
+        (void)(wake != nullptr ? *wake : own_wake_).wait_until(rt::mono_time(next_look));
       }
     }
   }

@@ -238,7 +238,7 @@ bool Enrolment::wait() {
       (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake us
       Process::get().refresh();
       return true;
-    } else if (slot_->wake.wait_until(rt::now_ns() + kIdleNs)) {
+    } else if (slot_->wake.wait_until(rt::mono_time(rt::now_ns() + kIdleNs))) {
       if (take_release()) {
         Process::get().refresh();
         return true;

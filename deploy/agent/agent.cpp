@@ -224,7 +224,7 @@ class Agent {
     } else {
       (void)link_->take_chunks();
     }
-    busy_ = server_.serve(*link_, rt::to_ns(now));
+    busy_ = server_.serve(*link_, now);
   }
 
   void follow(rt::MonoTime now) {
@@ -334,7 +334,7 @@ class Agent {
     if (link_ == nullptr) {
       signals.wait(std::chrono::nanoseconds(kLook).count());
     } else if (!busy_) {
-      link_->wait(rt::to_ns(rt::MonoClock::now() + kLook));
+      link_->wait(rt::MonoClock::now() + kLook);
     }
   }
 

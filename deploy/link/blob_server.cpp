@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/read_file.h"
@@ -11,8 +12,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::int64_t kStuckNs = 5'000'000'000;  // then the requester has gone
-constexpr int kPiecesAtOnce = 16;                 // for one requester before others have their turn
+constexpr std::chrono::seconds kStuck{5};  // then the requester has gone
+constexpr int kPiecesAtOnce = 16;          // for one requester before others have their turn
 constexpr std::size_t kMostRequests = 64;
 
 }  // namespace
@@ -58,7 +59,7 @@ BlobChunk BlobServer::read(const Waiting& waiting, const BlobRequest& request) c
   return chunk;
 }
 
-bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
+bool BlobServer::serve(DeployLink& link, rt::MonoTime now) {
   for (const BlobRequest& request : link.take_requests()) {
     Waiting& waiting = waiting_[request.requester];
     if (request.restart) {
@@ -67,7 +68,7 @@ bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
     if (waiting.requests.size() < kMostRequests) {
       waiting.requests.push_back(request);
     }
-    waiting.stuck_since_ns = now_ns;
+    waiting.stuck_since = now;
   }
   bool more = false;
   for (auto& [requester, waiting] : waiting_) {
@@ -76,7 +77,7 @@ bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
       look_up(waiting, request.blob);
       const BlobChunk chunk = read(waiting, request);
       const DeployLink::Sent sent = link.send(requester, chunk);
-      if (sent == DeployLink::Sent::Later && now_ns - waiting.stuck_since_ns < kStuckNs) {
+      if (sent == DeployLink::Sent::Later && now - waiting.stuck_since < kStuck) {
         more = true;
         break;
       }
@@ -84,7 +85,7 @@ bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
         waiting.requests.clear();
         break;
       }
-      waiting.stuck_since_ns = now_ns;
+      waiting.stuck_since = now;
       request.offset += chunk.data.size();
       request.length -= std::min<std::uint64_t>(request.length, chunk.data.size());
       if (request.length == 0 || chunk.data.empty()) {
@@ -98,7 +99,7 @@ bool BlobServer::serve(DeployLink& link, std::int64_t now_ns) {
   }
   std::erase_if(waiting_, [&](const auto& entry) {
     const Waiting& waiting = entry.second;
-    const bool idle = waiting.requests.empty() && now_ns - waiting.stuck_since_ns > kStuckNs;
+    const bool idle = waiting.requests.empty() && now - waiting.stuck_since > kStuck;
     if (idle) {
       link.forget(entry.first);
     }

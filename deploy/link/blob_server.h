@@ -13,6 +13,7 @@
 
 #include "base/descriptor.h"
 #include "deploy/link/deploy_link.h"
+#include "rt/clock.h"
 
 namespace indurop::deploy {
 
@@ -31,12 +32,12 @@ class BlobServer {
   BlobServer& operator=(const BlobServer&) = delete;
 
   // Takes new requests and sends some pieces, to all that wait in turn. True: there is more to send now.
-  bool serve(DeployLink& link, std::int64_t now_ns);
+  bool serve(DeployLink& link, rt::MonoTime now);
 
  private:
   struct Waiting {
     std::deque<deploy::BlobRequest> requests;
-    std::int64_t stuck_since_ns = 0;
+    rt::MonoTime stuck_since;
     std::string open_name;     // of the blob below
     std::optional<Blob> blob;  // nothing: it is not here
     base::Descriptor file;

@@ -230,8 +230,8 @@ rt::SignalWord& DeployLink::wake_word() noexcept {
   return impl_->wake;
 }
 
-void DeployLink::wait(std::int64_t deadline_ns) {
-  impl_->wake.wait_until(deadline_ns);
+void DeployLink::wait(rt::MonoTime deadline) {
+  impl_->wake.wait_until(deadline);
   while (impl_->wake.try_wait()) {
   }
 }

@@ -14,6 +14,7 @@
 #include "base/problem.h"
 #include "dds/network_settings.h"
 #include "deploy/words/deployment_words.h"
+#include "rt/clock.h"
 
 namespace indurop::rt {
 class SignalWord;
@@ -81,7 +82,7 @@ class DeployLink {
   [[nodiscard]] rt::SignalWord& wake_word() noexcept;
 
   // Until something came or CLOCK_MONOTONIC `deadline_ns`.
-  void wait(std::int64_t deadline_ns);
+  void wait(rt::MonoTime deadline);
 
  private:
   struct Impl;

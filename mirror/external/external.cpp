@@ -225,7 +225,7 @@ void External::Impl::work() {
   block.network.store(Network::Up, std::memory_order_release);
   while (!stopping()) {
     const std::int64_t next = serve(rt::now_ns());
-    wake.wait_until(std::max(next, rt::now_ns() + kExternalFastestNs / 2));
+    wake.wait_until(rt::mono_time(std::max(next, rt::now_ns() + kExternalFastestNs / 2)));
     while (wake.try_wait()) {
     }
   }

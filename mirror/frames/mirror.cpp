@@ -35,7 +35,7 @@ constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that nob
 // Until `wake`, awake in the window. False if the time passed without.
 bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
   if (!window.empty()) {
-    if (wake.wait_until(window.begin)) {
+    if (wake.wait_until(rt::mono_time(window.begin))) {
       return true;
     }
     while (rt::now_ns() < window.end) {
@@ -44,7 +44,7 @@ bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Wi
       }
     }
   }
-  return wake.wait_until(deadline_ns);
+  return wake.wait_until(rt::mono_time(deadline_ns));
 }
 
 void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
@@ -252,7 +252,7 @@ void Mirror::Impl::manage() {
       refused = now_refused;
       block.problem.set("keys of somebody in the network do not match: " + refused);
     }
-    wake_manager.wait_until(next);
+    wake_manager.wait_until(rt::mono_time(next));
   }
 }
 

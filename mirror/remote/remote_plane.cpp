@@ -198,7 +198,7 @@ RemotePlane::RemotePlane(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 RemotePlane::~RemotePlane() = default;
 
 void RemotePlane::look(rt::MonoTime deadline) {
-  impl_->wake.wait_until(rt::to_ns(deadline));
+  impl_->wake.wait_until(deadline);
   while (impl_->wake.try_wait()) {
   }
   impl_->sources.take(impl_->directories.get());

@@ -56,7 +56,7 @@ void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vec
 void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {
   const std::int64_t deadline = rt::now_ns() + time_ns;
   while (!interrupted() && rt::now_ns() < deadline) {
-    link.wait(std::min(deadline, rt::now_ns() + kLookNs));
+    link.wait(rt::mono_time(std::min(deadline, rt::now_ns() + kLookNs)));
     listen(link, rt::now_ns());
     if (enough(context)) {
       return;

@@ -56,7 +56,7 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
         text.ask_ns = rt::now_ns() + kAskAgainNs;
       }
     }
-    link.wait(rt::now_ns() + kLookNs);
+    link.wait(rt::mono_time(rt::now_ns() + kLookNs));
     for (const deploy::BlobChunk& chunk : link.take_chunks()) {
       const auto asked = texts.find(chunk.source);
       if (asked != texts.end() && chunk.blob == name) {

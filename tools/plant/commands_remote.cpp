@@ -57,7 +57,7 @@ class Commander {
         commands_.send(command);
         say_ns = rt::now_ns() + kRepeatNs;
       }
-      link_.wait(std::min(say_ns, begin + timeout_ns));
+      link_.wait(rt::mono_time(std::min(say_ns, begin + timeout_ns)));
       for (const deploy::CommandReply& reply : commands_.take_replies()) {
         if (reply.commander != command.commander || reply.agent != command.agent) {
           continue;

@@ -64,14 +64,14 @@ class Run {
     say(true);
     while (!transaction_.finished()) {
       if (!busy_) {
-        link_.wait(rt::now_ns() + kLookNs);
+        link_.wait(rt::mono_time(rt::now_ns() + kLookNs));
       }
       const rt::MonoTime now = rt::MonoClock::now();
       if (interrupted()) {
         transaction_.give_up(now);
       }
       listen(now);
-      busy_ = server_.serve(link_, rt::to_ns(now));
+      busy_ = server_.serve(link_, now);
       say(transaction_.time(now, rt::WallClock::now()));
       show(now);
     }
