@@ -11,6 +11,7 @@
 #include "node/trampoline.h"
 #include "rt/clock.h"
 #include "rt/thread.h"
+#include "scheduler/runner.h"
 
 namespace indurop::node {
 namespace {
@@ -138,10 +139,7 @@ bool Processes::supervise(std::int64_t now_ns) {
 
 void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
   scheduler::ModuleRecord& module = record(child);
-  std::strncpy(module.last_fault, text.c_str(), sizeof module.last_fault - 1);
-  module.fault_tick.store(run_.tick.load(std::memory_order_relaxed), std::memory_order_relaxed);
-  module.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
-  module.faults.fetch_add(1, std::memory_order_release);
+  scheduler::record_fault(module, kind, run_.tick.load(std::memory_order_relaxed), text);
   failsafe_.apply(child.index);
 }
 

@@ -3,8 +3,9 @@
 
 #include <csetjmp>
 #include <cstdio>
-#include <cstring>
 #include <exception>
+
+#include "rt/copy_text.h"
 
 namespace indurop::scheduler {
 namespace {
@@ -28,13 +29,17 @@ const char* signal_text(int number) noexcept {
 
 }  // namespace
 
-void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept {
-  ModuleRecord& record = *state.record;
-  state.enabled.store(false, std::memory_order_release);
-  std::strncpy(record.last_fault, text, sizeof record.last_fault - 1);
+void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std::string_view text) noexcept {
+  rt::copy_text(record.last_fault, text);
   record.fault_tick.store(tick, std::memory_order_relaxed);
   record.fault_kind.store(static_cast<std::uint32_t>(kind), std::memory_order_release);
   record.faults.fetch_add(1, std::memory_order_release);  // whoever sees it sees the text
+}
+
+void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept {
+  ModuleRecord& record = *state.record;
+  state.enabled.store(false, std::memory_order_release);
+  record_fault(record, kind, tick, text);
   record.state.store(ModuleState::Faulted, std::memory_order_release);
   if (hooks.faulted != nullptr) {
     hooks.faulted(hooks.context, state.task.index);

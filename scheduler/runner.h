@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rt/guard.h"
@@ -45,6 +46,8 @@ struct CoreTrace {
   std::atomic<std::int64_t> exec_ns{0};
 };
 
+// Writes what went wrong into the module's record. Real-time safe.
+void record_fault(ModuleRecord& record, FaultKind kind, std::uint64_t tick, std::string_view text) noexcept;
 // Marks the module as faulted, quarantines it and tells the hooks. Real-time safe.
 void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char* text, const Hooks& hooks) noexcept;
 
