@@ -24,6 +24,18 @@ void add_command_options(base::Options& app, Context& context, CommandOptions& o
   app.add("--keys", "DIR", options.keys, "Folder of the plant's keys, if its boards have some");
 }
 
+Action declare_command(base::Options& app, Context& context, ModuleCommand command, const char* nobody) {
+  auto options = std::make_shared<CommandOptions>();
+  add_command_options(app, context, *options);
+  return [options, command, nobody](Context& c) {
+    if (options->targets.empty()) {
+      c.out.error(nobody);
+      return kUsage;
+    }
+    return carry_out(c, command, *options);
+  };
+}
+
 int carry_out(Context& context, ModuleCommand command, CommandOptions& options) {
   std::vector<CommandTarget> remote;
   std::vector<std::string> here;

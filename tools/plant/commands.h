@@ -29,6 +29,10 @@ struct CommandTarget {
 
 void add_command_options(base::Options& app, Context& context, CommandOptions& options);
 
+// What a verb declares that is only about modules and nodes named on its command line; `nobody`: what it says if there
+// is none.
+Action declare_command(base::Options& app, Context& context, scheduler::ModuleCommand command, const char* nobody);
+
 // In the order given; the first that fails ends it. Returns the exit code.
 int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);
 

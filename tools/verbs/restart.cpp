@@ -7,15 +7,8 @@ namespace indurop::tools {
 namespace {
 
 Action declare(base::Options& app, Context& context) {
-  auto options = std::make_shared<CommandOptions>();
-  add_command_options(app, context, *options);
-  return [options](Context& c) {
-    if (options->targets.empty()) {
-      c.out.error("restart what? MODULE, MODULE@BOARD or @BOARD");
-      return kUsage;
-    }
-    return carry_out(c, scheduler::ModuleCommand::Restart, *options);
-  };
+  return declare_command(app, context, scheduler::ModuleCommand::Restart,
+                         "restart what? MODULE, MODULE@BOARD or @BOARD");
 }
 
 }  // namespace
