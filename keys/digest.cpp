@@ -58,21 +58,21 @@ std::string digest_of(std::string_view text) {
   return digest.finish();
 }
 
-std::string digest_of_file(const std::filesystem::path& file, std::uint64_t& size) {
-  size = 0;
-  const auto opened = base::open_file(file);
+Result<FileDigest, base::FileProblem> digest_of_file(const std::filesystem::path& file) {
+  auto opened = base::open_file(file);
   if (!opened) {
-    return {};
+    return std::move(opened).error();
   }
+  std::uint64_t size = 0;
   Digest digest;
   std::vector<std::uint8_t> block(kBlock);
   while (true) {
     const ssize_t got = ::read(opened->file.get(), block.data(), block.size());
     if (got < 0 && errno != EINTR) {
-      return {};
+      return base::file_problem(errno);
     }
     if (got == 0) {
-      return digest.finish();
+      return FileDigest{digest.finish(), size};
     }
     const std::size_t count = got < 0 ? 0 : static_cast<std::size_t>(got);
     digest.add({block.data(), count});

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +12,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "base/file_problem.h"
 
 namespace indurop::keys {
 
@@ -31,8 +35,12 @@ class Digest {
 };
 
 std::string digest_of(std::string_view text);
-// Of a file's content; empty if it cannot be read (errno says why). `size` becomes its length.
-std::string digest_of_file(const std::filesystem::path& file, std::uint64_t& size);
+// Of a file's content.
+struct FileDigest {
+  std::string digest;
+  std::uint64_t size = 0;
+};
+Result<FileDigest, base::FileProblem> digest_of_file(const std::filesystem::path& file);
 // 64 lower-case hexadecimal digits.
 bool is_digest(std::string_view text) noexcept;
 

@@ -33,39 +33,45 @@ std::string read_text(const fs::path& file) {
   return text ? std::move(*text) : std::string{};
 }
 
-// A file that is not there yet. Returns what went wrong.
-std::string write_new(const fs::path& file, const std::string& text, mode_t mode) {
+using Done = Result<void, base::Problem>;
+
+base::Problem crypto_failed() {
+  return {crypto_problem()};
+}
+
+// A file that is not there yet.
+Done write_new(const fs::path& file, const std::string& text, mode_t mode) {
   if (text.empty()) {
-    return crypto_problem();
+    return crypto_failed();
   }
   const auto written = base::create_file(file, text, mode);
-  return written ? std::string{} : base::cannot_write(file, written.error());
+  return written ? Done{} : base::Problem{base::cannot_write(file, written.error())};
 }
 
 // A file that may be there already is replaced at once or not at all. Never for private keys.
-std::string replace(const fs::path& file, const std::string& text) {
+Done replace(const fs::path& file, const std::string& text) {
   if (text.empty()) {
-    return crypto_problem();
+    return crypto_failed();
   }
   const auto written = base::replace_file(file, text, base::Durable::Yes, kPublic);
-  return written ? std::string{} : base::cannot_write(file, written.error());
+  return written ? Done{} : base::Problem{base::cannot_write(file, written.error())};
 }
 
-std::string make_folder(const fs::path& folder) {
+Done make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) {
     fs::permissions(folder, fs::perms::owner_all, error);
   }
-  return error ? fmt::format("cannot make the folder {}: {}", folder.string(), error.message()) : std::string{};
+  return error ? base::Problem{fmt::format("cannot make the folder {}: {}", folder.string(), error.message())} : Done{};
 }
 
 // Does the steps until one has a problem, which is returned.
 template <class... Steps>
-std::string in_turn(const Steps&... steps) {
-  std::string problem;
-  (void)((problem = steps(), problem.empty()) && ...);
-  return problem;
+Done in_turn(const Steps&... steps) {
+  Done done;
+  (void)((done = steps(), done.ok()) && ...);
+  return done;
 }
 
 const char* unit_of(Role role) {
@@ -94,10 +100,10 @@ Papers make_papers(const Authority& authority, const std::string& plant, Role ro
 }
 
 // All certificates ever issued: "SERIAL FOLDER". Without it a renewed board's old ones could not be revoked.
-std::string note_issued(const fs::path& keys, const std::string& whose, const std::string& certificate) {
+Done note_issued(const fs::path& keys, const std::string& whose, const std::string& certificate) {
   const auto facts = read_certificate(certificate);
   return facts ? replace(keys / kIssued, read_text(keys / kIssued) + facts->serial + " " + whose + "\n")
-               : crypto_problem();
+               : crypto_failed();
 }
 
 std::vector<std::string> issued_to(const fs::path& keys, const std::string& whose) {
@@ -116,25 +122,25 @@ std::string folder_of(Role role, const std::string& name) {
 }
 
 // One participant's folder, with copies of what all have.
-std::string make_participant(const fs::path& keys, const fs::path& folder, const std::string& plant, Role role,
-                             const std::string& name, Instant until) {
+Done make_participant(const fs::path& keys, const fs::path& folder, const std::string& plant, Role role,
+                      const std::string& name, Instant until) {
   const Authority authority = read_authority(keys);
   const std::string key = make_key(KeyKind::P256);
   const Papers papers = make_papers(authority, plant, role, name, key, until);
-  std::string problem =
+  Done done =
       in_turn([&] { return make_folder(folder); }, [&] { return write_new(folder / kIdentityKey, key, kSecret); },
               [&] { return write_new(folder / kIdentity, papers.certificate, kPublic); },
               [&] { return write_new(folder / kPermissions, papers.permissions, kPublic); },
               [&] { return note_issued(keys, folder_of(role, name), papers.certificate); });
   for (const char* common : {kAuthority, kGovernance, kRevoked, kDeployPublic}) {
-    if (problem.empty()) {
-      problem = write_new(folder / common, read_text(keys / common), kPublic);
+    if (done) {
+      done = write_new(folder / common, read_text(keys / common), kPublic);
     }
   }
-  return problem;
+  return done;
 }
 
-std::string make_top(const fs::path& folder, const std::string& plant, Instant until) {
+Done make_top(const fs::path& folder, const std::string& plant, Instant until) {
   // The authority outlives what it issues.
   const Validity validity{valid_from(), until + std::chrono::days(3650)};
   Authority authority;
@@ -155,16 +161,18 @@ std::string make_top(const fs::path& folder, const std::string& plant, Instant u
 }
 
 // Moves what was made aside to its place, or takes it away.
-std::string put_in_place(std::string problem, const fs::path& fresh, const fs::path& folder) {
+Done put_in_place(Done made, const fs::path& fresh, const fs::path& folder) {
   std::error_code error;
-  if (problem.empty()) {
+  if (made) {
     fs::rename(fresh, folder, error);  // fails if there is anything
-    problem = error ? fmt::format("cannot make {}: {}", folder.string(), error.message()) : "";
+    if (error) {
+      made = base::Problem{fmt::format("cannot make {}: {}", folder.string(), error.message())};
+    }
   }
-  if (!problem.empty()) {
+  if (!made) {
     fs::remove_all(fresh, error);
   }
-  return problem;
+  return made;
 }
 
 fs::path aside(const fs::path& folder) {
@@ -216,63 +224,63 @@ ParticipantKeys::ParticipantKeys(const fs::path& in)
       revoked(in / kRevoked),
       deploy_key(in / kDeployPublic) {}
 
-std::string PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
+Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
-    return fmt::format("there is already something in {}; nothing was written", folder_.string());
+    return base::Problem{fmt::format("there is already something in {}; nothing was written", folder_.string())};
   }
   const fs::path target = fs::absolute(folder_, error).lexically_normal();
   const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
   const PlantKeys made(fresh);
-  std::string problem =
+  Done done =
       in_turn([&] { return make_top(fresh, plant, until); },
               [&] { return make_participant(fresh, made.viewer(), plant, Role::Viewer, "viewer", until); },
               [&] { return make_participant(fresh, made.deployer(), plant, Role::Deployer, "deployer", until); });
   for (const std::string& board : boards) {
-    if (problem.empty()) {
-      problem = make_participant(fresh, made.board(board), plant, Role::Board, board, until);
+    if (done) {
+      done = make_participant(fresh, made.board(board), plant, Role::Board, board, until);
     }
   }
-  return put_in_place(std::move(problem), fresh, target);
+  return put_in_place(std::move(done), fresh, target);
 }
 
-std::string PlantKeys::add(const std::string& board, Instant until) const {
+Done PlantKeys::add(const std::string& board, Instant until) const {
   std::error_code error;
   if (fs::exists(this->board(board), error)) {
-    return fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}", board,
-                       this->board(board).string(), board);
+    return base::Problem{fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}",
+                                     board, this->board(board).string(), board)};
   }
   const fs::path fresh = aside(this->board(board));
   return put_in_place(make_participant(folder_, fresh, plant(), Role::Board, board, until), fresh, this->board(board));
 }
 
-std::string PlantKeys::renew(const KeyListing& whose, Instant until) const {
+Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
   const Papers papers = make_papers(read_authority(folder_), plant(), whose.role, whose.name,
                                     read_text(ParticipantKeys(whose.folder).key), until);
   if (papers.certificate.empty() || papers.permissions.empty()) {
-    return crypto_problem();
+    return crypto_failed();
   }
   return in_turn([&] { return note_issued(folder_, folder_of(whose.role, whose.name), papers.certificate); },
                  [&] { return replace(whose.folder / kIdentity, papers.certificate); },
                  [&] { return replace(whose.folder / kPermissions, papers.permissions); });
 }
 
-std::string PlantKeys::revoke(const KeyListing& whose) const {
+Done PlantKeys::revoke(const KeyListing& whose) const {
   const Authority authority = read_authority(folder_);
   const auto issuer = read_certificate(authority.certificate);
   if (!issuer) {
-    return fmt::format("{} is not a certificate", (folder_ / kAuthority).string());
+    return base::Problem{fmt::format("{} is not a certificate", (folder_ / kAuthority).string())};
   }
   const std::string list = make_revocation_list(authority, read_text(folder_ / kRevoked),
                                                 issued_to(folder_, folder_of(whose.role, whose.name)),
                                                 {valid_from(), issuer->validity.until});
-  std::string problem = replace(folder_ / kRevoked, list);
+  Done done = replace(folder_ / kRevoked, list);
   for (const KeyListing& each : this->list(instant_now())) {
-    if (problem.empty()) {
-      problem = replace(each.folder / kRevoked, list);
+    if (done) {
+      done = replace(each.folder / kRevoked, list);
     }
   }
-  return problem;
+  return done;
 }
 
 bool PlantKeys::exist() const {

@@ -4,10 +4,13 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/problem.h"
 #include "keys/credentials.h"
 #include "keys/dds_documents.h"
 
@@ -39,13 +42,14 @@ class PlantKeys {
  public:
   explicit PlantKeys(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Each returns what went wrong, or nothing; then nothing has changed.
-  [[nodiscard]] std::string make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const;
-  [[nodiscard]] std::string add(const std::string& board, Instant until) const;
+  // A call with a problem has changed nothing.
+  Result<void, base::Problem> make(const std::string& plant, const std::vector<std::string>& boards,
+                                   Instant until) const;
+  Result<void, base::Problem> add(const std::string& board, Instant until) const;
   // A new certificate and new permissions for the old key.
-  [[nodiscard]] std::string renew(const KeyListing& whose, Instant until) const;
+  Result<void, base::Problem> renew(const KeyListing& whose, Instant until) const;
   // The certificate counts no more for participants that have the new list, which is put into all folders.
-  [[nodiscard]] std::string revoke(const KeyListing& whose) const;
+  Result<void, base::Problem> revoke(const KeyListing& whose) const;
 
   [[nodiscard]] bool exist() const;
   [[nodiscard]] std::string plant() const;  // empty: there is no authority that can be read

@@ -50,11 +50,10 @@ base::XmlRules rules_of(const DocumentKind& kind) {
 
 }  // namespace
 
-std::string read_bytes(const std::filesystem::path& file, const DocumentKind& kind, std::string& problem) {
+Result<std::string, base::Diagnostic> read_bytes(const std::filesystem::path& file, const DocumentKind& kind) {
   auto bytes = base::read_file(file, kMaxSize);
   if (!bytes) {
-    problem = read_problem(bytes.error(), kind);
-    return {};
+    return base::Diagnostic{base::Diagnostic::Severity::Error, file.string(), {}, read_problem(bytes.error(), kind)};
   }
   return std::move(*bytes);
 }

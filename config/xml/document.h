@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,8 +24,8 @@ struct DocumentKind {
 inline constexpr DocumentKind kModuleXml{"module.xml", "<root> with one <module> per program"};
 inline constexpr DocumentKind kPlantXml{"plant.xml", "<plant name=\"cell\"> with one <board> per board"};
 
-// The bytes of an ordinary file, at most a little more than a document may have. What is wrong goes to `problem`.
-std::string read_bytes(const std::filesystem::path& file, const DocumentKind& kind, std::string& problem);
+// The bytes of an ordinary file, at most a little more than a document may have; else what is wrong, about no line.
+Result<std::string, base::Diagnostic> read_bytes(const std::filesystem::path& file, const DocumentKind& kind);
 // The root element, or empty after errors about `file`: larger than 4 MB, nested deeper than 32, not well-formed.
 std::optional<base::Element> read_document(std::string_view xml, const std::filesystem::path& file,
                                            const DocumentKind& kind, std::vector<base::Diagnostic>& diagnostics);

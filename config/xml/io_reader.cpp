@@ -229,14 +229,13 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
 }  // namespace
 
 ReadIo read_io_config(const std::filesystem::path& file) {
-  std::string problem;
-  const std::string bytes = read_bytes(file, kIoConfigXml, problem);
-  if (problem.empty()) {
-    return read_io_config_text(bytes, file);
+  auto bytes = read_bytes(file, kIoConfigXml);
+  if (bytes) {
+    return read_io_config_text(*bytes, file);
   }
   ReadIo result;
   result.config.file = file;
-  result.diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(problem)});
+  result.diagnostics.push_back(std::move(bytes.error()));
   return result;
 }
 

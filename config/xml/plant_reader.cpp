@@ -217,19 +217,18 @@ bool ReadPlant::ok() const noexcept {
 }
 
 bool is_plant_file(const std::filesystem::path& file) {
-  std::string problem;
-  return root_name(read_bytes(file, kPlantXml, problem)) == "plant";
+  const auto bytes = read_bytes(file, kPlantXml);
+  return bytes && root_name(*bytes) == "plant";
 }
 
 ReadPlant read_plant(const std::filesystem::path& file) {
-  std::string problem;
-  const std::string bytes = read_bytes(file, kPlantXml, problem);
-  if (problem.empty()) {
-    return read_plant_text(bytes, file);
+  auto bytes = read_bytes(file, kPlantXml);
+  if (bytes) {
+    return read_plant_text(*bytes, file);
   }
   ReadPlant result;
   result.plant.file = file;
-  result.diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(problem)});
+  result.diagnostics.push_back(std::move(bytes.error()));
   return result;
 }
 

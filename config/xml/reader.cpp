@@ -11,14 +11,13 @@ bool ReadResult::ok() const noexcept {
 }
 
 ReadResult read_config(const std::filesystem::path& file) {
-  std::string problem;
-  const std::string bytes = read_bytes(file, kModuleXml, problem);
-  if (problem.empty()) {
-    return read_config_text(bytes, file);
+  auto bytes = read_bytes(file, kModuleXml);
+  if (bytes) {
+    return read_config_text(*bytes, file);
   }
   ReadResult result;
   result.config.file = file;
-  result.diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(problem)});
+  result.diagnostics.push_back(std::move(bytes.error()));
   return result;
 }
 

@@ -5,11 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <set>
 #include <sstream>
 
+#include "base/file_problem.h"
 #include "base/json.h"
 #include "config/check/io_access.h"
 #include "keys/digest.h"
@@ -171,10 +170,12 @@ Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant) {
   for (const std::filesystem::path& file : travelling) {
     PackageFile entry;
     entry.path = file.lexically_relative(base).string();
-    entry.digest = keys::digest_of_file(file, entry.size);
-    if (entry.digest.empty()) {
-      return base::Problem{fmt::format("{} cannot be read: {}", file.string(), std::strerror(errno))};
+    auto digest = keys::digest_of_file(file);
+    if (!digest) {
+      return base::Problem{base::cannot_read(file, digest.error())};
     }
+    entry.digest = std::move(digest->digest);
+    entry.size = digest->size;
     entry.executable = ::access(file.c_str(), X_OK) == 0;
     packed.sources.emplace(entry.digest, file);
     packed.package.files.push_back(std::move(entry));

@@ -11,17 +11,15 @@
 
 namespace indurop::tools {
 
-int run_child(const std::vector<std::string>& arguments, std::string& problem) {
+Result<int, base::Problem> run_child(const std::vector<std::string>& arguments) {
   const auto child = base::spawn({.words = arguments, .program = {}});
   if (!child) {
-    problem = fmt::format("cannot start {}: {}", arguments[0], std::strerror(child.error().sys_errno));
-    return -1;
+    return base::Problem{fmt::format("cannot start {}: {}", arguments[0], std::strerror(child.error().sys_errno))};
   }
   int status = 0;
   while (::waitpid(*child, &status, 0) < 0) {
     if (errno != EINTR) {
-      problem = fmt::format("lost {}: {}", arguments[0], std::strerror(errno));
-      return -1;
+      return base::Problem{fmt::format("lost {}: {}", arguments[0], std::strerror(errno))};
     }
   }
   return base::exit_code_of(status);

@@ -3,13 +3,17 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <string>
 #include <vector>
+
+#include "base/problem.h"
 
 namespace indurop::tools {
 
 // `arguments` begin with the program, which is looked for in PATH. Its output goes where ours goes. Returns its exit
-// code, 128 + number after a signal, or -1 with the reason in `problem` if it cannot be started.
-int run_child(const std::vector<std::string>& arguments, std::string& problem);
+// code, 128 + number after a signal, or why it cannot be started.
+Result<int, base::Problem> run_child(const std::vector<std::string>& arguments);
 
 }  // namespace indurop::tools

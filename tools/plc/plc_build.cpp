@@ -67,12 +67,15 @@ bool find_parts(Context& context, Parts& parts) {
 }
 
 bool run(Context& context, const std::vector<std::string>& arguments) {
-  std::string problem;
-  const int code = run_child(arguments, problem);
-  if (code != 0) {
-    context.out.error(problem.empty() ? fmt::format("{} failed with exit code {}", arguments[0], code) : problem);
+  const auto code = run_child(arguments);
+  if (!code) {
+    context.out.error(code.error().text);
+    return false;
   }
-  return code == 0;
+  if (*code != 0) {
+    context.out.error(fmt::format("{} failed with exit code {}", arguments[0], *code));
+  }
+  return *code == 0;
 }
 
 std::string compiler() {

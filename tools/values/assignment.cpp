@@ -41,8 +41,9 @@ bool parse_one(Context& context, const vars::Store& store, const char* verb, con
   Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size())};
   const auto& place = assignment.item.place;
   // Parts of a value that are not mentioned keep what they have.
-  std::string problem;
-  assignment.bytes = read_item(store, assignment.item, problem);
+  if (auto bytes = read_item(store, assignment.item); bytes) {
+    assignment.bytes = std::move(*bytes);
+  }
   std::string message;
   const Status parsed = schema::parse_value(place.type, text, assignment.bytes, message);
   if (!parsed.ok()) {

@@ -137,12 +137,12 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
   return all_found;
 }
 
-std::vector<std::uint8_t> read_item(const vars::Store& store, const Item& item, std::string& problem) {
+Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item) {
   std::vector<std::uint8_t> bytes(item.place.type.size());
   const Status status = store.read(*item.entry, item.place.offset, bytes);
   if (!status.ok()) {
-    problem =
-        fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code));
+    return base::Problem{
+        fmt::format("{} cannot be read: {} ({})", item.name, status.error().where, to_string(status.error().code))};
   }
   return bytes;
 }
@@ -157,6 +157,17 @@ std::string range_text(const std::optional<schema::Range>& range) {
   }
   const auto end = [](double value) { return std::isinf(value) ? std::string() : fmt::format("{}", value); };
   return end(range->min) + ".." + end(range->max);
+}
+
+std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options& app, Context& context) {
+  auto names = std::make_shared<std::vector<std::string>>();
+  app.add("names", "NAME", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
+      .required()
+      .completes(base::Completion::Variable);
+  add_node_option(app, context);
+  add_far_options(app, context);
+  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  return names;
 }
 
 }  // namespace indurop::tools

@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/problem.h"
 #include "tools/command/verb.h"
 #include "vars/store.h"
 
@@ -28,13 +32,16 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
                   std::vector<Item>& items, Values values = Values::Needed);
 bool is_glob(std::string_view text);
 
-// One consistent version of the item's bytes. `problem` is set if there is none.
-std::vector<std::uint8_t> read_item(const vars::Store& store, const Item& item, std::string& problem);
+// One consistent version of the item's bytes, or why there is none.
+Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item);
 
 // Value for JSON and CSV.
 JsonValue raw_value(const schema::Type& type, std::span<const std::uint8_t> bytes);
 
 // "0..10", "0.." without maximum, "" without range.
 std::string range_text(const std::optional<schema::Range>& range);
+
+// The options of a verb that prints a table of items it is given, here or of boards in the network; their names.
+std::shared_ptr<const std::vector<std::string>> add_items_to_show(base::Options& app, Context& context);
 
 }  // namespace indurop::tools

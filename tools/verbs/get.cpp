@@ -26,32 +26,25 @@ int get(Context& context, const std::vector<std::string>& names) {
   }
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
   for (const Item& item : items) {
-    std::string problem;
-    const auto bytes = read_item(*store, item, problem);
-    if (!problem.empty()) {
-      context.out.error(problem);
+    const auto bytes = read_item(*store, item);
+    if (!bytes) {
+      context.out.error(bytes.error().text);
       return kFailed;
     }
-    const std::string text = schema::format_value(item.place.type, bytes);
+    const std::string text = schema::format_value(item.place.type, *bytes);
     // The usual `x=$(indurop get NAME)`: one name, nothing but its value.
     if (context.format == Format::Table && items.size() == 1) {
       context.out.line(item.place.unit.empty() || !context.out.terminal() ? text : text + " " + item.place.unit);
       return kOk;
     }
-    table.add({Cell(item.name), Cell(text, raw_value(item.place.type, bytes)), Cell(item.place.unit)});
+    table.add({Cell(item.name), Cell(text, raw_value(item.place.type, *bytes)), Cell(item.place.unit)});
   }
   print_table(context, table, {{"node", context.values->title()}, {"running", absence.empty()}}, "values");
   return kOk;
 }
 
 Action declare(base::Options& app, Context& context) {
-  auto names = std::make_shared<std::vector<std::string>>();
-  app.add("names", "NAME", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
-      .required()
-      .completes(base::Completion::Variable);
-  add_node_option(app, context);
-  add_far_options(app, context);
-  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  const auto names = add_items_to_show(app, context);
   return [names](Context& c) { return get(c, *names); };
 }
 

@@ -73,10 +73,12 @@ class Counter {
       started_ = true;
       return updates;
     }
-    std::string problem;
-    auto bytes = read_item(store_, item_, problem);
-    const bool changed = started_ && bytes != bytes_;
-    bytes_ = std::move(bytes);
+    auto bytes = read_item(store_, item_);
+    if (!bytes) {
+      return 0;
+    }
+    const bool changed = started_ && *bytes != bytes_;
+    bytes_ = std::move(*bytes);
     started_ = true;
     return changed ? 1 : 0;
   }

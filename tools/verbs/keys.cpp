@@ -124,8 +124,8 @@ int init(Context& context, const Request& request) {
   for (const config::Board& board : read.plant.boards) {
     boards.push_back(board.name);
   }
-  if (const std::string problem = keys.make(read.plant.name, boards, until(request)); !problem.empty()) {
-    context.out.error(problem);
+  if (const auto done = keys.make(read.plant.name, boards, until(request)); !done) {
+    context.out.error(done.error().text);
     return kFailed;
   }
   context.out.line(fmt::format("made the keys of plant {} in {}: for {}, a viewer and a deployer, valid until {}",
@@ -157,8 +157,8 @@ int add(Context& context, const Request& request) {
     }
   }
   for (const std::string& board : request.boards) {
-    if (const std::string problem = keys.add(board, until(request)); !problem.empty()) {
-      context.out.error(problem);
+    if (const auto done = keys.add(board, until(request)); !done) {
+      context.out.error(done.error().text);
       return kFailed;
     }
     context.out.line(fmt::format("made {}", keys.board(board).string()));
@@ -198,12 +198,13 @@ int renew(Context& context, const Request& request) {
     whose = chosen(context, keys, request.boards);
   }
   for (const keys::KeyListing& each : whose) {
-    const std::string problem =
-        each.revoked ? fmt::format("{} was revoked; move {} away and give it new keys: indurop keys add {}", each.name,
-                                   each.folder.string(), each.name)
-                     : keys.renew(each, until(request));
-    if (!problem.empty()) {
-      context.out.error(problem);
+    if (each.revoked) {
+      context.out.error(fmt::format("{} was revoked; move {} away and give it new keys: indurop keys add {}", each.name,
+                                    each.folder.string(), each.name));
+      return kFailed;
+    }
+    if (const auto done = keys.renew(each, until(request)); !done) {
+      context.out.error(done.error().text);
       return kFailed;
     }
     context.out.line(fmt::format("{} is valid until {}: copy identity.pem and permissions.p7s of {} to it", each.name,
@@ -219,8 +220,8 @@ int revoke(Context& context, const Request& request) {
   }
   const auto whose = chosen(context, keys, request.boards);
   for (const keys::KeyListing& each : whose) {
-    if (const std::string problem = keys.revoke(each); !problem.empty()) {
-      context.out.error(problem);
+    if (const auto done = keys.revoke(each); !done) {
+      context.out.error(done.error().text);
       return kFailed;
     }
     context.out.line(fmt::format("{} is revoked: copy revoked.pem to every board, and restart its node", each.name));

@@ -69,13 +69,7 @@ int type_of(Context& context, const std::vector<std::string>& names) {
 }
 
 Action declare(base::Options& app, Context& context) {
-  auto names = std::make_shared<std::vector<std::string>>();
-  app.add("names", "NAME", *names, "Variables, parts of them (joints[1].y) or globs ('knu::*')")
-      .required()
-      .completes(base::Completion::Variable);
-  add_node_option(app, context);
-  add_far_options(app, context);
-  add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
+  const auto names = add_items_to_show(app, context);
   return [names](Context& c) { return type_of(c, *names); };
 }
 

@@ -127,15 +127,14 @@ int list(Context& context, const Options& options) {
                {"DESCRIPTION", "description", Align::Left, 4},
                {"", "source"}});
   for (const Item& item : items) {
-    std::string problem;
-    const auto bytes = read_item(*store, item, problem);
-    if (!problem.empty()) {
-      context.out.error(problem);
+    const auto bytes = read_item(*store, item);
+    if (!bytes) {
+      context.out.error(bytes.error().text);
       code = kFailed;
       continue;
     }
     const auto use = uses.find(item.place.variable->name);
-    table.add(row(item, bytes, use == uses.end() ? config::VariableUse{} : use->second, !uses.empty()));
+    table.add(row(item, *bytes, use == uses.end() ? config::VariableUse{} : use->second, !uses.empty()));
   }
   const std::string absence = context.values->absence(&*store);
   if (!absence.empty() && context.values->here()) {

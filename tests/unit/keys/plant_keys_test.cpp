@@ -32,7 +32,7 @@ std::string text_of(const fs::path& file) {
 class Keys : public testing::Test {
  protected:
   Keys() : sut(folder_ / "keys") {}
-  void make(days valid = days(100)) { ASSERT_EQ(sut.make("cell", {"a", "b"}, now + valid), ""); }
+  void make(days valid = days(100)) { ASSERT_TRUE(sut.make("cell", {"a", "b"}, now + valid)); }
   KeyCheck check(const fs::path& folder, const std::string& board = "a", days later = days(0)) const {
     return check_board_keys(folder, "cell", board, now + later);
   }
@@ -94,21 +94,21 @@ TEST_F(Keys, Secrets_are_their_owners_alone) {
 TEST_F(Keys, Are_never_made_over_others) {
   make();
   const std::string before = text_of(sut.folder() / "ca.key");
-  EXPECT_THAT(sut.make("cell", {"a"}, now + days(1)), HasSubstr("nothing was written"));
-  EXPECT_THAT(sut.add("a", now + days(1)), HasSubstr("has keys already"));
+  EXPECT_THAT(sut.make("cell", {"a"}, now + days(1)).error().text, HasSubstr("nothing was written"));
+  EXPECT_THAT(sut.add("a", now + days(1)).error().text, HasSubstr("has keys already"));
   EXPECT_EQ(text_of(sut.folder() / "ca.key"), before);
 }
 
 TEST_F(Keys, Nothing_is_left_behind_where_they_cannot_be_made) {
   std::ofstream(folder_ / "file") << "x";
   const PlantKeys below(folder_ / "file" / "keys");
-  EXPECT_THAT(below.make("cell", {"a"}, now + days(1)), HasSubstr("cannot make"));
+  EXPECT_THAT(below.make("cell", {"a"}, now + days(1)).error().text, HasSubstr("cannot make"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / ""), {}), 1);
 }
 
 TEST_F(Keys, A_board_that_has_come_gets_its_own) {
   make();
-  EXPECT_EQ(sut.add("c", now + days(10)), "");
+  EXPECT_TRUE(sut.add("c", now + days(10)));
   EXPECT_EQ(check(sut.board("c"), "c").problem, "");
   EXPECT_EQ(listed("c").problem, "");
 }
@@ -118,7 +118,7 @@ TEST_F(Keys, Renewed_ones_are_valid_longer_for_the_same_key) {
   const ParticipantKeys keys(sut.board("a"));
   const std::string key = text_of(keys.key);
   EXPECT_EQ(check(keys.folder, "a", days(200)).fault, KeyFault::NotNow);
-  EXPECT_EQ(sut.renew(listed("a"), now + days(300)), "");
+  EXPECT_TRUE(sut.renew(listed("a"), now + days(300)));
   EXPECT_EQ(check(keys.folder, "a", days(200)).problem, "");
   EXPECT_EQ(text_of(keys.key), key);
 }
@@ -126,9 +126,9 @@ TEST_F(Keys, Renewed_ones_are_valid_longer_for_the_same_key) {
 TEST_F(Keys, Revoked_ones_count_no_more_nor_do_those_before_a_renewal) {
   make();
   const std::string before = text_of(ParticipantKeys(sut.board("a")).certificate);
-  EXPECT_EQ(sut.renew(listed("a"), now + days(300)), "");
-  EXPECT_EQ(sut.revoke(listed("a")), "");
-  EXPECT_EQ(sut.revoke(listed("viewer")), "");
+  EXPECT_TRUE(sut.renew(listed("a"), now + days(300)));
+  EXPECT_TRUE(sut.revoke(listed("a")));
+  EXPECT_TRUE(sut.revoke(listed("viewer")));
   EXPECT_EQ(listed("a").problem, "revoked");
   EXPECT_EQ(listed("viewer").problem, "revoked");
   EXPECT_EQ(listed("b").problem, "");
@@ -179,7 +179,7 @@ TEST_F(Keys, Files_that_are_none_are_errors) {
 TEST_F(Keys, Another_authoritys_are_found_out) {
   make();
   const PlantKeys other(folder_ / "other");
-  ASSERT_EQ(other.make("cell", {"a"}, now + days(1)), "");
+  ASSERT_TRUE(other.make("cell", {"a"}, now + days(1)));
   fs::copy_file(ParticipantKeys(other.board("a")).authority, ParticipantKeys(sut.board("a")).authority,
                 fs::copy_options::overwrite_existing);
   EXPECT_THAT(check(sut.board("a")).problem, HasSubstr("was not issued by"));
@@ -224,7 +224,7 @@ TEST_F(Keys, Check_looks_for_those_of_every_board) {
 TEST_F(Keys, Check_finds_boards_that_would_not_let_each_other_in) {
   make();
   const PlantKeys other(folder_ / "other");
-  ASSERT_EQ(other.make("cell", {"b"}, now + days(100)), "");
+  ASSERT_TRUE(other.make("cell", {"b"}, now + days(100)));
   fs::remove_all(sut.board("b"));
   fs::rename(other.board("b"), sut.board("b"));
   EXPECT_THAT(checked("<security>keys</security>"),
