@@ -16,6 +16,7 @@
 
 #include "program.h"
 #include "scheduler/run_block.h"
+#include "tests/support/as_nobody.h"
 #include "vars/run_file.h"
 
 // Named as GoogleTest names its own.
@@ -114,8 +115,5 @@ std::vector<Started> slot_log(const scheduler::RunBlock& run);
 
 // Starts of periodic modules that came before the end of one with a higher priority released in the same tick.
 int order_violations(const scheduler::RunBlock& run);
-
-// Somebody without rights, for tests run as root; reads what everybody may read.
-inline constexpr uid_t kNobody = 65534;
 
 }  // namespace indurop::test
