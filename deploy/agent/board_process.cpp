@@ -88,6 +88,7 @@ void BoardProcess::want(const std::filesystem::path& manifest, const std::string
   held_.clear();
   reason_.clear();
   last_error_.clear();
+  remember_faults();
   if (pid_ <= 0) {
     condition_ = NodeCondition::None;
   }
@@ -200,6 +201,7 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
   pid_ = -1;
   asked_to_stop_ = false;
   run_.reset();
+  faults_before_.clear();
   if (wished) {
     condition_ = held_.empty() ? NodeCondition::None : NodeCondition::Stopped;
     return;
@@ -308,6 +310,31 @@ NodeFigures BoardProcess::figures() {
   return out;
 }
 
+// A node that already runs what is wanted goes on, and what happened to it before is not the fault of what follows.
+void BoardProcess::remember_faults() {
+  faults_before_.clear();
+  if (running_ != wanted_ || !look()) {
+    return;
+  }
+  const scheduler::RunBlock& block = present(run_);
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    faults_before_.push_back(block.modules()[i].faults.load());
+  }
+}
+
+std::string BoardProcess::fault() const {
+  const scheduler::RunBlock& block = present(run_);
+  for (std::uint32_t i = 0; i < block.module_count; ++i) {
+    const scheduler::ModuleRecord& module = block.modules()[i];
+    const std::uint64_t before = i < faults_before_.size() ? faults_before_[i] : 0;
+    if (module.faults.load() > before || module.state.load() == scheduler::ModuleState::Faulted) {
+      const bool told = module.fault_kind.load(std::memory_order_acquire) != 0;
+      return fmt::format("module {} faulted{}{}", module.name, told ? ": " : "", told ? module.last_fault : "");
+    }
+  }
+  return {};
+}
+
 BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards) {
   if (deaths_ > 0) {
     return {reason_, {}};
@@ -318,13 +345,8 @@ BoardProcess::Health BoardProcess::health(const std::vector<std::string>& boards
   if (condition_ != NodeCondition::Running || !look() || present(run_).tick.load() == 0) {
     return {{}, "its node has not begun to run"};
   }
-  const scheduler::RunBlock& block = present(run_);
-  for (std::uint32_t i = 0; i < block.module_count; ++i) {
-    const scheduler::ModuleRecord& module = block.modules()[i];
-    if (module.faults.load() > 0) {
-      const bool told = module.fault_kind.load(std::memory_order_acquire) != 0;
-      return {fmt::format("module {} faulted{}{}", module.name, told ? ": " : "", told ? module.last_fault : ""), {}};
-    }
+  if (std::string faulted = fault(); !faulted.empty()) {
+    return {std::move(faulted), {}};
   }
   const auto file = vars::ShmFile::open(vars::mirror_file(board_), vars::Mode::ReadOnly);
   const mirror::MirrorBlock* mirror =

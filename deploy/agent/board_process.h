@@ -67,6 +67,9 @@ class BoardProcess {
   void note_end(int status, rt::MonoTime now);
   void signal_stop(rt::MonoTime now);
   bool look();  // run_ is that of the present node
+  void remember_faults();
+  // The first module that stands faulted, or has faulted since want(); empty if none has.
+  [[nodiscard]] std::string fault() const;
 
   std::string board_;
   std::vector<std::string> arguments_;
@@ -89,6 +92,8 @@ class BoardProcess {
   NodeCondition condition_ = NodeCondition::None;
   std::string reason_;
   std::optional<vars::RunFile> run_;
+  // By module: the faults that a node which runs on had at want().
+  std::vector<std::uint64_t> faults_before_;
 };
 
 }  // namespace indurop::deploy

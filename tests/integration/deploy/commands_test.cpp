@@ -79,6 +79,33 @@ TEST_F(Commands, A_deployment_starts_a_stopped_board_and_a_bad_one_leaves_it_sto
   EXPECT_TRUE(wait_until([&] { return runs("a", next) && runs("b", next); }));
 }
 
+TEST_F(Commands, A_process_that_died_once_does_not_spoil_later_deployments) {
+  std::filesystem::copy_file(std::string(MODULE_FOLDER) + "/waits", folder() / "waits");
+  const std::string file =
+      manifest("v1.xml", {{"a", "steady"}},
+               "<module><filename>./waits</filename><moduletype>process</moduletype>"
+               "<operationtype>non-real</operationtype><restart delay=\"10ms\" max=\"9\"/></module>");
+  const auto process = [&] {
+    const Json all = indurop_here({"status", "--node", board("a"), "-o", "json"}).json();
+    return all.is_object() && all["modules"].size() == 2 ? all["modules"][1] : Json();
+  };
+  start_agent("a");
+  const std::string id = deployed(file);
+  ASSERT_TRUE(wait_until([&] { return runs("a", id); }));
+  const pid_t node = vars::running_node(board("a"));
+  const Json first = process();
+  ASSERT_EQ(first["state"], "running");
+  ASSERT_EQ(::kill(first["pid"].get<pid_t>(), SIGKILL), 0);
+  ASSERT_TRUE(wait_until([&] {
+    const Json now = process();
+    return now["state"] == "running" && now["pid"] != first["pid"];
+  }));
+  EXPECT_EQ(deployed(file), id);
+  EXPECT_EQ(vars::running_node(board("a")), node);
+  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "faulty"}}), {"--health", "5s"}).code, 5);
+  EXPECT_TRUE(wait_until([&] { return runs("a", id); }));
+}
+
 TEST_F(Commands, Unknown_boards_and_modules_are_named) {
   start_plant();
   const Outcome board_wrong = indurop({"stop", "steady@nobody", "--timeout", "1s"});
