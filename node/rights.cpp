@@ -3,23 +3,54 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "rt/copy_text.h"
 #include "rt/thread.h"
 #include "scheduler/bands.h"
+#include "scheduler/run_block.h"
+#include "vars/node_lock.h"
+#include "vars/run_file.h"
+#include "vars/store.h"
 
 namespace indurop::node {
+namespace {
+
+// Real-time nodes that run on this host and have their tick on the core.
+std::ptrdiff_t ticks_on(int core) {
+  const std::vector<std::string> names = vars::list_nodes();
+  return std::count_if(names.begin(), names.end(), [core](const std::string& name) {
+    const auto run = vars::RunFile::open(name, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+    if (!run || vars::running_node(name) == 0) {
+      return false;
+    }
+    const auto* block = static_cast<const scheduler::RunBlock*>(run->data());
+    return block->abi == scheduler::kRunAbi && block->obtained.tick_core == core;
+  });
+}
+
+// Of the cores with the fewest ticks the last one: interrupts go to the first ones.
+int free_core(const std::vector<int>& cores) {
+  const auto best =
+      std::min_element(cores.rbegin(), cores.rend(), [](int a, int b) { return ticks_on(a) < ticks_on(b); });
+  return best == cores.rend() ? 0 : *best;
+}
+
+}  // namespace
 
 Result<Rights, Ending> obtain_rights(const Options& options, const config::Config& config, const Console& console) {
   Rights rights;
   const auto cores = rt::allowed_cores();
-  rights.core = cores.empty() ? 0 : cores.back();
   if (options.core || config.core >= 0) {
     rights.core = options.core.value_or(config.core);
     if (std::find(cores.begin(), cores.end(), rights.core) == cores.end()) {
       console.error("core {} cannot be used by this process; it may use {}", rights.core, fmt::join(cores, ", "));
       return Ending{kUsage};
     }
+  } else {
+    rights.core = free_core(cores);
   }
   const Status fifo = rt::set_fifo(scheduler::kTickPriority);
   scheduler::Obtained& obtained = rights.obtained;

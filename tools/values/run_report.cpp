@@ -2,13 +2,31 @@
 #include "tools/values/run_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "config/xml/reader.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
 #include "tools/command/units.h"
+#include "vars/store.h"
 
 namespace indurop::tools {
+namespace {
+
+std::vector<std::string> nodes_on(std::int32_t core, const std::string& but) {
+  std::vector<std::string> names = vars::list_nodes();
+  std::erase_if(names, [core, &but](const std::string& name) {
+    if (name == but) {
+      return true;
+    }
+    const auto run = RunView::open(name);
+    return !run.ok() || !run->node_alive() || run->block().obtained.tick_core != core;
+  });
+  return names;
+}
+
+}  // namespace
+
 NodeReport report_of(const std::string& node, const RunView& run) {
   constexpr auto kRelaxed = std::memory_order_relaxed;
   const auto& block = run.block();
@@ -35,6 +53,9 @@ NodeReport report_of(const std::string& node, const RunView& run) {
     report.faults += run.module(i).faults.load(kRelaxed);
   }
   report.rt = block.obtained;
+  if (report.alive && report.rt.pinned != 0) {
+    report.same_core = nodes_on(report.rt.tick_core, node);
+  }
   report.lateness = scheduler::summarize(block.tick_lateness);
   return report;
 }
@@ -78,6 +99,13 @@ std::vector<std::string> header_lines(const NodeReport& report, const Output& ou
                                 human_ns(report.lateness.p99), human_ns(report.lateness.max)));
   }
   lines.push_back("  obtained  " + output.paint(report.rt.fifo != 0 ? Style::None : Style::Warn, rt_text(report.rt)));
+  if (!report.same_core.empty()) {
+    const std::string others = fmt::format(
+        "shares core {} with {}: their ticks delay each other; choose another with "
+        "--core",
+        report.rt.tick_core, fmt::join(report.same_core, ", "));
+    lines.push_back("            " + output.paint(Style::Warn, others));
+  }
   const std::string why = fixed_text(report.rt.why);
   if (!why.empty()) {
     lines.push_back("            " + output.paint(Style::Warn, printable(why)));
@@ -112,6 +140,7 @@ JsonValue json_of(const NodeReport& report) {
             {"cpu_dma_latency", report.rt.cpu_dma_latency != 0},
             {"pinned", report.rt.pinned != 0},
             {"core", report.rt.tick_core},
+            {"same_core", JsonValue(report.same_core)},
             {"preempt_rt", report.rt.preempt_rt != 0},
             {"throttle_permille", report.rt.throttle_permille},
             {"why", fixed_text(report.rt.why)}}}};

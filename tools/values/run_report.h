@@ -28,6 +28,7 @@ struct NodeReport {
   std::uint64_t overruns = 0;  // of all modules
   std::uint64_t faults = 0;
   scheduler::Obtained rt{};
+  std::vector<std::string> same_core;  // other real-time nodes of this host with their tick on this one's core
   scheduler::Summary lateness;
 };
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <random>
+#include <string>
+#include <thread>
 
 #include "fixture.h"
 
@@ -97,6 +99,25 @@ TEST_F(CommandLine, A_node_that_is_just_starting_is_waited_for) {
   const auto sut = indurop({"vars"});
   EXPECT_EQ(sut.code, 0) << sut.err;
   EXPECT_EQ(indurop({"status"}).code, 0);
+}
+
+TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
+  const std::string config = std::string(PLC_EXAMPLE) + "/module.xml";
+  for (const char* name : {"left", "right"}) {
+    ASSERT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", name}).code, 0);
+  }
+  const auto left = json_of(indurop({"status", "--node", "left", "-o", "json"}))["rt"];
+  const auto right = json_of(indurop({"status", "--node", "right", "-o", "json"}))["rt"];
+  EXPECT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", "third", "--core", "0"}).code, 0);
+  const auto third = indurop({"status", "--node", "third"});
+  for (const char* name : {"left", "right", "third"}) {
+    EXPECT_EQ(indurop({"stop", "--node", name}).code, 0);
+  }
+  if (!left["pinned"].get<bool>() || std::thread::hardware_concurrency() != 2) {
+    GTEST_SKIP() << "needs real-time rights and two cores";
+  }
+  EXPECT_NE(left["core"], right["core"]);
+  EXPECT_THAT(third.out, HasSubstr("shares core 0 with"));
 }
 
 TEST_F(CommandLine, Nodes_of_another_user_do_not_block_the_default_name) {
