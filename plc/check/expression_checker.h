@@ -51,6 +51,7 @@ class ExpressionChecker {
   const Type* bit(ast::Expression& expression);
   const Type* unary(ast::Expression& expression, const Type* wanted);
   const Type* binary(ast::Expression& expression, const Type* wanted);
+  bool sides(ast::Expression& expression, const Type* wanted);
   const Type* comparison(ast::Expression& expression);
   const Type* logic(ast::Expression& expression, const Type* wanted);
   const Type* arithmetic(ast::Expression& expression, const Type* wanted);

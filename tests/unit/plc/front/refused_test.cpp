@@ -11,6 +11,7 @@ namespace {
 using testing::compiled;
 using ::testing::HasSubstr;
 using testing::messages;
+using ::testing::Not;
 using testing::wrong;
 
 constexpr const char* kBlocks = R"(TYPE Percent : INT (0..100); END_TYPE
@@ -120,6 +121,18 @@ TEST(PlcRefused, Pragmas_of_editors_are_skipped) {
   for (const char* pragma : {"{attribute 'symbol' := 'read; write'}", "{region Start (first)}", "{warning 'a = b;'}",
                              "{disable code generation}", "{library private}", "{S+}", "{}"}) {
     EXPECT_EQ(wrong(times(std::string(pragma) + "\nx := TRUE;")), "") << pragma;
+  }
+}
+
+TEST(PlcRefused, A_division_of_whole_numbers_that_becomes_a_REAL_is_a_warning) {
+  const std::string head = "PROGRAM Main VAR x : REAL; i : INT; b : BOOL; END_VAR\n";
+  for (const char* code : {"x := x * (1/2);", "x := 1/2;", "x := (1/2 + 1) * x;", "b := x > 1/2;", "x := -(1/2);"}) {
+    EXPECT_THAT(messages(compiled(head + code + " END_PROGRAM")),
+                HasSubstr("warning: Main: 1 / 2 is 0, a division of whole numbers; write 1.0 / 2.0"))
+        << code;
+  }
+  for (const char* code : {"i := 7/2;", "x := x * (4/2);", "x := 1.0/2;", "x := INT_TO_REAL(7/2);"}) {
+    EXPECT_THAT(messages(compiled(head + code + " END_PROGRAM")), Not(HasSubstr("division of whole numbers"))) << code;
   }
 }
 

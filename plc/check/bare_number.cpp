@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/check/bare_number.h"
+
+#include <algorithm>
+
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+
+// MAX(1, 2); of SEL(x, 1, 2) the selector counts for nothing.
+bool is_bare_call(const Expression& call, const Program& program) {
+  const Expression& callee = call.operands[0];
+  if (callee.kind != Expression::Kind::Name || program.pou_names.contains(upper(callee.name))) {
+    return false;
+  }
+  const auto overloads = find_functions(callee.name);
+  if (overloads.size() != 1 || !std::holds_alternative<Generic>(overloads.front()->result)) {
+    return false;
+  }
+  const LibraryFunction& function = *overloads.front();
+  std::size_t next = 0;
+  return std::all_of(call.arguments.begin(), call.arguments.end(), [&](const ast::Argument& argument) {
+    const auto position = argument.name.empty() ? std::optional(next) : function.position(argument.name);
+    ++next;
+    const bool known = position && (*position < function.inputs.size() || function.extensible) && argument.value;
+    return known && (function.input(*position).type != function.result || is_bare(*argument.value, program));
+  });
+}
+
+}  // namespace
+
+bool is_bare(const Expression& expression, const Program& program) {
+  switch (expression.kind) {
+    case Expression::Kind::Literal:
+      return !expression.value_type && !std::holds_alternative<bool>(expression.value) &&
+             !std::holds_alternative<std::string>(expression.value);
+    case Expression::Kind::Unary:
+      return expression.op != ast::Operator::Not && is_bare(expression.operands[0], program);
+    case Expression::Kind::Binary:
+      return expression.op >= ast::Operator::Power && expression.op <= ast::Operator::Subtract &&
+             is_bare(expression.operands[0], program) && is_bare(expression.operands[1], program);
+    case Expression::Kind::Call:
+      return is_bare_call(expression, program);
+    case Expression::Kind::Name:
+    case Expression::Kind::Direct:
+    case Expression::Kind::Member:
+    case Expression::Kind::Bit:
+    case Expression::Kind::Index:
+      break;
+  }
+  return false;
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expressions of numbers without a type: 807 * MAX(-1, 154). What stands beside them says what they are.
+
+#pragma once
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+// Numbers without a type, operators between them, and library functions that give the type they are given.
+[[nodiscard]] bool is_bare(const ast::Expression& expression, const Program& program);
+
+}  // namespace indurop::plc

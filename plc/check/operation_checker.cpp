@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Operators with two sides: which type both become, and what is known of the result.
+
+#include <fmt/format.h>
+
+#include "plc/check/bare_number.h"
+#include "plc/check/call_checker.h"
+#include "plc/check/expression_checker.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using ast::Operator;
+
+bool is_elementary_bit(const Type& type) noexcept {
+  return type.kind == Type::Kind::Elementary && is_bit(type.elementary);
+}
+
+bool is_number(const Type& type) noexcept {
+  return type.kind == Type::Kind::Elementary && (is_num(type.elementary) || is_elementary_bit(type));
+}
+
+// 1 / 2 where 0.5 is meant.
+bool loses_fraction(const Expression& expression, const Constant& a, const Constant& b, const Type* wanted) noexcept {
+  const auto* x = std::get_if<Integer>(&a);
+  const auto* y = std::get_if<Integer>(&b);
+  return expression.op == Operator::Divide && x != nullptr && y != nullptr && *y != 0 && *x % *y != 0 &&
+         wanted != nullptr && wanted->kind == Type::Kind::Elementary && is_real(wanted->elementary);
+}
+
+}  // namespace
+
+// The sides' values: first of one that has a type, which numbers without one on the other side take where nothing else
+// is wanted. False after an error.
+bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  const bool a_bare = is_bare(a, context_.program);
+  const bool b_bare = is_bare(b, context_.program);
+  if (a_bare == b_bare) {
+    const bool fine = value(a, wanted) != nullptr;
+    return value(b, wanted) != nullptr && fine;
+  }
+  const Type* known = value(a_bare ? b : a, wanted);
+  const Type* hint = wanted;
+  if (hint == nullptr && known != nullptr && is_number(*known)) {
+    hint = context_.elementary(known->elementary);
+  }
+  return value(a_bare ? a : b, hint) != nullptr && known != nullptr;
+}
+
+const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted) {
+  const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
+  const bool combines = expression.op >= Operator::And;
+  if (!sides(expression, compares ? nullptr : wanted)) {
+    return nullptr;
+  }
+  if (!expression.operands[0].resolved->untyped || !expression.operands[1].resolved->untyped) {
+    return compares ? comparison(expression) : combines ? logic(expression, wanted) : arithmetic(expression, wanted);
+  }
+  const Constant& a = *constant_of(expression.operands[0]);
+  const Constant& b = *constant_of(expression.operands[1]);
+  std::string why;
+  Resolved& out = resolved(expression);
+  out.constant = apply(expression.op, a, b, why);
+  if (!out.constant) {
+    context_.error(expression.at, why.empty() ? "these numbers cannot be combined so" : why);
+    return nullptr;
+  }
+  if (loses_fraction(expression, a, b, wanted)) {
+    context_.warning(expression.at, fmt::format("{0} / {1} is {2}, a division of whole numbers; write {0}.0 / {1}.0",
+                                                to_string(a), to_string(b), to_string(*out.constant)));
+  }
+  out.untyped = !compares;
+  return context_.elementary(default_type(*out.constant));
+}
+
+// Brings both to one type; false if there is none.
+bool ExpressionChecker::meet(Expression& a, Expression& b) {
+  if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_string()) {
+    adapt(a, *a.type);
+  }
+  if (b.resolved->untyped && !adapt(b, *context_.elementary(a.type->elementary)) && !a.type->is_string()) {
+    adapt(b, *b.type);
+  }
+  return common_type(*a.type, *b.type) != nullptr;
+}
+
+const Type* ExpressionChecker::comparison(Expression& expression) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  const bool scalar = a.type->kind <= Type::Kind::Enum && b.type->kind <= Type::Kind::Enum;
+  const bool is_enum = a.type->kind == Type::Kind::Enum;
+  const bool orders = expression.op < Operator::Equal;
+  const std::string unit = a.resolved->untyped   ? unit_hint(*b.type)
+                           : b.resolved->untyped ? unit_hint(*a.type)
+                                                 : std::string();
+  if (!scalar || !meet(a, b) || (is_enum && orders)) {
+    context_.error(expression.at,
+                   fmt::format("{} and {} cannot be compared{}", with_article(*a.type), with_article(*b.type),
+                               !scalar || is_enum ? ""
+                               : unit.empty()     ? ", convert one of them"
+                                                  : unit));
+    return nullptr;
+  }
+  resolved(expression).operand = common_type(*a.type, *b.type);
+  if (!is_enum) {
+    fold(expression, *resolved(expression).operand);
+  }
+  return context_.elementary(Elementary::Bool);
+}
+
+const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wanted*/) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  if (!meet(a, b) || !is_elementary_bit(*a.type) || !is_elementary_bit(*b.type)) {
+    context_.error(expression.at, fmt::format("AND, OR and XOR combine two BOOL or two bit strings, not {} and {}",
+                                              with_article(*a.type), with_article(*b.type)));
+    return nullptr;
+  }
+  const Type* type = common_type(*a.type, *b.type);
+  resolved(expression).operand = type;
+  fold(expression, *type);
+  return type;
+}
+
+const Type* ExpressionChecker::arithmetic(Expression& expression, const Type* wanted) {
+  const Type* type = CallChecker(*this).operation(expression, wanted);
+  if (type == nullptr) {
+    return nullptr;
+  }
+  const Constant* divisor = constant_of(expression.operands[1]);
+  const bool divides = expression.op == Operator::Divide || expression.op == Operator::Modulo;
+  if (divides && divisor != nullptr && (*divisor == Constant(Integer{0}) || *divisor == Constant(0.0))) {
+    context_.error(expression.operands[1].at, "division by zero, correct the divisor");
+    return nullptr;
+  }
+  if (is_num(type->elementary)) {
+    fold(expression, *type);
+  }
+  return type;
+}
+
+void ExpressionChecker::fold(Expression& expression, const Type& operand) {
+  const Constant* a = constant_of(expression.operands[0]);
+  const Constant* b = constant_of(expression.operands[1]);
+  if (a == nullptr || b == nullptr) {
+    return;
+  }
+  std::string why;
+  auto known = apply(expression.op, operand.is_string() ? *a : stored(*a, operand),
+                     operand.is_string() ? *b : stored(*b, operand), why);
+  const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
+  if (known) {
+    resolved(expression).constant = compares ? *known : stored(*known, operand);
+  }
+}
+
+}  // namespace indurop::plc
