@@ -54,7 +54,8 @@ double positive(std::uint64_t ns) {
 // 1, 2, 5, 10 ... between the ends; only powers of ten if there are many.
 std::vector<double> tick_values(double from, double to, bool dense) {
   std::vector<double> out;
-  for (double decade = std::pow(10.0, std::floor(std::log10(from))); decade <= to; decade *= 10) {
+  for (int power = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, power) <= to; ++power) {
+    const double decade = std::pow(10.0, power);
     for (const double step : {1.0, 2.0, 5.0}) {
       const double value = decade * step;
       if (value >= from * 0.999 && value <= to * 1.001 && (dense || step == 1.0)) {

@@ -39,7 +39,7 @@ int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions
 // The two ways (commands_here.cpp, commands_remote.cpp).
 int command_here(Context& context, scheduler::ModuleCommand command, const std::string& module,
                  std::int64_t timeout_ns);
-int command_remote(Context& context, scheduler::ModuleCommand command, const std::vector<CommandTarget>& targets,
+int command_remote(Context& context, scheduler::ModuleCommand what, const std::vector<CommandTarget>& targets,
                    CommandOptions& options);
 
 const char* past_of(scheduler::ModuleCommand command);  // "stopped"
