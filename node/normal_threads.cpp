@@ -80,7 +80,7 @@ bool NormalThreads::has_ended(std::uint32_t module, std::int64_t now_ns) {
   }
   if (!normal->done.load()) {
     if (now_ns > normal->give_up_ns) {
-      normal->runner.enforce_budget(now_ns, true, 1);
+      normal->runner.enforce_budget(rt::mono_time(now_ns), true, 1);
     }
     return false;
   }
@@ -98,7 +98,7 @@ void NormalThreads::loop(Normal& normal) noexcept {
   const auto leaving = [&] { return stop_.load() || normal.halt.load(); };
   std::int64_t next = rt::now_ns();
   do {
-    normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), rt::now_ns());
+    normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), rt::MonoClock::now());
     next = std::max(next + normal.period_ns, rt::now_ns());
     while (normal.period_ns > 0 && rt::now_ns() < next && !leaving()) {
       rt::sleep_until(std::min(next, rt::now_ns() + kLookNs));
@@ -118,7 +118,7 @@ void NormalThreads::stop() {
     while (!normal->done.load()) {
       rt::sleep_until(rt::now_ns() + kLookNs);
       if (const std::int64_t now = rt::now_ns(); now > give_up) {
-        normal->runner.enforce_budget(now, true, 1);
+        normal->runner.enforce_budget(rt::mono_time(now), true, 1);
       }
     }
     normal->thread.join();

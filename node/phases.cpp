@@ -78,7 +78,7 @@ bool Phases::ended(Call& call, std::int64_t now_ns, std::int64_t limit_ns) {
     return true;
   }
   if (limit_ns != 0 && now_ns - call.began_ns > limit_ns) {
-    call.runner.enforce_budget(now_ns, true, 1);
+    call.runner.enforce_budget(rt::mono_time(now_ns), true, 1);
   } else if (!call.told && now_ns - call.began_ns > kGraceNs) {
     console_.warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
                      kGraceNs / rt::kNanosPerSecond);

@@ -8,7 +8,7 @@ namespace indurop::scheduler {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::int64_t kPollNs = 50'000;  // how often a process that must finish first is looked at
+constexpr std::chrono::microseconds kPoll{50};  // how often a process that must finish first is looked at
 
 void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
   counter.store(counter.load(kRelaxed) + by, kRelaxed);
@@ -66,7 +66,7 @@ void Band::skip(std::uint64_t releases) noexcept {
   }
 }
 
-void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns) noexcept {
+void Band::release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept {
   if (tick >= next_due_) {
     const std::uint64_t due_count = (tick - next_due_) / period_ticks_ + 1;
     const std::uint64_t latest = next_due_ + (due_count - 1) * period_ticks_;
@@ -75,7 +75,7 @@ void Band::release_due(std::uint64_t tick, std::int64_t epoch_ns) noexcept {
       skip(due_count - 1);
     }
     if (any_enabled()) {
-      release({latest, epoch_ns + static_cast<std::int64_t>(latest) * basic_period_ns_});
+      release({latest, epoch + std::chrono::nanoseconds(static_cast<std::int64_t>(latest) * basic_period_ns_)});
     }
   }
   decided_tick_.store(tick + 1, std::memory_order_seq_cst);
@@ -114,7 +114,7 @@ void Band::overrun(const Release& release) noexcept {
   TaskState* running = runner_.current();
   TaskState& culprit = running != nullptr ? *running : *tasks_.front();
   const Release& unfinished = pending_[done_.load(std::memory_order_acquire) % kBacklog];
-  record_overrun(culprit, release.tick, running != nullptr, unfinished.time_ns);
+  record_overrun(culprit, release.tick, running != nullptr, rt::to_ns(unfinished.time));
 }
 
 void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept {
@@ -125,14 +125,14 @@ void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, 
   line.started = started;
   if (started && plan_.kind != BandKind::Process) {
     const std::int64_t start = runner_.current_start();
-    line.own_ns = clock_.now() - start;
+    line.own_ns = rt::to_ns(clock_.now()) - start;
     line.latency_ns = start - release_ns;
     line.previous = runner_.previous_module();
     line.previous_ns = runner_.previous_exec();
   } else {
     if (started) {
       const std::int64_t start = culprit.slot->start_ns.load(kRelaxed);
-      line.own_ns = clock_.now() - start;
+      line.own_ns = rt::to_ns(clock_.now()) - start;
       line.latency_ns = start - release_ns;
     }
     line.previous = trace_.module.load(kRelaxed);
@@ -185,13 +185,13 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
     return;
   }
   account_process(state);
-  slot.release_ns.store(release.time_ns, kRelaxed);
+  slot.release_ns.store(rt::to_ns(release.time), kRelaxed);
   slot.release_tick.store(release.tick, kRelaxed);
   slot.released.store(slot.released.load(kRelaxed) + 1, std::memory_order_release);
   slot.wake.wake();
 }
 
-void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost) noexcept {
+void Band::run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept {
   if (lost > 0) {
     if (plan_.overrun == OverrunPolicy::CatchUp) {
       const std::uint64_t over = owed_ + lost > kBacklog ? owed_ + lost - kBacklog : 0;
@@ -202,10 +202,10 @@ void Band::run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t
     }
   }
   released_.store(released_.load(kRelaxed) + 1, std::memory_order_seq_cst);
-  runner_.run(tasks_, tick, release_ns);
-  find_inline_overrun(tick, release_ns);
-  for (; owed_ > 0 && clock_.now() < release_ns + basic_period_ns_; --owed_) {
-    runner_.run(tasks_, tick, release_ns);
+  runner_.run(tasks_, tick, release);
+  find_inline_overrun(tick, rt::to_ns(release));
+  for (; owed_ > 0 && clock_.now() < release + std::chrono::nanoseconds(basic_period_ns_); --owed_) {
+    runner_.run(tasks_, tick, release);
   }
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
   next_due_ = tick + 1;
@@ -283,10 +283,10 @@ void Band::drain() noexcept {
     }
     waiting_.store(false, std::memory_order_seq_cst);
     if (!open) {
-      clock_.sleep_until(clock_.now() + kPollNs);
+      clock_.sleep_until(clock_.now() + kPoll);
       continue;
     }
-    runner_.run(tasks_, now.tick, now.time_ns);
+    runner_.run(tasks_, now.tick, now.time);
     for (TaskState* process : processes_) {
       release_process(*process, now);
     }

@@ -17,7 +17,7 @@ namespace indurop::scheduler {
 
 struct Release {
   std::uint64_t tick;
-  std::int64_t time_ns;
+  rt::MonoTime time;
 };
 
 class Band {
@@ -39,13 +39,13 @@ class Band {
 
   // Tick thread: does what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
   // counted as skipped.
-  void release_due(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
+  void release_due(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
   // Tick thread, at the end of the run: counts as skipped what was due in ticks before `end_tick` that never began.
   void miss_due(std::uint64_t end_tick) noexcept;
 
   // Tick thread, only bands that run in it: here and now. `lost` = ticks that never began.
-  void run_inline(std::uint64_t tick, std::int64_t release_ns, std::uint64_t lost) noexcept;
+  void run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept;
 
   // Band thread: body. Returns when stop() was called.
   void loop() noexcept;

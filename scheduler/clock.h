@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
+#include "rt/clock.h"
 
 namespace indurop::scheduler {
 
@@ -13,15 +13,15 @@ class Clock {
   virtual ~Clock() = default;
   Clock(const Clock&) = delete;
   Clock& operator=(const Clock&) = delete;
-  virtual std::int64_t now() noexcept = 0;                          // ns, never runs backwards
-  virtual void sleep_until(std::int64_t deadline_ns) noexcept = 0;  // may return late, never early
+  virtual rt::MonoTime now() noexcept = 0;                       // never runs backwards
+  virtual void sleep_until(rt::MonoTime deadline) noexcept = 0;  // may return late, never early
 };
 
 // CLOCK_MONOTONIC.
 class SystemClock final : public Clock {
  public:
-  std::int64_t now() noexcept override;
-  void sleep_until(std::int64_t deadline_ns) noexcept override;
+  rt::MonoTime now() noexcept override;
+  void sleep_until(rt::MonoTime deadline) noexcept override;
 };
 
 }  // namespace indurop::scheduler

@@ -244,7 +244,7 @@ Status Engine::start(std::uint64_t ticks) {
     join();
     return started;
   }
-  epoch_ns_ = clock_.now() + kLeadNs + warm_up_ns(settings_.basic_period_ns);
+  epoch_ns_ = rt::to_ns(clock_.now()) + kLeadNs + warm_up_ns(settings_.basic_period_ns);
   if (settings_.grid_ns > 0) {
     const std::int64_t past = (epoch_ns_ - settings_.phase_ns) % settings_.grid_ns;
     epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
@@ -279,11 +279,11 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   const std::int64_t basic = settings_.basic_period_ns;
   Spinner spinner(clock_, settings_.spin, basic);
   for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
-    spinner.wait_until(t);
+    spinner.wait_until(rt::mono_time(t));
   }
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
-    const std::int64_t late = spinner.wait_until(planned) - planned;
+    const std::int64_t late = rt::to_ns(spinner.wait_until(rt::mono_time(planned))) - planned;
     const auto lost = static_cast<std::uint64_t>(late / basic);
     tick += lost;
     if (ticks != 0 && tick >= ticks) {
@@ -318,15 +318,16 @@ void Engine::end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexce
 }
 
 void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept {
-  const std::int64_t release = epoch_ns_ + static_cast<std::int64_t>(tick) * settings_.basic_period_ns;
+  const rt::MonoTime epoch = rt::mono_time(epoch_ns_);
+  const auto since = std::chrono::nanoseconds(static_cast<std::int64_t>(tick) * settings_.basic_period_ns);
   if (core.primary) {
     block_.tick.store(tick + 1, std::memory_order_release);
   }
   for (Band* band : core.here) {
-    band->run_inline(tick, release, lost);
+    band->run_inline(tick, epoch + since, lost);
   }
   for (Band* band : core.released) {
-    band->release_due(tick, epoch_ns_);
+    band->release_due(tick, epoch);
   }
   if (gated_) {
     wake_waiting();
@@ -336,8 +337,8 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
   }
 }
 
-void Engine::step(std::uint64_t tick, std::int64_t epoch_ns) noexcept {
-  epoch_ns_ = epoch_ns;
+void Engine::step(std::uint64_t tick, rt::MonoTime epoch) noexcept {
+  epoch_ns_ = rt::to_ns(epoch);
   for (const auto& core : cores_) {
     do_tick(*core, tick, 0);
   }
@@ -356,8 +357,8 @@ void Engine::watchdog_loop() noexcept {
     }
   }
   while (!stop_watchdog_.load(std::memory_order_acquire)) {
-    clock_.sleep_until(clock_.now() + period);
-    const std::int64_t now = clock_.now();
+    clock_.sleep_until(clock_.now() + std::chrono::nanoseconds(period));
+    const rt::MonoTime now = clock_.now();
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& band : bands_) {
       band->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
@@ -369,7 +370,7 @@ void Engine::join() noexcept {
   // A run that ended by itself (ticks) stops its bands too.
   while (!finished()) {
     if (!stop_.load(std::memory_order_acquire)) {
-      clock_.sleep_until(clock_.now() + kWatchdogFastest);
+      clock_.sleep_until(clock_.now() + std::chrono::nanoseconds(kWatchdogFastest));
       continue;
     }
     break;

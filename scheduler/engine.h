@@ -63,7 +63,7 @@ class Engine {
   [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return find_band(module); }
 
   // The tick in which everything is on this core without any thread: for tests and simulation with a virtual clock.
-  void step(std::uint64_t tick, std::int64_t epoch_ns) noexcept;
+  void step(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
  private:
   struct Core;

@@ -63,10 +63,10 @@ void Runner::detach_thread() noexcept {
   guard_.leave();
 }
 
-void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int64_t release_ns) noexcept {
+void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::MonoTime release) noexcept {
   tasks_ = tasks;
   tick_ = tick;
-  release_ns_ = release_ns;
+  release_ns_ = rt::to_ns(release);
   position_ = 0;
   guard_.enter();
   // A fault comes back here, behind the module that caused it. No signal mask is saved: that would be a system call.
@@ -74,7 +74,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int
     contain_jump();
     ++position_;
   }
-  current_start_.store(clock_.now(), std::memory_order_relaxed);
+  current_start_.store(rt::to_ns(clock_.now()), std::memory_order_relaxed);
   for (; position_ < tasks_.size(); ++position_) {
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
     if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
@@ -102,7 +102,7 @@ void Runner::call_current() noexcept {
   try {
     if (state.task.condition) {
       ran = state.task.condition();
-      current_start_.store(clock_.now(), std::memory_order_relaxed);
+      current_start_.store(rt::to_ns(clock_.now()), std::memory_order_relaxed);
     }
     if (ran) {
       state.task.run();
@@ -118,7 +118,7 @@ void Runner::call_current() noexcept {
   }
   guard_.disarm();
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
-  const std::int64_t end = clock_.now();
+  const std::int64_t end = rt::to_ns(clock_.now());
   times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
   if (ran) {
     trace_.module.store(static_cast<std::int32_t>(state.task.index), std::memory_order_relaxed);
@@ -134,7 +134,7 @@ void Runner::contain_jump() noexcept {
   guard_.recovered();
   TaskState& state = *tasks_[position_];
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
-  const std::int64_t end = clock_.now();
+  const std::int64_t end = rt::to_ns(clock_.now());
   char text[kTextLength];
   FaultKind kind = FaultKind::Signal;
   if (guard_.signal_number() == rt::Guard::kOrder) {
@@ -165,7 +165,7 @@ void Runner::account() noexcept {
   }
 }
 
-void Runner::enforce_budget(std::int64_t now_ns, bool stopping, std::int64_t grace_ns) noexcept {
+void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept {
   if (!attached_.load(std::memory_order_acquire) || !guard_.armed()) {
     return;
   }
@@ -179,7 +179,7 @@ void Runner::enforce_budget(std::int64_t now_ns, bool stopping, std::int64_t gra
   if (stopping && (limit == 0 || limit > grace_ns)) {
     limit = grace_ns;
   }
-  if (limit > 0 && now_ns - start > limit) {
+  if (limit > 0 && rt::to_ns(now) - start > limit) {
     guard_.order_end(thread_, run);
   }
 }

@@ -60,7 +60,7 @@ class Runner {
   void detach_thread() noexcept;
 
   // Runs the enabled tasks in order. Sporadic ones run only if condition() is true.
-  void run(std::span<TaskState* const> tasks, std::uint64_t tick, std::int64_t release_ns) noexcept;
+  void run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::MonoTime release) noexcept;
 
   // The task executed at the moment, null if none; readable from other threads.
   [[nodiscard]] TaskState* current() const noexcept { return current_.load(std::memory_order_acquire); }
@@ -71,7 +71,7 @@ class Runner {
   [[nodiscard]] const RunTimes& times(std::size_t position) const noexcept { return times_[position]; }
 
   // Ends the module in progress if it exceeds its budget, or `grace_ns` once the node is stopping. Watchdog thread.
-  void enforce_budget(std::int64_t now_ns, bool stopping, std::int64_t grace_ns) noexcept;
+  void enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept;
 
  private:
   void call_current() noexcept;

@@ -33,17 +33,17 @@ void Spinner::learn(std::int64_t wake_cost) noexcept {
   margin_ = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
 }
 
-std::int64_t Spinner::wait_until(std::int64_t deadline_ns) noexcept {
-  std::int64_t now = clock_.now();
-  const std::int64_t wake_at = deadline_ns - margin_;
+rt::MonoTime Spinner::wait_until(rt::MonoTime deadline) noexcept {
+  rt::MonoTime now = clock_.now();
+  const rt::MonoTime wake_at = deadline - std::chrono::nanoseconds(margin_);
   if (now < wake_at) {
     clock_.sleep_until(wake_at);
     now = clock_.now();
     if (mode_ == SpinMode::Auto) {
-      learn(now - wake_at);
+      learn((now - wake_at).count());
     }
   }
-  while (now < deadline_ns) {
+  while (now < deadline) {
     relax();
     now = clock_.now();
   }

@@ -22,8 +22,8 @@ class Spinner {
   // Auto never spins longer than half the period: the kernel stops real-time threads that use all of a core.
   Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
 
-  // Returns the time at which the wait ended, at or after `deadline_ns`. Real-time safe.
-  std::int64_t wait_until(std::int64_t deadline_ns) noexcept;
+  // Returns the time at which the wait ended, at or after the deadline. Real-time safe.
+  rt::MonoTime wait_until(rt::MonoTime deadline) noexcept;
   [[nodiscard]] std::int64_t margin_ns() const noexcept { return margin_; }
 
  private:

@@ -38,7 +38,7 @@ TEST_F(BandGate, Opens_when_every_predecessor_is_done) {
   Band sut = make(2);
   sut.set_predecessors({&first, &second});
   for (Band* band : {&first, &second, &sut}) {
-    band->release_due(0, 0);
+    band->release_due(0, rt::MonoTime{});
   }
   second.drain();
   sut.drain();

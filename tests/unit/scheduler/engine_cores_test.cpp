@@ -89,7 +89,7 @@ TEST(EngineCores, Work_on_a_core_that_is_not_the_primary_one_is_told) {
   hooks.worked = [](void* context) noexcept { ++*static_cast<std::uint64_t*>(context); };
   SystemClock clock;
   Engine sut(*block, tasks, settings, hooks, clock);
-  sut.step(0, 0);
+  sut.step(0, rt::MonoTime{});
   EXPECT_EQ(told, 2U);  // once by the primary core, once by the one of the module
 }
 

@@ -47,8 +47,8 @@ class EngineInVirtualTime : public testing::Test {
   void steps(Engine& sut, std::uint64_t from, std::uint64_t to, std::int64_t basic) {
     for (std::uint64_t tick = from; tick < to; ++tick) {
       const std::int64_t at = epoch + static_cast<std::int64_t>(tick) * basic;
-      clock.sleep_until(at);
-      sut.step(tick, epoch);
+      clock.sleep_until(rt::mono_time(at));
+      sut.step(tick, rt::mono_time(epoch));
     }
   }
   VirtualClock clock;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -16,12 +17,8 @@ namespace indurop::scheduler {
 
 class VirtualClock final : public Clock {
  public:
-  std::int64_t now() noexcept override { return now_; }
-  void sleep_until(std::int64_t deadline_ns) noexcept override {
-    if (deadline_ns > now_) {
-      now_ = deadline_ns;
-    }
-  }
+  rt::MonoTime now() noexcept override { return rt::mono_time(now_); }
+  void sleep_until(rt::MonoTime deadline) noexcept override { now_ = std::max(now_, rt::to_ns(deadline)); }
   void advance(std::int64_t ns) noexcept { now_ += ns; }
 
  private:

@@ -12,12 +12,10 @@ namespace {
 // Sleeps end `late` ns after they should; reading the clock takes 20 ns.
 class LateClock final : public Clock {
  public:
-  std::int64_t now() noexcept override { return now_ += 20; }
-  void sleep_until(std::int64_t deadline_ns) noexcept override {
+  rt::MonoTime now() noexcept override { return rt::mono_time(now_ += 20); }
+  void sleep_until(rt::MonoTime deadline) noexcept override {
     ++sleeps;
-    if (deadline_ns + late > now_) {
-      now_ = deadline_ns + late;
-    }
+    now_ = std::max(now_, rt::to_ns(deadline) + late);
   }
   std::int64_t late = 0;
   int sleeps = 0;
@@ -32,7 +30,7 @@ TEST(Spinner, Learns_to_wake_early_enough) {
   Spinner sut(clock, {}, 1'000'000);
   std::int64_t last = 0;
   for (std::int64_t n = 1; n <= 200; ++n) {
-    last = sut.wait_until(n * 1'000'000) - n * 1'000'000;
+    last = rt::to_ns(sut.wait_until(rt::mono_time(n * 1'000'000))) - n * 1'000'000;
   }
   EXPECT_LT(last, 100);
   EXPECT_GT(sut.margin_ns(), 30'000);
@@ -44,7 +42,7 @@ TEST(Spinner, Never_spins_more_than_half_the_period) {
   clock.late = 90'000;
   Spinner sut(clock, {}, 100'000);
   for (std::int64_t n = 1; n <= 2000; ++n) {
-    sut.wait_until(n * 200'000);
+    sut.wait_until(rt::mono_time(n * 200'000));
   }
   EXPECT_LE(sut.margin_ns(), 50'000);
 }
@@ -53,14 +51,14 @@ TEST(Spinner, Off_only_sleeps) {
   LateClock clock;
   clock.late = 7'000;
   Spinner sut(clock, {SpinMode::Off, 0}, 1'000'000);
-  EXPECT_GE(sut.wait_until(1'000'000), 1'007'000);
+  EXPECT_GE(rt::to_ns(sut.wait_until(rt::mono_time(1'000'000))), 1'007'000);
   EXPECT_EQ(sut.margin_ns(), 0);
 }
 
 TEST(Spinner, A_time_in_the_past_returns_at_once) {
   LateClock clock;
   Spinner sut(clock, {}, 1'000'000);
-  sut.wait_until(-5);
+  sut.wait_until(rt::mono_time(-5));
   EXPECT_EQ(clock.sleeps, 0);
 }
 
