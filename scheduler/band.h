@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 struct Release {
-  std::uint64_t tick;
+  std::uint64_t tick = 0;
   rt::MonoTime time;
 };
 
