@@ -43,8 +43,6 @@ class Drawing {
         value(symbol, "RETURN", false);
         break;
       case Kind::Jump:
-        value(symbol, "» " + element.text, false);
-        break;
       case Kind::Connector:
         value(symbol, "» " + element.text, false);
         break;

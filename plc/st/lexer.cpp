@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 22> kPragmas{
 // "extern long __tick; TX = __tick;", as Beremiz and OpenPLC pass it on to their C compiler.
 bool is_c_code(std::string_view pragma) {
   pragma = trimmed(pragma);
-  const auto end = std::find_if_not(pragma.begin(), pragma.end(), is_word);
+  const auto* const end = std::find_if_not(pragma.begin(), pragma.end(), is_word);
   const std::string first = upper(pragma.substr(0, static_cast<std::size_t>(end - pragma.begin())));
   if (std::find(kPragmas.begin(), kPragmas.end(), first) != kPragmas.end()) {
     return false;
