@@ -12,31 +12,31 @@
 
 namespace indurop::io {
 
-std::unique_ptr<CsvDriver> CsvDriver::make(const config::IoDevice& device, std::span<const config::IoPoint> inputs,
-                                           std::string& problem) {
+Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> CsvDriver::make(
+    const config::IoDevice& device, std::span<const config::IoPoint> inputs) {
+  const auto problem = [&device](base::SourcePlace place, std::string what) {
+    return std::vector{
+        base::Diagnostic{base::Diagnostic::Severity::Error, device.csv.file.string(), place, std::move(what)}};
+  };
   const std::string file = device.csv.file.string();
   const auto text = base::read_file(file);
   if (!text) {
-    problem = fmt::format("{}: error: cannot be read: {}", file, text.error().text);
-    return nullptr;
+    return problem({}, fmt::format("cannot be read: {}", text.error().text));
   }
-  std::vector<std::string> problems;
-  CsvTable table = read_csv(*text, file, problems);
+  auto table = read_csv(*text, file);
+  if (!table) {
+    return std::move(table).error();
+  }
   std::vector<std::size_t> columns;
   for (const config::IoPoint& point : inputs) {
-    const auto found = std::find(table.columns.begin(), table.columns.end(), point.at);
-    if (found == table.columns.end() && problems.empty()) {
-      problems.push_back(fmt::format("{}:1:1: error: there is no column '{}'; there are {}", file, point.at,
-                                     fmt::join(table.columns, ", ")));
-      break;
+    const auto found = std::find(table->columns.begin(), table->columns.end(), point.at);
+    if (found == table->columns.end()) {
+      return problem({1, 1},
+                     fmt::format("there is no column '{}'; there are {}", point.at, fmt::join(table->columns, ", ")));
     }
-    columns.push_back(static_cast<std::size_t>(found - table.columns.begin()));
+    columns.push_back(static_cast<std::size_t>(found - table->columns.begin()));
   }
-  if (!problems.empty()) {
-    problem = fmt::format("{}", fmt::join(problems, "\n"));
-    return nullptr;
-  }
-  return std::make_unique<CsvDriver>(std::move(table), std::move(columns), device.csv.loop);
+  return std::make_unique<CsvDriver>(std::move(table).value(), std::move(columns), device.csv.loop);
 }
 
 CsvDriver::CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop)

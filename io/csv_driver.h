@@ -13,9 +13,9 @@ namespace indurop::io {
 
 class CsvDriver final : public Driver {
  public:
-  // Null if the file cannot be read or lacks a column; `problem` says what, one line each.
-  static std::unique_ptr<CsvDriver> make(const config::IoDevice& device, std::span<const config::IoPoint> inputs,
-                                         std::string& problem);
+  // Errors: the file cannot be read, what is wrong in it, or that it lacks a column.
+  static Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> make(
+      const config::IoDevice& device, std::span<const config::IoPoint> inputs);
   // `columns`: that of each point.
   CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop);
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "base/diagnostics.h"
 #include "base/text.h"
 
 namespace indurop::io {
@@ -23,13 +24,13 @@ struct Cell {
 
 class Reader {
  public:
-  Reader(const std::string& file, std::vector<std::string>& problems) : file_(file), problems_(problems) {}
+  explicit Reader(const std::string& file) : problems_(file, found_, kMostProblems) {}
 
-  CsvTable read(std::string_view text) {
+  Result<CsvTable, std::vector<base::Diagnostic>> read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) {
       text.remove_prefix(3);
     }
-    while (!text.empty() && problems_.size() < kMostProblems) {
+    while (!text.empty() && !problems_.full()) {
       ++line_;
       const std::size_t end = text.find('\n');
       const std::string_view line = text.substr(0, end);
@@ -47,15 +48,18 @@ class Reader {
     if (!has_header_) {
       line_ = 1;
       problem(1, "the file has no row of names; the first row is time and one name per column");
-    } else if (unit_ > 0 && table_.rows.empty() && problems_.empty()) {
+    } else if (unit_ > 0 && table_.rows.empty() && !problems_.failed()) {
       problem(1, "the file has no values; add a row for each time");
+    }
+    if (problems_.failed()) {
+      return std::move(found_);
     }
     return std::move(table_);
   }
 
  private:
   void problem(std::size_t column, const std::string& text) {
-    problems_.push_back(fmt::format("{}:{}:{}: error: {}", file_, line_, column, text));
+    problems_.error({static_cast<int>(line_), static_cast<int>(column)}, text);
   }
 
   [[nodiscard]] std::vector<Cell> split(std::string_view line) const {
@@ -143,8 +147,8 @@ class Reader {
     table_.rows.push_back(std::move(row));
   }
 
-  const std::string& file_;
-  std::vector<std::string>& problems_;
+  std::vector<base::Diagnostic> found_;
+  base::Diagnostics problems_;
   CsvTable table_;
   std::size_t line_ = 0;
   char separator_ = ',';
@@ -154,8 +158,8 @@ class Reader {
 
 }  // namespace
 
-CsvTable read_csv(std::string_view text, const std::string& file, std::vector<std::string>& problems) {
-  return Reader(file, problems).read(text);
+Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, const std::string& file) {
+  return Reader(file).read(text);
 }
 
 }  // namespace indurop::io

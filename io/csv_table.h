@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/diagnostic.h"
 
 namespace indurop::io {
 
@@ -22,8 +26,8 @@ struct CsvTable {
 };
 
 // Cells are separated by ',' or ';', whichever the first row has; a quoted cell may contain it. The first column is
-// called time, time_s, time_ms or time_us. Lines that are empty or begin with '#' are skipped. What is wrong is
-// appended to `problems`, "file:line:col: error: ...", at most 20 lines.
-CsvTable read_csv(std::string_view text, const std::string& file, std::vector<std::string>& problems);
+// called time, time_s, time_ms or time_us. Lines that are empty or begin with '#' are skipped. Errors: all that is
+// wrong with the text of `file`, at most 20.
+Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, const std::string& file);
 
 }  // namespace indurop::io

@@ -3,25 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace indurop::io {
 
-std::unique_ptr<Dispatcher> Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema,
-                                             Phase phase, std::vector<std::string>& problems) {
+Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase) {
   config::ReadIo read = config::read_io_config(file);
   const auto bound = config::bind_io(read.config, schema, read.diagnostics);
-  for (const base::Diagnostic& diagnostic : read.diagnostics) {
-    problems.push_back(base::to_string(diagnostic));
+  Made made{nullptr, std::move(read.diagnostics)};
+  if (base::has_error(made.diagnostics)) {
+    return made;
   }
-  if (!read.ok()) {
-    return nullptr;
-  }
-  std::unique_ptr<Dispatcher> made(new Dispatcher);  // NOLINT: the constructor is private
+  std::unique_ptr<Dispatcher> dispatcher(new Dispatcher);  // NOLINT: the constructor is private
   for (const config::BoundDevice& device : bound) {
-    made->add(device, phase, file, problems);
+    std::vector<base::Diagnostic> wrong = dispatcher->add(device, phase, file);
+    std::move(wrong.begin(), wrong.end(), std::back_inserter(made.diagnostics));
   }
-  return problems.empty() ? std::move(made) : nullptr;
+  if (!base::has_error(made.diagnostics)) {
+    made.dispatcher = std::move(dispatcher);
+  }
+  return made;
 }
 
 Dispatcher::~Dispatcher() {
@@ -35,8 +38,8 @@ std::optional<Dispatcher::Report> Dispatcher::report_to(const std::optional<sche
   return Report{variables_.add_write(*variable), variable->type.base};
 }
 
-void Dispatcher::add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
-                     std::vector<std::string>& problems) {
+std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, Phase phase,
+                                              const std::filesystem::path& file) {
   std::vector<config::BoundPoint> inputs;
   std::vector<config::BoundPoint> outputs;
   std::vector<config::IoPoint> input_points;
@@ -49,26 +52,22 @@ void Dispatcher::add(const config::BoundDevice& bound, Phase phase, const std::f
     (b.point.output ? output_points : input_points).push_back(b.point);
   }
   if (inputs.empty() && outputs.empty()) {
-    return;
+    return {};
   }
   const bool shareable = bound.device.driver == config::IoDriver::ModbusTcp;
   if (!shareable && outputs.size() + inputs.size() != bound.points.size()) {
-    problems.push_back(
-        fmt::format("{}:{}:{}: error: the inputs and outputs of {} device {} cannot be split among two "
-                    "modules; give the module that runs it a file of its own, without phase",
-                    file.string(), bound.device.place.line, bound.device.place.column,
-                    config::name_of(bound.device.driver), bound.device.name));
-    return;
+    return {{base::Diagnostic::Severity::Error, file.string(), bound.device.place,
+             fmt::format("the inputs and outputs of {} device {} cannot be split among two modules; give the module "
+                         "that runs it a file of its own, without phase",
+                         config::name_of(bound.device.driver), bound.device.name)}};
   }
-  std::string problem;
-  auto driver = make_driver(bound.device, output_points, input_points, problem);
-  if (driver == nullptr) {
-    problems.push_back(std::move(problem));
-    return;
+  auto driver = make_driver(bound.device, output_points, input_points);
+  if (!driver) {
+    return std::move(driver).error();
   }
   Line& line = lines_.emplace_back();
   line.device = bound.device;
-  line.driver = std::move(driver);
+  line.driver = std::move(driver).value();
   for (const config::BoundPoint& b : inputs) {
     line.to.push_back(variables_.add_write(b.variable));
     line.input_qualities.push_back(report_to(b.quality));
@@ -88,6 +87,7 @@ void Dispatcher::add(const config::BoundDevice& bound, Phase phase, const std::f
   } else {
     line.thread = std::make_unique<ExchangeThread>(line.device, *line.driver, DeviceImage(inputs, outputs));
   }
+  return {};
 }
 
 Status Dispatcher::start(std::uint32_t module) {

@@ -23,10 +23,9 @@ enum class Phase { Both, Inputs, Outputs };
 
 class Dispatcher {
  public:
-  // Null, and `problems` has a line for everything that is wrong, if the file cannot be used. `schema`: the node's
-  // variables. Not real-time safe.
-  static std::unique_ptr<Dispatcher> make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase,
-                                          std::vector<std::string>& problems);
+  struct Made;
+  // `schema`: the node's variables. Not real-time safe.
+  static Made make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase);
   Dispatcher(const Dispatcher&) = delete;
   Dispatcher& operator=(const Dispatcher&) = delete;
   ~Dispatcher();
@@ -61,8 +60,8 @@ class Dispatcher {
     std::optional<Report> errors;
   };
   Dispatcher() = default;
-  void add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file,
-           std::vector<std::string>& problems);
+  // Returns what is wrong with the device.
+  std::vector<base::Diagnostic> add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file);
   std::optional<Report> report_to(const std::optional<schema::Place>& variable);
   void take(Line& line, OutputImage& into) noexcept;
   void give(const Line& line, const InputImage& image) noexcept;
@@ -70,6 +69,11 @@ class Dispatcher {
 
   Variables variables_;
   std::deque<Line> lines_;
+};
+
+struct Dispatcher::Made {
+  std::unique_ptr<Dispatcher> dispatcher;     // null if the file cannot be used
+  std::vector<base::Diagnostic> diagnostics;  // everything that is wrong or worth a note
 };
 
 }  // namespace indurop::io

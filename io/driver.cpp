@@ -9,18 +9,23 @@
 
 namespace indurop::io {
 
-std::unique_ptr<Driver> make_driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
-                                    std::span<const config::IoPoint> inputs, std::string& problem) {
+Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
+                                                                           std::span<const config::IoPoint> outputs,
+                                                                           std::span<const config::IoPoint> inputs) {
   switch (device.driver) {
     case config::IoDriver::ModbusTcp:
     case config::IoDriver::ModbusRtu:
-      return std::make_unique<ModbusDriver>(device, outputs, inputs);
+      return std::unique_ptr<Driver>(std::make_unique<ModbusDriver>(device, outputs, inputs));
     case config::IoDriver::Cia402:
-      return std::make_unique<Cia402Driver>(device, outputs, inputs);
+      return std::unique_ptr<Driver>(std::make_unique<Cia402Driver>(device, outputs, inputs));
     case config::IoDriver::Csv:
-      return CsvDriver::make(device, inputs, problem);
+      break;
   }
-  return nullptr;
+  auto recorded = CsvDriver::make(device, inputs);
+  if (!recorded) {
+    return std::move(recorded).error();
+  }
+  return std::unique_ptr<Driver>(std::move(recorded).value());
 }
 
 }  // namespace indurop::io

@@ -4,12 +4,16 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "base/diagnostic.h"
 #include "config/model/io_config.h"
 #include "io/sample.h"
 
@@ -41,9 +45,10 @@ class Driver {
   [[nodiscard]] virtual std::string problem() const = 0;
 };
 
-// The driver for a device with these points. Empty, and `problem` says why, if the configuration cannot work: a file
-// that is not there, for example. One line per problem. Not real-time safe.
-std::unique_ptr<Driver> make_driver(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
-                                    std::span<const config::IoPoint> inputs, std::string& problem);
+// The driver for a device with these points. Errors: why the configuration cannot work, a file that is not there for
+// example. Not real-time safe.
+Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const config::IoDevice& device,
+                                                                           std::span<const config::IoPoint> outputs,
+                                                                           std::span<const config::IoPoint> inputs);
 
 }  // namespace indurop::io

@@ -71,12 +71,12 @@ void on_start() {
     throw std::runtime_error("the node's variables cannot be read: " + std::string(to_string(store.error().code)));
   }
   const std::filesystem::path file = config_file();
-  std::vector<std::string> problems;
-  auto& dispatcher = self().dispatcher;
-  dispatcher = io::Dispatcher::make(file, store.value().schema(), phase(), problems);
-  for (const std::string& problem : problems) {
-    irp::printf("%s\n", problem);
+  io::Dispatcher::Made made = io::Dispatcher::make(file, store.value().schema(), phase());
+  for (const base::Diagnostic& diagnostic : made.diagnostics) {
+    irp::printf("%s\n", base::to_string(diagnostic));
   }
+  auto& dispatcher = self().dispatcher;
+  dispatcher = std::move(made.dispatcher);
   if (dispatcher == nullptr) {
     throw std::runtime_error(file.string() + " cannot be used, see the messages above");
   }

@@ -176,9 +176,10 @@ void JobParser::pose_point(Target& target) {
   target.pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
   if (accept("POSTURE")) {
     double posture = 0;
-    if (!(numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7)) {
+    if (!(numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7 &&
+          posture == std::floor(posture))) {
       error(tokens_[at_ - 1],
-            "a posture is a number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
+            "a posture is a whole number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
       return;
     }
     target.posture = static_cast<std::uint8_t>(posture);

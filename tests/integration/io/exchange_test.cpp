@@ -36,10 +36,9 @@ class Exchange : public ::testing::Test {
                          << "' cycle='1ms' timeout='50ms' retry='1ms' retry_most='10ms' errors='link_errors'>"
                             "<input variable='I0' at='holding:1' quality='I0_quality'/>"
                             "<output variable='O0' at='holding:2' stop='77'/></device></ioconfig>";
-    std::vector<std::string> problems;
-    auto sut = Dispatcher::make(file_, schema_, Phase::Both, problems);
-    EXPECT_TRUE(problems.empty() && sut != nullptr && sut->start(0));
-    return sut;
+    auto [sut, diagnostics] = Dispatcher::make(file_, schema_, Phase::Both);
+    EXPECT_TRUE(diagnostics.empty() && sut != nullptr && sut->start(0));
+    return std::move(sut);
   }
   // Ticks until it holds.
   template <class Condition>

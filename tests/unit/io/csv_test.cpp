@@ -15,10 +15,19 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 CsvTable read(std::string_view text) {
-  std::vector<std::string> problems;
-  CsvTable table = read_csv(text, "in.csv", problems);
-  EXPECT_THAT(problems, testing::IsEmpty());
-  return table;
+  auto table = read_csv(text, "in.csv");
+  EXPECT_TRUE(table.ok()) << (table.ok() ? "" : base::to_text(table.error()));
+  return table.ok() ? *table : CsvTable{};
+}
+
+std::vector<std::string> problems_of(std::string_view text) {
+  std::vector<std::string> lines;
+  if (const auto table = read_csv(text, "in.csv"); !table.ok()) {
+    for (const base::Diagnostic& each : table.error()) {
+      lines.push_back(base::to_string(each));
+    }
+  }
+  return lines;
 }
 
 TEST(Csv, Reads_names_times_and_numbers) {
@@ -35,8 +44,7 @@ TEST(Csv, Semicolons_separate_where_the_first_row_has_them) {
 }
 
 TEST(Csv, Says_everything_that_is_wrong_with_its_place) {
-  std::vector<std::string> problems;
-  read_csv("time,a,a,\n0,x,1,2\n0,1,2,3\n1,2\n-1,0,0,0\nsoon,0,0,0\n", "in.csv", problems);
+  const auto problems = problems_of("time,a,a,\n0,x,1,2\n0,1,2,3\n1,2\n-1,0,0,0\nsoon,0,0,0\n");
   EXPECT_THAT(problems,
               ElementsAre("in.csv:1:8: error: a second column 'a'; names are unique",
                           "in.csv:1:10: error: this column has no name; give it one",
@@ -49,8 +57,7 @@ TEST(Csv, Says_everything_that_is_wrong_with_its_place) {
 
 TEST(Csv, Wants_a_time_and_values) {
   const auto problem = [](std::string_view text) {
-    std::vector<std::string> problems;
-    read_csv(text, "in.csv", problems);
+    const auto problems = problems_of(text);
     return problems.empty() ? "" : problems.front();
   };
   EXPECT_THAT(problem("a,b\n1,2\n"), HasSubstr("in.csv:1:1: error: the first column is called 'a'; it must be time"));

@@ -34,7 +34,11 @@ class DispatcherTest : public ::testing::Test {
   }
   std::unique_ptr<Dispatcher> make(const std::string& devices, Phase phase = Phase::Both) {
     const auto file = write("io.xml", "<ioconfig>\n" + devices + "\n</ioconfig>\n");
-    return Dispatcher::make(file, schema_, phase, problems_);
+    Dispatcher::Made made = Dispatcher::make(file, schema_, phase);
+    for (const base::Diagnostic& each : made.diagnostics) {
+      problems_.push_back(base::to_string(each));
+    }
+    return std::move(made.dispatcher);
   }
   std::unique_ptr<Dispatcher> started(const std::string& devices) {
     auto sut = make(devices);

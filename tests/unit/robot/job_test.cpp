@@ -173,6 +173,10 @@ INSTANTIATE_TEST_SUITE_P(
             "a.job:1:21: error: expected RPY and roll, pitch and yaw in degrees, found the end of the line"},
         Bad{"POINT A = JOINT 1 2 3 4 5 6\nPOINT A = JOINT 1 2 3 4 5 6\n",
             "a.job:2:7: error: there is already a point 'A' at a.job:1"},
+        Bad{"POINT A = POSE 500 0 300 RPY 180 0 0 POSTURE 3.7\n",
+            "a.job:1:46: error: a posture is a whole number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist "
+            "turned "
+            "over, added"},
         Bad{"SPEED 120%\n", "a.job:1:7: error: a speed is above 0 and at most 100 %"},
         Bad{"SPEED 20 km/h\n", "a.job:1:10: error: expected % or mm/s, found 'km'"},
         Bad{"ZONE -1\n", "a.job:1:6: error: a zone is from 0 (stop at the point) to 1000 mm"},
