@@ -18,8 +18,7 @@ const Arm& arm() {
   static const Arm kArm = [] {
     std::ifstream file(ROBOT_URDF);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    std::vector<std::string> errors;
-    return arm_from_urdf(ROBOT_URDF, text, errors).value().arm;
+    return arm_from_urdf(ROBOT_URDF, text).value().arm;
   }();
   return kArm;
 }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostic.h"
+#include "base/source_place.h"
 #include "robot/segment.h"
 
 namespace indurop::robot {
@@ -41,7 +43,8 @@ struct Step {
 struct Point {
   std::string name;
   Target target;
-  std::string place;  // "file:line:col"
+  std::string file;
+  base::SourcePlace place;
 };
 
 struct Job {
@@ -65,9 +68,12 @@ struct JobFile {
   std::string text;
 };
 
-// All files together: points and jobs may be used before and beyond the file that declares them. Errors are added in
-// order, "file:line:col: error: text"; the result counts only if there are none. Not real-time safe.
-JobBook parse_jobs(const std::vector<JobFile>& files, std::vector<std::string>& errors);
+struct ReadJobs {
+  JobBook book;                               // counts only if there are no diagnostics
+  std::vector<base::Diagnostic> diagnostics;  // errors, at most 100
+};
+// All files together: points and jobs may be used before and beyond the file that declares them. Not real-time safe.
+ReadJobs parse_jobs(const std::vector<JobFile>& files);
 
 [[nodiscard]] bool holds(Compare compare, double left, double right) noexcept;
 

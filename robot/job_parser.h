@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parser of one job file. Names of points, jobs and labels are noted with their places and resolved when all files
-// have been read.
+// The parser of one job file: points and motion in job_parser.cpp, the rest in job_flow.cpp. Names of points, jobs and
+// labels are noted with their places and resolved when all files have been read.
 
 #pragma once
 
 #include <map>
 
+#include "base/diagnostics.h"
 #include "robot/job.h"
 #include "robot/job_text.h"
 
@@ -29,7 +30,7 @@ struct JobLabel {
 
 class JobParser {
  public:
-  JobParser(JobBook& book, JobErrors& errors) : book_(book), errors_(errors) {}
+  JobParser(JobBook& book, base::Diagnostics& errors) : book_(book), errors_(errors) {}
 
   // Reads one file as the next job of the book.
   void read(const JobFile& file);
@@ -62,12 +63,13 @@ class JobParser {
   JobToken take() { return tokens_[at_].kind == JobToken::Kind::End ? tokens_[at_] : tokens_[at_++]; }
   bool accept(std::string_view word);
   void error(const JobToken& at, const std::string& text);
+  void error_in(const std::string& file, std::size_t line, std::size_t column, const std::string& text);
   Step& add(Op op);
   [[nodiscard]] Job& job() { return book_.jobs.back(); }
   [[nodiscard]] static std::string shown(const JobToken& token);
 
   JobBook& book_;
-  JobErrors& errors_;
+  base::Diagnostics& errors_;
   std::vector<JobToken> tokens_;
   std::size_t at_ = 0;
   std::size_t line_ = 0;

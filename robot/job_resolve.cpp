@@ -57,8 +57,8 @@ std::vector<std::string> names_of(const List& list) {
 
 void JobParser::resolve() {
   const auto fail = [&](const JobReference& reference, const char* what, const std::vector<std::string>& known) {
-    errors_.add(book_.jobs[reference.job].file, reference.line, reference.column,
-                std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));
+    error_in(book_.jobs[reference.job].file, reference.line, reference.column,
+             std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));
   };
   for (const JobReference& reference : references_) {
     Step& step = book_.jobs[reference.job].steps[reference.step];
@@ -81,10 +81,12 @@ void JobParser::resolve() {
   }
 }
 
-JobBook parse_jobs(const std::vector<JobFile>& files, std::vector<std::string>& errors) {
-  JobBook book;
-  JobErrors list(errors);
-  JobParser parser(book, list);
+ReadJobs parse_jobs(const std::vector<JobFile>& files) {
+  ReadJobs read;
+  JobBook& book = read.book;
+  constexpr std::size_t kMostErrors = 100;
+  base::Diagnostics errors("", read.diagnostics, kMostErrors);
+  JobParser parser(book, errors);
   for (const JobFile& file : files) {
     parser.read(file);
   }
@@ -102,7 +104,7 @@ JobBook parse_jobs(const std::vector<JobFile>& files, std::vector<std::string>& 
     }
     book.numbered[number] = static_cast<int>(i);
   }
-  return book;
+  return read;
 }
 
 int JobBook::numbered_point(std::uint32_t number) const noexcept {

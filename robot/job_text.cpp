@@ -88,11 +88,8 @@ bool same_word(std::string_view a, std::string_view b) noexcept {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return small(x) == small(y); });
 }
 
-void JobErrors::add(const std::string& file, std::size_t line, std::size_t column, const std::string& text) {
-  constexpr std::size_t kMost = 100;
-  if (list_.size() < kMost) {
-    list_.push_back(file + ":" + std::to_string(line) + ":" + std::to_string(column) + ": error: " + text);
-  }
+std::string in_quotes(std::string_view text) {
+  return "'" + std::string(text) + "'";
 }
 
 }  // namespace indurop::robot

@@ -23,14 +23,6 @@ std::vector<JobToken> split_job_line(std::string_view line);
 // Letters of ASCII only; keywords may be written small.
 bool same_word(std::string_view a, std::string_view b) noexcept;
 
-// Messages "file:line:col: error: text".
-class JobErrors {
- public:
-  explicit JobErrors(std::vector<std::string>& list) : list_(list) {}
-  void add(const std::string& file, std::size_t line, std::size_t column, const std::string& text);
-
- private:
-  std::vector<std::string>& list_;
-};
+std::string in_quotes(std::string_view text);
 
 }  // namespace indurop::robot

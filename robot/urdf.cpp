@@ -28,10 +28,9 @@ class Listener : public console_bridge::OutputHandler {
 
 class Reader {
  public:
-  Reader(const std::string& file, const std::string& text, std::vector<std::string>& errors)
-      : file_(file), text_(text), errors_(errors) {}
+  Reader(const std::string& file, const std::string& text) : file_(file), text_(text) {}
 
-  std::optional<ArmModel> read();
+  Result<ArmModel, std::vector<base::Diagnostic>> read();
 
  private:
   void error(std::size_t offset, const std::string& text);
@@ -42,7 +41,7 @@ class Reader {
 
   const std::string& file_;
   const std::string& text_;
-  std::vector<std::string>& errors_;
+  std::vector<base::Diagnostic> errors_;
 };
 
 bool turns(const urdf::Joint& joint) noexcept {
@@ -65,7 +64,8 @@ void Reader::error(std::size_t offset, const std::string& text) {
   const auto line = std::count(begin, here, '\n') + 1;
   const std::size_t start = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
   const std::size_t column = start == std::string::npos ? offset + 1 : offset - start;
-  errors_.push_back(file_ + ":" + std::to_string(line) + ":" + std::to_string(column) + ": error: " + text);
+  errors_.push_back(
+      {base::Diagnostic::Severity::Error, file_, {static_cast<int>(line), static_cast<int>(column)}, text});
 }
 
 std::size_t Reader::place_of(const std::string& joint) const {
@@ -124,7 +124,7 @@ void Reader::limits_of(const urdf::Joint& joint, Axis& axis, double& velocity) {
   }
 }
 
-std::optional<ArmModel> Reader::read() {
+Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
   std::string said;
   urdf::ModelInterfaceSharedPtr model;
   {
@@ -134,9 +134,8 @@ std::optional<ArmModel> Reader::read() {
   }
   if (model == nullptr) {
     error(0, "this is not the URDF of a robot: " + (said.empty() ? "it cannot be read" : said));
-    return std::nullopt;
+    return std::move(errors_);
   }
-  const std::size_t before = errors_.size();
   std::array<Axis, kAxes> axes;
   Joints velocity = Joints::Ones();
   Pose frame;
@@ -167,17 +166,16 @@ std::optional<ArmModel> Reader::read() {
   if (found != kAxes) {
     error(0, "the arm has " + std::to_string(found) + " turning joints between root and tool, it needs six");
   }
-  if (errors_.size() != before) {
-    return std::nullopt;
+  if (!errors_.empty()) {
+    return std::move(errors_);
   }
   return ArmModel{Arm(std::move(axes), frame), velocity};
 }
 
 }  // namespace
 
-std::optional<ArmModel> arm_from_urdf(const std::string& file, const std::string& text,
-                                      std::vector<std::string>& errors) {
-  return Reader(file, text, errors).read();
+Result<ArmModel, std::vector<base::Diagnostic>> arm_from_urdf(const std::string& file, const std::string& text) {
+  return Reader(file, text).read();
 }
 
 }  // namespace indurop::robot

@@ -3,10 +3,12 @@
 
 #pragma once
 
-#include <optional>
+#include <indurop/result.h>
+
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "robot/arm.h"
 
 namespace indurop::robot {
@@ -17,8 +19,7 @@ struct ArmModel {
 };
 
 // The six turning joints between the root link and the tool: the link called tool0 or tcp if there is one, else the end
-// of the chain. Errors are added as "file:line:col: error: text"; nothing is returned then.
-std::optional<ArmModel> arm_from_urdf(const std::string& file, const std::string& text,
-                                      std::vector<std::string>& errors);
+// of the chain. Errors: all that is wrong with the text of `file`.
+Result<ArmModel, std::vector<base::Diagnostic>> arm_from_urdf(const std::string& file, const std::string& text);
 
 }  // namespace indurop::robot

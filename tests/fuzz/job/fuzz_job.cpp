@@ -24,10 +24,9 @@ class Nothing final : public indurop::robot::Signals, public indurop::robot::Mot
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::vector<std::string> errors;
-  const auto book = indurop::robot::parse_jobs({{"a.job", {reinterpret_cast<const char*>(data), size}}}, errors);
-  for (const std::string& error : errors) {
-    if (!error.starts_with("a.job:")) {
+  const auto [book, errors] = indurop::robot::parse_jobs({{"a.job", {reinterpret_cast<const char*>(data), size}}});
+  for (const indurop::base::Diagnostic& error : errors) {
+    if (error.file != "a.job" || error.place.line == 0) {
       std::abort();
     }
   }

@@ -107,9 +107,8 @@ TEST(Geometry, Roll_pitch_yaw_round_trip) {
 }
 
 TEST(Urdf, Limits_and_names_are_those_of_the_file) {
-  std::vector<std::string> errors;
-  const auto model = arm_from_urdf("robot.urdf", cell_urdf(), errors);
-  ASSERT_TRUE(model.has_value());
+  const auto model = arm_from_urdf("robot.urdf", cell_urdf());
+  ASSERT_TRUE(model.ok());
   EXPECT_EQ(model->arm.axis(3).name, "joint4");
   EXPECT_DOUBLE_EQ(model->arm.axis(1).upper, 2.356);
   EXPECT_DOUBLE_EQ(model->velocity[5], 8.72);
@@ -121,7 +120,11 @@ std::vector<std::string> errors_with(const std::string& from, const std::string&
   EXPECT_NE(at, std::string::npos);
   text.replace(at, from.size(), to);
   std::vector<std::string> errors;
-  EXPECT_FALSE(arm_from_urdf("robot.urdf", text, errors).has_value());
+  if (const auto model = arm_from_urdf("robot.urdf", text); !model.ok()) {
+    for (const base::Diagnostic& each : model.error()) {
+      errors.push_back(base::to_string(each));
+    }
+  }
   return errors;
 }
 

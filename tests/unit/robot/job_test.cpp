@@ -8,14 +8,13 @@
 namespace indurop::robot {
 namespace {
 
-JobBook parse(const std::string& text, std::vector<std::string>& errors) {
-  return parse_jobs({{"a.job", text}}, errors);
+ReadJobs parse(const std::string& text) {
+  return parse_jobs({{"a.job", text}});
 }
 
 JobBook good(const std::string& text) {
-  std::vector<std::string> errors;
-  JobBook book = parse(text, errors);
-  EXPECT_TRUE(errors.empty()) << errors[0];
+  auto [book, errors] = parse(text);
+  EXPECT_TRUE(errors.empty()) << base::to_text(errors);
   return book;
 }
 
@@ -57,14 +56,12 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
 }
 
 TEST(Job, Signals_loops_jumps_and_calls) {
-  std::vector<std::string> errors;
-  const JobBook book =
+  const auto [book, errors] =
       parse_jobs({{"main.job",
                    "LOOP 3\n  CALL count\n  LOOP 2\n    CALL count\n  END\nEND\n"
                    "LABEL again\nIF I0 >= 9 GOTO out\nCALL count\nGOTO again\nLABEL out\nSET O1 = -2.5\n"},
-                  {"folder/count.job", "IF O0 GOTO on\nSET O0 ON\nGOTO out\nLABEL on\nSET O0 OFF\nLABEL out\n"}},
-                 errors);
-  ASSERT_TRUE(errors.empty()) << errors[0];
+                  {"folder/count.job", "IF O0 GOTO on\nSET O0 ON\nGOTO out\nLABEL on\nSET O0 OFF\nLABEL out\n"}});
+  ASSERT_TRUE(errors.empty()) << base::to_text(errors);
   ASSERT_EQ(book.signals, (std::vector<std::string>{"I0", "O1", "O0"}));
   JobRunner sut(book);
   Recorder port;
@@ -151,10 +148,9 @@ struct Bad {
 class JobErrorsTest : public testing::TestWithParam<Bad> {};
 
 TEST_P(JobErrorsTest, Name_place_and_cure) {
-  std::vector<std::string> errors;
-  parse(GetParam().text, errors);
+  const auto errors = parse(GetParam().text).diagnostics;
   ASSERT_FALSE(errors.empty());
-  EXPECT_EQ(errors[0], GetParam().error);
+  EXPECT_EQ(base::to_string(errors[0]), GetParam().error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -193,9 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"SET O1 $\n", "a.job:1:8: error: expected ON, OFF or the value, found '$'"}));
 
 TEST(Job, All_errors_at_once) {
-  std::vector<std::string> errors;
-  parse("MOVJ A\nFOO\nSPEED 0%\n", errors);
-  EXPECT_EQ(errors.size(), 3U);
+  EXPECT_EQ(parse("MOVJ A\nFOO\nSPEED 0%\n").diagnostics.size(), 3U);
 }
 
 }  // namespace

@@ -16,10 +16,9 @@ std::string cell_urdf() {
 }
 
 Arm cell_arm() {
-  std::vector<std::string> errors;
-  auto model = arm_from_urdf("robot.urdf", cell_urdf(), errors);
+  auto model = arm_from_urdf("robot.urdf", cell_urdf());
   if (!model) {
-    throw std::runtime_error(errors.at(0));
+    throw std::runtime_error(base::to_text(model.error()));
   }
   return model->arm;
 }
