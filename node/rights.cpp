@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/rights.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -23,7 +25,8 @@ std::ptrdiff_t ticks_on(int core) {
   const std::vector<std::string> names = vars::list_nodes();
   return std::count_if(names.begin(), names.end(), [core](const std::string& name) {
     const auto run = vars::RunFile::open(name, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
-    if (!run || vars::running_node(name) == 0) {
+    const pid_t holder = vars::running_node(name);
+    if (!run || holder == 0 || holder == ::getpid()) {  // under our name: what a former run left
       return false;
     }
     const auto* block = static_cast<const scheduler::RunBlock*>(run->data());

@@ -113,6 +113,10 @@ TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   for (const char* name : {"left", "right", "third"}) {
     EXPECT_EQ(indurop({"stop", "--node", name}).code, 0);
   }
+  // What it left under its own name does not drive it away.
+  EXPECT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", "left"}).code, 0);
+  EXPECT_EQ(json_of(indurop({"status", "--node", "left", "-o", "json"}))["rt"]["core"], left["core"]);
+  EXPECT_EQ(indurop({"stop", "--node", "left"}).code, 0);
   if (!left["pinned"].get<bool>() || std::thread::hardware_concurrency() != 2) {
     GTEST_SKIP() << "needs real-time rights and two cores";
   }

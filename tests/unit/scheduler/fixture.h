@@ -26,7 +26,9 @@ class VirtualClock final : public Clock {
 };
 
 struct FreeMemory {
-  void operator()(RunBlock* block) const noexcept { std::free(block); }
+  void operator()(RunBlock* block) const noexcept {
+    std::free(block);
+  }  // NOLINT(cppcoreguidelines-no-malloc): of aligned_alloc
 };
 using BlockPointer = std::unique_ptr<RunBlock, FreeMemory>;
 
