@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <tuple>
@@ -34,6 +35,10 @@ class Diagnostics {
   // Those left out because there were too many count too.
   [[nodiscard]] std::size_t errors() const noexcept { return count_[0]; }
   [[nodiscard]] bool failed() const noexcept { return errors() > 0; }
+  // Further ones of this severity are not kept: their texts need not be made.
+  [[nodiscard]] bool full(Diagnostic::Severity severity) const noexcept {
+    return count_[static_cast<std::size_t>(severity)] > most_;
+  }
   // So many errors that further ones are not shown: searching for their causes is in vain.
   [[nodiscard]] bool full() const noexcept { return errors() > most_; }
 

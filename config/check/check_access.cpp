@@ -2,7 +2,8 @@
 // What the access map of one board says about the data: readers that run too early, age.
 
 #include <algorithm>
-#include <set>
+#include <string>
+#include <vector>
 
 #include "base/text.h"
 #include "config/check/access_map.h"
@@ -29,6 +30,8 @@ class AccessCheck {
   }
 
  private:
+  using Severity = base::Diagnostic::Severity;
+
   // Values of some variables on their way from one periodic module to another; positions in execution order.
   struct Flow {
     std::size_t writer;
@@ -69,27 +72,34 @@ class AccessCheck {
     for (std::size_t i = 0; i < order.size(); ++i) {
       position_of[context_.result.periodic[order[i]]] = i;
     }
-    std::map<Edge, std::vector<const schema::Variable*>> found;
+    struct Found {
+      Edge edge;
+      const schema::Variable* variable;
+    };
+    std::vector<Found> found;
     for (const auto& [name, access] : map_.variables) {
       for (const std::size_t w : access.writers) {
         for (const std::size_t r : access.readers) {
           if (w != r && position_of[w] < order.size() && position_of[r] < order.size()) {
-            found[{position_of[w], position_of[r]}].push_back(access.variable);
+            found.push_back({{position_of[w], position_of[r]}, access.variable});
           }
         }
       }
     }
-    for (auto& [edge, variables] : found) {
-      flows_.push_back(
-          {edge.first, edge.second, std::move(variables), age_between(release(edge.first), release(edge.second))});
-      edges_.push_back(edge);
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.edge < b.edge; });
+    for (const auto& [edge, variable] : found) {
+      if (edges_.empty() || edges_.back() != edge) {
+        flows_.push_back({edge.first, edge.second, {}, age_between(release(edge.first), release(edge.second))});
+        edges_.push_back(edge);
+      }
+      flows_.back().variables.push_back(variable);
     }
   }
 
   [[nodiscard]] static bool too_early(const Flow& flow) { return flow.age.meet && flow.reader < flow.writer; }
 
   // Which module should have which priority so that readers come behind writers.
-  [[nodiscard]] std::string better_order(const Flow& early) const {
+  [[nodiscard]] std::string better_order(const Flow& early) {
     const std::size_t count = context_.result.table.order.size();
     const bool distinct = at(early.reader).priority != at(early.writer).priority;
     std::vector<std::size_t> swapped(count);
@@ -105,16 +115,15 @@ class AccessCheck {
       return "swap their priorities: " + at(early.writer).name + " " + std::to_string(at(early.reader).priority) +
              ", " + at(early.reader).name + " " + std::to_string(at(early.writer).priority);
     }
-    std::vector<std::string> order;
-    for (const std::size_t position : writers_first(count, edges_)) {
-      order.push_back(at(position).name);
+    if (best_order_.empty()) {
+      best_order_ = writers_first(count, edges_);
     }
     std::string text = "give them priorities in the order ";
     constexpr std::size_t kMost = 20;
-    for (std::size_t i = 0; i < order.size() && i < kMost; ++i) {
-      text += (i == 0 ? "" : " > ") + order[i];
+    for (std::size_t i = 0; i < best_order_.size() && i < kMost; ++i) {
+      text += (i == 0 ? "" : " > ") + at(best_order_[i]).name;
     }
-    return text + (order.size() > kMost ? " > ..." : "");
+    return text + (best_order_.size() > kMost ? " > ..." : "");
   }
 
   void check_order() {
@@ -123,7 +132,8 @@ class AccessCheck {
     }
     group_ = circles(context_.result.table.order.size(), edges_);
     for (const Flow& flow : flows_) {
-      if (!too_early(flow)) {
+      const bool round = group_[flow.reader] == group_[flow.writer];
+      if (!too_early(flow) || context_.report.full(round ? Severity::Note : Severity::Warning)) {
         continue;
       }
       const Module& reader = at(flow.reader);
@@ -131,7 +141,7 @@ class AccessCheck {
       const std::string what = reader.name + " runs before " + writer.name + " and reads the " +
                                names_of_variables(flow) + " it wrote " + base::format_duration(flow.age.most) +
                                " before" + (flow.age.meetings > 1 ? " whenever both are due" : "");
-      if (group_[flow.reader] == group_[flow.writer]) {
+      if (round) {
         context_.report.note(reader.places.priority,
                              what + "; values go round between them, so one of them has to be first");
       } else {
@@ -153,9 +163,11 @@ class AccessCheck {
 
   void report_ages() {
     for (const Flow& flow : flows_) {
-      context_.report.note(at(flow.reader).places.file, at(flow.reader).name + " gets " + names_of_variables(flow) +
-                                                            " from " + at(flow.writer).name + " " +
-                                                            age_text(flow.age, context_.result.table.basic_period));
+      if (!context_.report.full(Severity::Note)) {
+        context_.report.note(at(flow.reader).places.file, at(flow.reader).name + " gets " + names_of_variables(flow) +
+                                                              " from " + at(flow.writer).name + " " +
+                                                              age_text(flow.age, context_.result.table.basic_period));
+      }
       for (const schema::Variable* variable : flow.variables) {
         if (variable->maxage_ns > 0 && flow.age.most.count() > variable->maxage_ns) {
           context_.report.warning(at(flow.reader).places.file,
@@ -174,6 +186,7 @@ class AccessCheck {
   std::vector<Flow> flows_;
   std::vector<Edge> edges_;         // of flows_
   std::vector<std::size_t> group_;  // by position
+  std::vector<std::size_t> best_order_;
 };
 
 }  // namespace

@@ -2,28 +2,93 @@
 #include "config/check/data_flow.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <set>
 
 namespace indurop::config {
 namespace {
 
-// Nodes reachable from `from`, itself only if there is a way back.
-std::vector<bool> reachable(std::size_t from, const std::vector<std::vector<std::size_t>>& next) {
-  std::vector<bool> seen(next.size(), false);
-  std::vector<std::size_t> open{from};
-  while (!open.empty()) {
-    const std::size_t node = open.back();
-    open.pop_back();
-    for (const std::size_t to : next[node]) {
-      if (!seen[to]) {
-        seen[to] = true;
-        open.push_back(to);
+// Tarjan's algorithm (1972): strongly connected components in one walk over nodes and edges. Without recursion, because
+// chains may be as long as there are modules.
+class Components {
+ public:
+  Components(std::size_t count, const std::vector<Edge>& edges) : next_(count), nodes_(count) {
+    for (const auto& [from, to] : edges) {
+      next_[from].push_back(to);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (nodes_[i].found == 0) {
+        walk(i);
       }
     }
   }
-  return seen;
-}
+  // Of each node the smallest one of its component.
+  [[nodiscard]] std::vector<std::size_t> smallest() const {
+    std::vector<std::size_t> smallest;
+    smallest.reserve(nodes_.size());
+    for (const Node& node : nodes_) {
+      smallest.push_back(node.group);
+    }
+    return smallest;
+  }
+
+ private:
+  struct Node {
+    std::size_t found = 0;  // as the how many-th, from 1
+    std::size_t low = 0;    // the least `found` that leads back
+    std::size_t edge = 0;   // to be followed next
+    std::size_t group = 0;
+    bool open = false;  // found, its component is not complete
+  };
+
+  void enter(std::size_t node) {
+    nodes_[node].found = nodes_[node].low = ++count_;
+    nodes_[node].open = true;
+    open_.push_back(node);
+    path_.push_back(node);
+  }
+
+  void walk(std::size_t from) {
+    enter(from);
+    while (!path_.empty()) {
+      const std::size_t at = path_.back();
+      Node& node = nodes_[at];
+      if (node.edge < next_[at].size()) {
+        const std::size_t to = next_[at][node.edge++];
+        if (nodes_[to].found == 0) {
+          enter(to);
+        } else if (nodes_[to].open) {
+          node.low = std::min(node.low, nodes_[to].found);
+        }
+        continue;
+      }
+      path_.pop_back();
+      if (!path_.empty()) {
+        nodes_[path_.back()].low = std::min(nodes_[path_.back()].low, node.low);
+      }
+      if (node.low == node.found) {
+        complete(at);
+      }
+    }
+  }
+
+  void complete(std::size_t root) {
+    const auto first = std::prev(std::find(open_.rbegin(), open_.rend(), root).base());
+    const std::size_t smallest = *std::min_element(first, open_.end());
+    for (auto each = first; each != open_.end(); ++each) {
+      nodes_[*each].group = smallest;
+      nodes_[*each].open = false;
+    }
+    open_.erase(first, open_.end());
+  }
+
+  std::vector<std::vector<std::size_t>> next_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> open_;
+  std::vector<std::size_t> path_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -48,33 +113,17 @@ Age age_between(const Release& writer, const Release& reader) {
 }
 
 std::vector<std::size_t> circles(std::size_t count, const std::vector<Edge>& edges) {
-  std::vector<std::vector<std::size_t>> next(count);
-  for (const auto& [from, to] : edges) {
-    next[from].push_back(to);
-  }
-  std::vector<std::vector<bool>> reach;
-  reach.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    reach.push_back(reachable(i, next));
-  }
-  std::vector<std::size_t> group(count);
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (reach[i][j] && reach[j][i]) {
-        group[i] = group[j];
-        break;
-      }
-    }
-  }
-  return group;
+  return Components(count, edges).smallest();
 }
 
 std::vector<std::size_t> writers_first(std::size_t count, const std::vector<Edge>& edges) {
   const std::vector<std::size_t> group = circles(count, edges);
   std::vector<std::vector<std::size_t>> next(count);
   std::vector<std::size_t> waiting(count, 0);
-  for (const auto& [from, to] : std::set<Edge>(edges.begin(), edges.end())) {
+  std::vector<Edge> distinct = edges;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  for (const auto& [from, to] : distinct) {
     if (group[from] != group[to]) {
       next[from].push_back(to);
       ++waiting[to];

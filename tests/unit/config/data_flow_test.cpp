@@ -30,6 +30,42 @@ Age counted(const Release& writer, const Release& reader) {
   return age;
 }
 
+// Two nodes are in one group if each can be reached from the other; its number is that of its smallest node.
+std::vector<std::size_t> circles_by_reaching(std::size_t count, const std::vector<Edge>& edges) {
+  std::vector<std::vector<bool>> reach(count, std::vector<bool>(count, false));
+  for (const auto& [from, to] : edges) {
+    reach[from][to] = true;
+  }
+  for (std::size_t via = 0; via < count; ++via) {
+    for (std::size_t from = 0; from < count; ++from) {
+      for (std::size_t to = 0; to < count; ++to) {
+        reach[from][to] = reach[from][to] || (reach[from][via] && reach[via][to]);
+      }
+    }
+  }
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t smallest = 0;
+    while (smallest != i && !(reach[i][smallest] && reach[smallest][i])) {
+      ++smallest;
+    }
+    group.push_back(smallest);
+  }
+  return group;
+}
+
+TEST(Circles, Hold_what_can_be_reached_both_ways) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 500; ++round) {
+    const std::size_t count = 1 + random() % 12;
+    std::vector<Edge> edges(random() % (2 * count));
+    for (Edge& edge : edges) {
+      edge = {random() % count, random() % count};
+    }
+    ASSERT_EQ(circles(count, edges), circles_by_reaching(count, edges)) << "round " << round;
+  }
+}
+
 TEST(Age, Agrees_with_counting) {
   std::mt19937 random(4);
   std::uniform_int_distribution<int> any(1, 15);
