@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a run of ctest passes over in silence: tests that were skipped, and tests that passed at the second try only.
+"""What a run of ctest passes over in silence: tests that were skipped, and tests that passed at the second try only. Says
+again, at the end of a long output, why tests failed.
 check_run.py JUNIT LOG. Where $CI is set, a test skipped without a line in may_skip.txt fails, and so do more than two retried."""
 
 import fnmatch
@@ -12,6 +13,7 @@ import xml.etree.ElementTree
 import common
 
 MAX_RETRIED = 2
+LAST_LINES = 40
 RESULT = re.compile(r"^\s*(?:\d+/\d+ )?Test\s+#\d+: (.*?) \.*\s*(?:\*\*\*)?(\w[\w ]*?)\s+[\d.]+ sec", re.MULTILINE)
 
 
@@ -23,6 +25,15 @@ def skipped(junit):
             # GoogleTest says it before it says SKIPPED; a script in its last line.
             marks = [i for i, line in enumerate(said) if "SKIPPED" in line]
             yield case.get("name"), said[max(marks[0] - 1, 0)] if marks else (said or ["no reason given"])[-1]
+
+
+def failed(junit):
+    """Name and last lines of each test that failed, the reason before them where one is known."""
+    for case in xml.etree.ElementTree.parse(junit).iter("testcase"):
+        failure = case.find("failure")
+        if failure is not None:
+            said = (case.findtext("system-out") or "").rstrip().splitlines()
+            yield case.get("name"), [failure.get("message") or "", *said[-LAST_LINES:]]
 
 
 def retried(log):
@@ -53,6 +64,8 @@ def main():
         print(f"skipped: {name}: {reason}")
     for name in retried(log):
         print(f"passed at the second try only: {name}")
+    for name, lines in failed(junit):
+        print(f"did not pass: {name}:", *lines, sep="\n  | ")
     if os.environ.get("CI"):
         common.report(check(junit, log, allowed(pathlib.Path(__file__).with_name("may_skip.txt"))))
 

@@ -323,6 +323,12 @@ class Run(Sample):
     def test_skipped_with_leave(self):
         self.assertEqual(check_run.check(self.junit("Rights.One"), "", ["Rights.*"]), [])
 
+    def test_failed(self):
+        self.put("r.xml", '<testsuite><testcase name="Good"/><testcase name="Bad"><failure message="Timeout"/><system-out>'
+                 + "\n".join(f"line {i}" for i in range(99)) + "\n</system-out></testcase></testsuite>")
+        (name, lines), = check_run.failed(self.root / "r.xml")
+        self.assertEqual((name, lines[0], lines[-1], len(lines)), ("Bad", "Timeout", "line 98", check_run.LAST_LINES + 1))
+
     def test_leave_without_a_reason(self):
         self.put("may.txt", "# head\nA.b  root\nC.d\n")
         self.assertEqual(check_run.allowed(self.root / "may.txt"), ["A.b"])
