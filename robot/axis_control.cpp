@@ -113,8 +113,10 @@ void AxisControl::begin(const AxisRequest& request) noexcept {
       }
       break;
     case AxisService::Reset:
-      reset();
-      break;
+      if (state_ != AxisState::ErrorStop && !drive_.faulty()) {
+        finish(ErrorCode::Ok);  // there is nothing to reset
+      }
+      return;
     default:
       code = ErrorCode::Opcode;
   }
@@ -180,6 +182,20 @@ void AxisControl::wait_for_power(double seconds) noexcept {
   }
 }
 
+// PLCopen: an axis that is still braking is not reset.
+void AxisControl::wait_for_reset(double seconds) noexcept {
+  if (!motion_.at_rest()) {
+    return;
+  }
+  if (state_ == AxisState::ErrorStop || drive_.faulty()) {
+    reset();
+  }
+  waited_ += seconds;
+  if (!drive_.faulty() || waited_ > kPowerTime) {
+    finish(drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
+  }
+}
+
 void AxisControl::move_home(double seconds) noexcept {
   waited_ += seconds;
   const bool failed = drive_.home_failed() || waited_ > kHomeTime;
@@ -222,10 +238,7 @@ void AxisControl::move(double seconds) noexcept {
     finish(ErrorCode::Ok);
   }
   if (active_ && service_ == AxisService::Reset) {
-    waited_ += seconds;
-    if (!drive_.faulty() || waited_ > kPowerTime) {
-      finish(drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
-    }
+    wait_for_reset(seconds);
   }
   report_.in_velocity = state_ == AxisState::ContinuousMotion && motion_.done();
   if (state_ == AxisState::ContinuousMotion) {

@@ -37,6 +37,8 @@ class AxisControl {
   // What the drive is told.
   [[nodiscard]] DriveOut command(const DriveIn& in, bool quick_stop) noexcept;
 
+  // Part of the speed of its own motions, from 0 (it holds) to 1.
+  void set_override(double part) noexcept { motion_.set_override(part); }
   void power(bool on) noexcept { want_power_ = on; }
   // Homes on the group's behalf.
   void home() noexcept;
@@ -64,6 +66,7 @@ class AxisControl {
   void finish(ErrorCode code) noexcept;
   void move_home(double seconds) noexcept;
   void wait_for_power(double seconds) noexcept;
+  void wait_for_reset(double seconds) noexcept;
   void guard_limits(double seconds) noexcept;
   [[nodiscard]] LineLimits limits(double hardness) const noexcept;
 

@@ -60,15 +60,24 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
       axes_[at(i)].serve(in.axes[at(i)], powered() && state_ != GroupState::Standby);
     }
   }
-  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
-  follower_.set_override(sane ? in.speed_override / 100 : 0);
-  follower_.set_hold(in.hold);
+  set_pace(in);
   run_state(signals);
   pass_gates();
   for (int i = 0; i < kAxes; ++i) {
     out.drives[at(i)] = axes_[at(i)].command(in.drives[at(i)], quick_stop_);
   }
   report(out);
+}
+
+// Hold and override, of the path and of axes that move by themselves.
+void Group::set_pace(const Inputs& in) noexcept {
+  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
+  const double part = sane ? in.speed_override / 100 : 0;
+  follower_.set_override(part);
+  follower_.set_hold(in.hold);
+  for (AxisControl& a : axes_) {
+    a.set_override(in.hold ? 0 : part);
+  }
 }
 
 void Group::sense(const Inputs& in) noexcept {
@@ -200,7 +209,9 @@ void Group::run_state(Signals& signals) noexcept {
     case GroupState::ErrorStop:
       follower_.reset(commanded());
       if (active_ && service_ == Service::GroupReset) {
-        reset();
+        if (const ErrorCode code = reset(); code != ErrorCode::Ok) {
+          finish_service(code);
+        }
       }
       break;
     case GroupState::Homing:

@@ -45,6 +45,7 @@ class Group final : public Controller, private MotionPort {
 
   // States (group.cpp).
   void sense(const Inputs& in) noexcept;
+  void set_pace(const Inputs& in) noexcept;
   void watch(const Inputs& in) noexcept;
   void trip(ErrorCode code, int axis, double hardness) noexcept;
   void leave_path(ErrorCode code, double hardness) noexcept;
@@ -59,6 +60,8 @@ class Group final : public Controller, private MotionPort {
   void stop_for(Fault fault) noexcept;
   void motion_failed(Fault fault, int source) noexcept;
   void come_to_standby() noexcept;
+  // Why it stopped stays known until a reset.
+  [[nodiscard]] bool failed() const noexcept { return state_ == GroupState::ErrorStop || to_error_; }
   [[nodiscard]] bool all_enabled() const noexcept;
   [[nodiscard]] bool powered() const noexcept;
   [[nodiscard]] Joints commanded() const noexcept;

@@ -31,7 +31,7 @@ void Group::begin_service(const ServiceRequest& request) noexcept {
   service_ = static_cast<Service>(request.code);
   active_ = true;
   motion_done_ = false;
-  if (state_ != GroupState::ErrorStop) {
+  if (!failed()) {
     error_ = ErrorCode::Ok;
     error_axis_ = 0;
   }
@@ -49,7 +49,7 @@ void Group::finish_service(ErrorCode code, int axis) noexcept {
   motion_done_ = code == ErrorCode::Ok;
   edit_done_ = by_edit_;
   by_edit_ = false;
-  if (state_ != GroupState::ErrorStop || code == ErrorCode::Ok) {
+  if (!failed()) {
     error_ = code;
     error_axis_ = axis;
   }
@@ -124,8 +124,12 @@ ErrorCode Group::disable() noexcept {
   return ErrorCode::Ok;
 }
 
-// Called again every period until the drives have left their faults.
+// Called again every period until the robot stands still and the drives have left their faults.
 ErrorCode Group::reset() noexcept {
+  if (to_error_) {
+    // PLCopen: only what stands still is reset.
+    return emergency_ ? ErrorCode::Emergency : ErrorCode::Ok;
+  }
   if (state_ != GroupState::ErrorStop) {
     finish_service(ErrorCode::Ok);
     return ErrorCode::Ok;
@@ -145,12 +149,14 @@ ErrorCode Group::reset() noexcept {
       return ErrorCode::Ok;
     }
   }
+  // A drive that is told to stop quickly is about to lose its power, whatever it says now.
+  const bool has_power = !quick_stop_ && all_enabled();
   quick_stop_ = false;
   for (AxisControl& a : axes_) {
     a.reset();
   }
   state_ = GroupState::Disabled;
-  if (all_enabled()) {
+  if (has_power) {
     come_to_standby();
   } else {
     for (AxisControl& a : axes_) {

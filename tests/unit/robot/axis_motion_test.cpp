@@ -88,5 +88,30 @@ TEST(AxisMotion, Commands_at_any_instant_keep_the_limits) {
   }
 }
 
+TEST(AxisMotion, An_override_at_any_instant_keeps_limits_and_target) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    AxisMotion sut;
+    sut.reset({0, 0, 0});
+    sut.move_to(round % 2 == 0 ? 3 : -3, kLimits);
+    LineState last;
+    for (int i = 0; i < 6000 && !sut.done(); ++i) {
+      if (random() % 80 == 0) {
+        sut.set_override(i > 4000 ? 1 : static_cast<double>(random() % 5) / 4);
+      }
+      sut.step(kPeriod);
+      const double v = (sut.state().position - last.position) / kPeriod;
+      const double a = (v - last.velocity) / kPeriod;
+      ASSERT_LT(std::abs(v), 2.001);
+      ASSERT_LT(std::abs(a), 8.01);
+      ASSERT_LT(std::abs(a - last.acceleration), 80.1 * kPeriod);
+      ASSERT_LT(std::abs(sut.state().position), 3 + 1e-9);  // never beyond, to turn back
+      last = {sut.state().position, v, a};
+    }
+    ASSERT_TRUE(sut.at_rest());
+    ASSERT_DOUBLE_EQ(std::abs(sut.state().position), 3);
+  }
+}
+
 }  // namespace
 }  // namespace indurop::robot

@@ -257,6 +257,61 @@ TEST(Group, Stop_ends_the_motion_and_its_request) {
   EXPECT_LT(cell.out.command[0], 99);
 }
 
+TEST(Group, A_reset_waits_until_an_error_stop_has_come_to_rest) {
+  Cell cell("", 1);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
+  cell.in.emergency = true;
+  cell.step();
+  cell.in.emergency = false;
+  cell.ask(Service::GroupReset);
+  cell.step();
+  EXPECT_EQ(cell.out.state, GroupState::Stopping);
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);  // still what it stops for
+  ASSERT_TRUE(cell.until([&] { return cell.out.done == cell.in.service.number; }));
+  EXPECT_EQ(cell.out.speed, SixNumbers{});
+  EXPECT_EQ(cell.out.error, ErrorCode::Ok);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_NE(cell.out.state, GroupState::ErrorStop);
+    cell.step();
+  }
+}
+
+TEST(Group, A_waiting_reset_ends_if_there_is_an_emergency_again) {
+  Cell cell("", 1);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
+  cell.in.emergency = true;
+  cell.step();
+  cell.in.emergency = false;
+  cell.ask(Service::GroupReset);
+  cell.step();
+  cell.in.emergency = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.done == cell.in.service.number; }));
+  EXPECT_FALSE(cell.out.motion_done);
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  EXPECT_EQ(cell.out.state, GroupState::ErrorStop);
+}
+
+TEST(Group, What_is_refused_during_an_error_stop_does_not_hide_why_it_stops) {
+  Cell cell("", 1);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
+  cell.in.emergency = true;
+  cell.step();
+  EXPECT_FALSE(cell.serve(Service::MoveJoints));
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  ASSERT_TRUE(cell.until([&] { return cell.out.state == GroupState::ErrorStop; }));
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  EXPECT_EQ(cell.out.drives[0].control, 0x02);  // quick stop
+}
+
 TEST(Group, Homing_gives_the_axes_their_zero) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
@@ -269,52 +324,6 @@ TEST(Group, Homing_gives_the_axes_their_zero) {
   cell.step();
   EXPECT_NEAR(cell.out.joints[0], 0, 1e-9);
   EXPECT_EQ(cell.out.drives[0].mode, 8);
-}
-
-TEST(Axis, Moves_by_itself_while_the_group_rests) {
-  Cell cell;
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOn));
-  EXPECT_TRUE(cell.out.axes[1].power);
-  EXPECT_FALSE(cell.out.axes[0].power);
-  EXPECT_FALSE(cell.serve_axis(0, AxisService::MoveAbsolute, 5));
-  EXPECT_EQ(cell.out.axes[0].error, ErrorCode::State);
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveAbsolute, 20, 30));
-  EXPECT_NEAR(cell.out.command[1], 20, 1e-9);
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveRelative, -5));
-  EXPECT_NEAR(cell.out.command[1], 15, 1e-9);
-  EXPECT_FALSE(cell.serve_axis(1, AxisService::MoveAbsolute, 500));
-  EXPECT_EQ(cell.out.axes[1].error, ErrorCode::JointLimit);
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::MoveVelocity, 0, 10));
-  EXPECT_TRUE(cell.out.axes[1].in_velocity);
-  EXPECT_EQ(cell.out.axes[1].state, AxisState::ContinuousMotion);
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::Stop));
-  EXPECT_EQ(cell.out.axes[1].state, AxisState::Standstill);
-  ASSERT_TRUE(cell.serve_axis(1, AxisService::PowerOff));
-  cell.step();
-  cell.step();
-  EXPECT_EQ(cell.out.axes[1].state, AxisState::Disabled);
-}
-
-TEST(Axis, A_later_request_aborts_the_one_before) {
-  Cell cell;
-  ASSERT_TRUE(cell.serve_axis(0, AxisService::PowerOn));
-  cell.ask_axis(0, AxisService::MoveAbsolute, 100);
-  cell.step();
-  cell.step();
-  const std::uint32_t first = cell.in.axes[0].number;
-  ASSERT_TRUE(cell.serve_axis(0, AxisService::MoveAbsolute, -10));
-  EXPECT_EQ(cell.out.axes[0].aborted, first);
-  EXPECT_NEAR(cell.out.command[0], -10, 1e-9);
-}
-
-TEST(Axis, A_motion_without_target_stops_before_the_limit) {
-  Cell cell;
-  ASSERT_TRUE(cell.serve_axis(4, AxisService::PowerOn));
-  cell.ask_axis(4, AxisService::MoveVelocity, 0, 200);
-  ASSERT_TRUE(cell.until([&] { return cell.out.axes[4].error == ErrorCode::JointLimit; }));
-  ASSERT_TRUE(cell.until([&] { return cell.out.axes[4].velocity == 0; }));
-  EXPECT_GT(cell.out.command[4], 110);
-  EXPECT_LT(cell.out.command[4], degrees(2.094));
 }
 
 TEST(Load, Everything_that_is_wrong_is_said) {

@@ -208,6 +208,38 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   }
 }
 
+// The same for single axes that are asked for one motion after the other.
+TEST_F(Random_jobs, Single_axes_break_no_limit_either) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    std::mt19937 random(seed);
+    const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;
+    Cell cell("", period_ms);
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    Judge judge(period_ms / 1000);
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    bool emergency = false;
+    for (int i = 0; i < 8000 / period_ms; ++i) {
+      if (in(0, 1) < 3 * period_ms / 1000) {
+        const auto axis = std::uniform_int_distribution<std::size_t>(0, 5)(random);
+        const AxisService services[] = {AxisService::MoveAbsolute, AxisService::MoveRelative, AxisService::MoveVelocity,
+                                        AxisService::MoveAbsolute, AxisService::Stop};
+        const AxisService service = services[std::uniform_int_distribution<std::size_t>(0, 4)(random)];
+        const bool turns = service == AxisService::MoveVelocity;
+        cell.ask_axis(axis, service, in(-100, 100), turns ? in(-500, 500) : in(1, 500));
+      }
+      if (in(0, 1) < 2 * period_ms / 1000) {
+        cell.in.speed_override = in(0, 100);
+        cell.in.hold = in(0, 1) < 0.2;
+      }
+      emergency = emergency || in(0, 1) < 0.02 * period_ms / 1000;
+      cell.in.emergency = emergency;
+      cell.step();
+      ASSERT_EQ(judge.look(cell, emergency ? kEmergency : 1), "")
+          << "seed " << seed << ", period " << i << " of " << period_ms << " ms";
+    }
+  }
+}
+
 // An accepted line whose joint speeds peak where the check did not look: axes ran away from there.
 TEST_F(Random_jobs, A_trip_on_a_path_brakes_within_the_limits) {
   for (const double period_ms : {1.0, 4.0, 10.0}) {
