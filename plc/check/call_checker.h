@@ -30,6 +30,8 @@ class CallChecker {
   };
   using Inputs = std::vector<ast::Expression*>;
 
+  std::optional<Inputs> positions(ast::Expression& call, const LibraryFunction& first);
+  bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* library_function(ast::Expression& call, const std::vector<const LibraryFunction*>& overloads,
                                const Type* wanted);
   const Type* user_function(ast::Expression& call, const Pou& pou);

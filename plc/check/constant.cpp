@@ -105,22 +105,31 @@ std::optional<Constant> integers(Operator op, Integer a, Integer b, std::string&
   return *out;
 }
 
+// Infinity and NaN are no constants: what gives them is left to the run time, where it is known what they mean.
+std::optional<Constant> finite(double value, std::string& why) {
+  if (!std::isfinite(value)) {
+    why = "the result is no number that LREAL holds, correct the numbers";
+    return std::nullopt;
+  }
+  return value;
+}
+
 std::optional<Constant> reals(Operator op, double a, double b, std::string& why) {
   switch (op) {
     case Operator::Add:
-      return a + b;
+      return finite(a + b, why);
     case Operator::Subtract:
-      return a - b;
+      return finite(a - b, why);
     case Operator::Multiply:
-      return a * b;
+      return finite(a * b, why);
     case Operator::Divide:
       if (b == 0) {
         why = "division by zero, correct the divisor";
         return std::nullopt;
       }
-      return a / b;
+      return finite(a / b, why);
     case Operator::Power:
-      return std::pow(a, b);
+      return finite(std::pow(a, b), why);
     default:
       return compare(op, a, b);
   }
@@ -186,8 +195,8 @@ bool fits(const Constant& value, const Type& type) noexcept {
   if (std::holds_alternative<bool>(value)) {
     return type.is(Elementary::Bool);
   }
-  if (std::holds_alternative<double>(value)) {
-    return is_real(type.elementary);
+  if (const auto* real = std::get_if<double>(&value)) {
+    return type.is(Elementary::Lreal) || (type.is(Elementary::Real) && std::isfinite(static_cast<float>(*real)));
   }
   if (const auto* text = std::get_if<std::string>(&value)) {
     return type.is_string() && text->size() <= type.length;

@@ -157,7 +157,11 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
   const auto made = context.program.global_names.find(upper(variable.name));
   variable.name = before;
   variable.address = address;
-  return made == context.program.global_names.end() ? nullptr : made->second;
+  if (made == context.program.global_names.end()) {
+    return nullptr;
+  }
+  made->second->address = ast::to_string(*address);
+  return made->second;
 }
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {

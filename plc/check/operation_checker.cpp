@@ -21,6 +21,11 @@ bool is_number(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && (is_num(type.elementary) || is_elementary_bit(type));
 }
 
+// Whole numbers wrap; a REAL that is too large becomes infinite, which is left to the run time.
+bool holds(const Type& type, const Constant& value) noexcept {
+  return !std::holds_alternative<double>(value) || fits(value, type);
+}
+
 // 1 / 2 where 0.5 is meant.
 bool loses_fraction(const Expression& expression, const Constant& a, const Constant& b, const Type* wanted) noexcept {
   const auto* x = std::get_if<Integer>(&a);
@@ -152,7 +157,7 @@ void ExpressionChecker::fold(Expression& expression, const Type& operand) {
   auto known = apply(expression.op, operand.is_string() ? *a : stored(*a, operand),
                      operand.is_string() ? *b : stored(*b, operand), why);
   const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
-  if (known) {
+  if (known && (compares || holds(operand, *known))) {
     resolved(expression).constant = compares ? *known : stored(*known, operand);
   }
 }

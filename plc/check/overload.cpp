@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "plc/check/bare_number.h"
 #include "plc/check/call_checker.h"
 
 namespace indurop::plc {
@@ -63,12 +64,10 @@ std::string missing_unit(const std::vector<Expression*>& inputs) {
 
 }  // namespace
 
-const Type* CallChecker::library_function(Expression& call, const std::vector<const LibraryFunction*>& overloads,
-                                          const Type* wanted) {
-  const LibraryFunction& first = *overloads.front();
+// The values by position; none after an error.
+std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, const LibraryFunction& first) {
   Inputs inputs;
   std::size_t next = 0;
-  bool fine = true;
   for (ast::Argument& argument : call.arguments) {
     if (same_name(argument.name, "EN") || same_name(argument.name, "ENO")) {
       continue;
@@ -83,26 +82,57 @@ const Type* CallChecker::library_function(Expression& call, const std::vector<co
       }
       context_.error(argument.at, fmt::format("{} has no {} '{}'{}", first.name, argument.output ? "output" : "input",
                                               argument.name, did_you_mean(argument.name, known)));
-      return nullptr;
+      return std::nullopt;
     }
     inputs.resize(std::max(inputs.size(), *position + 1));
     if (inputs[*position] != nullptr || !argument.value) {
       context_.error(argument.at, fmt::format("the input {} needs exactly one value", first.input(*position).name));
-      return nullptr;
+      return std::nullopt;
     }
     inputs[*position] = &*argument.value;
-    const LibraryType type = first.input(*position).type;
-    const auto* fixed = overloads.size() == 1 ? std::get_if<Elementary>(&type) : nullptr;
-    const Type* wanted_here = fixed != nullptr ? context_.elementary(*fixed) : type == first.result ? wanted : nullptr;
-    fine = expressions_.value(*argument.value, wanted_here) != nullptr && fine;
-  }
-  if (!fine) {
-    return nullptr;
   }
   if (std::find(inputs.begin(), inputs.end(), nullptr) != inputs.end()) {
     context_.error(call.at, fmt::format("{} has inputs without a value, give all of them", first.name));
+    return std::nullopt;
+  }
+  return inputs;
+}
+
+// First those that have a type, which numbers without one take where nothing else is wanted: MAX(d, 807 * MIN(1, 2)).
+bool CallChecker::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
+                               const Type* wanted) {
+  const LibraryFunction& first = *overloads.front();
+  std::map<Generic, const Type*> beside;
+  bool fine = true;
+  for (const bool bare : {false, true}) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (is_bare(*inputs[i], context_.program) != bare) {
+        continue;
+      }
+      const LibraryType type = first.input(i).type;
+      const auto* fixed = overloads.size() == 1 ? std::get_if<Elementary>(&type) : nullptr;
+      const auto* generic = std::get_if<Generic>(&type);
+      const Type* hint = fixed != nullptr ? context_.elementary(*fixed) : type == first.result ? wanted : nullptr;
+      hint = hint == nullptr && generic != nullptr && bare ? beside[*generic] : hint;
+      const Type* found = expressions_.value(*inputs[i], hint);
+      fine = found != nullptr && fine;
+      if (generic != nullptr && found != nullptr && found->kind == Type::Kind::Elementary &&
+          is_num(found->elementary)) {
+        const Type*& known = beside[*generic];
+        known = known == nullptr ? context_.elementary(found->elementary) : common_type(*known, *found);
+      }
+    }
+  }
+  return fine;
+}
+
+const Type* CallChecker::library_function(Expression& call, const std::vector<const LibraryFunction*>& overloads,
+                                          const Type* wanted) {
+  const auto found = positions(call, *overloads.front());
+  if (!found || !input_values(*found, overloads, wanted)) {
     return nullptr;
   }
+  const Inputs& inputs = *found;
   const Type* result = choose(call, overloads, inputs, wanted);
   if (result == nullptr) {
     return nullptr;

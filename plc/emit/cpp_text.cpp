@@ -36,6 +36,9 @@ constexpr std::array<std::string_view, 116> kTaken{
     "BUFSIZ",      "main",      "run",        "POU_PROGRAM"};
 
 std::string number(Integer value, const Type& type) {
+  if (value == Integer{std::numeric_limits<std::int32_t>::min()}) {
+    return "std::numeric_limits<std::int32_t>::min()";  // -2147483648 is a long in C++
+  }
   if (value == Integer{std::numeric_limits<std::int64_t>::min()}) {
     return "std::numeric_limits<std::int64_t>::min()";
   }

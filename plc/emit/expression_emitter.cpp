@@ -310,6 +310,11 @@ std::string ExpressionEmitter::assign_output(const ast::Argument& argument, cons
 }
 
 std::string ExpressionEmitter::assign(const Expression& target, const std::string& text) const {
+  if (target.kind == Expression::Kind::Bit && target.operands[0].type->range) {
+    const Bounds& range = *target.operands[0].type->range;
+    return fmt::format("iec::set_bit_in_range({}, {}, {}U, {}, {}, {})", place(target.at), raw(target.operands[0]),
+                       target.bit, text, range.low, range.high);
+  }
   if (target.kind == Expression::Kind::Bit) {
     return fmt::format("iec::set_bit({}, {}U, {})", raw(target.operands[0]), target.bit, text);
   }

@@ -257,7 +257,9 @@ void StatementEmitter::general_loop(const Statement& one) {
   const std::string step = one.by ? expressions_.value(*one.by, type) : "1";
   out_.open("");
   out_.line(fmt::format("{} = {};", name, expressions_.value(*one.value, type)));
-  out_.line(fmt::format("iec::Loop<{}> {}{{{}, {}}};", cpp_type(type), loop, expressions_.value(*one.to, type), step));
+  const std::string range = type.range ? fmt::format(", {}, {}", type.range->low, type.range->high) : "";
+  out_.line(fmt::format("iec::Loop<{}> {}{{{}, {}{}}};", cpp_type(type), loop, expressions_.value(*one.to, type), step,
+                        range));
   out_.open(fmt::format("for (; {0}.runs({1}); {0}.next({1}))", loop, name));
   list(one.body);
   out_.close();

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -53,20 +54,30 @@ void write_changed(const Shared& to, const T& now, const T& before) {
   }
 }
 
-// FOR whose end, step or variable only the running program knows. It ends where the variable would overflow.
+// FOR whose end, step or variable only the running program knows. It ends where the variable would overflow, or leave
+// its subrange, in which it then stays.
 template <Integer T>
 class Loop {
  public:
   constexpr Loop(T end, T step) noexcept : end_(end), step_(step) {}
+  constexpr Loop(T end, T step, T low, T high) noexcept : end_(end), step_(step), low_(low), high_(high) {}
 
   [[nodiscard]] constexpr bool runs(T value) const noexcept {
     return !over_ && (step_ >= T{} ? value <= end_ : value >= end_);
   }
-  constexpr void next(T& value) noexcept { over_ = __builtin_add_overflow(value, step_, &value); }
+  constexpr void next(T& value) noexcept {
+    T after{};
+    over_ = __builtin_add_overflow(value, step_, &after);
+    const bool whole = low_ == std::numeric_limits<T>::min() && high_ == std::numeric_limits<T>::max();
+    over_ = over_ || after < low_ || after > high_;
+    value = over_ && !whole ? value : after;
+  }
 
  private:
   T end_;
   T step_;
+  T low_ = std::numeric_limits<T>::min();
+  T high_ = std::numeric_limits<T>::max();
   bool over_ = false;
 };
 

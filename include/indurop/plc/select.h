@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <indurop/plc/bits.h>
 #include <indurop/plc/compare.h>
 #include <indurop/plc/fault.h>
 #include <indurop/plc/types.h>
@@ -77,6 +78,14 @@ constexpr T in_range(Place place, T value, std::int64_t low, std::int64_t high) 
     fail_range(place, "value", detail::shown(value), low, high);
   }
   return value;
+}
+
+// set_bit() of a variable of the subrange type (low..high). Faults where it would leave it, and then changes nothing.
+template <Integer T>
+constexpr void set_bit_in_range(Place place, T& value, unsigned number, bool to, std::int64_t low, std::int64_t high) {
+  T changed = value;
+  set_bit(changed, number, to);
+  value = in_range(place, changed, low, high);
 }
 
 }  // namespace indurop::iec

@@ -73,7 +73,8 @@ TEST(PlcFaults, Name_their_place) {
         Row{7, "faults.st:41:29: index 0 is outside of 1..3 in Main"},
         Row{8, "faults.st:16:18: index 5 is outside of -2..2 in Picker"},
         Row{9, "faults.st:43:22: value 105 is outside of 0..100 in Main"},
-        Row{10, "faults.st:44:17: selector K of MUX 5 is outside of 0..2 in Main"}}) {
+        Row{10, "faults.st:49:17: selector K of MUX 5 is outside of 0..2 in Main"},
+        Row{11, "faults.st:48:9: value 101 is outside of 0..100 in Main"}}) {
     EXPECT_EQ(fault_of(which), text) << which;
   }
 }

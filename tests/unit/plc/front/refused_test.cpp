@@ -80,6 +80,28 @@ TEST(PlcRefused, Inputs_are_not_written) {
   EXPECT_EQ(wrong(program("lamp := pump; %QX0.2 := %IX0.1;")), "");
 }
 
+TEST(PlcRefused, Inputs_without_a_place_are_not_written_either) {
+  const auto placeless = [](const std::string& code) {
+    return std::string(kBlocks) +
+           "VAR_GLOBAL gate AT %I* : BOOL; END_VAR\n"
+           "PROGRAM Main\nVAR w AT %I* : WORD; a AT %I* : ARRAY[0..3] OF INT; q AT %Q* : WORD; t : TON; d : Doubler; "
+           "x : BOOL; END_VAR\n" +
+           code + "\nEND_PROGRAM\n";
+  };
+  for (const char* code : {"w := 16#12;", "w.3 := TRUE;", "gate := TRUE;", "a[2] := 4;", "t(IN := x, Q => gate);",
+                           "d(in := 1, last := a[1]);"}) {
+    EXPECT_THAT(wrong(placeless(code)), HasSubstr("%I* is an input, which only the world outside changes")) << code;
+  }
+  EXPECT_EQ(wrong(placeless("q := w; q.3 := gate; x := a[1] > 0;")), "");
+}
+
+TEST(PlcRefused, A_bit_of_a_subrange_is_checked) {
+  const Compiled sut = compiled(program("p.6 := x; t(IN := x, Q => b[2].0);"));
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("iec::set_bit_in_range({\"in.st:16:1\", \"Main\"}, p, 6U, x, 0, 100);"));
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("b[1], 0U, t.q, 0, 100);"));
+}
+
 std::string times(const std::string& code) {
   return "PROGRAM Main\nVAR t : TIME; d : DATE; c : TOD; s : DT; i : INT; x : BOOL; delay : TON; END_VAR\n" + code +
          "\nEND_PROGRAM\n";
@@ -133,6 +155,21 @@ TEST(PlcRefused, A_division_of_whole_numbers_that_becomes_a_REAL_is_a_warning) {
   }
   for (const char* code : {"i := 7/2;", "x := x * (4/2);", "x := 1.0/2;", "x := INT_TO_REAL(7/2);"}) {
     EXPECT_THAT(messages(compiled(head + code + " END_PROGRAM")), Not(HasSubstr("division of whole numbers"))) << code;
+  }
+}
+
+TEST(PlcRefused, A_REAL_that_is_too_large_is_no_constant) {
+  const std::string head = "PROGRAM Main VAR x : REAL; y : LREAL; END_VAR\n";
+  for (const char* code : {"x := 1.0E39;", "x := REAL#1.0E39;", "x := -1.0E39;", "x := 3.0E38 * 10.0;"}) {
+    EXPECT_THAT(wrong(head + code + " END_PROGRAM"), HasSubstr("does not fit REAL")) << code;
+  }
+  for (const char* code : {"y := 1.0E308 * 10.0;", "y := -1.0E308 - 1.0E308;", "y := (-1.0) ** 0.5;"}) {
+    EXPECT_THAT(wrong(head + code + " END_PROGRAM"), HasSubstr("the result is no number that LREAL holds")) << code;
+  }
+  for (const char* code :
+       {"x := 3.0E38;", "x := REAL#3.0E38 * REAL#10.0;", "y := LREAL#1.0E308 * 10.0;", "y := LREAL#-1.0 ** 0.5;"}) {
+    EXPECT_EQ(wrong(head + code + " END_PROGRAM"), "") << code;
+    EXPECT_THAT(compiled(head + code + " END_PROGRAM").modules.at(0).cpp, Not(HasSubstr("inf"))) << code;
   }
 }
 
