@@ -100,6 +100,9 @@ constexpr Row kFunctions[] = {
     {"CONCAT_TOD(HOUR INT, MINUTE INT, SECOND INT, MILLISECOND INT): TOD", "concat_tod"},
     {"CONCAT_DT(YEAR INT, MONTH INT, DAY INT, HOUR INT, MINUTE INT, SECOND INT, MILLISECOND INT): DT", "concat_dt"},
     {"DAY_OF_WEEK(IN DATE): INT", "day_of_week"},
+    {"TIME(): TIME", "time"},
+    {"T_PLC_MS(): DWORD", "t_plc_ms"},
+    {"T_PLC_US(): DWORD", "t_plc_us"},
 };
 
 constexpr Row kBlocks[] = {

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "plc/library/standard.h"
+
 namespace indurop::plc::st {
 namespace {
 
@@ -111,7 +113,9 @@ bool ProjectParser::refuses_c_code(const ast::Pou& pou) {
   if (pou.kind == ast::Pou::Kind::Program) {
     in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
   } else {
-    in_.warning(*at, fmt::format("{} is left out, because C code in {{ }} is not supported", pou.name));
+    const bool known = !find_functions(pou.name).empty();
+    in_.warning(*at, fmt::format("{} is left out, because C code in {{ }} is not supported{}", pou.name,
+                                 known ? "; the function of the library takes its place" : ""));
   }
   return true;
 }

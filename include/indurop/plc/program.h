@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <indurop/plc/clock.h>
 #include <indurop/plc/types.h>
 
 #include <array>

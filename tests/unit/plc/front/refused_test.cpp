@@ -133,6 +133,9 @@ TEST(PlcRefused, C_code_in_braces_is_not_skipped) {
   const std::string main = "PROGRAM Main VAR x : Ticks; END_VAR x(); END_PROGRAM\n";
   EXPECT_THAT(wrong(ticks + main), HasSubstr("in.st:2:1: warning: Ticks is left out, because C code in { } is not"));
   EXPECT_THAT(wrong(ticks + main), HasSubstr("error: Main: there is no type and no function block 'Ticks'"));
+  EXPECT_THAT(wrong("FUNCTION T_PLC_MS : DWORD\n{extern long __tick;}\nEND_FUNCTION\n" + times("i := 1;")), "");
+  EXPECT_THAT(messages(compiled("FUNCTION T_PLC_MS : DWORD\n{extern long __tick;}\nEND_FUNCTION\n" + times("i := 1;"))),
+              HasSubstr("not supported; the function of the library takes its place"));
   for (const char* code :
        {"{ __SET_VAR(data__->,X,,1) }", "{x = 1}", "{#include <a.h>}", "{{ x }}", "{ puts(\"}\") }"}) {
     EXPECT_THAT(wrong(times(std::string("x := TRUE;\n") + code)), HasSubstr("in.st:4:1: error: C code in { }")) << code;

@@ -112,7 +112,8 @@ class Writer {
 };
 
 void write_all(std::ostream& out) {
-  out << "#include <indurop/plc/library.h>\n\n#include <concepts>\n\nnamespace iec = indurop::iec;\n"
+  out << "#include <indurop/plc/library.h>\n#include <indurop/plc/program.h>\n\n#include <concepts>\n\nnamespace iec = "
+         "indurop::iec;\n"
          "constexpr iec::Place kHere{\"table\", \"TEST\"};\n\n";
   Writer writer(out);
   int number = 0;

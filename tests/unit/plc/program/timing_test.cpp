@@ -27,6 +27,17 @@ TEST(PlcTiming, Timers_are_exact_to_the_scan) {
   EXPECT_FALSE(v::lamp.get());
 }
 
+TEST(PlcTiming, Programs_read_the_time_of_the_schedule) {
+  const indurop::testing::PlcModule sut("plc_test_timing");
+  sut.scan(1'500ms);
+  EXPECT_EQ(v::now.get(), 1'500'000'000);
+  EXPECT_EQ(v::now_ms.get(), 1'500U);
+  EXPECT_EQ(v::now_us.get(), 1'500'000U);
+  sut.scan(std::chrono::hours(24 * 100) + 7ms);
+  EXPECT_EQ(v::now.get(), 8'640'000'007'000'000);
+  EXPECT_EQ(v::now_ms.get(), static_cast<std::uint32_t>(8'640'000'007));
+}
+
 TEST(PlcTiming, Counters_count_edges) {
   const indurop::testing::PlcModule sut("plc_test_timing");
   for (int i = 0; i < 3; ++i) {
