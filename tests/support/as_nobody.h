@@ -15,6 +15,11 @@ inline uid_t nobody_instead_of_root() {
   return ::geteuid() == 0 ? kNobody : static_cast<uid_t>(-1);
 }
 
+// Becomes nobody for good if this is root; else stays the same user. False: this root cannot.
+inline bool become_nobody() {
+  return ::setgid(kNobody) == 0 && ::setuid(kNobody) == 0;
+}
+
 // What happens during its life happens without root's rights. For tests with one thread.
 class WithoutRoot {
  public:

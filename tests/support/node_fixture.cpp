@@ -115,20 +115,14 @@ Program& NodeTest::start_and_wait(const std::vector<Module>& modules, const std:
   return program;
 }
 
-Outcome NodeTest::outcome_of(Program& program) {
-  const int code = program.wait();
-  return {code, program.out(), program.err()};
-}
-
 Outcome NodeTest::run_to_end(const std::vector<Module>& modules, const std::vector<std::string>& more) {
-  return outcome_of(start(modules, more));
+  return start(modules, more).finish();
 }
 
 Outcome NodeTest::indurop(const std::vector<std::string>& arguments) const {
   std::vector<std::string> command = {INDUROP_PROGRAM};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  Program program(command, environment());
-  return outcome_of(program);
+  return Program(command, environment()).finish();
 }
 
 const scheduler::RunBlock* NodeTest::run() {

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "program.h"
 #include "scheduler/run_block.h"
 #include "tests/support/as_nobody.h"
+#include "tests/support/program.h"
 #include "vars/run_file.h"
 
 // Named as GoogleTest names its own.
@@ -49,12 +49,6 @@ struct Module {
 };
 std::string xml(const std::vector<Module>& modules);
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
 class NodeTest : public ::testing::Test {
  protected:
   NodeTest();
@@ -76,7 +70,6 @@ class NodeTest : public ::testing::Test {
   bool wait_until_running(Program& program);
   // The same, run to its end.
   Outcome run_to_end(const std::vector<Module>& modules, const std::vector<std::string>& more = {});
-  static Outcome outcome_of(Program& program);
 
   // `indurop` with these arguments.
   Outcome indurop(const std::vector<std::string>& arguments) const;

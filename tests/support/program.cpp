@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program.h"
+#include "tests/support/program.h"
 
 #include <fcntl.h>
 #include <sched.h>
@@ -13,7 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 namespace indurop::test {
 namespace {
@@ -29,8 +31,10 @@ bool write_file(const char* path, const std::string& text) {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
   ::unsetenv("INDUROP_NODE");
   ::unsetenv("INDUROP_MODULE");
+  ::unsetenv("NO_COLOR");
   ::setenv("LC_ALL", "C.UTF-8", 1);
   for (const std::string& variable : environment.variables) {
     ::putenv(::strdup(variable.c_str()));
@@ -53,7 +57,18 @@ bool write_file(const char* path, const std::string& text) {
   ::_exit(127);
 }
 
+void connect(int in, int out, int err, const Environment& environment) {
+  ::dup2(in, STDIN_FILENO);
+  ::dup2(environment.stdout_to.empty() ? out : ::open(environment.stdout_to.c_str(), O_WRONLY | O_CREAT, 0600),
+         STDOUT_FILENO);
+  ::dup2(environment.one_output ? out : err, STDERR_FILENO);
+}
+
 }  // namespace
+
+nlohmann::json Outcome::json() const {
+  return nlohmann::json::parse(out, nullptr, false);
+}
 
 Program::Program(const std::vector<std::string>& command, const Environment& environment)
     : out_(::memfd_create("out", MFD_CLOEXEC)), err_(::memfd_create("err", MFD_CLOEXEC)) {
@@ -67,9 +82,7 @@ Program::Program(const std::vector<std::string>& command, const Environment& env
   }
   pid_ = ::fork();
   if (pid_ == 0) {
-    ::dup2(ends[0], STDIN_FILENO);
-    ::dup2(out_, STDOUT_FILENO);
-    ::dup2(err_, STDERR_FILENO);
+    connect(ends[0], out_, err_, environment);
     become(command, environment);
   }
   ::close(ends[0]);
@@ -102,11 +115,18 @@ void Program::kill() {
   }
 }
 
-int Program::wait() {
-  if (!wait_until([this] { return !running(); })) {
+int Program::wait(std::chrono::milliseconds patience) {
+  if (!wait_until([this] { return !running(); }, patience)) {
     return -1;
   }
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+Outcome Program::finish() {
+  ::close(std::exchange(in_, -1));
+  const int code = wait(2 * kPatience);
+  kill();
+  return {code, out(), err()};
 }
 
 void Program::input(const std::string& text) const {
@@ -143,6 +163,15 @@ bool alive(pid_t pid) {
   const std::string stat = text.str();
   const auto end = stat.rfind(')');
   return end != std::string::npos && end + 2 < stat.size() && stat[end + 2] != 'Z' && stat[end + 2] != 'X';
+}
+
+pid_t dead_pid() {
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    ::_exit(0);
+  }
+  ::waitpid(pid, nullptr, 0);
+  return pid;
 }
 
 bool own_mounts() {

@@ -5,7 +5,9 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,17 @@ struct Environment {
   std::vector<std::string> variables{};  // "NAME=value" on top of the test's own
   uid_t user = static_cast<uid_t>(-1);   // run as this user (needs root)
   std::function<bool()> prepare{};       // runs in the new process before the program; false: the program is not run
+  bool one_output = false;               // what it says on stderr comes with what it prints on stdout
+  std::string stdout_to{};               // a file instead of out()
+};
+
+// What a program that ended leaves.
+struct Outcome {
+  int code = -1;  // exit code, or 128 + signal; -1 if it had to be killed
+  std::string out{};
+  std::string err{};
+  // `out` read as JSON; a discarded value if it is none.
+  [[nodiscard]] nlohmann::json json() const;
 };
 
 class Program {
@@ -34,7 +47,9 @@ class Program {
   void signal(int number) const;
   void kill();
   // Exit code or 128 + signal once it has ended by itself; -1 if it does not.
-  int wait();
+  int wait(std::chrono::milliseconds patience = kPatience);
+  // Ends its stdin and waits for its end, at most twice as long as for other things; kills it then.
+  Outcome finish();
 
   void input(const std::string& text) const;
   [[nodiscard]] std::string out() const { return contents(out_); }
@@ -54,6 +69,9 @@ class Program {
 
 // False also for a process that has ended and that its parent has not asked about yet.
 bool alive(pid_t pid);
+
+// Of a process that does not exist any more.
+pid_t dead_pid();
 
 // Makes mounts of the calling process, which has one thread, its own. False if it may not.
 bool own_mounts();

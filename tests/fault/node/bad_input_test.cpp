@@ -18,7 +18,7 @@ namespace {
 class BadInput : public NodeTest {
  protected:
   // Runs the node on a file with this text.
-  Outcome run_text(const std::string& text) { return outcome_of(start_file(write("module.xml", text))); }
+  Outcome run_text(const std::string& text) { return start_file(write("module.xml", text)).finish(); }
 
   void expect_refused(const Outcome& sut, const std::string& place, const std::string& text) {
     EXPECT_EQ(sut.code, 4);
@@ -71,7 +71,7 @@ TEST_F(BadInput, Modules_with_different_layouts_of_a_variable) {
 }
 
 TEST_F(BadInput, No_configuration_file) {
-  const auto sut = outcome_of(start_file((folder() / "absent.xml").string()));
+  const auto sut = start_file((folder() / "absent.xml").string()).finish();
   EXPECT_EQ(sut.code, 4);
   EXPECT_CONTAINS(sut.err, "absent.xml");
   EXPECT_THAT(files_left(), ::testing::IsEmpty());
@@ -100,7 +100,7 @@ TEST_F(BadInput, Oversized_file) {
 }
 
 TEST_F(BadInput, Endless_file) {
-  const auto sut = outcome_of(start_file("/dev/zero"));
+  const auto sut = start_file("/dev/zero").finish();
   EXPECT_EQ(sut.code, 4);
   EXPECT_CONTAINS(sut.err, "/dev/zero");
 }
@@ -141,7 +141,7 @@ TEST_F(BadInput, Configuration_nobody_may_read) {
   std::filesystem::permissions(file, std::filesystem::perms::none);
   Environment without_rights = environment();
   without_rights.user = nobody_instead_of_root();
-  const auto sut = outcome_of(start_file(file, {}, without_rights));
+  const auto sut = start_file(file, {}, without_rights).finish();
   if (sut.code == 126 || sut.code == 127) {
     GTEST_SKIP() << "the build directory is closed to others";
   }

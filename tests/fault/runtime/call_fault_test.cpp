@@ -10,8 +10,9 @@
 #include <random>
 #include <thread>
 
-#include "child.h"
 #include "hosted.h"
+#include "hosted_program.h"
+#include "tests/support/forked.h"
 #include "vars/call_layout.h"
 
 namespace {
@@ -19,8 +20,10 @@ namespace {
 using namespace std::chrono_literals;
 using namespace knu::Robot;
 using indurop::Errc;
-using indurop::testing::Child;
+using indurop::test::Forked;
+using indurop::test::Program;
 using indurop::testing::Hosted;
+using indurop::testing::hosted_program;
 using indurop::testing::TestNode;
 using indurop::testing::wait_until;
 
@@ -46,20 +49,18 @@ void expect_all_slots_usable() {
 
 TEST(CallFault, Killed_callers_lose_no_slot) {
   TestNode node;
-  Child server(SERVER_PROGRAM, node.name(), "");
+  Program server = hosted_program(SERVER_PROGRAM, node.name(), "");
   const Hosted hosted(node);
-  ASSERT_TRUE(served()) << server.output();
+  ASSERT_TRUE(served()) << server.out();
   std::mt19937 random(1);
   for (int i = 0; i < kKills; ++i) {
-    const pid_t caller = ::fork();
-    if (caller == 0) {
+    Forked caller([&]() -> int {
       for (;;) {
         (void)add.within(1s)(i, 1).ok();
       }
-    }
+    });
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 1000));
-    ::kill(caller, SIGKILL);
-    ::waitpid(caller, nullptr, 0);
+    caller.kill_and_wait();
     if (i % 10 == 0) {
       auto mine = add.within(60s)(i, 0.5);
       ASSERT_TRUE(mine.ok()) << to_string(mine.error());
@@ -74,8 +75,8 @@ TEST(CallFault, A_killed_server_is_noticed_and_its_successor_serves) {
   const Hosted hosted(node);
   EXPECT_EQ(nap(1).error(), Errc::NotFound);
   {
-    Child server(SERVER_PROGRAM, node.name(), "");
-    ASSERT_TRUE(served()) << server.output();
+    Program server = hosted_program(SERVER_PROGRAM, node.name(), "");
+    ASSERT_TRUE(served()) << server.out();
     std::atomic<int> waiting{0};
     std::thread caller([&waiting] {
       waiting = 1;
@@ -86,8 +87,8 @@ TEST(CallFault, A_killed_server_is_noticed_and_its_successor_serves) {
     caller.join();
     EXPECT_EQ(add.within(1h)(1, 1).error(), Errc::Dead);
   }
-  Child next(SERVER_PROGRAM, node.name(), "");
-  ASSERT_TRUE(served()) << next.output();
+  Program next = hosted_program(SERVER_PROGRAM, node.name(), "");
+  ASSERT_TRUE(served()) << next.out();
   expect_all_slots_usable();
 }
 
@@ -113,9 +114,9 @@ TEST(CallFault, Servers_killed_at_random_never_give_a_wrong_answer) {
   }
   std::mt19937 random(2);
   for (int i = 0; i < kServerKills; ++i) {
-    Child server(SERVER_PROGRAM, node.name(), "");
+    Program server = hosted_program(SERVER_PROGRAM, node.name(), "");
     const int before = answers;
-    EXPECT_TRUE(wait_until([&] { return answers > before; })) << server.output();
+    EXPECT_TRUE(wait_until([&] { return answers > before; })) << server.out();
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 3000));
   }
   stop = true;
@@ -123,17 +124,17 @@ TEST(CallFault, Servers_killed_at_random_never_give_a_wrong_answer) {
     caller.join();
   }
   EXPECT_EQ(wrong, 0);
-  Child last(SERVER_PROGRAM, node.name(), "");
-  ASSERT_TRUE(served()) << last.output();
+  Program last = hosted_program(SERVER_PROGRAM, node.name(), "");
+  ASSERT_TRUE(served()) << last.out();
   expect_all_slots_usable();
 }
 
 TEST(CallFault, A_second_implementation_is_told_so) {
   TestNode node;
   const Hosted hosted(node);
-  Child first(SERVER_PROGRAM, node.name(), "");
+  Program first = hosted_program(SERVER_PROGRAM, node.name(), "");
   ASSERT_TRUE(served());
-  Child second(SERVER_PROGRAM, node.name(), "");
+  Program second = hosted_program(SERVER_PROGRAM, node.name(), "");
   EXPECT_TRUE(
       second.prints("shared function knu::Robot::add: implemented twice, process " + std::to_string(first.pid())));
   first.kill();
@@ -142,13 +143,13 @@ TEST(CallFault, A_second_implementation_is_told_so) {
 
 TEST(CallFault, A_server_follows_the_node_to_its_next_block) {
   auto node = std::make_unique<TestNode>();
-  Child server(SERVER_PROGRAM, node->name(), "");
+  Program server = hosted_program(SERVER_PROGRAM, node->name(), "");
   auto schema = indurop::testing::sample_schema();
   schema.variables.pop_back();
   node->restart(schema, {{"m", {}, 0, {}, ""}});
   {
     const Hosted hosted(*node);
-    EXPECT_TRUE(served()) << server.output();
+    EXPECT_TRUE(served()) << server.out();
   }
   server.kill();
 }

@@ -5,14 +5,16 @@
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
-#include "child.h"
+#include "hosted_program.h"
 #include "runtime/message_ring.h"
+#include "test_node.h"
 #include "vars/process.h"
 
 namespace {
 
 using indurop::scheduler::ModuleType;
-using indurop::testing::Child;
+using indurop::test::Program;
+using indurop::testing::hosted_program;
 using indurop::testing::sample_schema;
 using indurop::testing::TestModule;
 using indurop::testing::TestNode;
@@ -29,10 +31,10 @@ std::uint32_t tick_of(TestNode& node) {
   return value;
 }
 
-void launched(TestNode& node, const Child& child) {
+void launched(TestNode& node, const Program& child) {
   node.module(1).pid = child.pid();
 }
-bool enrolled(TestNode& node, const Child& child) {
+bool enrolled(TestNode& node, const Program& child) {
   return wait_until([&] { return node.slot(1).pid == child.pid(); });
 }
 bool done(TestNode& node) {
@@ -45,8 +47,8 @@ void stop(TestNode& node) {
 
 TEST(PeriodicProcess, Runs_once_per_release_and_ends_when_asked) {
   TestNode node(one_process());
-  Child child(PERIODIC_PROGRAM, node.name(), "1");
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
   for (std::uint64_t i = 1; i <= 3; ++i) {
     node.release(1, i * 5, static_cast<std::int64_t>(i) * 1000);
     ASSERT_TRUE(done(node));
@@ -55,8 +57,8 @@ TEST(PeriodicProcess, Runs_once_per_release_and_ends_when_asked) {
     EXPECT_GE(node.slot(1).end_ns, node.slot(1).start_ns);
   }
   stop(node);
-  EXPECT_EQ(child.exit_code(), 0);
-  EXPECT_EQ(child.output(), "initPeriodExe 0 gain 2.5\n");
+  EXPECT_EQ(child.wait(), 0);
+  EXPECT_EQ(child.out(), "initPeriodExe 0 gain 2.5\n");
   indurop::runtime::MessageReader reader(node.run());
   indurop::runtime::Message message;
   ASSERT_TRUE(reader.next(message, 0));
@@ -66,28 +68,28 @@ TEST(PeriodicProcess, Runs_once_per_release_and_ends_when_asked) {
 
 TEST(PeriodicProcess, That_loops_for_ever_is_ended) {
   TestNode node(one_process());
-  Child child(PERIODIC_PROGRAM, node.name(), "1", {"endless"});
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1", {"endless"});
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
   stop(node);
-  EXPECT_EQ(child.exit_code(), 0);
+  EXPECT_EQ(child.wait(), 0);
 }
 
 TEST(PeriodicProcess, Finds_its_module_by_its_file) {
   TestNode node(one_process());
-  Child child(PERIODIC_PROGRAM, node.name(), "");
-  EXPECT_TRUE(enrolled(node, child)) << child.output();
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "");
+  EXPECT_TRUE(enrolled(node, child)) << child.out();
 }
 
 TEST(PeriodicProcess, Started_before_the_node_waits_for_it) {
   const std::string name = TestNode::next_name();
-  Child child(PERIODIC_PROGRAM, name, "");
+  Program child = hosted_program(PERIODIC_PROGRAM, name, "");
   ASSERT_TRUE(child.prints("initPeriodExe -2"));
-  EXPECT_NE(child.output().find("node '" + name + "' does not run; start it with: indurop run module.xml"),
+  EXPECT_NE(child.out().find("node '" + name + "' does not run; start it with: indurop run module.xml"),
             std::string::npos)
-      << child.output();
+      << child.out();
   TestNode node(one_process());
   ASSERT_EQ(node.name(), name);
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
   node.release(1);
   ASSERT_TRUE(done(node));
   EXPECT_EQ(tick_of(node), 8U);
@@ -95,14 +97,14 @@ TEST(PeriodicProcess, Started_before_the_node_waits_for_it) {
 
 TEST(PeriodicProcess, Of_a_module_that_runs_already_is_refused) {
   TestNode node(one_process());
-  Child first(PERIODIC_PROGRAM, node.name(), "1");
+  Program first = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
   ASSERT_TRUE(enrolled(node, first));
-  Child second(PERIODIC_PROGRAM, node.name(), "1");
-  EXPECT_EQ(second.exit_code(), 1);
-  EXPECT_NE(second.output().find("module 'cntr4.exe' of node '" + node.name() + "' is process " +
-                                 std::to_string(first.pid())),
-            std::string::npos)
-      << second.output();
+  Program second = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_NE(
+      second.out().find("module 'cntr4.exe' of node '" + node.name() + "' is process " + std::to_string(first.pid())),
+      std::string::npos)
+      << second.out();
   EXPECT_TRUE(first.running());
 }
 
@@ -115,60 +117,60 @@ TEST(PeriodicProcess, Whose_variables_do_not_fit_refuses_to_run) {
   tick.initial.clear();
   tick.type_hash = hash_of(tick.type);
   TestNode node(one_process(), schema);
-  Child child(PERIODIC_PROGRAM, node.name(), "1");
-  EXPECT_EQ(child.exit_code(), 8);
-  EXPECT_NE(child.output().find("initPeriodExe -10"), std::string::npos) << child.output();
-  EXPECT_NE(child.output().find("variable knu::Robot::tick: this program was built with uint32_t (4 bytes), node '" +
-                                node.name() + "' has uint16_t (2 bytes)"),
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  EXPECT_EQ(child.wait(), 8);
+  EXPECT_NE(child.out().find("initPeriodExe -10"), std::string::npos) << child.out();
+  EXPECT_NE(child.out().find("variable knu::Robot::tick: this program was built with uint32_t (4 bytes), node '" +
+                             node.name() + "' has uint16_t (2 bytes)"),
             std::string::npos)
-      << child.output();
+      << child.out();
 }
 
 TEST(PeriodicProcess, Does_not_mind_variables_its_code_never_uses) {
   auto schema = sample_schema();
   schema.variables.pop_back();  // ready
   TestNode node(one_process(), schema);
-  Child child(PERIODIC_PROGRAM, node.name(), "1");
-  EXPECT_TRUE(enrolled(node, child)) << child.output();
-  EXPECT_EQ(child.output(), "initPeriodExe 0 gain 2.5\n");
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  EXPECT_TRUE(enrolled(node, child)) << child.out();
+  EXPECT_EQ(child.out(), "initPeriodExe 0 gain 2.5\n");
 }
 
 TEST(PeriodicProcess, Outlives_its_node_and_enrols_with_the_next) {
   TestNode node(one_process());
-  Child child(PERIODIC_PROGRAM, node.name(), "1");
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
-  node.run().node_pid = indurop::testing::dead_pid();
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
+  node.run().node_pid = indurop::test::dead_pid();
   ASSERT_TRUE(child.prints("is gone; waiting for it to come back"));
   // Another layout, so the variables move to another block too.
   auto schema = sample_schema();
   schema.variables.pop_back();
   node.restart(schema, one_process());
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
   node.release(1);
   ASSERT_TRUE(done(node));
   EXPECT_EQ(tick_of(node), 8U);
   stop(node);
-  EXPECT_EQ(child.exit_code(), 0);
+  EXPECT_EQ(child.wait(), 0);
 }
 
 TEST(PeriodicProcess, Left_over_from_a_dead_node_gives_way_to_the_next_nodes_own) {
   TestNode node(one_process());
-  Child child(PERIODIC_PROGRAM, node.name(), "1");
-  ASSERT_TRUE(enrolled(node, child)) << child.output();
-  node.run().node_pid = indurop::testing::dead_pid();
+  Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  ASSERT_TRUE(enrolled(node, child)) << child.out();
+  node.run().node_pid = indurop::test::dead_pid();
   ASSERT_TRUE(child.prints("is gone"));
-  Child fresh("/bin/sleep", node.name(), "1", {"1000"});
+  Program fresh = hosted_program("/bin/sleep", node.name(), "1", {"1000"});
   node.restart(sample_schema(), one_process());
   launched(node, fresh);
-  EXPECT_EQ(child.exit_code(), 0) << child.output();
-  EXPECT_NE(child.output().find("is process " + std::to_string(fresh.pid())), std::string::npos) << child.output();
+  EXPECT_EQ(child.wait(), 0) << child.out();
+  EXPECT_NE(child.out().find("is process " + std::to_string(fresh.pid())), std::string::npos) << child.out();
 }
 
 TEST(PeriodicProcess, Killed_in_its_run_is_followed_by_a_clean_one) {
   TestNode node(one_process());
   for (int i = 0; i < 5; ++i) {
-    Child child(PERIODIC_PROGRAM, node.name(), "1");
-    ASSERT_TRUE(enrolled(node, child)) << child.output();
+    Program child = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+    ASSERT_TRUE(enrolled(node, child)) << child.out();
     ASSERT_TRUE(done(node));
     node.release(1);
     child.kill();

@@ -8,9 +8,9 @@
 #include <string>
 #include <thread>
 
-#include "child.h"
 #include "hosted.h"
 #include "rt/clock.h"
+#include "tests/support/forked.h"
 
 namespace {
 
@@ -27,12 +27,11 @@ TEST(PrintFault, Killed_producers_leave_only_whole_messages) {
   std::mt19937 random(3);
   int whole = 0;
   for (int i = 0; i < 300; ++i) {
-    const pid_t producer = ::fork();
-    if (producer == 0) {
+    indurop::test::Forked producer([&]() -> int {
       for (int n = 0;; ++n) {
         irp::printf("message %d of %d %s\n", n, i, tail);
       }
-    }
+    });
     const auto until = indurop::rt::now_ns() + static_cast<std::int64_t>(random() % 1'000'000);
     while (indurop::rt::now_ns() < until) {
       while (reader.next(message, indurop::rt::now_ns())) {
@@ -41,8 +40,7 @@ TEST(PrintFault, Killed_producers_leave_only_whole_messages) {
         ++whole;
       }
     }
-    ::kill(producer, SIGKILL);
-    ::waitpid(producer, nullptr, 0);
+    producer.kill_and_wait();
   }
   EXPECT_GT(whole, 0);
   // However many were killed with a ticket in hand: the ring works again after the reader's patience is over.

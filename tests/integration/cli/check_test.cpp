@@ -28,7 +28,7 @@ TEST_F(Configurations, Plan_works_without_the_modules) {
   const auto text = indurop({"plan", file});
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("b > a"));
-  const auto json = json_of(indurop({"plan", file, "-o", "json"}));
+  const auto json = indurop({"plan", file, "-o", "json"}).json();
   EXPECT_EQ(json["basic_period_ns"], 1'000'000);
   EXPECT_EQ(json["slots"].size(), 2U);
   EXPECT_EQ(json["slots"][0]["modules"], nlohmann::json::parse(R"(["b","a"])"));
@@ -51,7 +51,7 @@ TEST_F(Configurations, Check_reports_every_mistake_with_its_place) {
   EXPECT_THAT(sut.out, ContainsRegex("module.xml:4:[0-9]+: error: "));
   EXPECT_THAT(sut.out, ContainsRegex("module.xml:5:[0-9]+: error: "));
   EXPECT_THAT(sut.out, HasSubstr("FAILED  "));
-  const auto json = json_of(indurop({"check", file, "-o", "json"}));
+  const auto json = indurop({"check", file, "-o", "json"}).json();
   EXPECT_EQ(json["ok"], false);
   EXPECT_GE(json["diagnostics"].size(), 2U);
   EXPECT_EQ(json["diagnostics"][0]["severity"], "error");
@@ -73,7 +73,7 @@ TEST_F(Configurations, Check_shows_the_boards_of_a_plant_and_what_travels) {
   EXPECT_THAT(sut.out, ContainsRegex("\ncell::encoder +cell::Encoder +sensor +table@sensor +controller@control +2 ms"));
   EXPECT_THAT(sut.out, ContainsRegex("note: controller@control gets cell::encoder from table@sensor up to 2 ms old"));
   EXPECT_THAT(sut.out, ContainsRegex("\nOK  2 boards, 2 modules, [0-9]+ shared variables, [0-9]+ between boards"));
-  const auto json = json_of(indurop({"check", kTwoBoards, "-o", "json"}));
+  const auto json = indurop({"check", kTwoBoards, "-o", "json"}).json();
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["ok"], true);
   EXPECT_EQ(json["plant"], "two_boards");
@@ -112,8 +112,8 @@ TEST_F(Plants, Check_reports_every_mistake_of_all_boards) {
   EXPECT_THAT(sut.out, HasSubstr("FAILED  3 errors"));
   const auto wrong = indurop({"check", write_plant("<bord/>\n"), "-o", "json"});
   EXPECT_EQ(wrong.code, 4);
-  EXPECT_EQ(json_of(wrong)["ok"], false);
-  EXPECT_EQ(json_of(wrong)["boards"].size(), 0U);
+  EXPECT_EQ(wrong.json()["ok"], false);
+  EXPECT_EQ(wrong.json()["boards"].size(), 0U);
 }
 
 TEST_F(Plants, Plan_shows_every_board) {
@@ -125,7 +125,7 @@ TEST_F(Plants, Plan_shows_every_board) {
   EXPECT_THAT(text.out, StartsWith("Board a\n"));
   EXPECT_THAT(text.out, HasSubstr("\nBoard b\n"));
   EXPECT_THAT(text.out, HasSubstr("y > x"));
-  const auto json = json_of(indurop({"plan", file, "-o", "json"}));
+  const auto json = indurop({"plan", file, "-o", "json"}).json();
   EXPECT_EQ(json["boards"].size(), 3U);
   EXPECT_EQ(json["boards"][1]["name"], "b");
   EXPECT_EQ(json["boards"][1]["macro_period_ns"], 5'000'000);

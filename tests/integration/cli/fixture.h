@@ -30,7 +30,6 @@ class CommandLine : public ::testing::Test {
       GTEST_SKIP() << "this system does not allow a private /dev/shm (user namespaces)";
     }
   }
-  static nlohmann::json json_of(const Outcome& outcome) { return nlohmann::json::parse(outcome.out, nullptr, false); }
   static void put(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
 };
 
@@ -40,8 +39,8 @@ class WithNode : public CommandLine {
   void SetUp() override {
     CommandLine::SetUp();
     if (!IsSkipped()) {
-      node_ = std::make_unique<Background>(fake_node("local"));
-      ASSERT_TRUE(node_->wait_for("ready")) << node_->output();
+      node_ = std::make_unique<Program>(fake_node("local"), background());
+      ASSERT_TRUE(node_->prints("ready")) << node_->out();
     }
   }
   void kill_node() {
@@ -49,7 +48,7 @@ class WithNode : public CommandLine {
     ASSERT_EQ(node_->wait(), 128 + SIGKILL);
   }
 
-  std::unique_ptr<Background> node_;
+  std::unique_ptr<Program> node_;
 };
 
 }  // namespace indurop::test

@@ -20,8 +20,8 @@ TEST_F(WithNode, Stop_ends_the_node_and_waits_for_it) {
 }
 
 TEST_F(CommandLine, Stop_gives_up_on_a_node_that_does_not_listen) {
-  Background node(fake_node("deaf", {"ignore-term"}));
-  ASSERT_TRUE(node.wait_for("ready"));
+  Program node(fake_node("deaf", {"ignore-term"}), background());
+  ASSERT_TRUE(node.prints("ready"));
   const auto sut = indurop({"stop", "--node", "deaf", "--timeout", "100ms"});
   EXPECT_EQ(sut.code, 6);
   EXPECT_THAT(sut.err, HasSubstr("kill -9 " + std::to_string(node.pid())));
@@ -72,8 +72,8 @@ TEST_F(WithNode, Clean_never_touches_a_running_node) {
   const auto named = indurop({"clean", "--node", "local"});
   EXPECT_EQ(named.code, 1);
   EXPECT_THAT(named.err, HasSubstr("stop it first"));
-  Background other(fake_node("other"));
-  ASSERT_TRUE(other.wait_for("ready"));
+  Program other(fake_node("other"), background());
+  ASSERT_TRUE(other.prints("ready"));
   other.signal(SIGKILL);
   ASSERT_EQ(other.wait(), 128 + SIGKILL);
   const auto all = indurop({"clean", "--all"});
@@ -119,8 +119,8 @@ TEST_F(CommandLine, Run_hands_arguments_and_exit_code_through) {
   fs::permissions(program, fs::perms::owner_all);
   const fs::path copy = folder / "indurop";
   fs::copy_file(INDUROP_PROGRAM, copy, fs::copy_options::overwrite_existing);
-  Background sut({copy.string(), "run", "a b.xml", "--duration", "5s", "-q"});
-  EXPECT_TRUE(sut.wait_for("--duration 5000000000ns --quiet -- a b.xml\n")) << sut.output();
+  Program sut({copy.string(), "run", "a b.xml", "--duration", "5s", "-q"}, background());
+  EXPECT_TRUE(sut.prints("--duration 5000000000ns --quiet -- a b.xml\n")) << sut.out();
   EXPECT_EQ(sut.wait(), 4);
 }
 

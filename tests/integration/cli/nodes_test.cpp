@@ -27,7 +27,7 @@ TEST_F(WithNode, Status_shows_node_rights_and_modules) {
 }
 
 TEST_F(WithNode, Status_as_json_has_ns_and_stable_names) {
-  const auto json = json_of(indurop({"status", "-o", "json"}));
+  const auto json = indurop({"status", "-o", "json"}).json();
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["running"], true);
   EXPECT_EQ(json["basic_period_ns"], 1'000'000);
@@ -45,7 +45,7 @@ TEST_F(WithNode, Status_of_a_killed_node_shows_its_last_figures) {
   EXPECT_EQ(sut.code, 6);
   EXPECT_THAT(sut.out, StartsWith("local  killed"));
   EXPECT_THAT(sut.out, HasSubstr("modify"));
-  EXPECT_EQ(json_of(indurop({"nodes", "--all", "-o", "json"}))["nodes"][0]["state"], "killed");
+  EXPECT_EQ(indurop({"nodes", "--all", "-o", "json"}).json()["nodes"][0]["state"], "killed");
 }
 
 TEST_F(WithNode, Status_repeats_as_often_as_asked) {
@@ -55,47 +55,47 @@ TEST_F(WithNode, Status_repeats_as_often_as_asked) {
 }
 
 TEST_F(CommandLine, The_only_node_is_taken_whatever_its_name) {
-  Background node(fake_node("press_2"));
-  ASSERT_TRUE(node.wait_for("ready"));
+  Program node(fake_node("press_2"), background());
+  ASSERT_TRUE(node.prints("ready"));
   EXPECT_EQ(indurop({"get", "gain"}).out, "1\n");
   EXPECT_EQ(indurop({"nodes", "--names"}).out, "press_2\n");
 }
 
 TEST_F(CommandLine, Of_several_nodes_one_must_be_named) {
-  Background first(fake_node("press_1"));
-  Background second(fake_node("press_2"));
-  ASSERT_TRUE(first.wait_for("ready") && second.wait_for("ready"));
+  Program first(fake_node("press_1"), background());
+  Program second(fake_node("press_2"), background());
+  ASSERT_TRUE(first.prints("ready") && second.prints("ready"));
   const auto which = indurop({"status"});
   EXPECT_EQ(which.code, 2);
   EXPECT_THAT(which.err, HasSubstr("press_1, press_2"));
   EXPECT_EQ(indurop({"set", "gain", "7", "--node", "press_2"}).code, 0);
-  EXPECT_EQ(indurop({"get", "gain"}, {.environment = {"INDUROP_NODE=press_2"}}).out, "7\n");
+  EXPECT_EQ(indurop({"get", "gain"}, {.variables = {"INDUROP_NODE=press_2"}}).out, "7\n");
   EXPECT_EQ(indurop({"--node", "press_1", "get", "gain"}).out, "1\n");
   const auto wrong = indurop({"status", "--node", "pres_1"});
   EXPECT_EQ(wrong.code, 6);
   EXPECT_THAT(wrong.err, HasSubstr("Did you mean 'press_1'?"));
-  Background local(fake_node("local"));
-  ASSERT_TRUE(local.wait_for("ready"));
-  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["node"], "local");
+  Program local(fake_node("local"), background());
+  ASSERT_TRUE(local.prints("ready"));
+  EXPECT_EQ(indurop({"status", "-o", "json"}).json()["node"], "local");
 }
 
 TEST_F(CommandLine, Ended_nodes_are_listed_apart_and_do_not_count) {
-  Background ended(fake_node("local"));
-  ASSERT_TRUE(ended.wait_for("ready"));
+  Program ended(fake_node("local"), background());
+  ASSERT_TRUE(ended.prints("ready"));
   ended.signal(SIGKILL);
   ASSERT_EQ(ended.wait(), 128 + SIGKILL);
-  Background node(fake_node("press_1"));
-  ASSERT_TRUE(node.wait_for("ready"));
-  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["node"], "press_1");
+  Program node(fake_node("press_1"), background());
+  ASSERT_TRUE(node.prints("ready"));
+  EXPECT_EQ(indurop({"status", "-o", "json"}).json()["node"], "press_1");
   const auto listed = indurop({"nodes"});
   EXPECT_THAT(listed.out, HasSubstr("press_1"));
   EXPECT_THAT(listed.out, Not(HasSubstr("local")));
   EXPECT_THAT(listed.err, HasSubstr("ended, but left values behind: local"));
-  EXPECT_EQ(json_of(indurop({"nodes", "--all", "-o", "json"}))["nodes"][1]["node"], "local");
+  EXPECT_EQ(indurop({"nodes", "--all", "-o", "json"}).json()["nodes"][1]["node"], "local");
 }
 
 TEST_F(CommandLine, A_node_that_is_just_starting_is_waited_for) {
-  Background node(indurop_command({"run", std::string(PLC_EXAMPLE) + "/module.xml", "-q"}));
+  Program node(indurop_command({"run", std::string(PLC_EXAMPLE) + "/module.xml", "-q"}), background());
   const auto sut = indurop({"vars"});
   EXPECT_EQ(sut.code, 0) << sut.err;
   EXPECT_EQ(indurop({"status"}).code, 0);
@@ -106,8 +106,8 @@ TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   for (const char* name : {"left", "right"}) {
     ASSERT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", name}).code, 0);
   }
-  const auto left = json_of(indurop({"status", "--node", "left", "-o", "json"}))["rt"];
-  const auto right = json_of(indurop({"status", "--node", "right", "-o", "json"}))["rt"];
+  const auto left = indurop({"status", "--node", "left", "-o", "json"}).json()["rt"];
+  const auto right = indurop({"status", "--node", "right", "-o", "json"}).json()["rt"];
   EXPECT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", "third", "--core", "0"}).code, 0);
   const auto third = indurop({"status", "--node", "third"});
   for (const char* name : {"left", "right", "third"}) {
@@ -115,7 +115,7 @@ TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   }
   // What it left under its own name does not drive it away.
   EXPECT_EQ(indurop({"run", config, "--detach", "--duration", "60s", "--node", "left"}).code, 0);
-  EXPECT_EQ(json_of(indurop({"status", "--node", "left", "-o", "json"}))["rt"]["core"], left["core"]);
+  EXPECT_EQ(indurop({"status", "--node", "left", "-o", "json"}).json()["rt"]["core"], left["core"]);
   EXPECT_EQ(indurop({"stop", "--node", "left"}).code, 0);
   if (!left["pinned"].get<bool>() || std::thread::hardware_concurrency() != 2) {
     GTEST_SKIP() << "needs real-time rights and two cores";
@@ -129,12 +129,12 @@ TEST_F(CommandLine, Nodes_of_another_user_do_not_block_the_default_name) {
   if (geteuid() != 0) {
     GTEST_SKIP() << "needs root to become another user";
   }
-  Background other(fake_node("local"));
-  ASSERT_TRUE(other.wait_for("ready"));
+  Program other(fake_node("local"), background());
+  ASSERT_TRUE(other.prints("ready"));
   const auto folder = scratch() / "nobody";
   std::filesystem::create_directories(folder);
   ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
-  const RunOptions nobody{.environment = {"INDUROP_STATE_DIR=" + folder.string()}, .user = kNobody};
+  const Environment nobody{.variables = {"INDUROP_STATE_DIR=" + folder.string()}, .user = kNobody};
   const auto sut = indurop({"run", std::string(PLC_EXAMPLE) + "/module.xml", "--duration", "0.2s"}, nobody);
   EXPECT_EQ(sut.code, 0) << sut.err;
   EXPECT_THAT(sut.err, HasSubstr("the name 'local' is in use by user root: this node is 'local_65534'"));

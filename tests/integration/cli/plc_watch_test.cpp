@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // plc watch: the power in the rungs of examples/plc while a node runs it.
-#include <chrono>
-#include <thread>
-
 #include "fixture.h"
 
 namespace indurop::test {
@@ -17,8 +14,9 @@ class PlcWatch : public CommandLine {
   void SetUp() override {
     CommandLine::SetUp();
     if (!IsSkipped()) {
-      node_ = std::make_unique<Background>(indurop_command({"run", kFolder + "/module.xml", "-q", "--node", "belt"}));
-      ASSERT_TRUE(wait_for(rung(1), "rung 1: ")) << node_->output();
+      node_ = std::make_unique<Program>(indurop_command({"run", kFolder + "/module.xml", "-q", "--node", "belt"}),
+                                        background());
+      ASSERT_TRUE(wait_for(rung(1), "rung 1: ")) << node_->out();
     }
   }
   static std::vector<std::string> rung(int number) {
@@ -27,21 +25,12 @@ class PlcWatch : public CommandLine {
   static void set(const char* name, const char* value) {
     ASSERT_EQ(indurop({"set", "--node", "belt", name, value}).code, 0) << name;
   }
-  // Until what it prints holds the text, for at most ten seconds.
+  // Until what it prints holds the text.
   static bool wait_for(const std::vector<std::string>& command, const std::string& text) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    RunOptions options;
-    options.environment = {"LC_ALL=C.UTF-8"};
-    do {
-      if (indurop(command, options).out.find(text) != std::string::npos) {
-        return true;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    } while (std::chrono::steady_clock::now() < end);
-    return false;
+    return wait_until([&] { return indurop(command).out.find(text) != std::string::npos; });
   }
 
-  std::unique_ptr<Background> node_;
+  std::unique_ptr<Program> node_;
 };
 
 TEST_F(PlcWatch, Power_comes_and_goes_with_the_contacts) {

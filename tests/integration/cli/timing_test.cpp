@@ -25,7 +25,7 @@ TEST_F(WithNode, Jitter_has_four_quantities_per_module) {
 }
 
 TEST_F(WithNode, Jitter_as_json_uses_the_names_of_the_report) {
-  const auto json = json_of(indurop({"jitter", "-o", "json", "--histogram"}));
+  const auto json = indurop({"jitter", "-o", "json", "--histogram"}).json();
   ASSERT_EQ(json["modules"].size(), 3U);
   const auto& exec = json["modules"][0]["exec_ns"];
   EXPECT_EQ(exec["min"], 20'000);
@@ -51,14 +51,14 @@ TEST_F(WithNode, Overruns_name_the_culprit) {
   const auto sut = indurop({"overruns"});
   EXPECT_EQ(sut.code, 0);
   EXPECT_THAT(sut.out, ContainsRegex("41 +1 +output +1.20 ms +30.0 us +modify +2.50 ms"));
-  const auto json = json_of(indurop({"overruns", "-o", "json"}));
+  const auto json = indurop({"overruns", "-o", "json"}).json();
   EXPECT_EQ(json["total"], 1);
   EXPECT_EQ(json["overruns"][0]["previous"], "modify");
-  EXPECT_EQ(json_of(indurop({"overruns", "modify", "-o", "json"}))["overruns"].size(), 0U);
+  EXPECT_EQ(indurop({"overruns", "modify", "-o", "json"}).json()["overruns"].size(), 0U);
 }
 
 TEST_F(WithNode, Log_shows_the_newest_runs) {
-  const auto json = json_of(indurop({"log", "-n", "5", "-o", "json"}));
+  const auto json = indurop({"log", "-n", "5", "-o", "json"}).json();
   ASSERT_EQ(json["runs"].size(), 5U);
   EXPECT_EQ(json["runs"][4]["exec_ns"], 20'000);
   EXPECT_GE(json["runs"][4]["tick"], json["runs"][0]["tick"]);

@@ -54,7 +54,7 @@ TEST_F(CommandLine, Wrong_options_are_usage_errors_that_point_to_the_help) {
 TEST_F(CommandLine, Options_may_stand_before_the_verb) {
   const auto sut = indurop({"-o", "json", "nodes"});
   EXPECT_EQ(sut.code, 0);
-  EXPECT_EQ(json_of(sut)["schema_version"], 1);
+  EXPECT_EQ(sut.json()["schema_version"], 1);
 }
 
 TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
@@ -73,7 +73,7 @@ TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
 
 TEST_F(CommandLine, Impossible_node_names_are_usage_errors) {
   EXPECT_EQ(indurop({"status", "--node", "../../etc/passwd"}).code, 2);
-  EXPECT_EQ(indurop({"status"}, {.environment = {"INDUROP_NODE=a b"}}).code, 2);
+  EXPECT_EQ(indurop({"status"}, {.variables = {"INDUROP_NODE=a b"}}).code, 2);
   EXPECT_EQ(indurop({"clean", "--node", "a/b"}).code, 2);
 }
 
@@ -92,7 +92,7 @@ TEST_F(CommandLine, Colour_only_when_asked_for_in_a_pipe) {
 
 TEST_F(CommandLine, Doctor_grades_every_check_in_json) {
   const auto sut = indurop({"doctor", "--duration", "100ms", "-o", "json"});
-  const auto json = json_of(sut);
+  const auto json = sut.json();
   ASSERT_TRUE(json.is_object()) << sut.out;
   EXPECT_EQ(sut.code, json["fit"] == true ? 0 : 1);
   EXPECT_GE(json["checks"].size(), 10U);

@@ -22,7 +22,7 @@ TEST_F(WithNode, Get_of_several_is_a_table_csv_or_json) {
             "knu::Robot::joints[1].y      0  deg\n");
   EXPECT_EQ(indurop({"get", "gain", "starts", "-o", "csv"}).out,
             "name,value,unit\nknu::Robot::gain,1,mm\nstation::starts,5,\n");
-  const auto json = json_of(indurop({"get", "joints[1]", "-o", "json"}));
+  const auto json = indurop({"get", "joints[1]", "-o", "json"}).json();
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["node"], "local");
   EXPECT_EQ(json["values"][0]["name"], "knu::Robot::joints[1]");
@@ -30,7 +30,7 @@ TEST_F(WithNode, Get_of_several_is_a_table_csv_or_json) {
 }
 
 TEST_F(WithNode, Globs_select_and_nothing_comes_twice) {
-  const auto json = json_of(indurop({"get", "station::*", "starts", "-o", "json"}));
+  const auto json = indurop({"get", "station::*", "starts", "-o", "json"}).json();
   EXPECT_EQ(json["values"].size(), 2U);
 }
 
@@ -85,7 +85,7 @@ TEST_F(WithNode, Force_holds_what_the_node_writes_until_unforce) {
   ASSERT_EQ(indurop({"force", "tick=7", "joints[1].y=-0.5"}).code, 0);
   EXPECT_EQ(indurop({"get", "tick"}).out, "7\n");
   EXPECT_THAT(indurop({"forces", "-o", "csv"}).out, HasSubstr("knu::Robot::tick,7,\nknu::Robot::joints[1].y,-0.5,\n"));
-  EXPECT_EQ(json_of(indurop({"status", "-o", "json"}))["forces"][0]["name"], "knu::Robot::tick");
+  EXPECT_EQ(indurop({"status", "-o", "json"}).json()["forces"][0]["name"], "knu::Robot::tick");
   EXPECT_THAT(indurop({"status"}).out, HasSubstr("forced    knu::Robot::tick = 7, knu::Robot::joints[1].y = -0.5"));
   const auto set = indurop({"set", "joints[1]", "{x: 1}"});
   EXPECT_EQ(set.code, 1);
@@ -137,7 +137,7 @@ TEST_F(WithNode, Vars_lists_types_units_and_values) {
   EXPECT_EQ(text.code, 0);
   EXPECT_THAT(text.out, HasSubstr("knu::Robot::gain  double      1  mm    0..10"));
   EXPECT_EQ(indurop({"vars", "--names", "-t", "double"}).out, "knu::Robot::gain\n");
-  const auto json = json_of(indurop({"vars", "-o", "json"}));
+  const auto json = indurop({"vars", "-o", "json"}).json();
   EXPECT_EQ(json["variables"].size(), 6U);
   EXPECT_EQ(json["variables"][0]["name"], "knu::Robot::gain");
   EXPECT_EQ(json["variables"][0]["range"], nlohmann::json::parse("[0.0,10.0]"));
@@ -157,7 +157,7 @@ TEST_F(WithNode, Values_outlive_the_node_and_can_be_changed_for_the_next) {
 
 TEST_F(WithNode, Hz_counts_every_update_of_a_struct) {
   const auto sut = indurop({"hz", "joints", "--once", "-o", "json"});
-  const auto json = json_of(sut);
+  const auto json = sut.json();
   ASSERT_TRUE(json.is_object()) << sut.out << sut.err;
   EXPECT_TRUE(json["exact"]);
   EXPECT_GT(json["rate_hz"], 0.0);

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t kHour = 3600;
 
-class Clock : public PlantTest {
+class Clock : public AgentsTest {
  protected:
   void SetUp() override {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -3,14 +3,14 @@
 
 #include <cstdlib>
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using testing::HasSubstr;
 
-class Commands : public PlantTest {
+class Commands : public AgentsTest {
  protected:
   std::string deployed(const std::string& file) {
     const Outcome done = deploy(file);

@@ -45,30 +45,30 @@ TEST_F(Killed, A_node_that_dies_again_and_again_stays_down) {
 }
 
 TEST_F(Killed, A_board_that_dies_in_the_trial_rolls_all_back) {
-  const pid_t deployer = start_indurop({"deploy", next_, "--health", "8s"}, "killed.out");
+  Program& deployer = start_indurop({"deploy", next_, "--health", "8s"});
   ASSERT_TRUE(wait_until([&] { return in_phase("a", "trial"); }));
   lose("a");
-  const Outcome outcome = finish(deployer, "killed.out");
+  const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   start_agent("a");
   EXPECT_TRUE(both_run_the_committed());
 }
 
 TEST_F(Killed, A_deployer_that_dies_in_the_trial_is_no_commit) {
-  const pid_t deployer = start_indurop({"deploy", next_, "--health", "20s"}, "killed.out");
+  Program& deployer = start_indurop({"deploy", next_, "--health", "20s"});
   ASSERT_TRUE(wait_until([&] { return in_phase("a", "trial"); }));
-  ::kill(deployer, SIGKILL);
-  (void)finish(deployer, "killed.out");
+  deployer.signal(SIGKILL);
+  (void)deployer.finish();
   EXPECT_TRUE(both_run_the_committed());
   EXPECT_THAT(report("a")["message"].get<std::string>(), HasSubstr("deployer"));
   EXPECT_EQ(deploy(next_).code, 0) << "and the next one finds the boards free";
 }
 
 TEST_F(Killed, An_interrupted_deployment_is_taken_back_at_once) {
-  const pid_t deployer = start_indurop({"deploy", next_, "--health", "20s"}, "killed.out");
+  Program& deployer = start_indurop({"deploy", next_, "--health", "20s"});
   ASSERT_TRUE(wait_until([&] { return in_phase("b", "trial"); }));
-  ::kill(deployer, SIGINT);
-  EXPECT_EQ(finish(deployer, "killed.out").code, 130);
+  deployer.signal(SIGINT);
+  EXPECT_EQ(deployer.finish().code, 130);
   EXPECT_TRUE(both_run_the_committed());
 }
 
@@ -87,7 +87,7 @@ TEST_F(Killed, A_half_written_state_file_is_not_read) {
   EXPECT_TRUE(both_run_the_committed());
 }
 
-class FullDisk : public PlantTest {
+class FullDisk : public AgentsTest {
  protected:
   ~FullDisk() override {
     if (mounted_) {

@@ -7,11 +7,11 @@
 
 #include <functional>
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 
-class Killed : public PlantTest {
+class Killed : public AgentsTest {
  protected:
   void SetUp() override {
     // A process module that is a script: whoever checks it has to open it, see phases_test.cpp.

@@ -3,12 +3,12 @@
 
 #include <cstdlib>
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
 
-class Network : public PlantTest {
+class Network : public AgentsTest {
  protected:
   Network() : lab_("dt" + std::to_string(::getpid() % 100'000)) {}
   ~Network() override {
@@ -57,10 +57,10 @@ TEST_F(Network, Three_boards_are_deployed_to_across_the_network) {
 TEST_F(Network, A_cable_pulled_in_the_trial_ends_in_one_state) {
   const Outcome first = deploy(v1_, {}, on("desk"));
   ASSERT_EQ(first.code, 0) << first.err;
-  const pid_t deployer = start_indurop({"deploy", v2_, "--health", "8s"}, "cable.out", on("desk"));
+  Program& deployer = start_indurop({"deploy", v2_, "--health", "8s"}, on("desk"));
   ASSERT_TRUE(wait_until([&] { return report("b", on("desk"))["phase"] == "trial"; }));
   ASSERT_EQ(lab("unplug b"), 0);
-  EXPECT_EQ(finish(deployer, "cable.out").code, 5);
+  EXPECT_EQ(deployer.finish().code, 5);
   ASSERT_EQ(lab("plug b"), 0);
   EXPECT_TRUE(all_run(first.json()["deployment"]));
 }
@@ -78,12 +78,12 @@ TEST_F(Network, Lost_packets_cost_time_only) {
 }
 
 TEST_F(Network, A_flood_of_garbage_at_the_ports_of_boards_and_deployer_disturbs_nobody) {
-  std::vector<pid_t> floods;
+  std::vector<Program*> floods;
   for (const int host : {1, 2, 4}) {  // a, b, desk
     std::vector<std::string> words = on("c");
     words.insert(words.end(),
                  {"python3", GARBAGE_PROGRAM, "10.77.0." + std::to_string(host), std::to_string(link_domain())});
-    floods.push_back(start_program(words, "flood.out"));
+    floods.push_back(&start(words));
   }
   std::ofstream(folder() / "steady.so", std::ios::app) << std::string(1U << 20U, 'x');
   const Outcome done = deploy(v1_, {}, on("desk"));
@@ -91,9 +91,9 @@ TEST_F(Network, A_flood_of_garbage_at_the_ports_of_boards_and_deployer_disturbs_
   const Outcome next = deploy(v2_, {}, on("desk"));
   ASSERT_EQ(next.code, 0) << next.err;
   EXPECT_TRUE(all_run(next.json()["deployment"]));
-  for (const pid_t flood : floods) {
-    ::kill(flood, SIGKILL);
-    EXPECT_EQ(finish(flood, "flood.out").code, 128 + SIGKILL) << "it was there all the time";
+  for (Program* flood : floods) {
+    flood->signal(SIGKILL);
+    EXPECT_EQ(flood->finish().code, 128 + SIGKILL) << "it was there all the time";
   }
 }
 

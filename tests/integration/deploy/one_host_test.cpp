@@ -3,14 +3,14 @@
 
 #include <cstdlib>
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using testing::HasSubstr;
 
-class Deploying : public PlantTest {
+class Deploying : public AgentsTest {
  protected:
   void start_both() {
     start_agent("a");
@@ -107,10 +107,10 @@ TEST_F(Deploying, Of_two_deployers_at_once_one_is_told_that_it_is_busy) {
   start_both();
   const std::string one = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
   const std::string two = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
-  const pid_t first = start_indurop({"deploy", one, "--health", "3s", "-o", "json"}, "one.out");
-  const pid_t second = start_indurop({"deploy", two, "--health", "3s", "-o", "json"}, "two.out");
-  const Outcome a = finish(first, "one.out");
-  const Outcome b = finish(second, "two.out");
+  Program& first = start_indurop({"deploy", one, "--health", "3s", "-o", "json"});
+  Program& second = start_indurop({"deploy", two, "--health", "3s", "-o", "json"});
+  const Outcome a = first.finish();
+  const Outcome b = second.finish();
   const Outcome& winner = a.code == 0 ? a : b;
   const Outcome& loser = a.code == 0 ? b : a;
   ASSERT_EQ(winner.code, 0) << a.err << b.err;
@@ -126,7 +126,7 @@ TEST_F(Deploying, Two_agents_of_one_name_are_refused) {
   ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
   // The state directory of the second is another machine's; its node would be the same here, but none is started.
   const std::string twin = path("elsewhere");
-  const pid_t known = agent("a");
+  Program& known = agent("a");
   start_agent("a", {}, twin);
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
   EXPECT_TRUE(wait_until([&] {
@@ -166,9 +166,9 @@ TEST_F(Deploying, A_board_with_a_key_takes_signed_deployments_only) {
 TEST_F(Deploying, An_agent_needs_a_board_and_a_place) {
   start_agent("a");
   ASSERT_TRUE(wait_until([&] { return report("a").is_object(); }));
-  const pid_t known = agent("a");
+  Program& known = agent("a");
   start_agent("a");  // the same state directory
-  EXPECT_TRUE(wait_until([&] { return text(path("a.log")).find("another agent of board") != std::string::npos; }));
+  EXPECT_TRUE(wait_until([&] { return agent("a").err().find("another agent of board") != std::string::npos; }));
   stop_agent("a", SIGTERM);
   adopt_agent("a", known);
 }

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 
+#include "base/read_file.h"
 #include "killed_fixture.h"
 
 namespace indurop::test {
@@ -37,16 +38,20 @@ class HeldFile {
 
 class Phases : public Killed {
  protected:
+  Phases() { ::setenv("IRP_TEST_SLOW_UNTIL", path("go").c_str(), 1); }
+  ~Phases() override { ::unsetenv("IRP_TEST_SLOW_UNTIL"); }
+  // Lets the module of `deploy_until_healthy` start.
+  void let_b_start() const { std::ofstream(path("go")) << "go\n"; }
   // Where a deployment's files lie on a board.
   [[nodiscard]] std::filesystem::path installed(const std::string& name, const std::string& deployment) const {
     return folder() / "state" / board(name) / "deployments" / deployment.substr(0, 16);
   }
   // Deploys `next_` until board a has some pieces of a large file, and stops the deployer there.
-  pid_t deploy_until_fetching() {
+  Program& deploy_until_fetching() {
     std::ofstream(folder() / "other.so", std::ios::app) << std::string(24U << 20U, 'x');
-    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms"}, "killed.out");
+    Program& deployer = start_indurop({"deploy", next_, "--health", "500ms"});
     EXPECT_TRUE(wait_until([&] { return fetched() > 100'000; }));
-    ::kill(deployer, SIGSTOP);
+    deployer.signal(SIGSTOP);
     EXPECT_LT(fetched(), 24U << 20U) << "it was faster than this test";
     return deployer;
   }
@@ -62,32 +67,32 @@ class Phases : public Killed {
     return 0;
   }
   // Deploys `next_` until b checks, which lasts as long as its file is held, and a waits for it.
-  pid_t deploy_until_checking() {
-    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms", "--timeout", "20s"}, "killed.out");
+  Program& deploy_until_checking() {
+    Program& deployer = start_indurop({"deploy", next_, "--health", "500ms", "--timeout", "20s"});
     EXPECT_TRUE(wait_until([&] {
       return boards_are(
           [](const Json& a, const Json& b) { return a["phase"] == "prepared" && b["phase"] == "checking"; });
     }));
     return deployer;
   }
-  // Deploys a plant until a does well and b, whose module takes seconds to start, does not yet.
-  pid_t deploy_until_healthy() {
+  // Deploys a plant until a does well and b, whose module does not start before it is let, does not yet.
+  Program& deploy_until_healthy() {
     const std::string slow = manifest("slow.xml", {{"a", "other"}, {"b", "slow"}});
-    const pid_t deployer = start_indurop({"deploy", slow, "--health", "300ms"}, "killed.out");
-    EXPECT_TRUE(wait_until([&] { return said_on_err("killed.out", board("a"), "healthy"); }));
-    EXPECT_FALSE(said_on_err("killed.out", board("b"), "healthy"));
+    Program& deployer = start_indurop({"deploy", slow, "--health", "300ms"});
+    EXPECT_TRUE(wait_until([&] { return told(deployer, board("a"), "healthy"); }));
+    EXPECT_FALSE(told(deployer, board("b"), "healthy"));
     return deployer;
   }
   // Deploys `next_` until a has committed it; whether b has, nobody knows.
-  pid_t deploy_until_committed() {
-    const pid_t deployer = start_indurop({"deploy", next_, "--health", "500ms", "-o", "json"}, "killed.out");
+  Program& deploy_until_committed() {
+    Program& deployer = start_indurop({"deploy", next_, "--health", "500ms", "-o", "json"});
     const std::string file = (folder() / "state" / board("a") / "committed.json").string();
-    const std::string before = text(file);
-    EXPECT_TRUE(wait_until([&] { return text(file) != before; }));
+    const auto before = base::read_file(file).value();
+    EXPECT_TRUE(wait_until([&] { return base::read_file(file).value() != before; }));
     return deployer;
   }
-  bool said_on_err(const std::string& out, const std::string& name, const std::string& phase) const {
-    std::istringstream lines(text(path(out + ".err")));
+  static bool told(const Program& deployer, const std::string& name, const std::string& phase) {
+    std::istringstream lines(deployer.err());
     for (std::string line; std::getline(lines, line);) {
       if (line.find(name) != std::string::npos && line.find(phase) != std::string::npos) {
         return true;
@@ -113,10 +118,10 @@ class Phases : public Killed {
   }
 
 TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
-  const pid_t deployer = deploy_until_fetching();
+  Program& deployer = deploy_until_fetching();
   lose("a");
-  ::kill(deployer, SIGCONT);
-  const Outcome outcome = finish(deployer, "killed.out");
+  deployer.signal(SIGCONT);
+  const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
   const std::uintmax_t there = fetched();
@@ -130,9 +135,9 @@ TEST_F(Phases, A_board_killed_while_it_fetches_resumes_and_fetches_on) {
 }
 
 TEST_F(Phases, A_deployer_killed_while_boards_fetch_changes_nothing) {
-  const pid_t deployer = deploy_until_fetching();
-  ::kill(deployer, SIGKILL);
-  (void)finish(deployer, "killed.out");
+  Program& deployer = deploy_until_fetching();
+  deployer.signal(SIGKILL);
+  (void)deployer.finish();
   EXPECT_TRUE(both_run_the_committed());
   EXPECT_THAT(report("a")["message"].get<std::string>(), HasSubstr("deployer"));
   EXPECT_EQ(deploy(next_).code, 0) << "the next one finds the boards free";
@@ -141,9 +146,9 @@ TEST_F(Phases, A_deployer_killed_while_boards_fetch_changes_nothing) {
 TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
   HeldFile held((installed("b", committed_) / "nap.sh").string());
   NEEDS_LEASE(held);
-  const pid_t deployer = deploy_until_checking();
+  Program& deployer = deploy_until_checking();
   lose("b");
-  const Outcome outcome = finish(deployer, "killed.out");
+  const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("b") + ": it is not heard any more"));
   held.release();
@@ -154,10 +159,10 @@ TEST_F(Phases, A_board_killed_while_it_checks_resumes) {
 TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
   HeldFile held((installed("b", committed_) / "nap.sh").string());
   NEEDS_LEASE(held);
-  const pid_t deployer = deploy_until_checking();
+  Program& deployer = deploy_until_checking();
   lose("a");
   held.release();
-  const Outcome outcome = finish(deployer, "killed.out");
+  const Outcome outcome = deployer.finish();
   EXPECT_THAT(outcome.code, AnyOf(1, 5)) << "b may have begun its trial when a is missed: " << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(board("a") + ": it is not heard any more"));
   start_agent("a");
@@ -167,9 +172,9 @@ TEST_F(Phases, A_board_killed_while_it_is_prepared_resumes) {
 TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepared_changes_nothing) {
   HeldFile held((installed("b", committed_) / "nap.sh").string());
   NEEDS_LEASE(held);
-  const pid_t deployer = deploy_until_checking();
-  ::kill(deployer, SIGKILL);
-  (void)finish(deployer, "killed.out");
+  Program& deployer = deploy_until_checking();
+  deployer.signal(SIGKILL);
+  (void)deployer.finish();
   EXPECT_TRUE(wait_until([&] { return runs("a", committed_); })) << "it does not wait for b";
   held.release();
   EXPECT_TRUE(both_run_the_committed());
@@ -177,34 +182,36 @@ TEST_F(Phases, A_deployer_killed_while_one_board_checks_and_the_other_is_prepare
 }
 
 TEST_F(Phases, A_board_killed_while_it_is_healthy_takes_all_back) {
-  const pid_t deployer = deploy_until_healthy();
+  Program& deployer = deploy_until_healthy();
   lose("a");
-  const Outcome outcome = finish(deployer, "killed.out");
+  const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   start_agent("a");
+  let_b_start();
   EXPECT_TRUE(both_run_the_committed());
 }
 
 TEST_F(Phases, A_deployer_killed_before_all_are_healthy_is_no_commit) {
-  const pid_t deployer = deploy_until_healthy();
-  ::kill(deployer, SIGKILL);
-  (void)finish(deployer, "killed.out");
+  Program& deployer = deploy_until_healthy();
+  deployer.signal(SIGKILL);
+  (void)deployer.finish();
+  let_b_start();
   EXPECT_TRUE(both_run_the_committed());
 }
 
 TEST_F(Phases, A_board_killed_at_the_commit_ends_with_what_the_others_run) {
-  const pid_t deployer = deploy_until_committed();
+  Program& deployer = deploy_until_committed();
   lose("b");
-  const Outcome outcome = finish(deployer, "killed.out");
+  const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   start_agent("b");
   EXPECT_EQ(new_one(), outcome.json()["deployment"]);
 }
 
 TEST_F(Phases, A_deployer_killed_at_the_commit_leaves_all_boards_with_the_same) {
-  const pid_t deployer = deploy_until_committed();
-  ::kill(deployer, SIGKILL);
-  (void)finish(deployer, "killed.out");
+  Program& deployer = deploy_until_committed();
+  deployer.signal(SIGKILL);
+  (void)deployer.finish();
   EXPECT_NE(new_one(), "");
   const Json past = indurop({"history", "-o", "json"}).json();
   EXPECT_EQ(past["deployments"].back()["current"], true);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board with an older release in the network, whose protocol is another one: it is named, and disturbs nobody.
 
-#include "plant_fixture.h"
+#include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using testing::HasSubstr;
 
-class Releases : public PlantTest {
+class Releases : public AgentsTest {
  protected:
   void SetUp() override { file_ = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}); }
   // What board a's node says of board b.
@@ -58,12 +58,12 @@ TEST_F(Releases, A_node_of_another_one_is_named_by_the_others) {
   ASSERT_TRUE(peer_is("alive"));
   stop_agent("b", SIGTERM);
   ASSERT_TRUE(peer_is("silent"));
-  const pid_t older = start_program({OLDER_NODE, file_, "--board", board("b"), "--one-host", "--quiet"}, "older.out");
-  ASSERT_TRUE(peer_is("mismatched")) << text(path("older.out.err"));
+  Program& older = start({OLDER_NODE, file_, "--board", board("b"), "--one-host", "--quiet"});
+  ASSERT_TRUE(peer_is("mismatched")) << older.err();
   EXPECT_THAT(peer()["problem"].get<std::string>(), HasSubstr("speaks protocol 1 of another release, this board 2"));
   EXPECT_TRUE(runs("a", done.json()["deployment"]));
-  ::kill(older, SIGTERM);
-  (void)finish(older, "older.out");
+  older.signal(SIGTERM);
+  (void)older.finish();
   EXPECT_TRUE(peer_is("silent"));
   start_agent("b");
   EXPECT_TRUE(peer_is("alive"));

@@ -23,9 +23,9 @@
 #include "mirror/external/external.h"
 #include "mirror/external/external_block.h"
 #include "mirror/external/external_type.h"
-#include "program.h"
 #include "schema/elf.h"
 #include "tests/support/dds_domain.h"
+#include "tests/support/program.h"
 #include "vars/store.h"
 
 namespace indurop::test {

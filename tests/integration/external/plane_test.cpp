@@ -10,7 +10,7 @@
 #include "dds/entity.h"
 #include "kinds_msgs.h"
 #include "plane_fixture.h"
-#include "program.h"
+#include "tests/support/program.h"
 
 namespace indurop::test {
 namespace {

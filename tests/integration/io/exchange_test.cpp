@@ -10,8 +10,8 @@
 #include <indurop/generated.h>
 
 #include "io/dispatcher.h"
-#include "program.h"
 #include "schema/elf.h"
+#include "tests/support/program.h"
 
 namespace indurop::io {
 namespace {

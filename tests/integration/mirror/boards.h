@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -18,6 +17,7 @@
 
 #include "mirror/frames/mirror_block.h"
 #include "tests/support/dds_domain.h"
+#include "tests/support/program.h"
 #include "tests/support/wait_until.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
@@ -42,9 +42,7 @@ class Boards : public ::testing::Test {
 
  protected:
   ~Boards() override {
-    for (auto& [name, pid] : running_) {
-      end(pid, SIGKILL);
-    }
+    running_.clear();
     for (const std::string& node : nodes_) {
       (void)vars::remove_node(node);
     }
@@ -75,22 +73,13 @@ class Boards : public ::testing::Test {
       words.push_back(plan.keys);
     }
     nodes_.push_back(node(place));
-    const pid_t pid = ::fork();
-    if (pid == 0) {
-      std::vector<char*> arguments;
-      for (std::string& word : words) {
-        arguments.push_back(word.data());
-      }
-      arguments.push_back(nullptr);
-      ::execv(arguments[0], arguments.data());
-      ::_exit(127);
-    }
-    running_[place] = pid;
+    running_[place] = std::make_unique<Program>(words);
     ASSERT_TRUE(wait_until([&] { return attach(place); })) << "board " << place << " did not start";
   }
 
   void stop(const std::string& board, int signal = SIGTERM) {
-    end(running_.at(board), signal);
+    running_.at(board)->signal(signal);
+    EXPECT_NE(running_.at(board)->wait(), -1) << "board " << board << " did not end";
     running_.erase(board);
   }
 
@@ -156,17 +145,7 @@ class Boards : public ::testing::Test {
  private:
   static constexpr int kLeaseMs = 200;
 
-  static void end(pid_t pid, int signal) {
-    ::kill(pid, signal);
-    int status = 0;
-    if (!wait_until([&] { return ::waitpid(pid, &status, WNOHANG) == pid; })) {
-      ::kill(pid, SIGKILL);
-      ::waitpid(pid, &status, 0);
-      ADD_FAILURE() << "a board did not end";
-    }
-  }
-
-  std::map<std::string, pid_t> running_;
+  std::map<std::string, std::unique_ptr<Program>> running_;
   std::vector<std::string> nodes_;
   std::map<std::string, std::unique_ptr<vars::Store>> stores_;
   std::map<std::string, std::unique_ptr<vars::ShmFile>> files_;

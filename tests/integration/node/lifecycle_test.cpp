@@ -160,7 +160,7 @@ TEST_F(Lifecycle, Usage_errors_exit_with_2) {
                                                                      {"--duration", "soon"},
                                                                      {"--spin", "fast"},
                                                                      {"--core", "9999"}}) {
-    const auto sut = outcome_of(start_file(file, arguments));
+    const auto sut = start_file(file, arguments).finish();
     EXPECT_EQ(sut.code, 2) << arguments.front();
     EXPECT_THAT(sut.err + sut.out, ::testing::Not(::testing::IsEmpty()));
   }

@@ -81,8 +81,8 @@ TEST_F(Rights, Name_of_another_users_node_is_refused) {
     GTEST_SKIP() << "needs two users";
   }
   const std::string file = write("module.xml", xml({{.file = "counter.so", .name = "counter"}}));
-  ASSERT_EQ(outcome_of(start_file(file, {"--duration", "10ms"})).code, 0);
-  const auto sut = outcome_of(start_file(file, {"--duration", "10ms"}, *nobody));
+  ASSERT_EQ(start_file(file, {"--duration", "10ms"}).finish().code, 0);
+  const auto sut = start_file(file, {"--duration", "10ms"}, *nobody).finish();
   EXPECT_EQ(sut.code, 1);
   EXPECT_CONTAINS(sut.err, "choose another name with --node");
 }

@@ -4,20 +4,20 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "plant_fixture.h"
+#include "turning_table_fixture.h"
 
 namespace indurop::test {
 namespace {
 
-class OwnNamespaces : public PlantTest {
+class OwnNamespaces : public TurningTable {
  protected:
   OwnNamespaces() : lab_(std::string(LAB_PROGRAM) + " -l pt" + std::to_string(::getpid()) + " ") {}
   ~OwnNamespaces() override { (void)std::system((lab_ + "down").c_str()); }
-  bool up() { return ::geteuid() == 0 && run("up " + node("sensor") + " " + node("control") + " 2>/dev/null") == 0; }
+  bool up() { return ::geteuid() == 0 && run("up " + board("sensor") + " " + board("control") + " 2>/dev/null") == 0; }
   int run(const std::string& words) const { return std::system((lab_ + words).c_str()); }
-  Program& start_board(const std::string& plant, const std::string& board) {
-    return start({LAB_PROGRAM, "-l", "pt" + std::to_string(::getpid()), "exec", node(board), INDUROP_PROGRAM, "run",
-                  plant, "--board", node(board), "-q"});
+  Program& start_board(const std::string& plant, const std::string& name) {
+    return start({LAB_PROGRAM, "-l", "pt" + std::to_string(::getpid()), "exec", board(name), INDUROP_PROGRAM, "run",
+                  plant, "--board", board(name), "-q"});
   }
 
  private:
@@ -35,10 +35,10 @@ TEST_F(OwnNamespaces, A_loop_across_the_network_survives_a_pulled_cable) {
   Program& sensor = start_board(plant, "sensor");
   start_board(plant, "control");
   ASSERT_TRUE(wait_until([&] { return controlled(); })) << sensor.err();
-  ASSERT_EQ(run("unplug " + node("control")), 0);
+  ASSERT_EQ(run("unplug " + board("control")), 0);
   EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "the declared fallback";
   EXPECT_TRUE(wait_until([&] { return torque("control") == 0; })) << "the controller sees that the sensor is not valid";
-  ASSERT_EQ(run("plug " + node("control")), 0);
+  ASSERT_EQ(run("plug " + board("control")), 0);
   EXPECT_TRUE(wait_until([&] { return controlled(); }));
 }
 

@@ -3,17 +3,17 @@
 
 #include <csignal>
 
-#include "plant_fixture.h"
+#include "turning_table_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-class Local : public PlantTest {
+class Local : public TurningTable {
  protected:
   static std::string board_of(const std::string& name, const std::string& modules) {
-    return "<board name=\"" + node(name) + "\">" + modules + "</board>";
+    return "<board name=\"" + board(name) + "\">" + modules + "</board>";
   }
   static std::string snapshot_module(const std::string& what, int period_ms, int priority,
                                      const std::string& more = "") {
@@ -40,8 +40,8 @@ TEST_F(Local, Boards_close_a_loop_and_end_together) {
   EXPECT_EQ(sut.wait(), 130);
   EXPECT_FALSE(alive(sensor));
   EXPECT_FALSE(alive(control));
-  for (const char* board : {"sensor", "control"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder() / ("r." + node(board) + ".json"))) << board;
+  for (const char* name : {"sensor", "control"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder() / ("r." + board(name) + ".json"))) << name;
   }
 }
 
@@ -55,9 +55,9 @@ TEST_F(Local, A_killed_board_leaves_the_others_running_and_can_come_back) {
   ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
   ::kill(pid_of("control"), SIGKILL);
   EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "the declared fallback";
-  EXPECT_TRUE(sut.says("board " + node("control") + " was ended by signal 9"));
+  EXPECT_TRUE(sut.says("board " + board("control") + " was ended by signal 9"));
   EXPECT_TRUE(sut.running());
-  indurop({"run", plant, "--board", node("control"), "--one-host", "-q"});
+  indurop({"run", plant, "--board", board("control"), "--one-host", "-q"});
   EXPECT_TRUE(wait_until([&] { return controlled(); }));
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 143);
@@ -73,9 +73,9 @@ TEST_F(Local, A_killed_runner_takes_its_boards_along) {
 }
 
 TEST_F(Local, A_standby_keeps_the_loop_closed) {
-  Program& sut =
-      run(write(board("sensor", "table") + board("control", "controller", "<standby>" + node("backup") + "</standby>") +
-                board("backup", "")));
+  Program& sut = run(write(element("sensor", "table") +
+                           element("control", "controller", "<standby>" + board("backup") + "</standby>") +
+                           element("backup", "")));
   ASSERT_TRUE(wait_until([&] { return controlled() && std::abs(speed("backup") - 2) < 0.01; })) << sut.err();
   for (const char* leaving : {"control", "backup"}) {
     ::kill(pid_of(leaving), SIGKILL);
@@ -114,7 +114,7 @@ TEST_F(Local, What_a_module_has_half_written_is_not_sent) {
 }
 
 TEST_F(Local, Errors_of_the_plant_are_said_once_and_nothing_runs) {
-  Program& sut = run(write(board("sensor", "table") + board("control", "no_such_module")));
+  Program& sut = run(write(element("sensor", "table") + element("control", "no_such_module")));
   EXPECT_EQ(sut.wait(), 4);
   const std::string said = sut.err();
   const auto first = said.find("no_such_module.so");
@@ -132,16 +132,16 @@ TEST_F(Local, Without_saying_how_a_plant_is_not_run) {
 TEST_F(Local, A_board_the_plant_does_not_have_is_named_with_those_it_has) {
   Program& sut = indurop({"run", two_boards(), "--board", "nobody"});
   EXPECT_EQ(sut.wait(), 2);
-  EXPECT_THAT(sut.err(), HasSubstr("has no board nobody; it has " + node("sensor") + ", " + node("control")));
+  EXPECT_THAT(sut.err(), HasSubstr("has no board nobody; it has " + board("sensor") + ", " + board("control")));
 }
 
 TEST_F(Local, Status_tells_of_the_other_board) {
   run(two_boards());
   ASSERT_TRUE(wait_until([&] { return controlled(); }));
-  Program& sut = indurop({"status", "--node", node("sensor"), "-o", "json"});
+  Program& sut = indurop({"status", "--node", board("sensor"), "-o", "json"});
   EXPECT_EQ(sut.wait(), 0);
-  EXPECT_THAT(sut.out(), HasSubstr("\"board\":\"" + node("control") + "\",\"state\":\"alive\""));
-  EXPECT_THAT(sut.out(), HasSubstr("\"name\":\"cell::torque\",\"owner\":\"" + node("control") + "\""));
+  EXPECT_THAT(sut.out(), HasSubstr("\"board\":\"" + board("control") + "\",\"state\":\"alive\""));
+  EXPECT_THAT(sut.out(), HasSubstr("\"name\":\"cell::torque\",\"owner\":\"" + board("control") + "\""));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "base/descriptor.h"
 #include "folder.h"
+#include "tests/support/forked.h"
 
 namespace indurop::base {
 namespace {
@@ -189,20 +190,17 @@ TEST_F(ReplaceFile, A_kill_at_any_moment_leaves_no_half_file) {
   for (int round = 0; round < 10; ++round) {
     std::array<int, 2> begun{};
     ASSERT_EQ(::pipe(begun.data()), 0);
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
+    test::Forked child([&]() -> int {
       (void)!::write(begun[1], "b", 1);
       for (int i = 0;; ++i) {
         (void)replace_file(at("file"), i % 2 == 0 ? two : one, Durable::No);
       }
-    }
+    });
     char byte = 0;
     ASSERT_EQ(::read(begun[0], &byte, 1), 1);
     ::close(begun[0]);
     ::close(begun[1]);
-    ::kill(child, SIGKILL);
-    ::waitpid(child, nullptr, 0);
+    child.kill_and_wait();
     const std::string found = content("file");
     EXPECT_TRUE(found == one || found == two);
   }

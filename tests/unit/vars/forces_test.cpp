@@ -9,18 +9,19 @@
 #include <atomic>
 #include <thread>
 
-#include "process.h"
 #include "rt/clock.h"
 #include "test_schema.h"
+#include "tests/support/forked.h"
+#include "tests/support/wait_until.h"
 #include "vars/store.h"
 
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
+using indurop::test::wait_until;
 using test::array_type;
 using test::bytes_of;
-using test::Child;
-using test::eventually;
 using test::hash;
 using test::scalar_type;
 using test::TestNode;
@@ -93,7 +94,7 @@ TEST_F(Forces, Of_an_array_only_the_part_is_held) {
 TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
   const std::int64_t until = rt::now_ns() + 300'000'000;
   ASSERT_TRUE(force("plc::count", 7, 0, until).ok());
-  Child child([this] {
+  Forked child([this] {
     auto mine = Store::attach(node_.name(), Mode::ReadWrite);
     while (mine->write(*mine->find(hash("plc::count")), 0, bytes_of<std::int32_t>(1)).ok()) {
     }
@@ -103,7 +104,7 @@ TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
     const std::int32_t value = get("plc::count");
     ASSERT_TRUE(value == 7 || rt::now_ns() >= until) << value;
   }
-  EXPECT_TRUE(eventually([this] { return get("plc::count") == 1; }));
+  EXPECT_TRUE(wait_until([this] { return get("plc::count") == 1; }));
   EXPECT_TRUE(sut_->forces().empty());
   child.kill_and_wait();
   sut_->let_overdue_go();
@@ -123,7 +124,7 @@ TEST_F(Forces, Whoever_writes_at_this_moment_does_not_slip_through) {
       EXPECT_EQ(get("plc::count"), 7);
     }
     ASSERT_TRUE(let_go("plc::count").ok());
-    ASSERT_TRUE(eventually([this] { return get("plc::count") == 1; }));
+    ASSERT_TRUE(wait_until([this] { return get("plc::count") == 1; }));
   }
   stop = true;
   writer.join();
@@ -169,7 +170,7 @@ TEST_F(Forces, End_with_the_node) {
 
 TEST_F(Forces, Whoever_is_killed_while_forcing_blocks_nobody) {
   for (int i = 0; i < 20; ++i) {
-    Child child([this]() -> int {
+    Forked child([this]() -> int {
       auto mine = Store::attach(node_.name(), Mode::ReadWrite);
       const DirectoryEntry& words = *mine->find(hash("plc::words"));
       for (std::uint32_t n = 0;; n = (n + 4) % 16) {
@@ -177,7 +178,7 @@ TEST_F(Forces, Whoever_is_killed_while_forcing_blocks_nobody) {
         static_cast<void>(mine->let_go(words, n));
       }
     });
-    ASSERT_TRUE(eventually([this] { return !sut_->forces().empty(); }));
+    ASSERT_TRUE(wait_until([this] { return !sut_->forces().empty(); }));
     child.kill_and_wait();
     ASSERT_TRUE(force("plc::count", i).ok());
     EXPECT_EQ(get("plc::count"), i);

@@ -8,8 +8,9 @@
 #include <atomic>
 #include <filesystem>
 
-#include "process.h"
 #include "test_schema.h"
+#include "tests/support/forked.h"
+#include "tests/support/wait_until.h"
 #include "vars/node_lock.h"
 #include "vars/process.h"
 #include "vars/run_file.h"
@@ -17,7 +18,7 @@
 namespace indurop::vars {
 namespace {
 
-using test::Child;
+using indurop::test::Forked;
 using test::TestNode;
 
 TEST(NodeLock, Second_holder_is_told_who_has_it) {
@@ -26,7 +27,7 @@ TEST(NodeLock, Second_holder_is_told_who_has_it) {
   const auto first = NodeLock::acquire(node.name(), holder);
   ASSERT_TRUE(first.ok());
   EXPECT_EQ(running_node(node.name()), ::getpid());
-  Child other([&] {
+  Forked other([&] {
     pid_t seen = 0;
     const auto second = NodeLock::acquire(node.name(), seen);
     return !second.ok() && second.error().code == Errc::Busy && seen == ::getppid() ? 0 : 1;
@@ -44,7 +45,7 @@ TEST(NodeLock, Is_free_after_its_holder_ends) {
 
 TEST(NodeLock, Survives_a_killed_holder) {
   const TestNode node("killed");
-  Child other([&] {
+  Forked other([&] {
     pid_t seen = 0;
     const auto lock = NodeLock::acquire(node.name(), seen);
     while (lock.ok()) {
@@ -52,7 +53,7 @@ TEST(NodeLock, Survives_a_killed_holder) {
     }
     return 1;
   });
-  ASSERT_TRUE(test::eventually([&] { return running_node(node.name()) == other.pid(); }));
+  ASSERT_TRUE(indurop::test::wait_until([&] { return running_node(node.name()) == other.pid(); }));
   other.kill_and_wait();
   EXPECT_EQ(running_node(node.name()), 0);
   pid_t holder = 0;
@@ -89,9 +90,9 @@ TEST(NodeLock, Two_removers_and_starters_never_hold_it_at_once) {
     }
     return 0;
   };
-  Child one(contend);
-  Child two(contend);
-  Child three(contend);
+  Forked one(contend);
+  Forked two(contend);
+  Forked three(contend);
   EXPECT_EQ(one.wait() + two.wait() + three.wait(), 0);
   ::munmap(holders, 4096);
 }
@@ -111,8 +112,8 @@ TEST(Process, Alive_means_same_start_time) {
   EXPECT_TRUE(process_alive(::getpid(), start));
   EXPECT_FALSE(process_alive(::getpid(), start + 1));
   EXPECT_FALSE(process_alive(0, 0));
-  Child child([] { return 0; });
-  EXPECT_TRUE(test::eventually([&] { return !process_alive(child.pid(), process_start_time(child.pid())); }))
+  Forked child([] { return 0; });
+  EXPECT_TRUE(indurop::test::wait_until([&] { return !process_alive(child.pid(), process_start_time(child.pid())); }))
       << "a zombie does not live";
 }
 

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "process.h"
 #include "test_schema.h"
+#include "tests/support/forked.h"
 #include "vars/crc32c.h"
 
 namespace indurop::vars {
@@ -209,7 +209,7 @@ TEST_F(Retain, Full_disk_is_an_error_that_keeps_both_copies) {
   const auto before_a = contents(a());
   const auto before_b = contents(b());
   set(3);
-  test::Child child([&] {
+  indurop::test::Forked child([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{100, 100};
     ::setrlimit(RLIMIT_FSIZE, &limit);

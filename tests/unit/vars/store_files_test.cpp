@@ -10,17 +10,18 @@
 #include <filesystem>
 #include <fstream>
 
-#include "process.h"
 #include "test_schema.h"
+#include "tests/support/as_nobody.h"
+#include "tests/support/forked.h"
 #include "vars/node_lock.h"
 #include "vars/store.h"
 
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
 using test::bytes_of;
-using test::Child;
 using test::hash;
 using test::scalar_type;
 using test::TestNode;
@@ -177,7 +178,7 @@ TEST(StoreFiles, Full_memory_keeps_the_older_block_in_use) {
   const TestNode node("full2");
   auto older = Store::create(node.name(), small_schema());
   ASSERT_TRUE(older.ok());
-  Child other([&] {
+  Forked other([&] {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{4096, 4096};
     ::setrlimit(RLIMIT_FSIZE, &limit);
@@ -211,8 +212,8 @@ TEST(StoreFiles, Another_user_reads_but_may_not_write_create_or_remove) {
   pid_t holder = 0;
   const auto lock = NodeLock::acquire(node.name(), holder);
   ASSERT_TRUE(store.ok() && lock.ok());
-  Child other([&] {
-    if (!test::become_nobody() || attach_code(node.name(), Mode::ReadOnly) != Errc::Ok) {
+  Forked other([&] {
+    if (!indurop::test::become_nobody() || attach_code(node.name(), Mode::ReadOnly) != Errc::Ok) {
       return 1;
     }
     if (attach_code(node.name(), Mode::ReadWrite) != Errc::PermissionDenied) {
@@ -240,8 +241,8 @@ TEST(StoreFiles, Block_planted_by_another_user_is_not_adopted) {
     GTEST_SKIP() << "needs root to become another user";
   }
   const TestNode node("planted");
-  Child other([&] {
-    if (!test::become_nobody()) {
+  Forked other([&] {
+    if (!indurop::test::become_nobody()) {
       return 1;
     }
     auto store = Store::create(node.name(), small_schema());

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// A plant of the test's own: a folder with a state directory, names of boards that nobody else on this machine has, a
+// DDS domain, programs. All of it is gone when the test ends.
+
+#pragma once
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "tests/support/dds_domain.h"
+#include "tests/support/program.h"
+#include "tests/support/wait_until.h"
+#include "vars/node_lock.h"
+#include "vars/store.h"
+
+namespace indurop::test {
+
+class PlantTest : public ::testing::Test {
+ protected:
+  PlantTest() : folder_(std::filesystem::temp_directory_path() / ("indurop-plant-" + std::to_string(::getpid()))) {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_ / "state");
+  }
+  ~PlantTest() override {
+    for (const Program& program : programs_) {
+      program.signal(SIGTERM);
+    }
+    for (Program& program : programs_) {
+      (void)program.wait();
+    }
+    for (const std::string& node : vars::list_nodes()) {
+      if (node.starts_with(board(""))) {
+        kill_node(node);
+        EXPECT_TRUE(wait_until([&] { return vars::running_node(node) == 0 && vars::remove_node(node).ok(); }))
+            << node << " does not end";
+      }
+    }
+    std::filesystem::remove_all(folder_);
+  }
+
+  // The name of a board and of its node. /dev/shm is everybody's, so it holds the test's pid.
+  static std::string board(const std::string& name) { return "pt" + std::to_string(::getpid()) + "-" + name; }
+  static int domain() { return dds_domain(); }
+  static void kill_node(const std::string& node) {
+    if (const pid_t pid = vars::running_node(node); pid > 0) {
+      ::kill(pid, SIGKILL);
+    }
+  }
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  Program& start(const std::vector<std::string>& command, Environment environment = {}) {
+    environment.variables.insert(environment.variables.begin(), "INDUROP_STATE_DIR=" + path("state"));
+    return programs_.emplace_back(command, environment);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::list<Program> programs_;
+};
+
+}  // namespace indurop::test
