@@ -36,11 +36,21 @@ def failed(junit):
             yield case.get("name"), [failure.get("message") or "", *said[-LAST_LINES:]]
 
 
-def retried(log):
-    results = {}
+def results(log):
+    """Results of each test in the order they came."""
+    found = {}
     for name, result in RESULT.findall(log):
-        results.setdefault(name, []).append(result)
-    return sorted(name for name, all_of_it in results.items() if len(all_of_it) > 1 and all_of_it[-1] == "Passed")
+        found.setdefault(name, []).append(result)
+    return found
+
+
+def retried(log):
+    return sorted(name for name, all_of_it in results(log).items() if len(all_of_it) > 1 and all_of_it[-1] == "Passed")
+
+
+def not_run(log):
+    """Tests whose program could not be started. ctest counts them as failed, but names them in no list."""
+    return sorted(name for name, all_of_it in results(log).items() if all_of_it[-1] == "Not Run")
 
 
 def allowed(file):
@@ -64,6 +74,8 @@ def main():
         print(f"skipped: {name}: {reason}")
     for name in retried(log):
         print(f"passed at the second try only: {name}")
+    for name in not_run(log):
+        print(f"could not be started: {name}")
     for name, lines in failed(junit):
         print(f"did not pass: {name}:", *lines, sep="\n  | ")
     if os.environ.get("CI"):

@@ -329,6 +329,9 @@ class Run(Sample):
         (name, lines), = check_run.failed(self.root / "r.xml")
         self.assertEqual((name, lines[0], lines[-1], len(lines)), ("Bad", "Timeout", "line 98", check_run.LAST_LINES + 1))
 
+    def test_not_run(self):
+        self.assertEqual(check_run.not_run(self.LOG + " 9/9 Test #9: pages ....***Not Run   0.00 sec\n"), ["pages"])
+
     def test_leave_without_a_reason(self):
         self.put("may.txt", "# head\nA.b  root\nC.d\n")
         self.assertEqual(check_run.allowed(self.root / "may.txt"), ["A.b"])
