@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/unit/vars/process.h"
+#include "tests/support/forked.h"
 #include "tests/unit/vars/test_schema.h"
 
 namespace indurop::vars::test {

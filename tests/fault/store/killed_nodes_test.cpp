@@ -10,6 +10,7 @@
 
 #include "fault.h"
 #include "rt/clock.h"
+#include "tests/support/wait_until.h"
 #include "vars/node_lock.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
@@ -17,9 +18,9 @@
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
 using test::bytes_of;
-using test::Child;
 using test::hash;
 using test::scalar_type;
 using test::TestNode;
@@ -101,20 +102,20 @@ TEST(KilledNodes, Every_start_works_and_values_survive) {
     ASSERT_TRUE(store.ok());
     ASSERT_TRUE(store->write(*store->find(hash("count")), 0, bytes_of<std::uint64_t>(4711)).ok());
   }
-  Child module([&] { return run_module(node, *score); });
+  Forked module([&] { return run_module(node, *score); });
   std::mt19937 random(3);
   bool other = false;
   for (const test::Duration duration; !duration.over();) {
     other = random() % 4 == 0 ? !other : other;
-    Child starting([&] { return run_node(node, *score, other); });
+    Forked starting([&] { return run_node(node, *score, other); });
     test::wait_a_random_moment(random, 3000);
     starting.kill_and_wait();
   }
-  Child final_node([&] { return run_node(node, *score, other); });
+  Forked final_node([&] { return run_node(node, *score, other); });
   const std::uint64_t before = score->starts;
-  EXPECT_TRUE(test::eventually([&] { return score->starts > before; }));
+  EXPECT_TRUE(indurop::test::wait_until([&] { return score->starts > before; }));
   const std::uint64_t attached = score->writes;
-  EXPECT_TRUE(test::eventually([&] { return score->writes > attached; })) << "the module goes on writing";
+  EXPECT_TRUE(indurop::test::wait_until([&] { return score->writes > attached; })) << "the module goes on writing";
   score->stop = true;
   EXPECT_EQ(final_node.wait(), 0);
   EXPECT_EQ(module.wait(), 0);
@@ -151,15 +152,15 @@ TEST(KilledNodes, Name_is_free_again_after_every_kill) {
     }
     return 0;
   };
-  Child steady(start_and_end);
+  Forked steady(start_and_end);
   std::mt19937 random(4);
   for (const test::Duration duration; !duration.over();) {
-    Child starting(start_and_end);
+    Forked starting(start_and_end);
     test::wait_a_random_moment(random, 2000);
     starting.kill_and_wait();
   }
   const std::uint64_t before = score->starts;
-  EXPECT_TRUE(test::eventually([&] { return score->starts > before; }));
+  EXPECT_TRUE(indurop::test::wait_until([&] { return score->starts > before; }));
   score->stop = true;
   EXPECT_EQ(steady.wait(), 0);
 }

@@ -13,8 +13,8 @@
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
-using test::Child;
 using test::hash;
 using test::TestNode;
 using test::variable;
@@ -54,7 +54,7 @@ TEST(KilledRetain, Newest_complete_save_is_always_there) {
   std::uint64_t last = 0;
   int longest_us = 5000;
   for (const test::Duration duration; !duration.over();) {
-    Child saving([&] { return save_for_ever(node.name(), directory); });
+    Forked saving([&] { return save_for_ever(node.name(), directory); });
     test::wait_a_random_moment(random, longest_us);
     saving.kill_and_wait();
     store->reset(false);

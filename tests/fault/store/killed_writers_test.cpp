@@ -14,8 +14,8 @@
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
-using test::Child;
 using test::hash;
 using test::TestNode;
 using test::variable;
@@ -184,12 +184,12 @@ TEST(KilledWriters, Never_leave_a_torn_or_older_value) {
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), fault_schema());
   ASSERT_TRUE(store.ok());
-  Child reader([&] { return run_reader(node, *score, Mode::ReadOnly); });
-  Child steady([&] { return run_writer(node, *score, 1); });
+  Forked reader([&] { return run_reader(node, *score, Mode::ReadOnly); });
+  Forked steady([&] { return run_writer(node, *score, 1); });
   std::mt19937 random(7);
   int kills = 0;
   for (const test::Duration duration; !duration.over(); ++kills) {
-    Child writer([&] { return run_writer(node, *score, static_cast<unsigned>(random())); });
+    Forked writer([&] { return run_writer(node, *score, static_cast<unsigned>(random())); });
     test::wait_a_random_moment(random, 4000);
     writer.kill_and_wait();
   }
@@ -217,10 +217,10 @@ TEST(KilledWriters, Killed_readers_disturb_nobody) {
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), fault_schema());
   ASSERT_TRUE(store.ok());
-  Child writer([&] { return run_writer(node, *score, 1); });
+  Forked writer([&] { return run_writer(node, *score, 1); });
   std::mt19937 random(8);
   for (const test::Duration duration; !duration.over();) {
-    Child reader([&] { return run_reader(node, *score, random() % 2 == 0 ? Mode::ReadOnly : Mode::ReadWrite); });
+    Forked reader([&] { return run_reader(node, *score, random() % 2 == 0 ? Mode::ReadOnly : Mode::ReadWrite); });
     test::wait_a_random_moment(random, 4000);
     reader.kill_and_wait();
   }

@@ -23,8 +23,8 @@ extern "C" void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
-using test::Child;
 using test::hash;
 using test::TestNode;
 using test::variable;
@@ -142,7 +142,7 @@ int kill_writers(const TestNode& node, Score& score) {
   std::mt19937 random(11);
   int kills = 0;
   for (; !score.stop; ++kills) {
-    Child writer([&] { return attached(node, [&](Store& store) { write_until_stopped(store, score, 11); }); });
+    Forked writer([&] { return attached(node, [&](Store& store) { write_until_stopped(store, score, 11); }); });
     test::wait_a_random_moment(random, 4000);
     writer.kill_and_wait();
   }
@@ -168,8 +168,8 @@ TEST(ManyReads, Of_what_other_processes_write_are_never_torn_or_older) {
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), both());
   ASSERT_TRUE(store.ok());
-  Child steady([&] { return attached(node, [&](Store& mine) { write_beside_reader(mine, *score); }); });
-  Child reader([&] { return attached(node, [&](Store& mine) { read_until(mine, *score, wanted_reads()); }); });
+  Forked steady([&] { return attached(node, [&](Store& mine) { write_beside_reader(mine, *score); }); });
+  Forked reader([&] { return attached(node, [&](Store& mine) { read_until(mine, *score, wanted_reads()); }); });
   const int kills = kill_writers(node, *score);
   EXPECT_EQ(reader.wait(), 0);
   EXPECT_EQ(steady.wait(), 0);
@@ -181,7 +181,7 @@ TEST(ManyReads, Of_what_a_thread_of_the_same_process_writes_are_never_torn_or_ol
   const test::Shared<Score> score;
   auto store = Store::create(node.name(), both());
   ASSERT_TRUE(store.ok());
-  Child process([&] {
+  Forked process([&] {
     return attached(node, [&](Store& mine) {
       std::thread steady([&] { write_beside_reader(mine, *score); });
       read_until(mine, *score, wanted_reads());

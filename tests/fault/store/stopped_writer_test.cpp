@@ -8,15 +8,16 @@
 
 #include "fault.h"
 #include "rt/shared_mutex.h"
+#include "tests/support/wait_until.h"
 #include "vars/ring.h"
 #include "vars/store.h"
 
 namespace indurop::vars {
 namespace {
 
+using indurop::test::Forked;
 using test::array_type;
 using test::bytes_of;
-using test::Child;
 using test::hash;
 using test::TestNode;
 using test::variable;
@@ -47,7 +48,7 @@ class StoppedWriter : public testing::Test {
       : node_("stopped"),
         store_(Store::create(node_.name(), one_variable()).value()),
         holder_([this] { return hold(node_, *holding_); }) {
-    EXPECT_TRUE(test::eventually([this] { return holding_->load(); }));
+    EXPECT_TRUE(indurop::test::wait_until([this] { return holding_->load(); }));
     holder_.signal(SIGSTOP);
   }
   Status write(double value) { return store_.write(*store_.find(hash("joints")), 0, bytes_of(value)); }
@@ -63,7 +64,7 @@ class StoppedWriter : public testing::Test {
   TestNode node_;
   test::Shared<std::atomic<bool>> holding_;
   Store store_;
-  Child holder_;
+  Forked holder_;
 };
 
 TEST_F(StoppedWriter, Write_is_refused_after_the_limit_and_counted) {
