@@ -33,7 +33,7 @@ constexpr std::chrono::seconds kNetworkRetry{1};
 
 std::vector<std::string> node_arguments(const AgentOptions& options) {
   std::vector<std::string> words;
-  if (options.one_host) {
+  if (options.link.network.one_host) {
     words.emplace_back("--one-host");
   }
   if (options.core) {
@@ -61,15 +61,13 @@ class Agent {
         state_(state),
         self_(new_session()),
         keys_(options.board),
-        deployment_(state, options.board, options.one_host),
+        deployment_(state, options.board, options.link.network.one_host),
         transaction_(options.board),
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), log),
         board_commands_(options.board, self_, keys_, process_, log),
         server_(self_, [this](const std::string& name) { return find(name); }) {
-    link_settings_.network.domain = options.domain.value_or(LinkSettings::kDefaultDomain);
-    link_settings_.network.interface_name = options.interface_name;
-    link_settings_.network.one_host = options.one_host;
+    link_settings_ = options.link;
     link_settings_.self = self_;
     link_settings_.network.board = options.board;
     host_ = host_name();
@@ -77,7 +75,7 @@ class Agent {
 
   int run(base::StopSignal& signals) {
     resume();
-    while (signals.wait(0) == 0) {
+    while (signals.wait({}) == 0) {
       const rt::MonoTime now = rt::MonoClock::now();
       process_.step(now);
       connect(now);
@@ -332,7 +330,7 @@ class Agent {
 
   void pause(base::StopSignal& signals) {
     if (link_ == nullptr) {
-      signals.wait(std::chrono::nanoseconds(kLook).count());
+      signals.wait(kLook);
     } else if (!busy_) {
       link_->wait(rt::MonoClock::now() + kLook);
     }

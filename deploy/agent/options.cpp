@@ -24,9 +24,7 @@ Result<AgentOptions, int> parse_options(int argc, char** argv) {
                      "Make this host a board of a plant: run what indurop deploy brought last, take new deployments");
   line.version(INDUROP_VERSION);
   line.add("--board", "NAME", options.board, "Name of the board").required().check(check_board);
-  line.flag("--one-host", options.one_host, "All boards of the plant run on this host: stay on loopback");
-  line.add("--domain", "N", options.domain, "DDS domain of the agents (default: 76)").range(0, 230);
-  line.add("--interface", "IF", options.interface_name, "Network interface (default: the only one)");
+  add_link_options(line, options.link);
   line.add("--core", "N", options.core, "Core of all modules that name none");
   line.flag("--require-rt", options.require_rt, "The node ends unless real-time rights were obtained");
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");

@@ -8,14 +8,14 @@
 #include <optional>
 #include <string>
 
+#include "deploy/link/deploy_link.h"
+
 namespace indurop::deploy {
 
 struct AgentOptions {
   std::string board;
-  bool one_host = false;       // all boards of the plant run on this host: loopback only
-  std::optional<int> domain;   // DDS domain of the agents; empty: the default
-  std::string interface_name;  // network interface; empty: the only one
-  std::optional<int> core;     // of all modules that name none
+  LinkSettings link;
+  std::optional<int> core;  // of all modules that name none
   bool require_rt = false;
   bool quiet = false;  // only warnings and errors
 };

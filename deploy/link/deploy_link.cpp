@@ -11,6 +11,7 @@
 
 #include "dds/endpoint.h"
 #include "dds/guid.h"
+#include "dds/network_options.h"
 #include "dds/other_releases.h"
 #include "dds/setup.h"
 #include "deploy/link/wire_words.h"
@@ -87,6 +88,10 @@ Result<void, base::Problem> DeployLink::Impl::make() {
     }
   }
   return others.open(participant.get());
+}
+
+void add_link_options(base::Options& line, LinkSettings& settings) {
+  dds::add_network_options(line, settings.network, "the agents");
 }
 
 std::uint64_t new_session() {

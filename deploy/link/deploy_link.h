@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/options.h"
 #include "base/problem.h"
 #include "dds/network_settings.h"
 #include "deploy/words/deployment_words.h"
@@ -29,6 +30,9 @@ struct LinkSettings {
   dds::NetworkSettings network;
   std::uint64_t self = 0;  // session of this agent or deployer
 };
+
+// --domain, --interface and --one-host of who speaks to agents, and of agents.
+void add_link_options(base::Options& line, LinkSettings& settings);
 
 // A session number that no other run has.
 std::uint64_t new_session();

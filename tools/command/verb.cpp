@@ -2,6 +2,7 @@
 #include "tools/command/verb.h"
 
 #include "base/duration.h"
+#include "dds/network_options.h"
 
 namespace indurop::tools {
 namespace {
@@ -31,17 +32,10 @@ void add_node_option(base::Options& app, Context& context) {
 void add_far_options(base::Options& app, Context& context) {
   FarOptions& far = context.far;
   app.flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
-  app.add("--domain", "N", far.network.domain,
-          "DDS domain in which boards show variables (default 0); implies --remote")
-      .range(0, 230)
-      .implies(far.wanted);
-  app.add("--interface", "IF", far.network.interface_name, "Network interface to the boards; implies --remote")
-      .implies(far.wanted);
+  dds::add_network_options(app, far.network, "the variables that boards show", &far.wanted, "--remote");
   app.add("--peer", "ADDRESS", far.network.peers,
           "Address of a board, for networks without multicast; implies --remote")
       .one_at_a_time()
-      .implies(far.wanted);
-  app.flag("--one-host", far.network.one_host, "Boards on this host, by loopback; implies --remote")
       .implies(far.wanted);
   add_time_option(app, "--wait", far.wait_ns, "With --remote: how long to wait for boards and values (default 3 s)");
 }

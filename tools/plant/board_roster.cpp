@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/plant/board_roster.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "rt/clock.h"
@@ -15,15 +13,6 @@ constexpr std::int64_t kLookNs = 20'000'000;
 constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents speak twice a second
 
 }  // namespace
-
-void add_link_options(base::Options& app, deploy::LinkSettings& settings) {
-  app.add("--domain", "N", settings.network.domain,
-          fmt::format("DDS domain of the agents (default: {})", deploy::LinkSettings::kDefaultDomain))
-      .range(0, 230);
-  app.add("--interface", "IF", settings.network.interface_name,
-          "Network interface to the boards (default: the only one)");
-  app.flag("--one-host", settings.network.one_host, "The agents run on this host: stay on loopback");
-}
 
 std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings) {
   settings.self = deploy::new_session();

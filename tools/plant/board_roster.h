@@ -16,7 +16,6 @@
 namespace indurop::tools {
 
 // --domain, --interface, --one-host
-void add_link_options(base::Options& app, deploy::LinkSettings& settings);
 // Null after an error message.
 std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings);
 

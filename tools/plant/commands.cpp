@@ -20,7 +20,7 @@ void add_command_options(base::Options& app, Context& context, CommandOptions& o
       .completes(base::Completion::Module);
   add_node_option(app, context);
   add_time_option(app, "--timeout", options.timeout_ns, "How long to wait (default 10 s)");
-  add_link_options(app, options.link);
+  deploy::add_link_options(app, options.link);
   app.add("--keys", "DIR", options.keys, "Folder of the plant's keys, if its boards have some");
 }
 

@@ -45,7 +45,7 @@ int show(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  add_link_options(app, options->link);
+  deploy::add_link_options(app, options->link);
   add_time_option(app, "--wait", options->wait_ns, "Listen so long before the first table (default: 1s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, options->repeat);

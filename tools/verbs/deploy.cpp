@@ -155,7 +155,7 @@ int deploy_plant(Context& context, Options& options) {
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add("file", "FILE", options->file, "Manifest of the plant (default: plant.xml)");
-  add_link_options(app, options->link);
+  deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,

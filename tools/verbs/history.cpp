@@ -109,7 +109,7 @@ int history(Context& context, Options& options) {
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add("--board", "NAME", options->board, "Only what this board remembers");
-  add_link_options(app, options->link);
+  deploy::add_link_options(app, options->link);
   add_time_option(app, "--wait", options->wait_ns, "Listen so long for boards (default: 1s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return history(c, *options); };

@@ -143,7 +143,7 @@ Action declare(base::Options& app, Context& context) {
         return hex && text.size() >= kShortestId ? std::string{} : "an id is 4 to 64 of the digits 0-9 and a-f";
       });
   app.add("--plant", "NAME", options->plant, "Plant that is meant (default: the only one)");
-  add_link_options(app, options->link);
+  deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,

@@ -150,7 +150,7 @@ Action declare(base::Options& app, Context& context) {
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, *repeat);
   app.flag("--plant", plant->wanted, "All boards of the network, from any machine; boards not heard are named");
-  add_link_options(app, plant->link);
+  deploy::add_link_options(app, plant->link);
   return [repeat, plant](Context& c) {
     return repeat_rounds(c, *repeat, [&c, &plant] {
       if (plant->wanted) {
