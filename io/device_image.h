@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "config/model/io_config.h"
+#include "config/check/io_binding.h"
 #include "io/driver.h"
 #include "io/sample.h"
 #include "io/scaling.h"

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "config/xml/io_reader.h"
+
 namespace indurop::io {
 
 Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase) {

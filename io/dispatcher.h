@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "config/model/io_config.h"
+#include "config/check/io_binding.h"
 #include "io/device_image.h"
 #include "io/exchange_thread.h"
 #include "io/variables.h"

@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "config/model/io_config.h"
+#include "config/check/io_binding.h"
+#include "config/xml/io_reader.h"
 
 namespace indurop::config {
 namespace {

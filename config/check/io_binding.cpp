@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The points of ioconfig.xml and the variables of the node: is there such a variable, and can it hold the value.
 
+#include "config/check/io_binding.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "base/diagnostics.h"
 #include "base/text.h"
-#include "config/model/io_config.h"
 
 namespace indurop::config {
 namespace {

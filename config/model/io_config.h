@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "config/model/config.h"
-#include "schema/schema.h"
 
 namespace indurop::config {
 
@@ -125,15 +124,6 @@ struct IoConfig {
   std::vector<IoDevice> devices;
 };
 
-struct ReadIo {
-  IoConfig config;
-  std::vector<base::Diagnostic> diagnostics;
-  [[nodiscard]] bool ok() const noexcept { return !base::has_error(diagnostics); }
-};
-// Everything that is wrong with the file at once. Not real-time safe.
-ReadIo read_io_config(const std::filesystem::path& file);
-ReadIo read_io_config_text(std::string_view xml, const std::filesystem::path& pretend_file);
-
 // An object of a CiA 402 drive as a point may name it.
 struct AxisObject {
   const char* name;
@@ -149,22 +139,6 @@ inline constexpr std::array<AxisObject, 10> kAxisObjects{{{"error", false},
                                                           {"mode", true},
                                                           {"position", true},
                                                           {"velocity", true}}};
-
-// A point with the variables it stands for, parts of variables of the schema that was given.
-struct BoundPoint {
-  IoPoint point;
-  schema::Place variable;
-  std::optional<schema::Place> quality;
-};
-struct BoundDevice {
-  IoDevice device;  // its points are in `points`, with those that in="" and out="" stand for
-  std::vector<BoundPoint> points;
-  std::optional<schema::Place> quality;
-  std::optional<schema::Place> errors;
-};
-// Finds the variables and says what does not fit. `schema` must outlive what is returned.
-std::vector<BoundDevice> bind_io(const IoConfig& config, const schema::Schema& schema,
-                                 std::vector<base::Diagnostic>& diagnostics);
 
 // A module file that exports this function takes the path of an ioconfig.xml from its property "config"; so the checks
 // know what it reads and writes.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The root of ioconfig.xml and its devices.
 
+#include "config/xml/io_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include <map>
 
 #include "base/text.h"
-#include "config/model/io_config.h"
 #include "config/xml/attributes.h"
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"

@@ -10,8 +10,9 @@
 #include <string_view>
 
 #include "config/check/check_plant.h"
-#include "config/model/io_config.h"
+#include "config/check/io_binding.h"
 #include "config/plan/plan.h"
+#include "config/xml/io_reader.h"
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 

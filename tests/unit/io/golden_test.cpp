@@ -10,7 +10,8 @@
 #include <indurop/generated.h>
 
 #include "cell_schema.h"
-#include "config/model/io_config.h"
+#include "config/check/io_binding.h"
+#include "config/xml/io_reader.h"
 #include "tests/golden/golden.h"
 
 namespace indurop::io {
