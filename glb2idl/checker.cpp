@@ -360,7 +360,7 @@ void check_file(Context& context, const ast::File& file) {
 }
 
 void choose_idl_constants(Context& context) {
-  for (Unit& unit : context.program.units) {
+  for (GlbFile& unit : context.program.units) {
     for (Item& item : unit.items) {
       auto* constant = std::get_if<Constant>(&item);
       if (constant == nullptr || scope_of(constant->name).empty()) {

@@ -45,7 +45,7 @@ class Compiler {
  private:
   // The node reads a schema with limits of its own; a file beyond them must not get as far as the node.
   void check_schemas() {
-    for (const Unit& unit : out_.program.units) {
+    for (const GlbFile& unit : out_.program.units) {
       if (!schema::from_json(schema::to_json(schema_of(unit))).ok()) {
         diagnostics_.error(
             fmt::format("'{}' declares more than one module can carry, use arrays or split it", unit.path));
@@ -83,7 +83,7 @@ class Compiler {
     }
     open_.push_back(file);
     const ast::File parsed = parse(sources_, file, tokenize(sources_, file, diagnostics_), diagnostics_);
-    Unit unit;
+    GlbFile unit;
     unit.path = path;
     unit.stem = *stem;
     unit.includes = load_includes(parsed, file);

@@ -18,7 +18,7 @@ struct Output {
 };
 
 // <stem>.idl: OMG IDL for idlc and other vendors' compilers.
-[[nodiscard]] std::string emit_idl(const Program& program, const Unit& unit);
+[[nodiscard]] std::string emit_idl(const Program& program, const GlbFile& unit);
 
 // <stem>.glb.h: the variables as C++ shapes. The header of an included file is included.
 // `hidden` holds the names of the namespaces for generated details, one per unit.
@@ -27,7 +27,7 @@ struct Output {
 [[nodiscard]] std::vector<std::string> hidden_names(const Program& program);
 
 // <stem>.layout.txt: sizes and offsets, for people.
-[[nodiscard]] std::string emit_layout(const Program& program, const Unit& unit);
+[[nodiscard]] std::string emit_layout(const Program& program, const GlbFile& unit);
 
 // All of these for all units, and indurop/generated.h last.
 [[nodiscard]] std::vector<Output> emit_all(const Program& program);

@@ -19,7 +19,7 @@ std::string hex(std::uint64_t value) {
 }
 
 template <class T>
-std::vector<const T*> all_of(const Unit& unit) {
+std::vector<const T*> all_of(const GlbFile& unit) {
   std::vector<const T*> out;
   for (const Item& item : unit.items) {
     if (const auto* found = std::get_if<T>(&item)) {
@@ -242,7 +242,7 @@ class CppWriter {
   }
 
   const Program& program_;
-  const Unit& unit_;
+  const GlbFile& unit_;
   const std::vector<std::string>& hidden_names_;
   std::string hidden_;
   std::vector<const schema::Variable*> variables_;

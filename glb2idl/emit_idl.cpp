@@ -33,7 +33,7 @@ std::string idl_type(const schema::Type& type) {
 
 class IdlWriter {
  public:
-  explicit IdlWriter(const Unit& unit) : unit_(unit) {}
+  explicit IdlWriter(const GlbFile& unit) : unit_(unit) {}
 
   std::string run(const Program& program) {
     std::string word = unit_.stem;
@@ -177,7 +177,7 @@ class IdlWriter {
   }
   static std::string comment(const std::string& text) { return text.empty() ? "" : "  // " + comment_line(text); }
 
-  const Unit& unit_;
+  const GlbFile& unit_;
   std::string out_;
   std::size_t depth_ = 0;
   std::string current_;
@@ -187,7 +187,7 @@ class IdlWriter {
 
 }  // namespace
 
-std::string emit_idl(const Program& program, const Unit& unit) {
+std::string emit_idl(const Program& program, const GlbFile& unit) {
   return IdlWriter(unit).run(program);
 }
 

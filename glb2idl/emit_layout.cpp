@@ -97,7 +97,7 @@ void add_fields(std::vector<Row>& rows, const schema::Type& type, const std::str
 
 }  // namespace
 
-std::string emit_layout(const Program& program, const Unit& unit) {
+std::string emit_layout(const Program& program, const GlbFile& unit) {
   std::vector<Row> variables{{"variable", "type", "bytes", "kind", "unit", "range", "properties", "description"}};
   std::string structs;
   std::uint64_t bytes = 0;
@@ -136,7 +136,7 @@ std::vector<Output> emit_all(const Program& program) {
   const std::vector<std::string> hidden = hidden_names(program);
   std::string all = "// All shared variables, written by glb2idl. Do not edit.\n#pragma once\n\n";
   for (std::size_t i = 0; i < program.units.size(); ++i) {
-    const Unit& unit = program.units[i];
+    const GlbFile& unit = program.units[i];
     out.push_back({unit.stem + ".idl", emit_idl(program, unit)});
     out.push_back({unit.stem + ".glb.h", emit_cpp(program, i, hidden)});
     out.push_back({unit.stem + ".layout.txt", emit_layout(program, unit)});

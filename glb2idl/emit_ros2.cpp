@@ -39,7 +39,7 @@ class RosWriter {
  public:
   explicit RosWriter(RosPackages& out) : out_(out) {}
 
-  void add(const Unit& unit) {
+  void add(const GlbFile& unit) {
     unit_ = &unit;
     for (const Item& item : unit.items) {
       if (const auto* structure = std::get_if<Structure>(&item)) {
@@ -202,7 +202,7 @@ ament_package()
   }
 
   RosPackages& out_;
-  const Unit* unit_ = nullptr;
+  const GlbFile* unit_ = nullptr;
   std::map<std::string, Package> packages_;
 };
 
@@ -211,7 +211,7 @@ ament_package()
 RosPackages emit_ros2(const Program& program) {
   RosPackages out;
   RosWriter writer(out);
-  for (const Unit& unit : program.units) {
+  for (const GlbFile& unit : program.units) {
     writer.add(unit);
   }
   if (out.problems.empty()) {

@@ -125,7 +125,7 @@ class TypesWriter {
 
 }  // namespace
 
-void emit_types(const Unit& unit, HeaderText& out) {
+void emit_types(const GlbFile& unit, HeaderText& out) {
   TypesWriter writer(out);
   for (const Item& item : unit.items) {
     std::visit(writer, item);

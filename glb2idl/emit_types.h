@@ -10,7 +10,7 @@
 namespace indurop::glb2idl {
 
 // In the order of the .glb; variables are left out.
-void emit_types(const Unit& unit, HeaderText& out);
+void emit_types(const GlbFile& unit, HeaderText& out);
 // "  // description [unit]"
 [[nodiscard]] std::string about(const std::string& description, const std::string& unit);
 

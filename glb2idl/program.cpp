@@ -44,7 +44,7 @@ std::string_view scope_of(const Item& item) noexcept {
   return std::visit(Visitor{}, item);
 }
 
-schema::Schema schema_of(const Unit& unit) {
+schema::Schema schema_of(const GlbFile& unit) {
   schema::Schema out;
   for (const Item& item : unit.items) {
     if (const auto* variable = std::get_if<schema::Variable>(&item)) {

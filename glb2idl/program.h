@@ -43,7 +43,7 @@ struct Alias {
 using Item = std::variant<Constant, Enumeration, Structure, Alias, schema::Variable, schema::Function>;
 
 // One .glb file.
-struct Unit {
+struct GlbFile {
   std::string path;                   // as given
   std::string stem;                   // "knuRobot"
   std::vector<std::size_t> includes;  // units named by its include lines, in order
@@ -51,7 +51,7 @@ struct Unit {
 };
 
 struct Program {
-  std::vector<Unit> units;                   // a unit stands behind those it includes
+  std::vector<GlbFile> units;                // a unit stands behind those it includes
   std::map<std::string, std::size_t> owner;  // struct name -> unit that declares it
 };
 
@@ -65,7 +65,7 @@ struct Program {
 [[nodiscard]] std::string_view scope_of(const Item& item) noexcept;
 
 // What the unit itself declares, for modules that include its header.
-[[nodiscard]] schema::Schema schema_of(const Unit& unit);
+[[nodiscard]] schema::Schema schema_of(const GlbFile& unit);
 
 // Whether the variable's DDS type is the struct <variable>_ with one member `value`: all but single structs.
 [[nodiscard]] bool is_wrapped(const schema::Type& type) noexcept;

@@ -65,7 +65,7 @@ const char* Cursor::quoted(std::string& to) {
   }
   const char quote = text_[at_++];
   while (at_end() || text_[at_] != quote) {
-    Unit c;
+    Character c;
     if (const char* wrong = unit(c)) {
       return wrong;
     }
@@ -79,7 +79,7 @@ const char* Cursor::quoted(std::string& to) {
   return nullptr;
 }
 
-const char* Cursor::quoted_unit(Unit& to) {
+const char* Cursor::quoted_unit(Character& to) {
   constexpr const char* kWrong = "expected one character between quotes";
   if (!at_quote()) {
     return kWrong;
@@ -98,7 +98,7 @@ const char* Cursor::quoted_unit(Unit& to) {
   return nullptr;
 }
 
-const char* Cursor::unit(Unit& to) {
+const char* Cursor::unit(Character& to) {
   if (at_end()) {
     return "the closing quote is missing";
   }
@@ -107,7 +107,7 @@ const char* Cursor::unit(Unit& to) {
 }
 
 // What follows a backslash.
-const char* Cursor::escape(Unit& to) {
+const char* Cursor::escape(Character& to) {
   constexpr std::string_view kShort = "n\nt\tr\rb\bf\f0\0\\\\\"\"''//"sv;  // letter, then what it stands for
   if (at_end()) {
     return "the closing quote is missing";

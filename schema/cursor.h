@@ -10,7 +10,7 @@
 namespace indurop::schema {
 
 // One character of a quoted text: a byte as it is (or written \xNN), or a Unicode character written \uNNNN.
-struct Unit {
+struct Character {
   std::uint32_t code = 0;
   bool unicode = false;
 };
@@ -35,11 +35,11 @@ class Cursor {
   // Whether a quote is next, which both of the following need. They return null, or what is wrong at column().
   bool at_quote() noexcept;
   const char* quoted(std::string& to);
-  const char* quoted_unit(Unit& to);
+  const char* quoted_unit(Character& to);
 
  private:
-  const char* unit(Unit& to);
-  const char* escape(Unit& to);
+  const char* unit(Character& to);
+  const char* escape(Character& to);
 
   std::string_view text_;
   std::size_t at_ = 0;

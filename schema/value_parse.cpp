@@ -285,7 +285,7 @@ class Parser {
 
   bool character(std::uint8_t* to) {
     if (cursor_.at_quote()) {
-      Unit c;
+      Character c;
       if (const char* wrong = cursor_.quoted_unit(c)) {
         return syntax(wrong);
       }

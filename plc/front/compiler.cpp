@@ -34,7 +34,7 @@ std::string name_from(const std::string& file) {
 
 std::vector<schema::Variable> variables_of(const glb2idl::Program& program) {
   std::vector<schema::Variable> out;
-  for (const glb2idl::Unit& unit : program.units) {
+  for (const glb2idl::GlbFile& unit : program.units) {
     for (const glb2idl::Item& item : unit.items) {
       if (const auto* variable = std::get_if<schema::Variable>(&item)) {
         out.push_back(*variable);

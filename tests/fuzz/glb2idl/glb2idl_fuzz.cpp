@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   (void)emit_all(result.program);
-  for (const Unit& unit : result.program.units) {
+  for (const GlbFile& unit : result.program.units) {
     if (!indurop::schema::from_json(indurop::schema::to_json(schema_of(unit))).ok()) {
       std::abort();
     }

@@ -60,7 +60,7 @@ TEST_P(Golden, Output_is_as_expected) {
 
 TEST_P(Golden, Schema_in_the_header_can_be_read_back) {
   const Compilation sut = compile({(fs::path(GLB2IDL_GOLDEN) / GetParam() / "in.glb").string()});
-  for (const Unit& unit : sut.program.units) {
+  for (const GlbFile& unit : sut.program.units) {
     const schema::Schema written = schema_of(unit);
     const auto read = schema::from_json(schema::to_json(written));
     ASSERT_TRUE(read.ok()) << unit.stem;

@@ -33,7 +33,7 @@ inline Compilation compile_text(const std::string& text) {
 
 // The variable of that full name.
 inline schema::Variable variable(const Compilation& compilation, const std::string& name) {
-  for (const Unit& unit : compilation.program.units) {
+  for (const GlbFile& unit : compilation.program.units) {
     for (const Item& item : unit.items) {
       const auto* found = std::get_if<schema::Variable>(&item);
       if (found != nullptr && found->name == name) {
