@@ -18,9 +18,9 @@ StopSignal::StopSignal() noexcept {
   std::signal(SIGPIPE, SIG_IGN);  // a closed terminal or pipe must not end a running robot
 }
 
-int StopSignal::wait(std::int64_t timeout_ns) noexcept {
-  const timespec timeout = rt::to_timespec(timeout_ns);
-  const int number = ::sigtimedwait(&set_, nullptr, &timeout);
+int StopSignal::wait(std::chrono::nanoseconds timeout) noexcept {
+  const timespec most = rt::to_timespec(timeout.count());
+  const int number = ::sigtimedwait(&set_, nullptr, &most);
   if (number > 0 && number != SIGCHLD) {
     received_ = number;
   }

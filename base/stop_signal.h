@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include <chrono>
 #include <csignal>
-#include <cstdint>
 
 namespace indurop::base {
 
@@ -13,7 +13,7 @@ class StopSignal {
   StopSignal() noexcept;
   // Waits at most this long for a stop signal or the end of a child. Returns the stop signal that has come so far, 0 if
   // none.
-  int wait(std::int64_t timeout_ns) noexcept;
+  int wait(std::chrono::nanoseconds timeout) noexcept;
   [[nodiscard]] int received() const noexcept { return received_; }
 
  private:

@@ -7,7 +7,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kSummaryNs = 1'000'000'000;
+constexpr std::chrono::seconds kSummary{1};
 constexpr std::size_t kMostLines = 4;
 
 double microseconds(std::int64_t ns) noexcept {
@@ -48,22 +48,22 @@ void Console::watch(scheduler::RunBlock& run) {
   reader_.emplace(run);
 }
 
-void Console::report(std::int64_t now_ns, bool last) {
+void Console::report(rt::MonoTime now, bool last) {
   if (run_ == nullptr) {
     return;
   }
-  print_messages(now_ns);
+  print_messages(now);
   report_faults();
-  if (last || now_ns >= next_summary_ns_) {
-    report_overruns(now_ns, last);
+  if (last || now >= next_summary_) {
+    report_overruns(now, last);
     report_losses();
   }
 }
 
-void Console::print_messages(std::int64_t now_ns) {
+void Console::print_messages(rt::MonoTime now) {
   runtime::Message message;
   bool any = false;
-  while (reader_->next(message, now_ns)) {
+  while (reader_->next(message, now)) {
     std::fwrite(message.text.data(), 1, message.text.size(), stdout);
     any = true;
   }
@@ -84,8 +84,8 @@ void Console::report_faults() {
   }
 }
 
-void Console::report_overruns(std::int64_t now_ns, bool last) {
-  next_summary_ns_ = now_ns + kSummaryNs;
+void Console::report_overruns(rt::MonoTime now, bool last) {
+  next_summary_ = now + kSummary;
   std::vector<std::string> lines;
   for (std::uint32_t i = 0; i < run_->module_count; ++i) {
     const scheduler::ModuleRecord& module = run_->modules()[i];

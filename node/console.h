@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "rt/clock.h"
 #include "runtime/message_ring.h"
 #include "scheduler/run_block.h"
 
@@ -21,12 +22,12 @@ class Console : public base::Log {
 
   void watch(scheduler::RunBlock& run);
   // Prints what has happened since the last call. `last`: also what was held back to be summed up.
-  void report(std::int64_t now_ns, bool last);
+  void report(rt::MonoTime now, bool last);
 
  private:
-  void print_messages(std::int64_t now_ns);
+  void print_messages(rt::MonoTime now);
   void report_faults();
-  void report_overruns(std::int64_t now_ns, bool last);
+  void report_overruns(rt::MonoTime now, bool last);
   void report_losses();
 
   struct Seen {
@@ -38,7 +39,7 @@ class Console : public base::Log {
   scheduler::RunBlock* run_ = nullptr;
   std::optional<runtime::MessageReader> reader_;  // none before watch()
   std::vector<Seen> seen_;
-  std::int64_t next_summary_ns_ = 0;
+  rt::MonoTime next_summary_;
 };
 
 }  // namespace indurop::node

@@ -9,7 +9,7 @@
 namespace indurop::node {
 
 std::optional<Ending> interruption(base::StopSignal& signals) {
-  const int number = signals.wait(0);
+  const int number = signals.wait({});
   if (number == 0) {
     return std::nullopt;
   }

@@ -22,10 +22,9 @@ schema::Part part_of(const vars::Store& store, const vars::Force& force) {
 }
 
 std::string time_of(const vars::Force& force) {
-  const std::int64_t left = force.until_ns - rt::now_ns();
-  return force.until_ns == vars::kForever
-             ? "until it is released (indurop unforce)"
-             : fmt::format("for {:.1f} s", static_cast<double>(left) / static_cast<double>(rt::kNanosPerSecond));
+  const std::chrono::duration<double> left = force.until - rt::MonoClock::now();
+  return force.until == vars::kForever ? "until it is released (indurop unforce)"
+                                       : fmt::format("for {:.1f} s", left.count());
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ void ForceWatch::look(vars::Store& store, Console& console) {
   std::vector<vars::Force> now = store.forces();
   for (const vars::Force& one : now) {
     const vars::Force* before = find(known_, one);
-    if (before == nullptr || before->value != one.value || before->until_ns != one.until_ns) {
+    if (before == nullptr || before->value != one.value || before->until != one.until) {
       const schema::Part part = part_of(store, one);
       console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()), time_of(one));
     }

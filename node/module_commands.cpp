@@ -13,8 +13,8 @@ using scheduler::ModuleCommand;
 using scheduler::ModuleState;
 using scheduler::Operation;
 
-constexpr std::int64_t kLaunchNs = 5'000'000'000;  // until a process is ready to be released
-constexpr std::int64_t kLookNs = 1'000'000;
+constexpr std::chrono::seconds kLaunch{5};  // until a process is ready to be released
+constexpr std::chrono::milliseconds kLook{1};
 
 }  // namespace
 
@@ -33,85 +33,85 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
   return true;
 }
 
-void ModuleCommands::look(std::int64_t now_ns) {
+void ModuleCommands::look(rt::MonoTime now) {
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
     if (command != ModuleCommand::None && !taken) {
-      take(i, command, now_ns);
+      take(i, command, now);
     }
   }
-  std::erase_if(works_, [&](Work& work) { return go_on(work, now_ns); });
+  std::erase_if(works_, [&](Work& work) { return go_on(work, now); });
 }
 
-void ModuleCommands::take(std::uint32_t module, ModuleCommand command, std::int64_t now_ns) {
+void ModuleCommands::take(std::uint32_t module, ModuleCommand command, rt::MonoTime now) {
   const ModuleState state = record(module).state.load();
   const bool stopped = state == ModuleState::Stopped;
   const bool runs = state == ModuleState::Running || state == ModuleState::Starting;
-  Work work{module, command, Step::Leaving, now_ns, {nullptr, [](Phases::Call* /*none*/) {}}};
+  Work work{module, command, Step::Leaving, now, {nullptr, [](Phases::Call* /*none*/) {}}};
   if ((command == ModuleCommand::Stop && stopped) || (command == ModuleCommand::Start && runs)) {
     scheduler::answer_command(record(module), CommandResult::Unchanged);
     return;
   }
   if (!stopped) {
-    leave(work, now_ns);
-  } else if (begin_start(work, now_ns)) {
+    leave(work, now);
+  } else if (begin_start(work, now)) {
     return;
   }
   works_.push_back(std::move(work));
 }
 
-bool ModuleCommands::go_on(Work& work, std::int64_t now_ns) {
+bool ModuleCommands::go_on(Work& work, rt::MonoTime now) {
   switch (work.step) {
     case Step::Leaving:
-      return has_left(work, now_ns) && call_stop(work, now_ns);
+      return has_left(work, now) && call_stop(work, now);
     case Step::Stopping:
-      if (!parts_.phases.ended(*work.call, now_ns, Phases::kGraceNs)) {
+      if (!parts_.phases.ended(*work.call, now, Phases::kGrace)) {
         return false;
       }
       (void)parts_.phases.conclude(std::move(work.call));  // that it failed is said; stopped it is all the same
-      return rest(work, now_ns);
+      return rest(work, now);
     case Step::Starting:
-      return parts_.phases.ended(*work.call, now_ns, 0) &&
+      return parts_.phases.ended(*work.call, now, {}) &&
              (parts_.phases.conclude(std::move(work.call)) ? enter(work) : answer(work, CommandResult::Failed));
     case Step::Launching:
-      return launched(work, now_ns);
+      return launched(work, now);
   }
   return true;
 }
 
-void ModuleCommands::leave(const Work& work, std::int64_t now_ns) {
+void ModuleCommands::leave(const Work& work, rt::MonoTime now) {
   if (is_process(work.module)) {
-    parts_.processes.stop(work.module, now_ns);
+    parts_.processes.stop(work.module, now);
   } else if (!parts_.engine.disable(work.module)) {
-    parts_.normal_threads.halt(work.module, now_ns);
+    parts_.normal_threads.halt(work.module, now);
   }
 }
 
-bool ModuleCommands::has_left(const Work& work, std::int64_t now_ns) {
+bool ModuleCommands::has_left(const Work& work, rt::MonoTime now) {
   return parts_.processes.has_ended(work.module) && parts_.engine.at_rest(work.module) &&
-         parts_.normal_threads.has_ended(work.module, now_ns);
+         parts_.normal_threads.has_ended(work.module, now);
 }
 
 // No run of it is in progress any more: stop() follows.
-bool ModuleCommands::call_stop(Work& work, std::int64_t now_ns) {
+bool ModuleCommands::call_stop(Work& work, rt::MonoTime now) {
   record(work.module).state.store(ModuleState::Stopped);
   if (auto* stop = parts_.libraries[work.module].functions().stop; stop != nullptr) {
     work.call = parts_.phases.begin(work.module, "stop", stop);
     work.step = Step::Stopping;
   }
-  return work.call == nullptr && rest(work, now_ns);
+  return work.call == nullptr && rest(work, now);
 }
 
 // The last word is with the values declared for the case that it is gone.
-bool ModuleCommands::rest(Work& work, std::int64_t now_ns) {
+bool ModuleCommands::rest(Work& work, rt::MonoTime now) {
   record(work.module).state.store(ModuleState::Stopped);
   parts_.failsafe.apply(work.module);
-  return work.command == ModuleCommand::Stop ? answer(work, CommandResult::Done) : begin_start(work, now_ns);
+  return work.command == ModuleCommand::Stop ? answer(work, CommandResult::Done) : begin_start(work, now);
 }
 
-bool ModuleCommands::begin_start(Work& work, std::int64_t now_ns) {
-  work.began_ns = now_ns;
+bool ModuleCommands::begin_start(Work& work, rt::MonoTime now) {
+  work.began = now;
   if (is_process(work.module)) {
     work.step = Step::Launching;
     return !parts_.processes.start(work.module) && answer(work, CommandResult::Failed);
@@ -134,7 +134,7 @@ bool ModuleCommands::enter(Work& work) {
   return answer(work, CommandResult::Done);
 }
 
-bool ModuleCommands::launched(Work& work, std::int64_t now_ns) {
+bool ModuleCommands::launched(Work& work, rt::MonoTime now) {
   switch (record(work.module).state.load()) {
     case ModuleState::Running:
     case ModuleState::Exited:
@@ -147,14 +147,14 @@ bool ModuleCommands::launched(Work& work, std::int64_t now_ns) {
     case ModuleState::Stopped:
       break;
   }
-  return now_ns - work.began_ns > kLaunchNs && answer(work, CommandResult::Failed);
+  return now - work.began > kLaunch && answer(work, CommandResult::Failed);
 }
 
 void ModuleCommands::end() {
   for (Work& work : works_) {
     if (work.call != nullptr) {
-      while (!parts_.phases.ended(*work.call, rt::now_ns(), Phases::kGraceNs)) {
-        rt::sleep_until(rt::now_ns() + kLookNs);
+      while (!parts_.phases.ended(*work.call, rt::MonoClock::now(), Phases::kGrace)) {
+        rt::sleep_until(rt::MonoClock::now() + kLook);
       }
       if (parts_.phases.conclude(std::move(work.call)) && work.step == Step::Starting) {
         record(work.module).state.store(ModuleState::Loaded);  // it has started, so it gets its stop()

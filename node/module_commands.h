@@ -33,7 +33,7 @@ class ModuleCommands {
   explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
 
   // Takes new commands and goes on with those under way.
-  void look(std::int64_t now_ns);
+  void look(rt::MonoTime now);
   // The node ends, its schedule has: waits for calls in progress and answers what is left.
   void end();
 
@@ -44,19 +44,19 @@ class ModuleCommands {
     std::uint32_t module;
     scheduler::ModuleCommand command;
     Step step;
-    std::int64_t began_ns;
+    rt::MonoTime began;
     Phases::CallPointer call;
   };
-  void take(std::uint32_t module, scheduler::ModuleCommand command, std::int64_t now_ns);
+  void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now);
   // True when there is nothing left to do for it.
-  bool go_on(Work& work, std::int64_t now_ns);
-  void leave(const Work& work, std::int64_t now_ns);
-  bool has_left(const Work& work, std::int64_t now_ns);
-  bool call_stop(Work& work, std::int64_t now_ns);
-  bool rest(Work& work, std::int64_t now_ns);
-  bool begin_start(Work& work, std::int64_t now_ns);
+  bool go_on(Work& work, rt::MonoTime now);
+  void leave(const Work& work, rt::MonoTime now);
+  bool has_left(const Work& work, rt::MonoTime now);
+  bool call_stop(Work& work, rt::MonoTime now);
+  bool rest(Work& work, rt::MonoTime now);
+  bool begin_start(Work& work, rt::MonoTime now);
   bool enter(Work& work);
-  bool launched(Work& work, std::int64_t now_ns);
+  bool launched(Work& work, rt::MonoTime now);
   bool answer(const Work& work, scheduler::CommandResult result);
   [[nodiscard]] bool is_process(std::uint32_t module) const noexcept;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {

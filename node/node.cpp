@@ -54,7 +54,7 @@ bool tell_statistics(const Options& options, const scheduler::RunBlock& run, con
 
 // Says how the run went and writes it into the run block; returns the exit code.
 int conclude(const Options& options, Console& console, scheduler::RunBlock& run, Ending ending) {
-  console.report(rt::now_ns(), true);
+  console.report(rt::MonoClock::now(), true);
   if (run.tick.load() == 0 && !ending.reason.empty() && ending.code == kFailed) {
     console.error("stopped before the first tick: {}", ending.reason);
   }

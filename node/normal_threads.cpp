@@ -8,8 +8,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kLookNs = 10'000'000;
-constexpr std::int64_t kGraceNs = 2'000'000'000;
+constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::seconds kGrace{2};
 constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
@@ -21,7 +21,7 @@ struct NormalThreads::Normal {
   scheduler::Runner runner;
   std::int64_t period_ns = 0;
   std::atomic<bool> halt{false};
-  std::int64_t give_up_ns = 0;
+  rt::MonoTime give_up;
   std::atomic<bool> done{false};
   rt::Thread thread;
 };
@@ -66,21 +66,21 @@ NormalThreads::Normal* NormalThreads::find(std::uint32_t module) noexcept {
   return found == normals_.end() ? nullptr : found->get();
 }
 
-void NormalThreads::halt(std::uint32_t module, std::int64_t now_ns) {
+void NormalThreads::halt(std::uint32_t module, rt::MonoTime now) {
   if (Normal* normal = find(module); normal != nullptr) {
-    normal->give_up_ns = now_ns + kGraceNs;
+    normal->give_up = now + kGrace;
     normal->halt.store(true);
   }
 }
 
-bool NormalThreads::has_ended(std::uint32_t module, std::int64_t now_ns) {
+bool NormalThreads::has_ended(std::uint32_t module, rt::MonoTime now) {
   Normal* normal = find(module);
   if (normal == nullptr) {
     return true;
   }
   if (!normal->done.load()) {
-    if (now_ns > normal->give_up_ns) {
-      normal->runner.enforce_budget(rt::mono_time(now_ns), true, 1);
+    if (now > normal->give_up) {
+      normal->runner.enforce_budget(now, true, 1);
     }
     return false;
   }
@@ -96,12 +96,12 @@ void NormalThreads::loop(Normal& normal) noexcept {
   record.state.store(scheduler::ModuleState::Running);
   scheduler::TaskState* const only[] = {&normal.state};
   const auto leaving = [&] { return stop_.load() || normal.halt.load(); };
-  std::int64_t next = rt::now_ns();
+  rt::MonoTime next = rt::MonoClock::now();
   do {
     normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), rt::MonoClock::now());
-    next = std::max(next + normal.period_ns, rt::now_ns());
-    while (normal.period_ns > 0 && rt::now_ns() < next && !leaving()) {
-      rt::sleep_until(std::min(next, rt::now_ns() + kLookNs));
+    next = std::max(next + std::chrono::nanoseconds{normal.period_ns}, rt::MonoClock::now());
+    while (normal.period_ns > 0 && rt::MonoClock::now() < next && !leaving()) {
+      rt::sleep_until(std::min(next, rt::MonoClock::now() + kLook));
     }
   } while (normal.period_ns > 0 && !leaving() && normal.state.enabled.load());
   normal.runner.detach_thread();
@@ -113,12 +113,12 @@ void NormalThreads::loop(Normal& normal) noexcept {
 
 void NormalThreads::stop() {
   stop_.store(true);
-  const std::int64_t give_up = rt::now_ns() + kGraceNs;
+  const rt::MonoTime give_up = rt::MonoClock::now() + kGrace;
   for (const auto& normal : normals_) {
     while (!normal->done.load()) {
-      rt::sleep_until(rt::now_ns() + kLookNs);
-      if (const std::int64_t now = rt::now_ns(); now > give_up) {
-        normal->runner.enforce_budget(rt::mono_time(now), true, 1);
+      rt::sleep_until(rt::MonoClock::now() + kLook);
+      if (const rt::MonoTime now = rt::MonoClock::now(); now > give_up) {
+        normal->runner.enforce_budget(now, true, 1);
       }
     }
     normal->thread.join();

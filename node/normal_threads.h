@@ -30,8 +30,8 @@ class NormalThreads {
   // One of them alone. launch(): false if there is no thread for it. halt() only asks; one that does not return within
   // the same time is ended by has_ended(), which is true then, too, for a module that has no thread.
   bool launch(std::uint32_t module);
-  void halt(std::uint32_t module, std::int64_t now_ns);
-  bool has_ended(std::uint32_t module, std::int64_t now_ns);
+  void halt(std::uint32_t module, rt::MonoTime now);
+  bool has_ended(std::uint32_t module, rt::MonoTime now);
 
  private:
   struct Normal;

@@ -11,7 +11,7 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kLookNs = 1'000'000;
+constexpr std::chrono::milliseconds kLook{1};
 constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 
 }  // namespace
@@ -28,7 +28,7 @@ struct Phases::Call {
   scheduler::Runner runner;
   std::atomic<bool> done{false};
   bool told = false;
-  std::int64_t began_ns = rt::now_ns();
+  rt::MonoTime began = rt::MonoClock::now();
   rt::Thread thread;
 };
 
@@ -73,15 +73,15 @@ Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (
   return call;
 }
 
-bool Phases::ended(Call& call, std::int64_t now_ns, std::int64_t limit_ns) {
+bool Phases::ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit) {
   if (call.done.load(std::memory_order_acquire)) {
     return true;
   }
-  if (limit_ns != 0 && now_ns - call.began_ns > limit_ns) {
-    call.runner.enforce_budget(rt::mono_time(now_ns), true, 1);
-  } else if (!call.told && now_ns - call.began_ns > kGraceNs) {
+  if (limit.count() != 0 && now - call.began > limit) {
+    call.runner.enforce_budget(now, true, 1);
+  } else if (!call.told && now - call.began > kGrace) {
     console_.warning("module {}: {}() has not returned for {} s", config_.modules[call.index].name, call.phase,
-                     kGraceNs / rt::kNanosPerSecond);
+                     kGrace.count());
     call.told = true;
   }
   return false;
@@ -108,12 +108,12 @@ bool Phases::call(std::uint32_t index, const char* phase, void (*function)()) {
     return false;
   }
   // start() may take its time, until somebody wants the node to end; stop() has a limit in any case.
-  std::int64_t limit = std::string_view(phase) == "stop" ? kGraceNs : 0;
-  while (!ended(*call, rt::now_ns(), limit)) {
-    const int number = signals_.wait(kLookNs);
-    console_.report(rt::now_ns(), false);
-    if (number != 0 && limit == 0) {
-      limit = rt::now_ns() - call->began_ns + kGraceNs;
+  std::chrono::nanoseconds limit{std::string_view(phase) == "stop" ? kGrace : std::chrono::seconds{0}};
+  while (!ended(*call, rt::MonoClock::now(), limit)) {
+    const int number = signals_.wait(kLook);
+    console_.report(rt::MonoClock::now(), false);
+    if (number != 0 && limit.count() == 0) {
+      limit = rt::MonoClock::now() - call->began + kGrace;
     }
   }
   return conclude(std::move(call));

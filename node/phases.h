@@ -30,11 +30,11 @@ class Phases {
   using CallPointer = std::unique_ptr<Call, void (*)(Call*)>;
   // Null after an error on the console.
   CallPointer begin(std::uint32_t index, const char* phase, void (*function)());
-  // It has returned. One that takes longer than `limit_ns` (0: none) is ended as a fault.
-  bool ended(Call& call, std::int64_t now_ns, std::int64_t limit_ns);
+  // It has returned. One that takes longer than `limit` (0: none) is ended as a fault.
+  bool ended(Call& call, rt::MonoTime now, std::chrono::nanoseconds limit);
   // After that: false if it failed; the module is marked as faulted then, with the reason.
   bool conclude(CallPointer call);
-  static constexpr std::int64_t kGraceNs = 3'000'000'000;  // for stop()
+  static constexpr std::chrono::seconds kGrace{3};  // for stop()
 
  private:
   bool call(std::uint32_t index, const char* phase, void (*function)());

@@ -20,10 +20,10 @@ using scheduler::FaultKind;
 using scheduler::ModuleState;
 using scheduler::Operation;
 
-constexpr std::int64_t kEndGraceNs = 2'000'000'000;
-constexpr std::int64_t kAskedNs = 500'000'000;  // then SIGTERM
-constexpr std::int64_t kPollNs = 5'000'000;
-constexpr std::int64_t kPatienceNs = 2'000'000'000;
+constexpr std::chrono::seconds kEndGrace{2};
+constexpr std::chrono::milliseconds kAsked{500};  // then SIGTERM
+constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::seconds kPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
 
 std::string describe(int status) {
@@ -40,7 +40,7 @@ Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     if (config.modules[i].type == scheduler::ModuleType::Process) {
-      children_.push_back(Child{i, &config.modules[i], -1, 0, {}, false});
+      children_.push_back(Child{i, &config.modules[i], -1, {}, {}, false});
     }
   }
 }
@@ -60,7 +60,7 @@ bool Processes::enrolled(Child& child) {
   if (expects_signal(child.pid, child.module->signal)) {
     return true;
   }
-  if (!child.warned && rt::now_ns() - child.launched_ns > kPatienceNs) {
+  if (!child.warned && rt::MonoClock::now() - child.launched > kPatience) {
     child.warned = true;
     console_.warning("module {} neither catches nor blocks {} ({}): it is not woken until it does", record(child).name,
                      child.module->signal, ::strsignal(child.module->signal));
@@ -95,7 +95,7 @@ bool Processes::launch(Child& child) {
   child.pid = started.value();
   child.killed_for_budget = false;
   child.warned = false;
-  child.launched_ns = rt::now_ns();
+  child.launched = rt::MonoClock::now();
   module.pid.store(child.pid, std::memory_order_release);
   if (child.module->signal != 0 && realtime_) {
     (void)rt::set_fifo_of(child.pid, module.fifo_priority);
@@ -112,25 +112,24 @@ bool Processes::ready() const noexcept {
   });
 }
 
-bool Processes::supervise(std::int64_t now_ns) {
+bool Processes::supervise(rt::MonoTime now) {
   for (Child& child : children_) {
     scheduler::ModuleRecord& module = record(child);
     if (child.pid > 0) {
       int status = 0;
       if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
-        died(child, status, now_ns);
+        died(child, status, now);
       } else if (child.stopping) {
-        insist(child, now_ns);
+        insist(child, now);
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         module.state.store(ModuleState::Running, std::memory_order_release);
       } else {
-        enforce_budget(child, now_ns);
+        enforce_budget(child, now);
       }
-    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting &&
-               now_ns >= child.restart_at_ns) {
+    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting && now >= child.restart_at) {
       module.restarts.fetch_add(1, std::memory_order_relaxed);
       if (!launch(child)) {
-        plan_restart(child, now_ns);
+        plan_restart(child, now);
       }
     }
   }
@@ -143,7 +142,7 @@ void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
   failsafe_.apply(child.index);
 }
 
-void Processes::died(Child& child, int status, std::int64_t now_ns) {
+void Processes::died(Child& child, int status, rt::MonoTime now) {
   scheduler::ModuleRecord& module = record(child);
   child.pid = -1;
   module.pid.store(0, std::memory_order_release);
@@ -166,12 +165,12 @@ void Processes::died(Child& child, int status, std::int64_t now_ns) {
   } else {
     fault(child, FaultKind::Exit, describe(status));
   }
-  plan_restart(child, now_ns);
+  plan_restart(child, now);
 }
 
-void Processes::plan_restart(Child& child, std::int64_t now_ns) {
+void Processes::plan_restart(Child& child, rt::MonoTime now) {
   const config::Restart& rule = child.module->restart;
-  while (!child.restarts.empty() && now_ns - child.restarts.front() > rule.window.count()) {
+  while (!child.restarts.empty() && now - child.restarts.front() > rule.window) {
     child.restarts.pop_front();
   }
   scheduler::ModuleRecord& module = record(child);
@@ -186,15 +185,15 @@ void Processes::plan_restart(Child& child, std::int64_t now_ns) {
     }
     return;
   }
-  child.restarts.push_back(now_ns);
+  child.restarts.push_back(now);
   if (child.restarts.size() > kRestartsKept) {
     child.restarts.pop_front();
   }
-  child.restart_at_ns = now_ns + rule.delay.count();
+  child.restart_at = now + rule.delay;
   module.state.store(ModuleState::Restarting, std::memory_order_release);
 }
 
-void Processes::enforce_budget(Child& child, std::int64_t now_ns) {
+void Processes::enforce_budget(Child& child, rt::MonoTime now) {
   const scheduler::ModuleRecord& module = record(child);
   const scheduler::ProcessSlot& at = slot(child);
   if (!managed(child) || module.budget_ns <= 0 || child.killed_for_budget) {
@@ -204,7 +203,7 @@ void Processes::enforce_budget(Child& child, std::int64_t now_ns) {
   const std::int64_t start = at.start_ns.load(std::memory_order_relaxed);
   const bool running =
       done != at.released.load(std::memory_order_relaxed) && start >= at.release_ns.load(std::memory_order_relaxed);
-  if (running && now_ns - start > module.budget_ns) {
+  if (running && rt::to_ns(now) - start > module.budget_ns) {
     child.killed_for_budget = true;
     ::kill(child.pid, SIGKILL);
   }
@@ -227,24 +226,24 @@ void Processes::ask_to_end(Child& child) {
   }
 }
 
-void Processes::stop(std::uint32_t module, std::int64_t now_ns) {
+void Processes::stop(std::uint32_t module, rt::MonoTime now) {
   if (Child* child = find(module); child != nullptr) {
     record(*child).state.store(ModuleState::Stopped, std::memory_order_release);  // not released from here on
     child->stopping = true;
-    child->stop_ns = now_ns;
+    child->asked = now;
     if (child->pid > 0) {
       ask_to_end(*child);
     }
   }
 }
 
-void Processes::insist(Child& child, std::int64_t now_ns) {
-  const std::int64_t since = now_ns - child.stop_ns;
-  if (since > kEndGraceNs) {
+void Processes::insist(Child& child, rt::MonoTime now) {
+  const std::chrono::nanoseconds since = now - child.asked;
+  if (since > kEndGrace) {
     console_.warning("module {} did not end within 2 s and was killed", record(child).name);
     ::kill(child.pid, SIGKILL);
-    child.stop_ns = now_ns;
-  } else if (since > kAskedNs) {
+    child.asked = now;
+  } else if (since > kAsked) {
     ::kill(child.pid, SIGTERM);  // it asks neither
   }
 }
@@ -271,23 +270,23 @@ void Processes::end_all() {
     }
     ask_to_end(child);
   }
-  const std::int64_t deadline = rt::now_ns() + kEndGraceNs;
+  const rt::MonoTime deadline = rt::MonoClock::now() + kEndGrace;
   for (Child& child : children_) {
     int status = 0;
     bool told = false;
     while (child.pid > 0 && ::waitpid(child.pid, &status, WNOHANG) != child.pid) {
-      const std::int64_t now = rt::now_ns();
+      const rt::MonoTime now = rt::MonoClock::now();
       if (now > deadline) {
         console_.warning("module {} did not end within 2 s and was killed", record(child).name);
         ::kill(child.pid, SIGKILL);
         ::waitpid(child.pid, &status, 0);
         break;
       }
-      if (!told && now > deadline - kEndGraceNs + kAskedNs) {
+      if (!told && now > deadline - kEndGrace + kAsked) {
         ::kill(child.pid, SIGTERM);  // it asks neither
         told = true;
       }
-      rt::sleep_until(now + kPollNs);
+      rt::sleep_until(now + kPoll);
     }
     if (child.pid > 0) {
       child.pid = -1;

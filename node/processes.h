@@ -31,11 +31,11 @@ class Processes {
   // All periodic and sporadic ones have enrolled or ended.
   [[nodiscard]] bool ready() const noexcept;
   // Deaths, restarts, enrolments, budgets. True if the node is to stop because of one (reason()).
-  bool supervise(std::int64_t now_ns);
+  bool supervise(rt::MonoTime now);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
   // One of them alone. stop() only asks; supervise() sees to its end, which is no fault, and has_ended() tells of it.
   // start(): false if it cannot be launched (said on the console).
-  void stop(std::uint32_t module, std::int64_t now_ns);
+  void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
   // Asks all to end, waits, kills what is left.
@@ -46,25 +46,25 @@ class Processes {
     std::uint32_t index;
     const config::Module* module;
     pid_t pid = -1;
-    std::int64_t restart_at_ns = 0;
-    std::deque<std::int64_t> restarts;  // times of those within the window
+    rt::MonoTime restart_at{};
+    std::deque<rt::MonoTime> restarts;  // times of those within the window
     bool killed_for_budget = false;
     bool warned = false;  // that it does not expect its signal
-    std::int64_t launched_ns = 0;
+    rt::MonoTime launched{};
     bool stopping = false;  // by command
-    std::int64_t stop_ns = 0;
+    rt::MonoTime asked{};
   };
   Child* find(std::uint32_t module) noexcept;
   void ask_to_end(Child& child);
-  void insist(Child& child, std::int64_t now_ns);
+  void insist(Child& child, rt::MonoTime now);
   [[nodiscard]] bool managed(const Child& child) const noexcept;
   // A process that was launched is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
-  void died(Child& child, int status, std::int64_t now_ns);
+  void died(Child& child, int status, rt::MonoTime now);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
-  void plan_restart(Child& child, std::int64_t now_ns);
-  void enforce_budget(Child& child, std::int64_t now_ns);
+  void plan_restart(Child& child, rt::MonoTime now);
+  void enforce_budget(Child& child, rt::MonoTime now);
   scheduler::ModuleRecord& record(const Child& child) noexcept { return run_.modules()[child.index]; }
   scheduler::ProcessSlot& slot(const Child& child) noexcept { return run_.process_slots()[child.index]; }
 

@@ -10,8 +10,8 @@
 namespace indurop::node {
 namespace {
 
-constexpr std::int64_t kSaveEveryNs = 1'000'000'000;
-constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::chrono::seconds kSaveEvery{1};
+constexpr std::chrono::milliseconds kLook{20};
 
 }  // namespace
 
@@ -55,13 +55,13 @@ void Retainer::start() {
 }
 
 void Retainer::loop() {
-  std::int64_t next = rt::now_ns() + kSaveEveryNs;
+  rt::MonoTime next = rt::MonoClock::now() + kSaveEvery;
   while (!stop_.load()) {
-    rt::sleep_until(rt::now_ns() + kLookNs);
-    if (rt::now_ns() >= next) {
+    rt::sleep_until(rt::MonoClock::now() + kLook);
+    if (rt::MonoClock::now() >= next) {
       const Status saved = file_.save(store_);
       failed_.store(static_cast<int>(saved.error().code));
-      next = rt::now_ns() + kSaveEveryNs;
+      next = rt::MonoClock::now() + kSaveEvery;
     }
   }
 }

@@ -15,8 +15,8 @@ namespace {
 using scheduler::ModuleState;
 using scheduler::ModuleType;
 
-constexpr std::int64_t kLookNs = 10'000'000;
-constexpr std::int64_t kEnrolNs = 500'000'000;  // how long the first tick waits for process modules
+constexpr std::chrono::milliseconds kLook{10};
+constexpr std::chrono::milliseconds kEnrol{500};  // how long the first tick waits for process modules
 
 scheduler::SpinSettings to_spin(const config::SpinSetting& setting) {
   switch (setting.mode) {
@@ -102,7 +102,7 @@ Result<void, Ending> Running::start() {
 Result<void, Ending> Running::start_modules() {
   prepared_.name.keep();  // from here on there is something to look at
   const bool ok = phases_.call_all("start", &ModuleDescriptor::start);
-  console_.report(rt::now_ns(), false);
+  console_.report(rt::MonoClock::now(), false);
   started_ = true;
   if (auto ending = interruption(signals_)) {
     return *std::move(ending);
@@ -124,13 +124,13 @@ Result<void, Ending> Running::launch_processes() {
   if (!processes_.launch_all()) {
     return Ending{kFailed};
   }
-  const std::int64_t patience = rt::now_ns() + kEnrolNs;
-  while (!processes_.ready() && rt::now_ns() < patience) {
-    signals_.wait(kLookNs / 10);
-    if (processes_.supervise(rt::now_ns())) {
+  const rt::MonoTime patience = rt::MonoClock::now() + kEnrol;
+  while (!processes_.ready() && rt::MonoClock::now() < patience) {
+    signals_.wait(kLook / 10);
+    if (processes_.supervise(rt::MonoClock::now())) {
       return Ending{kFailed, processes_.reason()};
     }
-    console_.report(rt::now_ns(), false);
+    console_.report(rt::MonoClock::now(), false);
   }
   if (auto ending = interruption(signals_)) {
     return *std::move(ending);
@@ -214,8 +214,8 @@ Result<void, Ending> Running::start_mirror() {
 Ending Running::supervise() {
   Ending ending;
   while (!engine_.finished()) {
-    const int number = signals_.wait(kLookNs);
-    const std::int64_t now = rt::now_ns();
+    const int number = signals_.wait(kLook);
+    const rt::MonoTime now = rt::MonoClock::now();
     prepared_.store->beat(now);
     if (number != 0) {
       ending = {number == SIGINT ? kInterrupted : kOk, fmt::format("signal {} ({})", number, ::strsignal(number))};

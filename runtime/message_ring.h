@@ -9,18 +9,19 @@
 #include <string_view>
 #include <vector>
 
+#include "rt/clock.h"
 #include "scheduler/run_block.h"
 
 namespace indurop::runtime {
 
 // Puts a message of module `module` (kNoModule: of the node) into its ring. False if it is full: counted in the ring
 // and in the module's lost_messages. Longer text is cut at the entry's size. Real-time safe, any thread, any process.
-bool push_message(scheduler::RunBlock& run, std::uint32_t module, std::string_view text, std::int64_t time_ns) noexcept;
+bool push_message(scheduler::RunBlock& run, std::uint32_t module, std::string_view text, rt::MonoTime time) noexcept;
 
 struct Message {
   std::uint32_t module = 0;  // index, or kNoModule
-  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC
-  std::string_view text;     // as printed, usually with a newline; valid until the next call
+  rt::MonoTime time;
+  std::string_view text;  // as printed, usually with a newline; valid until the next call
 };
 
 // Takes the messages of all rings of a run block out. One reader per run block. Not real-time safe.
@@ -29,16 +30,16 @@ class MessageReader {
   explicit MessageReader(scheduler::RunBlock& run);
 
   // The next message, ring after ring, in order within each ring. False if there is none now.
-  bool next(Message& message, std::int64_t now_ns);
+  bool next(Message& message, rt::MonoTime now);
   // Messages that were dropped because a ring was full, or never finished by a producer that died.
   [[nodiscard]] std::uint64_t lost() const noexcept;
 
  private:
   struct Stuck {
     std::uint64_t ticket = 0;
-    std::int64_t since_ns = 0;
+    rt::MonoTime since;
   };
-  bool next_of(std::uint32_t index, Message& message, std::int64_t now_ns);
+  bool next_of(std::uint32_t index, Message& message, rt::MonoTime now);
 
   scheduler::RunBlock& run_;
   std::vector<Stuck> stuck_;
@@ -47,6 +48,6 @@ class MessageReader {
 };
 
 // How long a reader waits for an entry somebody has begun to fill.
-inline constexpr std::int64_t kUnfinishedMessageNs = 1'000'000'000;
+inline constexpr std::chrono::seconds kUnfinishedMessage{1};
 
 }  // namespace indurop::runtime

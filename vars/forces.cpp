@@ -32,27 +32,28 @@ std::int64_t distance(const void* from, const void* to) noexcept {
   return static_cast<const std::byte*>(to) - static_cast<const std::byte*>(from);
 }
 
-struct Part {
+struct Held {
   std::int64_t entry;
   std::uint32_t offset;
   std::uint32_t size;
   std::uint64_t value;
-  std::int64_t until_ns;
+  rt::MonoTime until;
 };
 
 // Nothing if the slot is free or just being filled.
-std::optional<Part> part_in(const ForceSlot& slot) noexcept {
+std::optional<Held> part_in(const ForceSlot& slot) noexcept {
   const std::uint64_t version = slot.version.load(std::memory_order_acquire);
   const std::uint64_t where = slot.where.load(kRelaxed);
-  const Part part{slot.entry.load(kRelaxed), static_cast<std::uint32_t>(where >> 32U),
-                  static_cast<std::uint32_t>(where), slot.value.load(kRelaxed), slot.until_ns.load(kRelaxed)};
+  const Held part{slot.entry.load(kRelaxed), static_cast<std::uint32_t>(where >> 32U),
+                  static_cast<std::uint32_t>(where), slot.value.load(kRelaxed),
+                  rt::mono_time(slot.until_ns.load(kRelaxed))};
   std::atomic_thread_fence(std::memory_order_acquire);
   const bool whole = version % 2 == 0 && slot.version.load(kRelaxed) == version;
   return whole && part.entry != 0 ? std::optional(part) : std::nullopt;
 }
 
-bool over(const Part& part) noexcept {
-  return part.until_ns != kForever && part.until_ns <= rt::now_ns();
+bool over(const Held& part) noexcept {
+  return part.until != kForever && part.until <= rt::MonoClock::now();
 }
 
 // Calls `use` for every part of the entry that is forced now.
@@ -150,7 +151,7 @@ void fill(ForceSlot& slot, const void* entry, const Force& what) noexcept {
   std::atomic_thread_fence(std::memory_order_release);
   slot.where.store(std::uint64_t{what.offset} << 32U | what.size, kRelaxed);
   slot.value.store(what.value, kRelaxed);
-  slot.until_ns.store(what.until_ns, kRelaxed);
+  slot.until_ns.store(rt::to_ns(what.until), kRelaxed);
   slot.entry.store(distance(&slot, entry), kRelaxed);
   slot.version.store(version + 2, std::memory_order_release);
 }
@@ -185,7 +186,7 @@ Status force(BlockHeader& header, const Force& what) noexcept {
   void* const entry = entry_of(header, *what.variable);
   if (ForceSlot* known = find(header.forces, entry, what.offset); known != nullptr) {
     known->value.store(what.value, kRelaxed);  // one word each: no moment without a force
-    known->until_ns.store(what.until_ns, std::memory_order_release);
+    known->until_ns.store(rt::to_ns(what.until), std::memory_order_release);
   } else if (ForceSlot* free = find_free(header.forces); free != nullptr) {
     fill(*free, entry, what);
   } else {
@@ -244,19 +245,18 @@ void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) 
   }
 }
 
-std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory,
-                             std::int64_t now_ns) {
+std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory, rt::MonoTime now) {
   std::vector<Force> found;
   for (const ForceSlot& slot : header.forces.slots) {
     const auto part = part_in(slot);
-    if (!part || part->until_ns <= now_ns) {
+    if (!part || part->until <= now) {
       continue;
     }
     const auto offset = static_cast<std::uint64_t>(distance(&header, &slot) + part->entry);
     const auto variable = std::find_if(directory.begin(), directory.end(),
                                        [offset](const DirectoryEntry& entry) { return entry.offset == offset; });
     if (variable != directory.end() && std::uint64_t{part->offset} + part->size <= variable->value_size) {
-      found.push_back({&*variable, part->offset, part->size, part->value, part->until_ns});
+      found.push_back({&*variable, part->offset, part->size, part->value, part->until});
     }
   }
   return found;
@@ -266,7 +266,7 @@ bool hold_scalar(void* entry) noexcept {
   const std::int64_t offset = abi::forces_offset_of(entry, abi::Kind::Scalar).load(kRelaxed);
   bool held = false;
   if (offset != 0) {
-    for_each_of(table_of(entry, offset), entry, [&](const Part& part) {
+    for_each_of(table_of(entry, offset), entry, [&](const Held& part) {
       write_word(entry, part.size, part.value);
       held = true;
     });
@@ -279,7 +279,7 @@ void hold_parts(abi::RingHeader& ring, unsigned char* version) noexcept {
   if (offset == 0) {
     return;
   }
-  for_each_of(table_of(&ring, offset), &ring, [&](const Part& part) {
+  for_each_of(table_of(&ring, offset), &ring, [&](const Held& part) {
     if (std::uint64_t{part.offset} + part.size <= ring.value_size) {
       detail::copy_to_shared(version + part.offset, &part.value, part.size);
     }

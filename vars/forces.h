@@ -9,22 +9,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "rt/clock.h"
 #include "vars/layout.h"
 
 namespace indurop::vars {
 
-inline constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max();
+inline constexpr rt::MonoTime kForever = rt::MonoTime::max();
 
 struct Force {
   const DirectoryEntry* variable = nullptr;
-  std::uint32_t offset = 0;   // of the part in the value
-  std::uint32_t size = 0;     // 1, 2, 4 or 8
-  std::uint64_t value = 0;    // its first `size` bytes
-  std::int64_t until_ns = 0;  // CLOCK_MONOTONIC, or kForever
+  std::uint32_t offset = 0;  // of the part in the value
+  std::uint32_t size = 0;    // 1, 2, 4 or 8
+  std::uint64_t value = 0;   // its first `size` bytes
+  rt::MonoTime until;        // or kForever
   [[nodiscard]] std::span<const std::uint8_t> bytes() const noexcept {
     return {reinterpret_cast<const std::uint8_t*>(&value), size};
   }
@@ -44,8 +44,8 @@ void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directo
 // All of them, for the node that takes over a block: nobody else changes the table now.
 void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 
-// Those whose time is not over at `now_ns`. Points into the directory.
-std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory, std::int64_t now_ns);
+// Those whose time is not over at `now`. Points into the directory.
+std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory, rt::MonoTime now);
 
 // What writers do, real-time safe. See indurop_hold_scalar().
 bool hold_scalar(void* entry) noexcept;

@@ -306,11 +306,11 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
 }
 
 Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
-                    std::int64_t until_ns) noexcept {
+                    rt::MonoTime until) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return Error{Errc::PermissionDenied, 0, "force through a read-only view"};
   }
-  Force what{&variable, offset, static_cast<std::uint32_t>(value.size()), 0, until_ns};
+  Force what{&variable, offset, static_cast<std::uint32_t>(value.size()), 0, until};
   if (!impl_->contains(variable, offset, value.size()) || value.size() > sizeof what.value) {
     return Error{Errc::OutOfRange, 0, "part of a variable to force"};
   }
@@ -332,7 +332,7 @@ void Store::let_overdue_go() noexcept {
 }
 
 std::vector<Force> Store::forces() const {
-  return forces_of(impl_->header(), impl_->index.directory, rt::now_ns());
+  return forces_of(impl_->header(), impl_->index.directory, rt::MonoClock::now());
 }
 
 void Store::release_locks_of_this_thread() noexcept {
@@ -371,8 +371,8 @@ void Store::reset(bool keep_retained) noexcept {
   }
 }
 
-void Store::beat(std::int64_t now_ns) noexcept {
-  impl_->header().heartbeat_ns.store(now_ns, std::memory_order_relaxed);
+void Store::beat(rt::MonoTime now) noexcept {
+  impl_->header().heartbeat_ns.store(rt::to_ns(now), std::memory_order_relaxed);
 }
 
 void Store::prefault() const noexcept {

@@ -68,11 +68,11 @@ class Store {
   // Errors: OutOfRange, Busy (lock not free in 5 ms: its holder is stopped), PermissionDenied (read-only).
   Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
 
-  // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until `until_ns` (CLOCK_MONOTONIC, kForever), whoever
+  // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until a time (or kForever), whoever
   // writes it; create() ends all forces. Not real-time safe.
   // Errors: OutOfRange, InvalidArgument (size), NoSpace (kMostForces are held), Busy, PermissionDenied (read-only).
   Status force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
-               std::int64_t until_ns) noexcept;
+               rt::MonoTime until) noexcept;
   // Errors: NotFound (it is not forced), Busy, PermissionDenied (read-only).
   Status let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept;
   // Those whose time is over hold nothing, but cost their writers a look.
@@ -87,8 +87,8 @@ class Store {
   // is not free in 5 ms keeps its value and counts a lost write.
   void reset(bool keep_retained) noexcept;
 
-  void beat(std::int64_t now_ns) noexcept;  // the node's heartbeat; real-time safe
-  void prefault() const noexcept;           // makes all pages present now; not real-time safe
+  void beat(rt::MonoTime now) noexcept;  // the node's heartbeat; real-time safe
+  void prefault() const noexcept;        // makes all pages present now; not real-time safe
 
  private:
   struct Impl;

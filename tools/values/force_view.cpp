@@ -11,11 +11,11 @@ namespace indurop::tools {
 
 std::vector<ForceView> view_forces(const vars::Store& store) {
   std::vector<ForceView> views;
-  const std::int64_t now = rt::now_ns();
+  const rt::MonoTime now = rt::MonoClock::now();
   for (const vars::Force& force : store.forces()) {
     const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
     views.push_back({part.name, schema::format_value(part.type, force.bytes()), raw_value(part.type, force.bytes()),
-                     force.until_ns == vars::kForever ? vars::kForever : force.until_ns - now});
+                     force.until == vars::kForever ? std::nullopt : std::optional((force.until - now).count())});
   }
   return views;
 }
@@ -26,7 +26,7 @@ std::string force_line(const std::vector<ForceView>& forces) {
   for (std::size_t i = 0; i < forces.size() && i < kShown; ++i) {
     const ForceView& one = forces[i];
     line += fmt::format("{}{} = {}", i == 0 ? "" : ", ", one.name, one.value);
-    line += one.left_ns == vars::kForever ? "" : fmt::format(" ({} left)", human_age(one.left_ns));
+    line += one.left_ns ? fmt::format(" ({} left)", human_age(*one.left_ns)) : "";
   }
   return forces.size() > kShown ? line + fmt::format(" and {} more", forces.size() - kShown) : line;
 }
@@ -34,9 +34,8 @@ std::string force_line(const std::vector<ForceView>& forces) {
 JsonValue json_of(const std::vector<ForceView>& forces) {
   JsonValue list = JsonValue::array();
   for (const ForceView& one : forces) {
-    list.push_back({{"name", one.name},
-                    {"value", one.raw},
-                    {"left_ns", one.left_ns == vars::kForever ? JsonValue() : JsonValue(one.left_ns)}});
+    list.push_back(
+        {{"name", one.name}, {"value", one.raw}, {"left_ns", one.left_ns ? JsonValue(*one.left_ns) : JsonValue()}});
   }
   return list;
 }

@@ -12,10 +12,10 @@
 namespace indurop::tools {
 
 struct ForceView {
-  std::string name;      // "PLC_ROBOT::O[3]"
-  std::string value;     // as get prints it
-  JsonValue raw;         // for JSON
-  std::int64_t left_ns;  // vars::kForever: until it is let go
+  std::string name;                     // "PLC_ROBOT::O[3]"
+  std::string value;                    // as get prints it
+  JsonValue raw;                        // for JSON
+  std::optional<std::int64_t> left_ns;  // none: until it is let go
 };
 
 std::vector<ForceView> view_forces(const vars::Store& store);

@@ -63,7 +63,8 @@ int force(Context& context, const ForceOptions& options) {
   if (code != kOk) {
     return code;
   }
-  const std::int64_t until = options.for_ns > 0 ? rt::now_ns() + options.for_ns : vars::kForever;
+  const rt::MonoTime until =
+      options.for_ns > 0 ? rt::MonoClock::now() + std::chrono::nanoseconds(options.for_ns) : vars::kForever;
   for (const auto& [item, bytes] : *assignments) {
     const Status forced = store->force(*item.entry, item.place.offset, bytes, until);
     if (!forced.ok()) {
@@ -122,10 +123,9 @@ int forces(Context& context) {
   }
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right}, {"LEFT", "left_ns", Align::Right}});
   for (const ForceView& one : view_forces(*store)) {
-    const bool forever = one.left_ns == vars::kForever;
     table.add({Cell(one.name), Cell(one.value, one.raw),
-               Cell(forever ? "until unforced" : human_age(one.left_ns), forever ? JsonValue() : JsonValue(one.left_ns),
-                    Style::None)});
+               Cell(one.left_ns ? human_age(*one.left_ns) : "until unforced",
+                    one.left_ns ? JsonValue(*one.left_ns) : JsonValue(), Style::None)});
   }
   if (table.empty() && context.format == Format::Table) {
     context.out.note("nothing is forced");

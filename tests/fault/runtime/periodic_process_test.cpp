@@ -61,7 +61,7 @@ TEST(PeriodicProcess, Runs_once_per_release_and_ends_when_asked) {
   EXPECT_EQ(child.out(), "initPeriodExe 0 gain 2.5\n");
   indurop::runtime::MessageReader reader(node.run());
   indurop::runtime::Message message;
-  ASSERT_TRUE(reader.next(message, 0));
+  ASSERT_TRUE(reader.next(message, {}));
   EXPECT_EQ(message.text, "run 8\n");
   EXPECT_EQ(message.module, 1U);
 }

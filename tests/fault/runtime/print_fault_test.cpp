@@ -34,7 +34,7 @@ TEST(PrintFault, Killed_producers_leave_only_whole_messages) {
     });
     const auto until = indurop::rt::now_ns() + static_cast<std::int64_t>(random() % 1'000'000);
     while (indurop::rt::now_ns() < until) {
-      while (reader.next(message, indurop::rt::now_ns())) {
+      while (reader.next(message, indurop::rt::MonoClock::now())) {
         ASSERT_TRUE(message.text.starts_with("message ")) << message.text;
         ASSERT_TRUE(message.text.ends_with(end)) << message.text;
         ++whole;
@@ -47,7 +47,7 @@ TEST(PrintFault, Killed_producers_leave_only_whole_messages) {
   EXPECT_TRUE(indurop::testing::wait_until([&] {
     irp::printf("last\n");
     bool last = false;
-    while (reader.next(message, indurop::rt::now_ns())) {
+    while (reader.next(message, indurop::rt::MonoClock::now())) {
       last = last || message.text == "last\n";
     }
     return last;

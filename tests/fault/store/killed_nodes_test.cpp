@@ -71,7 +71,7 @@ int run_node(const TestNode& node, Score& score, bool other) {
       break;
   }
   while (!score.stop) {
-    store->beat(rt::now_ns());
+    store->beat(rt::MonoClock::now());
   }
   return 0;
 }

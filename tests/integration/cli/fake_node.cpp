@@ -155,7 +155,7 @@ void step(scheduler::RunBlock& block, vars::Store& store, std::uint64_t tick, st
   };
   static_cast<void>(put("knu::Robot::tick", 0, static_cast<std::uint32_t>(tick)));
   static_cast<void>(put("knu::Robot::joints", 0, static_cast<double>(tick) * 0.5));
-  store.beat(rt::now_ns());
+  store.beat(rt::MonoClock::now());
   block.tick.store(tick + 1);
 }
 

@@ -30,7 +30,7 @@ inline std::string printed(TestNode& node) {
   runtime::MessageReader reader(node.run());
   runtime::Message message;
   std::string all;
-  while (reader.next(message, 0)) {
+  while (reader.next(message, {})) {
     all += message.text;
   }
   return all;

@@ -47,7 +47,7 @@ class Forces : public ::testing::Test {
   Status put(const std::string& name, std::int32_t value, std::uint32_t offset = 0) {
     return sut_->write(*sut_->find(hash(name)), offset, bytes_of(value));
   }
-  Status force(const std::string& name, std::int32_t value, std::uint32_t offset = 0, std::int64_t until = kForever) {
+  Status force(const std::string& name, std::int32_t value, std::uint32_t offset = 0, rt::MonoTime until = kForever) {
     return sut_->force(*sut_->find(hash(name)), offset, bytes_of(value), until);
   }
   Status let_go(const std::string& name, std::uint32_t offset = 0) {
@@ -92,7 +92,7 @@ TEST_F(Forces, Of_an_array_only_the_part_is_held) {
 }
 
 TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
-  const std::int64_t until = rt::now_ns() + 300'000'000;
+  const rt::MonoTime until = rt::MonoClock::now() + std::chrono::milliseconds(300);
   ASSERT_TRUE(force("plc::count", 7, 0, until).ok());
   Forked child([this] {
     auto mine = Store::attach(node_.name(), Mode::ReadWrite);
@@ -100,9 +100,9 @@ TEST_F(Forces, Holds_in_other_processes_and_for_the_time_given) {
     }
     return 1;
   });
-  while (rt::now_ns() < until) {
+  while (rt::MonoClock::now() < until) {
     const std::int32_t value = get("plc::count");
-    ASSERT_TRUE(value == 7 || rt::now_ns() >= until) << value;
+    ASSERT_TRUE(value == 7 || rt::MonoClock::now() >= until) << value;
   }
   EXPECT_TRUE(wait_until([this] { return get("plc::count") == 1; }));
   EXPECT_TRUE(sut_->forces().empty());

@@ -211,7 +211,7 @@ TEST(Store, Heartbeat_and_end_of_the_node_are_seen_by_others) {
   {
     auto sut = Store::create(node.name(), figure_3());
     ASSERT_TRUE(sut.ok());
-    sut->beat(1234);
+    sut->beat(rt::mono_time(1234));
     EXPECT_EQ(viewer()->header().heartbeat_ns.load(), 1234);
     EXPECT_EQ(viewer()->header().node_pid.load(), ::getpid());
   }
