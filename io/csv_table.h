@@ -26,8 +26,8 @@ struct CsvTable {
 };
 
 // Cells are separated by ',' or ';', whichever the first row has; a quoted cell may contain it. The first column is
-// called time, time_s, time_ms or time_us. Lines that are empty or begin with '#' are skipped. Errors: all that is
-// wrong with the text of `file`, at most 20.
+// called time, time_s, time_ms, time_us or time_ns. Lines that are empty or begin with '#' are skipped. Errors: all
+// that is wrong with the text of `file`, at most 20.
 Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, const std::string& file);
 
 }  // namespace indurop::io

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 
+#include "base/csv_row.h"
 #include "base/json.h"
 
 namespace indurop::tools {
@@ -19,31 +19,6 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostElements = 64;  // of an array
 constexpr std::size_t kMostSteps = 8;      // different values of a lane
-
-// Takes one row off the front of `text`; quoted fields may contain commas and line ends.
-std::vector<std::string> take_row(std::string_view& text, std::size_t& lines) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  std::size_t at = 0;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    lines += c == '\n' ? 1 : 0;
-    if (quoted && c == '"' && at + 1 < text.size() && text[at + 1] == '"') {
-      fields.back() += text[++at];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      fields.emplace_back();
-    } else if (c == '\n' && !quoted) {
-      ++at;
-      break;
-    } else if (c != '\r') {
-      fields.back() += c;
-    }
-  }
-  text.remove_prefix(at);
-  return fields;
-}
 
 std::optional<double> number(std::string_view text) {
   double value = 0;
@@ -100,59 +75,51 @@ bool few_whole_values(const std::vector<double>& line) {
   return true;
 }
 
-// Seconds in one of the time column; 0: it is none.
-double time_unit(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits{
-      {{"time_ns", 1e-9}, {"time_us", 1e-6}, {"time_ms", 1e-3}, {"time", 1}}};
-  const auto* const found =
-      std::find_if(kUnits.begin(), kUnits.end(), [name](const auto& u) { return u.first == name; });
-  return found == kUnits.end() ? 0 : found->second;
-}
-
 }  // namespace
 
-std::string read_recording(std::string_view text, const std::string& name, Recording& to) {
+Result<Recording, base::Diagnostic> read_recording(std::string_view text, const std::string& name) {
   std::size_t line = 1;
-  const std::vector<std::string> heading = take_row(text, line);
-  const double unit = time_unit(heading.front());
+  const auto problem = [&name](std::size_t at, std::string what) {
+    return base::Diagnostic{base::Diagnostic::Severity::Error, name, {static_cast<int>(at), 1}, std::move(what)};
+  };
+  const std::vector<base::CsvCell> heading = base::take_csv_row(text, ',', line);
+  const double unit = base::csv_time_unit(heading.front().text);
   if (unit == 0 || heading.size() < 2) {
-    return fmt::format(
-        "{}:1: error: the heading is not that of a recording: first time_ns (or time_us, time_ms, time), then names; "
-        "record with `indurop watch NAME... -o csv`",
-        name);
+    return problem(1,
+                   "the heading is not that of a recording: first time_ns (or time_us, time_ms, time), then names; "
+                   "record with `indurop watch NAME... -o csv`");
   }
+  Recording recording;
   for (std::size_t i = 1; i < heading.size(); ++i) {
-    to.series.push_back({heading[i], {}, {}, false});
+    recording.series.push_back({heading[i].text, {}, {}, false});
   }
   double first = 0;
   while (!text.empty()) {
-    const std::size_t row = line;
-    const std::vector<std::string> fields = take_row(text, line);
-    if (fields.size() == 1 && fields.front().empty()) {
+    const std::vector<base::CsvCell> cells = base::take_csv_row(text, ',', line);
+    if (cells.size() == 1 && cells.front().text.empty()) {
       continue;
     }
-    const auto time = number(fields.front());
-    if (!time || fields.size() != heading.size()) {
-      return fmt::format("{}:{}: error: {}", name, row,
-                         time ? fmt::format("{} values for {} columns", fields.size(), heading.size())
-                              : "the first column is not a time");
+    const auto time = number(cells.front().text);
+    if (!time || cells.size() != heading.size()) {
+      return problem(cells.front().line, time ? fmt::format("{} values for {} columns", cells.size(), heading.size())
+                                              : "the first column is not a time");
     }
-    first = to.time_s.empty() ? *time : first;
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-      append(to.series[i - 1], fields[i], to.time_s.size());
+    first = recording.time_s.empty() ? *time : first;
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+      append(recording.series[i - 1], cells[i].text, recording.time_s.size());
     }
-    to.time_s.push_back((*time - first) * unit);
+    recording.time_s.push_back((*time - first) * unit);
   }
-  if (to.time_s.size() < 2) {
-    return fmt::format("{}:{}: error: a chart needs at least two rows", name, line);
+  if (recording.time_s.size() < 2) {
+    return problem(line - 1, "a chart needs at least two rows");
   }
-  if (!std::is_sorted(to.time_s.begin(), to.time_s.end())) {
-    return fmt::format("{}: error: the times are not rising", name);
+  if (!std::is_sorted(recording.time_s.begin(), recording.time_s.end())) {
+    return problem(0, "the times are not rising");
   }
-  for (Series& series : to.series) {
+  for (Series& series : recording.series) {
     series.steps = series.lines.size() == 1 && (!series.words.empty() || few_whole_values(series.lines.front()));
   }
-  return {};
+  return recording;
 }
 
 }  // namespace indurop::tools

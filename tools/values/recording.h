@@ -3,9 +3,13 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/diagnostic.h"
 
 namespace indurop::tools {
 
@@ -22,7 +26,7 @@ struct Recording {
   std::vector<Series> series;
 };
 
-// Errors: "name:line: error: ..."; empty: all is well.
-std::string read_recording(std::string_view text, const std::string& name, Recording& to);
+// What `indurop watch -o csv` wrote; `name` is the file in the error.
+Result<Recording, base::Diagnostic> read_recording(std::string_view text, const std::string& name);
 
 }  // namespace indurop::tools

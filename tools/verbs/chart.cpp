@@ -35,19 +35,18 @@ int chart(Context& context, const Options& options) {
                     options.file, content.error().text, options.file));
     return kFailed;
   }
-  Recording recording;
-  const std::string problem = read_recording(text, piped ? "stdin" : options.file, recording);
-  if (!problem.empty()) {
-    context.out.message_line(problem);
+  const auto recording = read_recording(text, piped ? "stdin" : options.file);
+  if (!recording) {
+    context.out.message_line(base::to_string(recording.error()));
     return kFailed;
   }
   if (options.svg_file.empty() && context.format == Format::Table) {
-    for (const std::string& line : chart_lines(recording, context.out.extent().columns, context.out.unicode())) {
+    for (const std::string& line : chart_lines(*recording, context.out.extent().columns, context.out.unicode())) {
       context.out.line(line);
     }
     return kOk;
   }
-  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, recording);
+  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, *recording);
   if (options.svg_file.empty()) {
     context.out.write(picture);
     return kOk;

@@ -26,14 +26,13 @@ constexpr const char* kRun =
     "6000000000,,Idle,\"[2.0,3.0]\",true\n";
 
 Recording read(std::string_view text) {
-  Recording recording;
-  EXPECT_EQ(read_recording(text, "run.csv", recording), "");
-  return recording;
+  auto recording = read_recording(text, "run.csv");
+  EXPECT_TRUE(recording) << base::to_string(recording.error());
+  return *recording;
 }
 
 std::string problem(std::string_view text) {
-  Recording recording;
-  return read_recording(text, "run.csv", recording);
+  return base::to_string(read_recording(text, "run.csv").error());
 }
 
 TEST(RecordingText, Numbers_words_arrays_and_gaps_are_read) {
@@ -51,9 +50,9 @@ TEST(RecordingText, Numbers_words_arrays_and_gaps_are_read) {
 }
 
 TEST(RecordingText, What_is_no_recording_is_named_with_its_line) {
-  EXPECT_THAT(problem("a,b\n1,2\n"), StartsWith("run.csv:1: error: the heading is not that of a recording"));
-  EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3: error: 1 values for 2 columns"));
-  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2: error: the first column is not a time"));
+  EXPECT_THAT(problem("a,b\n1,2\n"), StartsWith("run.csv:1:1: error: the heading is not that of a recording"));
+  EXPECT_THAT(problem("time_ns,a\n1,2\n2\n"), StartsWith("run.csv:3:1: error: 1 values for 2 columns"));
+  EXPECT_THAT(problem("time_ns,a\nx,2\n"), StartsWith("run.csv:2:1: error: the first column is not a time"));
   EXPECT_THAT(problem("time_ns,a\n2,2\n1,2\n"), HasSubstr("error: the times are not rising"));
   EXPECT_THAT(problem("time_ns,a\n1,2\n"), HasSubstr("at least two rows"));
   EXPECT_THAT(problem(""), HasSubstr("error"));
