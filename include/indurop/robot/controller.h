@@ -66,6 +66,7 @@ class Signals {
   virtual void write(std::size_t index, double value) noexcept = 0;
 };
 
+// What one period takes in: drives as they were read, requests as PLC programs wrote them, all of one moment.
 struct Inputs {
   std::array<DriveIn, kJoints> drives{};
   ServiceRequest service;
@@ -78,6 +79,7 @@ struct Inputs {
   bool emergency = false;
 };
 
+// What is told of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.
 struct AxisReport {
   AxisState state = AxisState::Disabled;
   std::uint32_t acknowledged = 0;
@@ -91,6 +93,7 @@ struct AxisReport {
   double velocity = 0;  // deg/s, commanded
 };
 
+// The job that runs or ran last; `line` is that of its file, from 1.
 struct JobReport {
   JobState state = JobState::Idle;
   std::uint32_t job = 0;
@@ -100,6 +103,8 @@ struct JobReport {
   const char* message = "";  // the same
 };
 
+// What one period puts out. Set points in `drives` keep every limit of the URDF; an error stops on the path, and what
+// is commanded then is still within limits.
 struct Outputs {
   std::array<DriveOut, kJoints> drives{};
   GroupState state = GroupState::Disabled;
@@ -141,6 +146,8 @@ struct Settings {
   double following_limit = 10;         // deg an axis may be behind
 };
 
+// One robot of six axes: planner, jobs, state machines of PLCopen Motion Control parts 1 and 4, drives of CiA 402. Used
+// by one thread at a time.
 class Controller {
  public:
   // Reads robot and jobs. Returns null with everything that is wrong in `errors`, "file:line:col: error: text". Not
@@ -151,9 +158,10 @@ class Controller {
   Controller& operator=(const Controller&) = delete;
   virtual ~Controller() = default;
 
-  // One period. Real-time safe if `signals` is.
+  // One period: reads `in`, sets all of `out`. It is called once per Settings::period, also while the robot stands.
+  // Real-time safe if `signals` is: no allocation, no lock, no system call.
   virtual void step(const Inputs& in, Signals& signals, Outputs& out) noexcept = 0;
-  // What jobs set or wait for.
+  // Names of the variables that jobs set or wait for, each once; Signals count in this order.
   [[nodiscard]] virtual const std::vector<std::string>& signals() const noexcept = 0;
 
  protected:
