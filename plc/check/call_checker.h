@@ -44,7 +44,7 @@ class CallChecker {
   const Type* choose(ast::Expression& at, const std::vector<const LibraryFunction*>& overloads, const Inputs& inputs,
                      const Type* wanted);
   std::optional<Choice> match(const LibraryFunction& function, const Inputs& inputs, const Type* wanted);
-  const Type* group_type(const LibraryFunction& function, Generic generic, const Inputs& inputs, const Type* wanted);
+  const Type* group_type(const LibraryFunction& function, std::size_t member, const Inputs& inputs, const Type* wanted);
   const Type* join_untyped(Generic generic, const Type* group, const ast::Expression& input, const Type* wanted);
   std::optional<int> cost_of(const ast::Expression& input, const Type& type);
   void apply(ast::Expression& at, const Choice& choice, const Inputs& inputs);

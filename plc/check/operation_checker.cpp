@@ -109,7 +109,8 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
                                                   : unit));
     return nullptr;
   }
-  resolved(expression).operand = common_type(*a.type, *b.type);
+  const Type* common = common_type(*a.type, *b.type);
+  resolved(expression).operand = common->range ? context_.elementary(common->elementary) : common;
   if (!is_enum) {
     fold(expression, *resolved(expression).operand);
   }

@@ -62,6 +62,13 @@ std::string missing_unit(const std::vector<Expression*>& inputs) {
   return {};
 }
 
+// Whether both inputs have one type. Length and position in a text are numbers of their own.
+bool same_group(const LibraryFunction& function, std::size_t a, std::size_t b) noexcept {
+  const bool counts =
+      function.result == LibraryType(Elementary::String) && function.input(a).type == LibraryType(Generic::AnyInt);
+  return function.input(a).type == function.input(b).type && (a == b || !counts);
+}
+
 }  // namespace
 
 // The values by position; none after an error.
@@ -118,8 +125,9 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
       fine = found != nullptr && fine;
       if (generic != nullptr && found != nullptr && found->kind == Type::Kind::Elementary &&
           is_num(found->elementary)) {
+        const Type* plain = context_.elementary(found->elementary);
         const Type*& known = beside[*generic];
-        known = known == nullptr ? context_.elementary(found->elementary) : common_type(*known, *found);
+        known = known == nullptr ? plain : common_type(*known, *plain);
       }
     }
   }
@@ -197,13 +205,9 @@ std::optional<CallChecker::Choice> CallChecker::match(const LibraryFunction& fun
     if (const auto* fixed = std::get_if<Elementary>(&wished)) {
       type = context_.elementary(*fixed);
     } else {
-      const Generic generic = std::get<Generic>(wished);
-      if (!groups.contains(generic)) {
-        // What is wanted of the result says something about the inputs only if they have its type.
-        const bool same_as_result = function.result == LibraryType(generic);
-        groups[generic] = group_type(function, generic, inputs, same_as_result ? wanted : nullptr);
-      }
-      type = groups[generic];
+      // What is wanted of the result says something about the inputs only if they have its type.
+      type = group_type(function, i, inputs, function.result == wished ? wanted : nullptr);
+      groups[std::get<Generic>(wished)] = type;
     }
     const auto cost = type != nullptr ? cost_of(*inputs[i], *type) : std::nullopt;
     if (!cost) {
@@ -231,14 +235,15 @@ std::optional<int> CallChecker::cost_of(const Expression& input, const Type& typ
   return same_type(*input.type, type) || type.is_string() ? 0 : 1;
 }
 
-// The one type of all inputs of a generic type; null if there is none.
-const Type* CallChecker::group_type(const LibraryFunction& function, Generic generic, const Inputs& inputs,
+// The one type of all inputs of the group of this one; null if there is none.
+const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t member, const Inputs& inputs,
                                     const Type* wanted) {
+  const Generic generic = std::get<Generic>(function.input(member).type);
   const Type* group = nullptr;
   bool first = true;
   for (const bool numbers : {false, true}) {  // those without a type join the others
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      if (function.input(i).type != LibraryType(generic) || untyped(*inputs[i]) != numbers) {
+      if (!same_group(function, member, i) || untyped(*inputs[i]) != numbers) {
         continue;
       }
       if (numbers) {

@@ -179,13 +179,16 @@ void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
   }
   const Constant* low = constant_of(label.low);
   const Constant* high = label.high ? constant_of(*label.high) : low;
-  if (low == nullptr || high == nullptr || !as_int64(*low) || !as_int64(*high)) {
+  const auto* first = low != nullptr ? std::get_if<Integer>(low) : nullptr;
+  const auto* last = high != nullptr ? std::get_if<Integer>(high) : nullptr;
+  if (first == nullptr || last == nullptr) {
     context_.error(label.low.at, "a value of a CASE must be known now, use a number or a CONSTANT");
     return;
   }
-  const Used used{as_int64(*low).value_or(0), as_int64(*high).value_or(0), label.low.at};
+  const Used used{*first, *last, label.low.at};
   if (used.low > used.high) {
-    context_.error(used.at, fmt::format("{}..{} is not a range, write the smaller value first", used.low, used.high));
+    context_.error(used.at, fmt::format("{}..{} is not a range, write the smaller value first", to_string(*low),
+                                        to_string(*high)));
     return;
   }
   for (const Used& other : used_) {
@@ -205,8 +208,8 @@ void StatementChecker::for_statement(Statement& one) {
     context_.error(one.target->at, "the variable of a FOR is a plain variable of a whole number type");
   }
   for (auto* part : {&one.value, &one.to, &one.by}) {
-    if (*part && whole) {
-      expressions_.assigned(**part, *type);
+    if (*part && whole) {  // a step is none of the values of a subrange
+      expressions_.assigned(**part, part == &one.by ? *context_.elementary(type->elementary) : *type);
     } else if (*part) {
       expressions_.value(**part);
     }

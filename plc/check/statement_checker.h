@@ -29,8 +29,8 @@ class StatementChecker {
   void collect_labels(ast::Body& body, bool outermost);
 
   struct Used {
-    std::int64_t low = 0;
-    std::int64_t high = 0;
+    Integer low = 0;
+    Integer high = 0;
     Place at;
   };
   Context& context_;

@@ -70,7 +70,7 @@ struct Type {
 [[nodiscard]] bool in_range_of(const Type& from, const Type& to) noexcept;
 // Whether a value of `from` can be assigned to a `to` without a conversion function.
 [[nodiscard]] bool assignable(const Type& from, const Type& to) noexcept;
-// The smallest elementary type both widen to; null if there is none. Texts: the longer one.
+// The one of both that the other widens to; null if there is none. Texts: the longer one.
 [[nodiscard]] const Type* common_type(const Type& a, const Type& b) noexcept;
 // Number of elementary values, those of arrays counted; saturates.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;

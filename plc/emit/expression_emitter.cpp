@@ -68,6 +68,12 @@ std::string converted(const std::string& text, const Expression& expression, con
   return same ? text : fmt::format("static_cast<{}>({})", cpp_type(to), text);
 }
 
+// Of an input that is not given.
+std::string default_value(const Type& type, const ast::Initial* initial) {
+  const std::string value = cpp_initial(type, initial);
+  return value == "{}" ? cpp_type(type) + value : fmt::format("{}({})", cpp_type(type), value);
+}
+
 }  // namespace
 
 std::string ExpressionEmitter::result_name(const Pou& pou) {
@@ -274,8 +280,7 @@ std::string ExpressionEmitter::user_call(const Expression& expression) const {
     std::string text;
     if (one.parameter->section == ast::Section::Input) {
       const auto& initial = one.parameter->declared->initial;
-      text = given ? value(*one.argument->value, *one.type)
-                   : fmt::format("{}({})", cpp_type(*one.type), cpp_initial(*one.type, initial ? &*initial : nullptr));
+      text = given ? value(*one.argument->value, *one.type) : default_value(*one.type, initial ? &*initial : nullptr);
     } else if (one.parameter->section == ast::Section::InOut && given) {
       text = raw(*one.argument->value);
     } else if (!given) {

@@ -22,6 +22,12 @@ const Type& boolean() {
   return kType;
 }
 
+Type without_range(const Type& type) {
+  Type plain = type;
+  plain.range.reset();
+  return plain;
+}
+
 }  // namespace
 
 void StatementEmitter::list(const ast::Body& body) {
@@ -254,12 +260,14 @@ void StatementEmitter::general_loop(const Statement& one) {
   const Type& type = *one.target->type;
   const std::string name = expressions_.variable(*one.target);
   const std::string loop = fmt::format("loop_{}", ++loops_);
-  const std::string step = one.by ? expressions_.value(*one.by, type) : "1";
+  const std::string begin = fmt::format("begin_{}", loops_);
+  const std::string step = one.by ? expressions_.value(*one.by, without_range(type)) : "1";
   out_.open("");
-  out_.line(fmt::format("{} = {};", name, expressions_.value(*one.value, type)));
+  out_.line(fmt::format("const {} {} = {};", cpp_type(type), begin, expressions_.value(*one.value, type)));
   const std::string range = type.range ? fmt::format(", {}, {}", type.range->low, type.range->high) : "";
   out_.line(fmt::format("iec::Loop<{}> {}{{{}, {}{}}};", cpp_type(type), loop, expressions_.value(*one.to, type), step,
                         range));
+  out_.line(fmt::format("{} = {};", name, begin));  // not before: the end may be computed from the variable
   out_.open(fmt::format("for (; {0}.runs({1}); {0}.next({1}))", loop, name));
   list(one.body);
   out_.close();
