@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compiles random programs as users do, and runs them: what became of every variable after every scan."""
+
+import os
+import struct
+import subprocess
+
+from program import TIMES, outputs_of
+from units import LibraryBlock
+
+# The functions of the C library stay calls: g++ would compute those of constants with other roundings.
+FLAGS = ["-std=c++20", "-g0", "-w"] + [f"-fno-builtin-{name}{end}" for end in ("", "f") for name in (
+    "sqrt", "log", "log10", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow")]
+
+HEAD = """#include "{module}.cpp"
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string>
+
+static std::int64_t time_of_test = 0;
+std::int64_t irp::release_ns() noexcept {{ return time_of_test; }}
+
+namespace {{
+std::string show(bool v) {{ return v ? "1" : "0"; }}
+template <class T> requires std::integral<T> || std::is_enum_v<T> std::string show(T v) {{
+  if constexpr (std::unsigned_integral<T>) return std::to_string(static_cast<unsigned long long>(v));
+  else return std::to_string(static_cast<long long>(v));
+}}
+template <std::floating_point T> std::string show(T v) {{
+  if (v != v) return "nan";
+  std::conditional_t<sizeof(T) == 4, unsigned, unsigned long long> bits;
+  std::memcpy(&bits, &v, sizeof v);
+  char text[32];
+  std::snprintf(text, sizeof text, "%llx", static_cast<unsigned long long>(bits));
+  return text;
+}}
+template <class T> requires requires(T v) {{ v.ns; }} std::string show(T v) {{ return std::to_string(v.ns); }}
+template <class T> requires requires(T v) {{ v.view(); }} std::string show(const T& v) {{
+  std::string out = "\\"";
+  for (const unsigned char c : v.view()) {{ char t[4]; std::snprintf(t, 4, "%02x", c); out += t; }}
+  return out;
+}}
+template <class T, std::size_t N> std::string show(const std::array<T, N>& v);
+{structs}
+template <class T, std::size_t N> std::string show(const std::array<T, N>& v) {{
+  std::string out = "[";
+  for (const T& one : v) out += show(one) + " ";
+  return out + "]";
+}}
+template <class Program, class Show> void run_scans(const char* name, Program& program, Show shown) {{
+  const std::int64_t times[] = {{{times}}};
+  for (const std::int64_t at : times) {{
+    std::string fault;
+    time_of_test = at;
+    try {{ program(iec::Scan{{at}}); }} catch (const std::exception& e) {{ fault = e.what(); }}
+    std::printf("%s\\t%s", name, fault.c_str());
+    shown();
+    std::printf("\\n");
+    if (!fault.empty()) return;
+  }}
+}}
+void put(const std::string& value) {{ std::printf("\\t%s", value.c_str()); }}
+}}  // namespace
+
+int main() {{
+{runs}}}
+"""
+
+
+def shown(type_, value):
+    """As the driver prints it."""
+    if type_.kind == "array":
+        return nested(type_, value, 0)
+    if type_.kind == "struct":
+        return "{" + "".join(shown(of, value[name]) + " " for name, of in type_.fields) + "}"
+    if type_.kind == "real":
+        if value != value:
+            return "nan"
+        pack, unpack = ("<f", "<I") if type_.bits == 32 else ("<d", "<Q")
+        return f"{struct.unpack(unpack, struct.pack(pack, value))[0]:x}"
+    if type_.kind == "string":
+        return '"' + "".join(f"{ord(c):02x}" for c in value)
+    return str(int(value))
+
+
+def nested(type_, value, level):
+    last = level + 1 == len(type_.bounds)
+    return "[" + "".join((shown(type_.element, one) if last else nested(type_, one, level + 1)) + " " for one in value) + "]"
+
+
+def observed(program):
+    """(name in the oracle, member in C++, type) of everything that is compared."""
+    out = [(one.name, one.name, one.type) for one in program.variables]
+    for one in program.blocks_used:
+        for name, type_ in outputs_of(one.type):
+            member = name.lower() if isinstance(one.type, LibraryBlock) else name
+            out.append((f"{one.name}.{name}", f"{one.name}.{member}", type_))
+    return out
+
+
+def driver_text(module, programs):
+    structs, runs = [], []
+    for program in programs:
+        for type_ in program.types:
+            if type_.kind == "struct":
+                fields = " + ".join(f'show(v.{name}) + " "' for name, _ in type_.fields)
+                structs.append(f'[[maybe_unused]] std::string show(const plc::{type_.name}& v) {{ return "{{" + {fields} + "}}"; }}')
+        puts = " ".join(f"put(show(instance_{program.prefix}.{member}));" for _, member, _ in observed(program))
+        runs.append(f'  run_scans("{program.prefix}", instance_{program.prefix}, [] {{ {puts} }});\n')
+    return HEAD.format(module=module, structs="\n".join(structs), times=", ".join(map(str, TIMES)), runs="".join(runs))
+
+
+class Failed(Exception):
+    pass
+
+
+def checked_call(arguments, folder):
+    done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, errors="replace")
+    if done.returncode != 0:
+        raise Failed(f"{' '.join(arguments[:3])} ...\n{(done.stderr + done.stdout)[:6000]}")
+    return done.stdout
+
+
+def compile_batch(build, folder, programs, optimize):
+    """The path of a program that runs all of them."""
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "batch.st"), "w", encoding="latin-1") as file:
+        for program in programs:
+            file.write("\n".join(program.text()) + "\n")
+    checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet"], folder)
+    checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
+    with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
+        file.write(driver_text("batch", programs))
+    compiler = os.environ.get("CXX") or "g++"
+    checked_call([compiler, *FLAGS, optimize, f"-isystem{build}/include", "-isystem.", "driver.cpp", "-o", "driver",
+                  f"-L{build}/lib", "-lindurop", f"-Wl,-rpath,{build}/lib"], folder)
+    return os.path.join(folder, "driver")
+
+
+def results(path, folder):
+    """By program: [(fault, [values])] of its scans."""
+    environment = dict(os.environ, INDUROP_NODE="plcrandom-none")
+    done = subprocess.run([path], cwd=folder, capture_output=True, text=True, env=environment, timeout=300)
+    if done.returncode != 0:
+        raise Failed(f"the programs ended with {done.returncode}: {done.stderr[:2000]}")
+    out = {}
+    for line in done.stdout.splitlines():
+        name, fault, *values = line.split("\t")
+        out.setdefault(name, []).append((fault, values))
+    return out

@@ -1,0 +1,221 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One random program with its types, functions and function blocks; and the oracle's run of it, scan by scan."""
+
+import random
+
+import library_blocks
+import literals
+import scope as parts
+import tree
+from chart import Chart
+from kinds import BITS, BOOL, ELEMENTARY, INT, INTS, STRING, TIME, Type, clone, string
+from statements import Writer
+from tree import Fault, Frame, Return, indent, sequence, text_of
+from units import Function, LibraryBlock, Parameter, UserBlock, declared
+
+TIMES = [ms * 10**6 for ms in (1000, 1010, 1020, 1040, 1540, 1550, 3050, 3060)]
+
+
+class Program:
+    def __init__(self, seed, number):
+        self.rng = random.Random(seed)
+        self.seed = seed
+        self.number = number
+        self.prefix = f"P{number}"
+        self.palette = self.rng.sample(ELEMENTARY, 5) + [INT, BOOL]  # so that variables have types in common
+        self.type_lines = []
+        self.types = []
+        self.functions = []
+        self.blocks = []
+        self.make_types()
+        for i in range(self.rng.randint(0, 2)):
+            self.make_function(i)
+        for i in range(self.rng.randint(0, 2)):
+            self.make_block(i)
+        self.make_body()
+
+    # Types
+
+    def make_types(self):
+        rng = self.rng
+        for i in range(rng.randint(0, 4)):
+            made = rng.choice((self.enumeration, self.subrange, self.array, self.structure, self.alias))(f"{self.prefix}_T{i}")
+            self.types.append(made)
+
+    def enumeration(self, name):
+        rng, value, items, shown = self.rng, 0, [], []
+        for i in range(rng.randint(2, 5)):
+            gap = i > 0 and rng.random() < 0.2
+            value += rng.randint(1, 9) if gap else i > 0
+            items.append((f"{name}_V{i}", value))
+            shown.append(f"{name}_V{i}" + (f" := {value}" if gap else ""))
+        self.type_lines.append(f"{name} : ({', '.join(shown)});")
+        return Type(name, "enum", 16, True, items=tuple(items))
+
+    def subrange(self, name):
+        base = self.rng.choice(INTS)
+        low = self.rng.randint(max(base.least(), -50), 20)
+        high = low + self.rng.randint(1, 60)
+        initial = self.rng.randint(low, high) if self.rng.random() < 0.5 else None
+        self.type_lines.append(f"{name} : {base.name} ({low}..{high})" + (f" := {initial};" if initial is not None else ";"))
+        return Type(name, base.kind, base.bits, base.signed, low=low, high=high, base=base, initial=initial)
+
+    def alias(self, name):
+        base = self.rng.choice([one for one in ELEMENTARY if one is not STRING])
+        value = literals.some_value(self.rng, base)
+        shown = literals.of_value(self.rng, base, value)
+        self.type_lines.append(f"{name} : {base.name} := {shown.text};")
+        return Type(name, base.kind, base.bits, base.signed, base=base, initial=value)
+
+    def bounds(self):
+        low = self.rng.choice((0, 0, 1, 1, -2, 5))
+        return low, low + self.rng.randint(0, 5)
+
+    def array(self, name):
+        element = self.any_type(0.5, False)
+        bounds = tuple(self.bounds() for _ in range(self.rng.choice((1, 1, 1, 2, 3))))
+        shown = ", ".join(f"{low}..{high}" for low, high in bounds)
+        self.type_lines.append(f"{name} : ARRAY [{shown}] OF {element.name};")
+        return Type(name, "array", element=element, bounds=bounds)
+
+    def structure(self, name):
+        fields = [(f"m{i}", self.any_type(0.4, False)) for i in range(self.rng.randint(1, 4))]
+        self.type_lines.append(f"{name} : STRUCT {' '.join(f'{n} : {t.name};' for n, t in fields)} END_STRUCT;")
+        return Type(name, "struct", fields=tuple(fields))
+
+    def any_type(self, own=0.35, deep=True):
+        if self.types and self.rng.random() < own:
+            found = [one for one in self.types if deep or one.kind != "array" or len(one.bounds) == 1]
+            if found:
+                return self.rng.choice(found)
+        one = self.rng.choice(self.palette if self.rng.random() < 0.9 else ELEMENTARY)
+        return string(self.rng.choice((1, 5, 10, 20))) if one is STRING and self.rng.random() < 0.7 else one
+
+    # Variables
+
+    def initial(self, type_):
+        if type_.kind in ("array", "struct") or self.rng.random() < 0.5:
+            return None
+        value = literals.some_value(self.rng, type_)
+        return literals.of_value(self.rng, type_, value, typed=self.rng.random() < 0.5 and type_.low is None)
+
+    def parameters(self, section, letter, most, least=0, type_of=None):
+        out = []
+        for i in range(self.rng.randint(least, most)):
+            type_ = (type_of or self.any_type)()
+            initial = None if section == "VAR_IN_OUT" else self.initial(type_)
+            out.append(Parameter(f"{letter}{i}", type_, section, initial))
+        return out
+
+    def make_function(self, i):
+        rng = self.rng
+        pure = rng.random() < 0.5
+        kinds = ["VAR_INPUT"] if pure else ["VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"]
+        made = [self.parameters(one, one[4:6].lower() + ("n" if one == "VAR_IN_OUT" else ""), 3, one == "VAR_INPUT") for one in kinds]
+        rng.shuffle(made)
+        parameters = [one for group in made for one in group]
+        parameters += self.parameters("VAR", "v", 3, 1)
+        while True:
+            result = self.any_type(0.2).plain
+            if result.kind not in ("array", "struct") and result is not STRING and result.kind != "string":
+                break
+        function = Function(f"{self.prefix}_F{i}", parameters, result)
+        variables = [parts.Variable(one.name, one.type) for one in parameters]
+        variables.append(parts.Variable(function.name, result))
+        scope = parts.Scope(variables, self.functions)
+        writer = Writer(rng, scope)
+        body = writer.outermost(rng.randint(1, 5))
+        scope.variables = variables
+        value = writer.make.into(result)
+        last = tree.Stmt([f"{function.name} := {value.text};"], lambda f: f.values.__setitem__(function.name, value.run(f)))
+        function.run_body = sequence(body + [last])
+        function.lines = text_of(body + [last])
+        self.functions.append(function)
+
+    def make_block(self, i):
+        rng = self.rng
+        parameters = self.parameters("VAR_INPUT", "in", 3, 1)
+        if rng.random() < 0.3:
+            parameters.append(Parameter("edge", BOOL, "VAR_INPUT", None, rng.choice(("R_EDGE", "F_EDGE"))))
+        parameters += self.parameters("VAR_OUTPUT", "ou", 3, 1) + self.parameters("VAR_IN_OUT", "io", 1)
+        parameters += self.parameters("VAR", "v", 3, 1) + self.parameters("VAR_TEMP", "t", 1)
+        blocks = self.instances(rng.randint(0, 2))
+        block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
+        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge) for one in parameters]
+        variables += [parts.Variable(one.name, None, instance=one.type) for one in blocks]
+        body = Writer(rng, parts.Scope(variables, self.functions)).outermost(rng.randint(2, 7))
+        block.run_body = sequence(body)
+        block.lines = text_of(body)
+        self.blocks.append(block)
+
+    def instances(self, count):
+        known = [LibraryBlock(one) for one in library_blocks.ALL]
+        chosen = [self.rng.choice(self.blocks) if self.blocks and self.rng.random() < 0.5 else self.rng.choice(known)
+                  for _ in range(count)]
+        return [Parameter(f"b{i}", one, "VAR_BLOCK") for i, one in enumerate(chosen)]
+
+    # The program
+
+    def make_body(self):
+        rng = self.rng
+        self.variables = self.parameters("VAR", "x", 14, 6)
+        self.variables += [Parameter("n0", INT, "VAR"), Parameter("s0", STRING, "VAR"), Parameter("t0", TIME, "VAR"),
+                           Parameter("w0", rng.choice(BITS), "VAR")]
+        self.blocks_used = self.instances(rng.randint(0, 4))
+        variables = [parts.Variable(one.name, one.type) for one in self.variables]
+        constants = self.parameters("VAR CONSTANT", "k", 2, 0, lambda: rng.choice([*INTS, BOOL, TIME, *BITS]))
+        for one in constants:
+            if one.initial is None:
+                one.initial = literals.of_value(rng, one.type, literals.some_value(rng, one.type))
+        variables += [parts.Variable(one.name, one.type, writable=False) for one in constants]
+        variables += [parts.Variable(one.name, None, instance=one.type) for one in self.blocks_used]
+        self.constants = constants
+        self.chart = None
+        if rng.random() < 0.2:
+            self.chart = Chart(rng, parts.Scope(variables, self.functions), variables)
+            self.body, self.lines = self.chart.run, self.chart.text()
+            return
+        body = Writer(rng, parts.Scope(variables, self.functions)).outermost(rng.randint(6, 18))
+        self.body = sequence(body)
+        self.lines = text_of(body)
+
+    def text(self):
+        out = [f"(* {self.prefix}: seed {self.seed} *)"]
+        if self.type_lines:
+            out += ["TYPE", *indent(self.type_lines), "END_TYPE"]
+        for one in (*self.functions, *self.blocks):
+            out += one.text()
+        shown = [one for one in (*self.variables, *self.constants)]
+        out += [f"PROGRAM {self.prefix}", *declared(shown), *self.block_lines(), *indent(self.lines), "END_PROGRAM", ""]
+        return [line.replace("VAR_BLOCK", "VAR") for line in out]
+
+    def block_lines(self):
+        return declared(self.blocks_used)
+
+    def scans(self):
+        """After each scan: (fault or None, the values)."""
+        values = {one.name: one.first() for one in (*self.variables, *self.constants)}
+        values |= {one.name: one.type.new() for one in self.blocks_used}
+        values |= self.chart.first_values() if self.chart else {}
+        for now in TIMES:
+            fault = None
+            try:
+                self.body(Frame(values, now))
+            except Return:
+                pass
+            except Fault as error:
+                fault = str(error)
+            yield fault, {one.name: clone(values[one.name]) for one in self.variables} | self.outputs(values)
+            if fault is not None:
+                return
+
+    def outputs(self, values):
+        return {f"{one.name}.{name}": clone(values[one.name].values[name])
+                for one in self.blocks_used for name, _ in outputs_of(one.type)}
+
+
+def outputs_of(instance):
+    """What can be read of an instance: (name, type)."""
+    if isinstance(instance, LibraryBlock):
+        return list(instance.made.outputs)
+    return [(one.name, one.type) for one in instance.of("VAR_OUTPUT")]

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Random PLC programs, compiled, run and compared with an interpreter that does not know the compiler.
+
+run.py --build DIR [--count N] [--seed S] [--batch N] [--only SEED]: 0 if all are equal. The count is INDUROP_PLC_RANDOM
+where that is set. A difference is printed with its program; --only SEED makes that one again."""
+
+import argparse
+import concurrent.futures
+import os
+import sys
+import tempfile
+
+from driver import Failed, compile_batch, observed, results, shown
+from program import Program
+
+
+def differences(program, scans):
+    """What differs, in words; the first scan that does."""
+    names = observed(program)
+    for number, (fault, values) in enumerate(program.scans()):
+        if number >= len(scans):
+            return [f"scan {number}: it ended before"]
+        real_fault, real = scans[number]
+        if (fault is None) != (real_fault == ""):
+            return [f"scan {number}: fault '{real_fault}', expected '{fault or ''}'"]
+        if fault is not None:
+            return []  # which part of an expression is computed first is open
+        expected = [shown(type_, values[name]) for name, _, type_ in names]
+        found = [f"scan {number}: {name} is {b}, expected {a} ({type_.name})"
+                 for (name, _, type_), a, b in zip(names, expected, real) if a != b]
+        if found:
+            return found
+    return []
+
+
+def check_batch(build, folder, seeds, optimize):
+    programs = [Program(seed, number) for number, seed in enumerate(seeds)]
+    try:
+        found = results(compile_batch(build, folder, programs, optimize), folder)
+    except Failed as error:
+        if len(seeds) == 1:
+            return [(seeds[0], programs[0].text(), [str(error)])]
+        half = len(seeds) // 2  # which of them is it?
+        return check_batch(build, folder + "a", seeds[:half], optimize) + check_batch(build, folder + "b", seeds[half:], optimize)
+    all_found = [(one.seed, one.text(), differences(one, found.get(one.prefix, []))) for one in programs]
+    return [one for one in all_found if one[2]]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--build", required=True)
+    parser.add_argument("--count", type=int, default=int(os.environ.get("INDUROP_PLC_RANDOM", "200")))
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--batch", type=int, default=100)
+    parser.add_argument("--only", type=int)
+    parser.add_argument("--optimize", default=os.environ.get("INDUROP_PLC_OPTIMIZE", "-O0"))
+    parser.add_argument("--keep", default="")
+    options = parser.parse_args()
+    seeds = [options.only] if options.only is not None else list(range(options.seed, options.seed + options.count))
+    build = os.path.abspath(options.build)
+    bad = []
+    with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        folder = os.path.abspath(options.keep) if options.keep else scratch
+        jobs = [pool.submit(check_batch, build, os.path.join(folder, str(i)), seeds[i:i + options.batch], options.optimize)
+                for i in range(0, len(seeds), options.batch)]
+        for job in jobs:
+            bad += job.result()
+    for seed, text, what in bad:
+        print(f"seed {seed}:\n  " + "\n  ".join(what[:8]))
+        if len(bad) <= 3:
+            print("\n".join(text))
+    print(f"{len(seeds)} programs, {len(bad)} of them wrong")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
