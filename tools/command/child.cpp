@@ -11,8 +11,8 @@
 
 namespace indurop::tools {
 
-Result<int, base::Problem> run_child(const std::vector<std::string>& arguments) {
-  const auto child = base::spawn({.words = arguments, .program = {}});
+Result<int, base::Problem> run_child(const std::vector<std::string>& arguments, int output) {
+  const auto child = base::spawn({.words = arguments, .program = {}, .output = output});
   if (!child) {
     return base::Problem{fmt::format("cannot start {}: {}", arguments[0], std::strerror(child.error().sys_errno))};
   }

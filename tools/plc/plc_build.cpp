@@ -8,8 +8,8 @@
 
 #include "base/replace_file.h"
 #include "plc/front/compiler.h"
-#include "tools/command/child.h"
 #include "tools/command/self.h"
+#include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
 
 namespace indurop::tools {
@@ -66,21 +66,17 @@ bool find_parts(Context& context, Parts& parts) {
   return !parts.library.empty();
 }
 
-bool run(Context& context, const std::vector<std::string>& arguments) {
-  const auto code = run_child(arguments);
-  if (!code) {
-    context.out.error(code.error().text);
-    return false;
-  }
-  if (*code != 0) {
-    context.out.error(fmt::format("{} failed with exit code {}", arguments[0], *code));
-  }
-  return *code == 0;
-}
-
 std::string compiler() {
   const char* chosen = std::getenv("CXX");  // NOLINT(concurrency-mt-unsafe): one thread
   return chosen != nullptr && *chosen != '\0' ? chosen : "g++";
+}
+
+std::string names_of(const std::vector<std::string>& files) {
+  std::string out;
+  for (const std::string& one : files) {
+    out += (out.empty() ? "" : ", ") + one;
+  }
+  return out;
 }
 
 bool build_modules(Context& context, const PlcRequest& request, const plc::Compiled& compiled) {
@@ -93,11 +89,13 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
   std::vector<std::string> glb{parts.glb2idl.string(), "-o", generated.string()};
   glb.insert(glb.end(), request.compile.glb_files.begin(), request.compile.glb_files.end());
   glb.push_back((folder / (compiled.name + ".glb")).string());
-  if (!run(context, glb)) {
+  const std::string sources = names_of(request.compile.files);
+  if (!run_compiler(context, glb, folder / (compiled.name + ".glb"), sources)) {
     return false;
   }
   for (const plc::ModuleText& one : compiled.modules) {
     const fs::path module = folder / (one.name + ".so");
+    const fs::path code = folder / (one.name + ".cpp");
     // The flags of indurop_add_module().
     const std::vector<std::string> arguments{compiler(),
                                              "-std=c++20",
@@ -109,13 +107,13 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
                                              "-Wl,--no-undefined",
                                              "-isystem" + parts.headers.string(),
                                              "-isystem" + generated.string(),
-                                             (folder / (one.name + ".cpp")).string(),
+                                             code.string(),
                                              "-o",
                                              module.string(),
                                              "-L" + parts.library.string(),
                                              "-lindurop",
                                              "-Wl,-rpath," + parts.library.string()};
-    if (!run(context, arguments)) {
+    if (!run_compiler(context, arguments, code, sources)) {
       return false;
     }
     context.out.note("made " + module.string());
