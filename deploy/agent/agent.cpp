@@ -74,6 +74,7 @@ class Agent {
   }
 
   int run(base::StopSignal& signals) {
+    state_.collect_old_garbage();
     resume();
     while (signals.wait({}) == 0) {
       const rt::MonoTime now = rt::MonoClock::now();
@@ -263,6 +264,7 @@ class Agent {
       case Do::Forget:
         fetcher_.cancel();
         log_.warning("deployment {}: given up: {}", shown_id(order.deployment), transaction_.message());
+        state_.collect_garbage(order.deployment);
         break;
     }
     tell_now_ = true;
@@ -285,6 +287,7 @@ class Agent {
     if (const auto noted = deployment_.note_rollback(order, transaction_.message()); !noted) {
       log_.error("{}", noted.error().text);
     }
+    state_.collect_garbage();
   }
 
   BoardReport report() {

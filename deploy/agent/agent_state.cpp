@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <set>
 #include <utility>
@@ -29,6 +30,7 @@ using base::Problem;
 constexpr const char* kCommitted = "committed.json";
 constexpr std::size_t kHistoryKept = 20;
 constexpr std::size_t kDeploymentsKept = 5;
+constexpr std::chrono::hours kPiecesKept{24};  // of a deployment that was cut short
 constexpr std::size_t kFolderDigits = 16;
 
 Problem failed(const std::string& what, const fs::path& where, int number) {
@@ -72,6 +74,19 @@ std::optional<Committed> from_json(const Json& whole) {
            read(each, "wall_ns", entry.wall_ns) && read(each, "outcome", entry.outcome);
   }
   return good ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// Removes what is in a folder, is not among `wanted` and is older than `age`.
+void remove_others(const fs::path& folder, const std::set<std::string>& wanted, std::chrono::hours age = {}) {
+  const auto newest = fs::file_time_type::clock::now() - age;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; at != end; at.increment(error)) {
+    std::error_code ignored;
+    const bool old = age.count() == 0 || fs::last_write_time(at->path(), ignored) < newest;
+    if (old && !wanted.contains(at->path().filename().string())) {
+      fs::remove_all(at->path(), ignored);
+    }
+  }
 }
 
 }  // namespace
@@ -231,7 +246,21 @@ fs::path AgentState::manifest(const std::string& id) const {
   return fs::is_regular_file(file, error) ? file : fs::path{};
 }
 
-void AgentState::collect_garbage() {
+AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const {
+  Needed needed;
+  for (const std::string& id : ids) {
+    if (const auto content = package(id)) {
+      needed.files.insert(id);
+      needed.folders.insert(deployment(id).filename().string());
+      for (const PackageFile& entry : content->files) {
+        needed.files.insert(entry.digest);
+      }
+    }
+  }
+  return needed;
+}
+
+std::set<std::string> AgentState::kept() const {
   std::set<std::string> ids{committed_.current, committed_.previous};
   for (auto entry = committed_.history.rbegin(); entry != committed_.history.rend() && ids.size() < kDeploymentsKept;
        ++entry) {
@@ -239,29 +268,28 @@ void AgentState::collect_garbage() {
       ids.insert(entry->deployment);
     }
   }
-  std::set<std::string> files;
-  std::set<std::string> folders;
-  for (const std::string& id : ids) {
-    if (const auto content = package(id)) {
-      files.insert(id);
-      folders.insert(deployment(id).filename().string());
-      for (const PackageFile& entry : content->files) {
-        files.insert(entry.digest);
-      }
-    }
+  return ids;
+}
+
+void AgentState::collect_garbage(const std::string& tried) {
+  std::set<std::string> ids = kept();
+  std::set<std::string> pieces;
+  if (!tried.empty()) {
+    ids.insert(tried);
+    pieces = needed_by({tried}).files;
+    pieces.insert(tried);
   }
-  const auto clean = [](const fs::path& folder, const std::set<std::string>& wanted) {
-    std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; at != end; at.increment(error)) {
-      if (!wanted.contains(at->path().filename().string())) {
-        std::error_code ignored;
-        fs::remove_all(at->path(), ignored);
-      }
-    }
-  };
-  clean(folder_ / "deployments", folders);
-  clean(folder_ / "files", files);
-  clean(folder_ / "parts", {});
+  const Needed needed = needed_by(ids);
+  remove_others(folder_ / "deployments", needed.folders);
+  remove_others(folder_ / "files", needed.files);
+  remove_others(folder_ / "parts", pieces);
+}
+
+void AgentState::collect_old_garbage() {
+  const Needed needed = needed_by(kept());
+  remove_others(folder_ / "deployments", needed.folders, kPiecesKept);
+  remove_others(folder_ / "files", needed.files, kPiecesKept);
+  remove_others(folder_ / "parts", {}, kPiecesKept);
 }
 
 }  // namespace indurop::deploy

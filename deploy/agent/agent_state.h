@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,14 +61,23 @@ class AgentState {
   Result<void, base::Problem> install(const std::string& id);
   // Its manifest, installed; empty path if it is not here.
   [[nodiscard]] std::filesystem::path manifest(const std::string& id) const;
-  // Removes what neither the committed nor the previous deployment nor the newest of history needs.
-  void collect_garbage();
+  // Removes what neither the committed nor the previous deployment nor the newest of history needs. What has come of
+  // `tried`, a deployment that was given up, stays for the next attempt.
+  void collect_garbage(const std::string& tried = {});
+  // The same at the agent's start, when a deployment may have been cut short: only what is older than a day goes.
+  void collect_old_garbage();
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
 
  private:
   AgentState(std::filesystem::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}
   Result<void, base::Problem> load();
   [[nodiscard]] std::filesystem::path deployment(const std::string& id) const;
+  struct Needed {
+    std::set<std::string> files;
+    std::set<std::string> folders;  // in deployments/
+  };
+  [[nodiscard]] Needed needed_by(const std::set<std::string>& ids) const;
+  [[nodiscard]] std::set<std::string> kept() const;  // deployments
 
   std::filesystem::path folder_;
   int lock_ = -1;
