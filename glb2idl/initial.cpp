@@ -174,7 +174,8 @@ std::optional<Limits> limits_of(Base base) noexcept {
   switch (base) {
     case Base::Bool:
       return Limits{0, 1};
-    case Base::Char:
+    case Base::Char:  // has a sign on some boards and none on others
+      return Limits{0, INT8_MAX};
     case Base::Int8:
       return Limits{INT8_MIN, INT8_MAX};
     case Base::UInt8:
@@ -232,8 +233,10 @@ std::optional<std::string> convert(Value& value, const schema::Type& type) {
     value.integer = static_cast<Wide>(value.real);
   }
   if (value.integer < limits->min || value.integer > limits->max) {
-    return fmt::format("{} does not fit {} ({} to {}), use a larger type or another value", to_text(value.integer),
-                       schema::display_name(type), to_text(limits->min), to_text(limits->max));
+    return fmt::format("{} does not fit {} ({} to {}), use {}", to_text(value.integer), schema::display_name(type),
+                       to_text(limits->min), to_text(limits->max),
+                       type.base == Base::Char ? "int8_t or uint8_t: char has a sign on some boards only"
+                                               : "a larger type or another value");
   }
   value.kind = type.base == Base::Bool ? Value::Kind::Bool : Value::Kind::Integer;
   return std::nullopt;

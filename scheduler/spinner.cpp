@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rt/relax.h"
+
 namespace indurop::scheduler {
 namespace {
 
@@ -10,12 +12,6 @@ constexpr std::int64_t kFirstGuess = 20'000;
 // Steps up and down in the ratio 100 : 1, so the estimate settles where 1 % of the wake-ups are later.
 constexpr std::int64_t kStepUp = 400;
 constexpr std::int64_t kStepDown = 4;
-
-inline void relax() noexcept {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#endif
-}
 
 }  // namespace
 
@@ -44,7 +40,7 @@ rt::MonoTime Spinner::wait_until(rt::MonoTime deadline) noexcept {
     }
   }
   while (now < deadline) {
-    relax();
+    rt::relax();
     now = clock_.now();
   }
   return now;

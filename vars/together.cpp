@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 
+#include "rt/relax.h"
 #include "vars/ring.h"
 #include "vars/scalar.h"
 
@@ -31,12 +32,6 @@ const std::atomic<std::uint64_t>& word_of(const abi::Piece& piece) noexcept {
 
 bool is_sent_with_others(const abi::Piece& piece) noexcept {
   return piece.update_offset != 0 && piece.update_offset != abi::kAlone;
-}
-
-void relax() noexcept {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#endif
 }
 
 // False if an update is just being taken over.
@@ -113,7 +108,7 @@ bool read_together(std::span<abi::Piece> pieces) noexcept {
         copy_each(pieces);
         return false;
       }
-      relax();
+      rt::relax();
     }
     if (copy_all(pieces)) {
       return belong_together(pieces);

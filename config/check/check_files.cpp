@@ -26,8 +26,10 @@ constexpr Machine kMachines[] = {
 constexpr std::uint16_t kThisMachine = 62;
 #elif defined(__aarch64__)
 constexpr std::uint16_t kThisMachine = 183;
-#else
+#elif defined(__riscv)
 constexpr std::uint16_t kThisMachine = 243;
+#else
+#error "InduRoP does not know this kind of processor: its number of ELF files belongs here"
 #endif
 
 std::string machine_name(std::uint16_t number) {

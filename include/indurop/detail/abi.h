@@ -43,9 +43,11 @@ struct RingHeader {
   std::atomic<std::int64_t> update_offset;  // see update_offset_of()
   std::atomic<std::uint64_t> update_word;   // see update_word_of()
   std::atomic<std::int64_t> forces_offset;  // see forces_offset_of()
-  std::uint64_t reserved[7];
+  std::uint64_t reserved[12 - sizeof(pthread_mutex_t) / 8];
 };
-static_assert(sizeof(pthread_mutex_t) <= 40, "store layout assumes glibc's 64-bit mutex or smaller");
+// 40 bytes on x86-64, 48 on ARM64 (glibc).
+static_assert(sizeof(pthread_mutex_t) <= 48 && sizeof(pthread_mutex_t) % 8 == 0,
+              "the store has no room for this mutex");
 static_assert(sizeof(RingHeader) == 192 && std::is_standard_layout_v<RingHeader>);
 
 constexpr std::size_t slot_stride(std::size_t value_size) noexcept {

@@ -183,6 +183,13 @@ TEST(Errors, Point_at_the_character_even_behind_tabs_and_umlauts) {
                 "           \t           ^~~\n"));
 }
 
+TEST(Errors, Name_types_that_are_the_same_on_all_boards_for_a_char_with_a_sign) {
+  for (const char* text : {"char x = -1;", "char x = 200;", "struct S { char c; }; S s = {-5};"}) {
+    EXPECT_THAT(messages(compile_text(text)), HasSubstr("does not fit char (0 to 127), use int8_t or uint8_t")) << text;
+  }
+  EXPECT_EQ(messages(compile_text("char x = 'a'; char y = 127; int8_t z = -1;")), "");
+}
+
 TEST(Errors, Show_no_control_characters) {
   EXPECT_THAT(messages(compile_text("int \x1b[31mx;")), Not(HasSubstr("\x1b")));
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells the processor that we wait in a loop: it saves power and lets the other half of a core run. Real-time safe.
+
+#pragma once
+
+namespace indurop::rt {
+
+inline void relax() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+}  // namespace indurop::rt
