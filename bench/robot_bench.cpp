@@ -98,11 +98,40 @@ void step_along_a_path(benchmark::State& state) {
   }
 }
 
+// All steps of emergency stops in the middle of a fast line.
+void emergency_stop_on_a_line(benchmark::State& state) {
+  const Inverse inverse(arm());
+  const Places places(arm(), inverse);
+  Planner planner(places, limits(), {1, 4, 40, kPi, 4 * kPi, 40 * kPi});
+  Follower follower(places, planner);
+  MoveCommand command;
+  command.move = Move::Line;
+  command.target.is_pose = true;
+  command.target.pose = arm().forward(somewhere());
+  command.target.pose.position += Vec3(-0.1, 0.5, -0.1);
+  if (!planner.begin(command, somewhere()).ok() || !planner.check(10000).ok() || !planner.done()) {
+    state.SkipWithError("the line cannot be planned");
+  }
+  for (auto _ : state) {
+    if (follower.idle()) {
+      state.PauseTiming();
+      follower.reset(somewhere());
+      follower.add(planner.segment());
+      while (follower.speed() < 0.3 && follower.step(0.001).ok()) {
+      }
+      follower.stop_hard(1.5);
+      state.ResumeTiming();
+    }
+    benchmark::DoNotOptimize(follower.step(0.001));
+  }
+}
+
 BENCHMARK(forward);
 BENCHMARK(inverse_all_solutions);
 BENCHMARK(inverse_numeric);
 BENCHMARK(profile_planned);
 BENCHMARK(step_along_a_path);
+BENCHMARK(emergency_stop_on_a_line);
 
 }  // namespace
 

@@ -23,6 +23,8 @@ void Follower::reset(const Joints& q) noexcept {
   mode_ = mode_ == Mode::Hold ? Mode::Hold : Mode::Run;
   state_ = {};
   q_ = q;
+  past_.joints.fill(q);
+  past_.moved = {};
 }
 
 void Follower::add(const Segment& segment) noexcept {
@@ -47,27 +49,36 @@ void Follower::set_override(double part) noexcept {
 
 void Follower::set_hold(bool hold) noexcept {
   const Mode wanted = hold ? Mode::Hold : Mode::Run;
-  if (mode_ == Mode::Stop || mode_ == wanted) {
+  if (stopping() || mode_ == wanted) {
     return;
   }
   mode_ = wanted;
-  hardness_ = 1;
   if (!idle()) {
     replan();
   }
 }
 
-void Follower::stop(double hardness) noexcept {
-  if (mode_ == Mode::Stop && hardness <= hardness_) {
+void Follower::stop() noexcept {
+  if (stopping()) {
     return;
   }
   mode_ = Mode::Stop;
-  hardness_ = hardness;
   if (at_rest()) {
     reset(q_);
     return;
   }
   replan();
+}
+
+void Follower::stop_hard(double hardness) noexcept {
+  if (mode_ == Mode::HardStop) {
+    return;
+  }
+  mode_ = Mode::HardStop;
+  brake_.begin(hardness);
+  if (at_rest()) {
+    reset(q_);
+  }
 }
 
 double Follower::to_go() const noexcept {
@@ -83,26 +94,19 @@ const LineLimits& Follower::piece_limits() const noexcept {
 }
 
 LineLimits Follower::stop_limits() const noexcept {
-  // What a harder stop adds goes into braking alone, of which a bend leaves only a share.
-  const auto harder = [this](LineLimits limits, double share) {
-    limits.acceleration *= 1 + (hardness_ - 1) / share;
-    limits.jerk *= 1 + (hardness_ * hardness_ - 1) / share;
-    return limits;
-  };
-  const LineLimits bend = harder(blend_.limits, Planner::kShareOfBraking);
-  const LineLimits here = in_blend_ ? bend : harder(segment(0).limits, 1);
+  const LineLimits& here = piece_limits();
   // A stop that does not end on this piece keeps the limits of those it goes through.
   if (count_ < 2 || state_.position + ramp(state_, 0, here).distance <= piece_end()) {
     return here;
   }
-  const LineLimits next = harder(segment(1).limits, 1);
-  return lower(here, blend_.zone > 0 ? lower(bend, next) : next);
+  const LineLimits& next = segment(1).limits;
+  return lower(here, blend_.zone > 0 ? lower(blend_.limits, next) : next);
 }
 
 // Whether the first two segments go over into each other is decided once, before the first one is so near its end that
 // it could not be at the blend's speed any more.
 void Follower::try_blend() noexcept {
-  if (in_blend_ || blend_.zone > 0 || mode_ == Mode::Stop) {
+  if (in_blend_ || blend_.zone > 0 || stopping()) {
     return;
   }
   Blend wanted = planner_.blend(segment(0), segment(1));
@@ -161,12 +165,13 @@ void Follower::next_piece() noexcept {
     state_.position = 0;
     in_blend_ = true;
   }
-  if (count_ > 0) {
+  if (count_ > 0 && mode_ != Mode::HardStop) {
     replan();
   }
 }
 
-void Follower::advance(double seconds) noexcept {
+double Follower::advance(double seconds) noexcept {
+  double moved = 0;
   // Short paths may begin and end within one period; more of them than this wait for the next one.
   for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
     const double until = time_ + seconds;
@@ -180,7 +185,9 @@ void Follower::advance(double seconds) noexcept {
       crossed = true;
       reached = crossing(time_, until);
     }
+    const double from = state_.position;
     state_ = profile_.at(reached);
+    moved += state_.position - from;
     seconds = until - reached;
     time_ = reached;
     if (!crossed) {
@@ -188,17 +195,78 @@ void Follower::advance(double seconds) noexcept {
     }
     next_piece();
   }
+  return moved;
+}
+
+// Distances are counted over all pieces.
+void Follower::note(double moved) noexcept {
+  past_.moved = {moved, past_.moved[0]};
+  past_.joints = {q_, past_.joints[0], past_.joints[1]};
+}
+
+Reach Follower::joints_on_piece(double place, const Joints& near, Joints& q) const noexcept {
+  return in_blend_ ? places_.on(segment(0), blend_, segment(1), place, near, q)
+                   : places_.on(segment(0), place, near, q);
+}
+
+Reach Follower::joints_ahead(double distance, const Joints& near, Joints& q) const noexcept {
+  const double place = state_.position + distance;
+  double beyond = place - piece_end();
+  if (beyond <= 0 || count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
+    return joints_on_piece(place, near, q);
+  }
+  if (!in_blend_) {
+    if (beyond <= blend_.length()) {
+      return places_.on(segment(0), blend_, segment(1), beyond, near, q);
+    }
+    beyond -= blend_.length();
+  }
+  return places_.on(segment(1), blend_.zone + beyond, near, q);
+}
+
+double Follower::left() const noexcept {
+  const double here = piece_end() - state_.position;
+  if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
+    return here;
+  }
+  return here + (in_blend_ ? 0 : blend_.length()) + segment(1).length - blend_.zone;
+}
+
+// Along the path, over the ends of pieces.
+void Follower::go(double distance) noexcept {
+  state_.position += distance;
+  for (int pieces = 0; pieces < 4 && count_ > 1 && state_.position > piece_end(); ++pieces) {
+    const double beyond = state_.position - piece_end();
+    next_piece();
+    state_.position += beyond;
+  }
+}
+
+Fault Follower::brake(double seconds) noexcept {
+  double distance = 0;
+  Joints q = q_;
+  if (const Reach reach = brake_.next(*this, past_, seconds, distance, q); reach != Reach::Ok) {
+    return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
+  }
+  const Fault fault = planner_.allowed(q_, q, seconds);
+  if (!fault.ok()) {
+    return fault;
+  }
+  const double before = state_.velocity;
+  go(distance);
+  state_.velocity = distance / seconds;
+  state_.acceleration = (state_.velocity - before) / seconds;
+  q_ = q;
+  note(distance);
+  if (distance <= 0) {
+    reset(q_);
+  }
+  return {};
 }
 
 Fault Follower::place(double seconds) noexcept {
   Joints q = q_;
-  Reach reach = Reach::Ok;
-  if (in_blend_) {
-    reach = places_.on(segment(0), blend_, segment(1), state_.position, q_, q);
-  } else {
-    reach = places_.on(segment(0), state_.position, q_, q);
-  }
-  if (reach != Reach::Ok) {
+  if (const Reach reach = joints_on_piece(state_.position, q_, q); reach != Reach::Ok) {
     return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
   }
   const Fault fault = planner_.allowed(q_, q, seconds);
@@ -210,20 +278,26 @@ Fault Follower::place(double seconds) noexcept {
 
 Fault Follower::step(double seconds) noexcept {
   if (idle()) {
-    mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
+    mode_ = stopping() ? Mode::Run : mode_;
+    note(0);
     return {};
   }
-  const Segment last = segment(count_ - 1);
-  advance(seconds);
+  if (mode_ == Mode::HardStop) {
+    return brake(seconds);
+  }
+  const Joints end = segment(count_ - 1).to;
+  const double moved = advance(seconds);
   if (count_ == 0) {
-    const Fault fault = planner_.allowed(q_, last.to, seconds);
+    const Fault fault = planner_.allowed(q_, end, seconds);
     if (fault.ok()) {
-      q_ = last.to;
+      q_ = end;
     }
     mode_ = mode_ == Mode::Stop ? Mode::Run : mode_;
+    note(moved);
     return fault;
   }
   const Fault fault = place(seconds);
+  note(moved);
   if (mode_ == Mode::Stop && state_.velocity <= 0) {
     reset(q_);
   }

@@ -6,13 +6,15 @@
 
 #include <array>
 
+#include "robot/path_brake.h"
 #include "robot/planner.h"
 
 namespace indurop::robot {
 
-class Follower {
+class Follower final : private PathAhead {
  public:
-  Follower(const Places& places, const Planner& planner) noexcept : places_(places), planner_(planner) {}
+  Follower(const Places& places, const Planner& planner) noexcept
+      : places_(places), planner_(planner), brake_(planner.joint_limits()) {}
 
   // At rest at these joint angles, with nothing to do.
   void reset(const Joints& q) noexcept;
@@ -25,8 +27,10 @@ class Follower {
   void set_override(double part) noexcept;
   // Slows down to rest on the path, or goes on.
   void set_hold(bool hold) noexcept;
-  // Comes to rest on the path and forgets the rest of it. `hardness` multiplies the acceleration.
-  void stop(double hardness) noexcept;
+  // Comes to rest on the path and forgets the rest of it, as softly as it moves.
+  void stop() noexcept;
+  // The same as hard as the joints can at this place. `hardness` multiplies their accelerations.
+  void stop_hard(double hardness) noexcept;
 
   // One period on. Errors: Unreachable, JointLimit, Singular, Speed: the path cannot be followed at this place;
   // joints() then stays where it was.
@@ -35,7 +39,7 @@ class Follower {
   [[nodiscard]] const Joints& joints() const noexcept { return q_; }
   // Nothing to do any more.
   [[nodiscard]] bool idle() const noexcept { return count_ == 0; }
-  [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::Stop; }
+  [[nodiscard]] bool stopping() const noexcept { return mode_ == Mode::Stop || mode_ == Mode::HardStop; }
   // No motion at this moment, because of a hold or an override of 0, or because it is idle.
   [[nodiscard]] bool at_rest() const noexcept { return idle() || state_.velocity <= 0; }
   // Part of full speed.
@@ -48,7 +52,7 @@ class Follower {
 
  private:
   static constexpr int kMost = 3;
-  enum class Mode { Run, Hold, Stop };
+  enum class Mode { Run, Hold, Stop, HardStop };
 
   [[nodiscard]] const Segment& segment(int i) const noexcept { return segments_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double piece_end() const noexcept;
@@ -56,10 +60,16 @@ class Follower {
   [[nodiscard]] LineLimits stop_limits() const noexcept;
   void try_blend() noexcept;
   void replan() noexcept;
-  void advance(double seconds) noexcept;
+  double advance(double seconds) noexcept;  // how far
   double crossing(double from, double to) const noexcept;
   void next_piece() noexcept;
   Fault place(double seconds) noexcept;
+  Fault brake(double seconds) noexcept;
+  void go(double distance) noexcept;
+  void note(double moved) noexcept;
+  [[nodiscard]] Reach joints_on_piece(double place, const Joints& near, Joints& q) const noexcept;
+  Reach joints_ahead(double distance, const Joints& near, Joints& q) const noexcept override;
+  [[nodiscard]] double left() const noexcept override;
 
   const Places& places_;
   const Planner& planner_;
@@ -69,7 +79,8 @@ class Follower {
   bool in_blend_ = false;  // the present piece is the blend, not the first segment
   Mode mode_ = Mode::Run;
   double override_ = 1;
-  double hardness_ = 1;
+  PathBrake brake_;
+  PathHistory past_;
   Profile profile_;
   double time_ = 0;  // in the profile
   LineState state_;  // position: place on the present piece

@@ -125,8 +125,12 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   state_ = GroupState::Stopping;
   to_error_ = true;
   hardness_ = hardness;
-  if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency) {
-    follower_.stop(hardness);
+  const bool cut = code == ErrorCode::Emergency && parts_.settings.emergency_category == StopCategory::Category0;
+  for (AxisControl& a : axes_) {
+    a.power(a.wants_power() && !cut);
+  }
+  if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency && !cut) {
+    follower_.stop_hard(hardness);
     for (AxisControl& a : axes_) {
       if (a.state() != AxisState::SynchronizedMotion) {
         a.fail(code, hardness);
@@ -190,7 +194,7 @@ void Group::motion_failed(Fault fault, int source) noexcept {
 void Group::stop_for(Fault fault) noexcept {
   error_ = fault.code;
   error_axis_ = fault.axis;
-  follower_.stop(1);
+  follower_.stop();
   state_ = GroupState::Stopping;
   to_error_ = true;
 }

@@ -112,7 +112,7 @@ ErrorCode Group::disable() noexcept {
   planning_ = false;
   enabling_ = false;
   if (state_ == GroupState::Moving || state_ == GroupState::Standby) {
-    follower_.stop(1);
+    follower_.stop();
     state_ = GroupState::Stopping;
     to_disabled_ = true;
     return ErrorCode::Ok;
@@ -149,8 +149,8 @@ ErrorCode Group::reset() noexcept {
       return ErrorCode::Ok;
     }
   }
-  // A drive that is told to stop quickly is about to lose its power, whatever it says now.
-  const bool has_power = !quick_stop_ && all_enabled();
+  // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
+  const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
   quick_stop_ = false;
   for (AxisControl& a : axes_) {
     a.reset();
@@ -252,7 +252,7 @@ ErrorCode Group::stop_motion() noexcept {
   }
   job_.stop();
   planning_ = false;
-  follower_.stop(1);
+  follower_.stop();
   state_ = GroupState::Stopping;
   return ErrorCode::Ok;
 }

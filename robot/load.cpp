@@ -59,6 +59,10 @@ Diagnostics check_settings(const Settings& s) {
   positive("tool_turn_speed", s.tool_turn_speed);
   positive("emergency_factor", s.emergency_factor);
   positive("following_limit", s.following_limit);
+  if (s.emergency_category != StopCategory::Category0 && s.emergency_category != StopCategory::Category1) {
+    errors.push_back(
+        error("property emergency_category", {}, "it has to be 0 or 1, an emergency stop takes power away"));
+  }
   if (s.period <= std::chrono::nanoseconds::zero()) {
     errors.push_back(error("module", {}, "the robot task is periodic, give it a <period>"));
   }

@@ -143,6 +143,8 @@ void start() {
   settings.tool_speed = irp::property("tool_speed", settings.tool_speed);
   settings.tool_turn_speed = irp::property("tool_turn_speed", settings.tool_turn_speed);
   settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);
+  settings.emergency_category = static_cast<robot::StopCategory>(
+      irp::property("emergency_category", static_cast<int>(settings.emergency_category)));
   settings.following_limit = irp::property("following_limit", settings.following_limit);
 
   std::vector<std::string> errors;

@@ -144,6 +144,8 @@ struct Settings {
   double tool_turn_speed = 180;        // deg/s, the same for orientation
   double emergency_factor = 1.5;       // of the accelerations, in an emergency stop
   double following_limit = 10;         // deg an axis may be behind
+  // Of an emergency stop: 0 or 1 (IEC 60204-1).
+  StopCategory emergency_category = StopCategory::Category1;
 };
 
 // One robot of six axes: planner, jobs, state machines of PLCopen Motion Control parts 1 and 4, drives of CiA 402. Used

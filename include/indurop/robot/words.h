@@ -76,6 +76,14 @@ enum class ErrorCode : std::uint32_t {
   Jerk           // the way would need a joint to change its acceleration faster than it can
 };
 
+// Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an
+// emergency stop of category 1 or 0 (Settings::emergency_category).
+enum class StopCategory : std::int16_t {
+  Category0 = 0,  // power is taken away at once
+  Category1 = 1,  // the robot is brought to rest, then power is taken away
+  Category2 = 2   // the robot is brought to rest and keeps its power
+};
+
 enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed };
 
 // "the target is out of reach", for messages.

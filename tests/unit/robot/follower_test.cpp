@@ -197,7 +197,7 @@ TEST(Follower, Override_hold_and_stop_at_any_instant_keep_the_limits) {
         w.sut.set_hold(random() % 2 == 0);
       }
       if (random() % 400 == 0) {
-        w.sut.stop(1);
+        w.sut.stop();
       }
       w.step();
     }
@@ -219,7 +219,7 @@ TEST(Follower, A_stop_ends_on_the_path_and_an_emergency_stop_sooner) {
       w.step();
     }
     const Joints from = w.sut.joints();
-    w.sut.stop(hard == 0 ? 1 : 2);
+    hard == 0 ? w.sut.stop() : w.sut.stop_hard(2);
     w.run();
     way[hard] = (w.sut.joints() - from).norm();
   }
@@ -238,7 +238,7 @@ TEST(Follower, An_emergency_stop_in_a_blend_is_shorter) {
       w.step();
     }
     const double from = w.sut.joints()[0];
-    w.sut.stop(hard == 0 ? 1 : 1.5);
+    hard == 0 ? w.sut.stop() : w.sut.stop_hard(1.5);
     w.run();
     way[hard] = w.sut.joints()[0] - from;
     EXPECT_LT(w.acceleration, hard == 0 ? 1.01 : 1.52);

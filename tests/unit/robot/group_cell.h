@@ -17,8 +17,8 @@ namespace indurop::robot {
 // Six drives that do at once what they are told.
 class Cell final : public Signals {
  public:
-  explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true) {
-    Settings settings;
+  explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true,
+                Settings settings = {}) {
     settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
     sut = controller_of(cell_urdf(),
                         "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"

@@ -185,6 +185,26 @@ TEST(Group, Emergency_stop_brakes_on_the_path_then_takes_power_away) {
   EXPECT_TRUE(cell.serve(Service::DirectAbsolute));
 }
 
+TEST(Group, Emergency_stop_of_category_0_takes_power_away_at_once) {
+  Settings settings;
+  settings.emergency_category = StopCategory::Category0;
+  Cell cell("", 1, 0, true, settings);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 50};
+  cell.ask(Service::DirectAbsolute);
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
+  cell.in.emergency = true;
+  cell.step();
+  for (const DriveOut& drive : cell.out.drives) {
+    EXPECT_EQ(drive.control, 0x00);
+  }
+  ASSERT_TRUE(cell.until([&] { return cell.out.state == GroupState::ErrorStop; }));
+  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
+  cell.in.emergency = false;
+  ASSERT_TRUE(cell.serve(Service::GroupReset));
+  EXPECT_EQ(cell.out.state, GroupState::Disabled);
+}
+
 TEST(Group, No_power_during_an_emergency) {
   Cell cell;
   cell.in.emergency = true;
@@ -331,11 +351,13 @@ TEST(Load, Everything_that_is_wrong_is_said) {
   settings.urdf = "nowhere.urdf";
   settings.jobs = {"nowhere.job"};
   settings.tool_speed = -1;
+  settings.emergency_category = StopCategory::Category2;
   std::vector<std::string> errors;
   EXPECT_EQ(Controller::load(settings, errors), nullptr);
-  ASSERT_EQ(errors.size(), 3U);
+  ASSERT_EQ(errors.size(), 4U);
   EXPECT_EQ(errors[0], "property tool_speed: error: it has to be above 0");
-  EXPECT_EQ(errors[1],
+  EXPECT_EQ(errors[1], "property emergency_category: error: it has to be 0 or 1, an emergency stop takes power away");
+  EXPECT_EQ(errors[2],
             "nowhere.urdf:1:1: error: this robot description (property urdf) cannot be read; names begin at the "
             "folder of the module.xml");
 }

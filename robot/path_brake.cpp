@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/path_brake.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kKept = 0.97;        // of the jerk when looking ahead: what the polynomials miss
+constexpr double kWithin = 1 - 2e-5;  // of the limits: what is lost to rounding
+constexpr int kParts = 8;             // of the time in which braking is taken back
+constexpr double kTooLate = -1;
+
+}  // namespace
+
+void PathBrake::begin(double hardness) noexcept {
+  acceleration_ = kWithin * hardness * most_.acceleration;
+  jerk_ = kWithin * hardness * hardness * most_.jerk;
+  length_ = gone_ = changed_ = 0;
+}
+
+Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double distance) noexcept {
+  std::array<Joints, 5> f;
+  f[0] = here;
+  for (std::size_t i = 1; i < 5; ++i) {
+    f[i] = f[i - 1];
+    if (const Reach reach = path.joints_ahead(distance * static_cast<double>(i) / 4, f[i - 1], f[i]);
+        reach != Reach::Ok) {
+      return reach;
+    }
+  }
+  const Joints d1 = f[1] - f[0];
+  const Joints d2 = f[2] - 2 * f[1] + f[0];
+  const Joints d3 = f[3] - 3 * f[2] + 3 * f[1] - f[0];
+  const Joints d4 = f[4] - 4 * f[3] + 6 * f[2] - 4 * f[1] + f[0];
+  shape_ = {f[0], d1 - d2 / 2 + d3 / 3 - d4 / 4, d2 / 2 - d3 / 2 + d4 * (11.0 / 24), d3 / 6 - d4 / 4, d4 / 24};
+  length_ = distance;
+  gone_ = 0;
+  return Reach::Ok;
+}
+
+PathBrake::Rates PathBrake::rates(double place) const noexcept {
+  const double unit = 4 / length_;
+  const double t = std::min(place, length_) * unit;
+  const auto& c = shape_;
+  return {unit * (c[1] + t * (2 * c[2] + t * (3 * c[3] + 4 * t * c[4]))),
+          unit * unit * (2 * c[2] + t * (6 * c[3] + 12 * t * c[4])), unit * unit * unit * (6 * c[3] + 24 * t * c[4])};
+}
+
+PathBrake::Span PathBrake::span_of(const Joints& first, const Joints& rest, const Joints& most) noexcept {
+  Span span{-HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < kAxes; ++i) {
+    const double size = std::abs(first[i]);
+    if (size < 1e-12) {
+      if (std::abs(rest[i]) > most[i]) {
+        return {1, -1};
+      }
+      continue;
+    }
+    const double middle = (first[i] < 0 ? rest[i] : -rest[i]) / size;
+    const double reach = most[i] / size;
+    span.low = std::max(span.low, middle - reach);
+    span.high = std::min(span.high, middle + reach);
+  }
+  return span;
+}
+
+// The differences between set points are what is limited, so they are what is looked at: exact for any period.
+PathBrake::Span PathBrake::distances(const PathHistory& past, const Joints& there, double distance,
+                                     double period) const noexcept {
+  const auto& q = past.joints;
+  const Joints first = rates(gone_ + distance).first;
+  const double square = period * period;
+  const Span spans[] = {span_of(first, there - q[0], period * most_.velocity),
+                        span_of(first, there - 2 * q[0] + q[1], square * acceleration_),
+                        span_of(first, there - 3 * q[0] + 3 * q[1] - q[2], square * period * jerk_)};
+  Span all{-HUGE_VAL, HUGE_VAL};
+  for (const Span& span : spans) {
+    all = {std::max(all.low, distance + span.low), std::min(all.high, distance + span.high)};
+  }
+  return all;
+}
+
+PathBrake::Motion PathBrake::after(double distance, const PathHistory& past, double period) const noexcept {
+  return {gone_ + distance, distance / period, (distance - past.moved[0]) / (period * period)};
+}
+
+PathBrake::Span PathBrake::jerks(const Rates& r, const Motion& m) const noexcept {
+  return span_of(r.first, 3 * m.speed * m.acceleration * r.second + m.speed * m.speed * m.speed * r.third,
+                 kKept * jerk_);
+}
+
+double PathBrake::left_over(Motion m, double period) const noexcept {
+  Span jerk = jerks(rates(m.place), m);
+  const double step = period * std::max(1.0, std::ceil(-m.acceleration / (jerk.high * period * kParts)));
+  for (int i = 0; i < 3 * kParts && m.acceleration < 0; ++i) {
+    if (jerk.low > jerk.high || jerk.high <= 0) {
+      return kTooLate;
+    }
+    const double taken = std::min(step, std::max(period, -m.acceleration / jerk.high));
+    // As differences between periods add up, whatever the step.
+    const auto moved = [&](double change) {
+      const double a = std::min(0.0, m.acceleration + change);
+      const double v = m.speed + taken * (m.acceleration + a) / 2 + period * (a - m.acceleration) / 2;
+      return Motion{m.place + taken * (m.speed + v) / 2, v, a};
+    };
+    Motion next = moved(taken * jerk.high);
+    const Rates there = rates(next.place);
+    const Span behind = jerks(there, next);
+    next = moved(taken * std::min(jerk.high, behind.high));
+    if (next.speed < 0) {
+      return next.speed;
+    }
+    const Span span = span_of(there.first, next.speed * next.speed * there.second, acceleration_);
+    const double slack = 1e-3 * (span.high - span.low);
+    next.acceleration = std::min(next.acceleration, span.high);
+    if (span.low > span.high || next.acceleration < span.low - slack ||
+        next.acceleration < m.acceleration + jerk.low * taken) {
+      return kTooLate;
+    }
+    m = next;
+    jerk = behind;
+  }
+  return m.speed;
+}
+
+double PathBrake::choose(const Span& span, const PathHistory& past, double period) const noexcept {
+  if (span.low > span.high) {
+    return (span.low + span.high) / 2;
+  }
+  const auto in_time = [&](double distance) { return left_over(after(distance, past, period), period) >= 0; };
+  if (in_time(span.low)) {
+    return span.low;
+  }
+  double late = span.low;
+  double early = span.high;
+  // The last few periods are what it takes to stand still at their end.
+  const double change = (span.high - span.low) / (period * period);
+  const bool last = -after(early, past, period).acceleration < 2 * change;
+  for (int i = 0; i < (last ? 20 : 6); ++i) {
+    const double middle = (late + early) / 2;
+    (in_time(middle) ? early : late) = middle;
+  }
+  return early;
+}
+
+// How far it is to rest, about: as if the path went on as it did.
+double PathBrake::far(const PathHistory& past, double period) const noexcept {
+  const double step = past.moved[0];
+  const Joints first = (past.joints[0] - past.joints[1]).cwiseAbs() / std::max(step, 1e-12);
+  LineLimits limits{1, HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < kAxes; ++i) {
+    limits.acceleration = std::min(limits.acceleration, acceleration_[i] / std::max(first[i], 1e-9));
+    limits.jerk = std::min(limits.jerk, jerk_[i] / std::max(first[i], 1e-9));
+  }
+  const double acceleration = (step - past.moved[1]) / (period * period);
+  return std::max(ramp({0, step / period, acceleration}, 0, limits).distance, 2 * step);
+}
+
+Reach PathBrake::keep_in_sight(const PathAhead& path, const PathHistory& past, double period) noexcept {
+  const double need = std::min(1.2 * far(past, period), path.left());
+  const bool seen = gone_ + need <= 1.5 * length_ && need >= 0.5 * length_ && gone_ <= 0.3 * length_;
+  return seen ? Reach::Ok : look_ahead(path, past.joints[0], need);
+}
+
+// Whether the axes may stand still from this set point on.
+bool PathBrake::can_stand(const PathHistory& past, double period) const noexcept {
+  const auto& q = past.joints;
+  const Joints last = q[0] - q[1];
+  const Joints jerk = (last - (q[1] - q[2]) + last).cwiseAbs().cwiseMax(last.cwiseAbs());
+  const double square = period * period;
+  return (last.cwiseAbs().array() <= square * acceleration_.array()).all() &&
+         (jerk.array() <= square * period * jerk_.array()).all();
+}
+
+PathBrake::Span PathBrake::inside(const Span& span, double part) noexcept {
+  const double inset = part * std::max(0.0, span.high - span.low);
+  return {span.low + inset, span.high - inset};
+}
+
+Joints PathBrake::joints_at(double place) const noexcept {
+  const double t = std::min(place, length_) * (4 / length_);
+  const auto& c = shape_;
+  return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
+}
+
+Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double period, double& distance,
+                      Joints& q) noexcept {
+  constexpr int kTries = 4;
+  constexpr double kInset = 1e-3;  // of what is possible: the polynomials are not that exact
+  distance = 0;
+  q = past.joints[0];
+  if (can_stand(past, period) || path.left() <= 0) {
+    return Reach::Ok;
+  }
+  if (const Reach reach = keep_in_sight(path, past, period); reach != Reach::Ok) {
+    return reach;
+  }
+  // A look along the polynomials first, which costs no inverse kinematics. Where they are not exact enough, it is
+  // looked at once more from the place that came out.
+  const double as_before = std::max(0.0, 2 * past.moved[0] - past.moved[1] + changed_);
+  Span guessed = distances(past, q + joints_at(gone_ + as_before) - joints_at(gone_), as_before, period);
+  double wanted = choose(inside(guessed, kInset), past, period);
+  for (int tries = 0; tries < kTries; ++tries) {
+    distance = std::max(0.0, wanted);
+    q = past.joints[0];
+    if (const Reach reach = path.joints_ahead(distance, past.joints[0], q); reach != Reach::Ok) {
+      return reach;
+    }
+    const Span span = distances(past, q, distance, period);
+    const double width = span.high - span.low;
+    const bool misled =
+        std::max(std::abs(span.low - guessed.low), std::abs(span.high - guessed.high)) > 5 * kInset * width;
+    wanted = misled ? choose(span, past, period) : std::clamp(distance, std::min(span.low, span.high), span.high);
+    guessed = span;
+    if (std::abs(wanted - distance) <= 1e-6 * width) {
+      break;
+    }
+  }
+  changed_ = distance - 2 * past.moved[0] + past.moved[1];
+  gone_ += distance;
+  return Reach::Ok;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brakes on a path as hard as the joints can, period by period: each time as far back as their limits allow that still
+// leaves room to take the braking back. It knows nothing of what paths are made of, only where the joints are on them.
+
+#pragma once
+
+#include <array>
+
+#include "robot/arm.h"
+#include "robot/inverse.h"
+#include "robot/profile.h"
+
+namespace indurop::robot {
+
+// The path from the present place on.
+class PathAhead {
+ public:
+  PathAhead() = default;
+  PathAhead(const PathAhead&) = delete;
+  PathAhead& operator=(const PathAhead&) = delete;
+  virtual ~PathAhead() = default;
+  // Joint angles `distance` further on; other than Ok leaves `q` alone.
+  virtual Reach joints_ahead(double distance, const Joints& near, Joints& q) const noexcept = 0;
+  // How far the path goes on.
+  [[nodiscard]] virtual double left() const noexcept = 0;
+};
+
+// The last set points and how far the path was followed from each to the next; the latest first.
+struct PathHistory {
+  std::array<Joints, 3> joints;
+  std::array<double, 2> moved{};
+};
+
+class PathBrake {
+ public:
+  explicit PathBrake(const JointLimits& limits) noexcept : most_(limits) {}
+
+  // `hardness` multiplies the accelerations, its square the jerks. Real-time safe, as all here.
+  void begin(double hardness) noexcept;
+  // How far to go in this period, and the joint angles there. 0 and the last set point: at rest. Where the joints
+  // cannot keep their limits whatever it does, it breaks them least.
+  Reach next(const PathAhead& path, const PathHistory& past, double period, double& distance, Joints& q) noexcept;
+
+ private:
+  struct Rates {
+    Joints first, second, third;  // derivatives by the place
+  };
+  struct Motion {
+    double place = 0, speed = 0, acceleration = 0;
+  };
+  // From and to, both possible; none if low > high.
+  struct Span {
+    double low, high;
+  };
+
+  [[nodiscard]] bool can_stand(const PathHistory& past, double period) const noexcept;
+  [[nodiscard]] double far(const PathHistory& past, double period) const noexcept;
+  Reach keep_in_sight(const PathAhead& path, const PathHistory& past, double period) noexcept;
+  Reach look_ahead(const PathAhead& path, const Joints& here, double distance) noexcept;
+  [[nodiscard]] Joints joints_at(double place) const noexcept;
+  [[nodiscard]] Rates rates(double place) const noexcept;
+  // What |first * y + rest| <= most leaves for y.
+  static Span span_of(const Joints& first, const Joints& rest, const Joints& most) noexcept;
+  static Span inside(const Span& span, double part) noexcept;
+  [[nodiscard]] Span jerks(const Rates& r, const Motion& m) const noexcept;
+  [[nodiscard]] Span distances(const PathHistory& past, const Joints& there, double distance,
+                               double period) const noexcept;
+  [[nodiscard]] double choose(const Span& span, const PathHistory& past, double period) const noexcept;
+  // Speed that is left when the braking has been taken back as fast as possible; below 0 if it is too late for that.
+  [[nodiscard]] double left_over(Motion motion, double period) const noexcept;
+  [[nodiscard]] Motion after(double distance, const PathHistory& past, double period) const noexcept;
+
+  JointLimits most_;
+  Joints acceleration_ = Joints::Zero();
+  Joints jerk_ = Joints::Zero();
+  // The path ahead as polynomials of the fourth degree, in quarters of `length_`.
+  std::array<Joints, 5> shape_;
+  double length_ = 0;
+  double gone_ = 0;     // since they were made
+  double changed_ = 0;  // last change of the acceleration, per period, as a distance
+};
+
+}  // namespace indurop::robot
