@@ -177,7 +177,8 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
   ProcessSlot& slot = *state.slot;
   if (slot.done.load(std::memory_order_acquire) != slot.released.load(kRelaxed)) {
     if (state.task.operation == Operation::Sporadic) {
-      return;  // it is still handling an event; its deadline is checked when it is done
+      count(record.skipped);  // it is still handling an event; its deadline is checked when it is done
+      return;
     }
     const bool started = slot.start_ns.load(kRelaxed) >= slot.release_ns.load(kRelaxed);
     record_overrun(state, release.tick, started, slot.release_ns.load(kRelaxed));

@@ -77,6 +77,29 @@ TEST_F(EngineInVirtualTime, Calls_sporadic_modules_after_the_periodic_ones_when_
   EXPECT_THAT(g_order, ElementsAre(1, 1, 9, 1));
 }
 
+TEST_F(EngineInVirtualTime, Counts_what_a_sporadic_process_missed_while_it_was_busy) {
+  Task event;
+  event.index = 1;
+  event.type = ModuleType::Process;
+  event.operation = Operation::Sporadic;
+  auto sut = make({periodic(0, 100'000, 1, note<1>), event}, 100'000, 100'000);
+  ModuleRecord& record = block->modules()[1];
+  ProcessSlot& slot = block->process_slots()[1];
+  record.pid = 1;
+  record.state = ModuleState::Running;
+  std::uint64_t handled = 0;
+  for (std::uint64_t tick = 0; tick < 10; ++tick) {
+    steps(*sut, tick, tick + 1, 100'000);
+    if (tick % 3 == 2) {
+      slot.done = slot.released.load();
+      ++handled;
+    }
+  }
+  EXPECT_EQ(slot.released.load(), handled + 1);
+  EXPECT_EQ(record.skipped.load() + slot.released.load(), 10U);
+  EXPECT_EQ(record.overruns.load(), 0U);
+}
+
 TEST_F(EngineInVirtualTime, Quarantines_a_module_that_throws_and_names_the_cause) {
   const std::vector<Task> tasks = {periodic(0, 100'000, 1, [] { throw std::runtime_error("no sensor"); }),
                                    periodic(1, 100'000, 2, note<2>)};
