@@ -11,6 +11,7 @@
 #include <cstdio>
 
 #include "base/exit_code.h"
+#include "base/option_errors.h"
 #include "base/option_pages.h"
 
 namespace indurop::base {
@@ -25,6 +26,8 @@ namespace {
 
 constexpr int kHelpColumn = 30;
 constexpr const char* kFormatFlag = "--help-format";
+constexpr const char* kHelpHelp = "Print help and exit";
+constexpr const char* kVersionHelp = "Print the version and exit";
 
 // CLI11 takes "-2" for an option and splits "[1,2]" into two: such words are marked before it sees them.
 constexpr char kMark = '\x01';
@@ -132,6 +135,10 @@ Options::Options(const std::string& name, std::string purpose)
   text_.name = name;
   text_.purpose = std::move(purpose);
   app_->get_formatter()->column_width(kHelpColumn);
+  app_->get_formatter()->label("Positionals", "Arguments");
+  app_->get_formatter()->label("Needs", "needs");
+  app_->get_formatter()->label("REQUIRED", "(required)");
+  app_->set_help_flag("-h,--help", kHelpHelp);
   app_->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
@@ -176,7 +183,9 @@ Option Options::flag(const std::string& names, bool& to, const std::string& help
       static_cast<void>(look(""));
     }
   };
-  return {state, *app_->add_flag_function(names, given, help)};
+  CLI::Option* made = app_->add_flag_function(names, given, help);
+  made->disable_flag_override();
+  return {state, *made};
 }
 
 Option Options::add(const std::string& names, const std::string& value, Take take, const std::string& help) {
@@ -271,9 +280,9 @@ void Options::show_details() {
 }
 
 void Options::version(const std::string& text) {
-  app_->set_version_flag("--version", text);
+  app_->set_version_flag("--version", text, kVersionHelp);
   options_.push_back(std::make_unique<Option::State>());
-  options_.back()->text = text_of("--version", "", "Print the version and exit");
+  options_.back()->text = text_of("--version", "", kVersionHelp);
 }
 
 CommandText Options::text() const {
@@ -281,7 +290,7 @@ CommandText Options::text() const {
   for (const auto& option : options_) {
     all.options.push_back(option->text);
   }
-  all.options.push_back(text_of("-h,--help", "", "Print help and exit"));
+  all.options.push_back(text_of("-h,--help", "", kHelpHelp));
   for (const auto& command : commands_) {
     all.commands.push_back(command->text());
   }
@@ -298,7 +307,7 @@ Options::Result Options::parse(std::vector<std::string> words) {
   } catch (const CLI::CallForVersion&) {
     return {Outcome::Told, app_->version() + "\n"};
   } catch (const CLI::ParseError& error) {
-    return {Outcome::Wrong, unmarked(error.what())};
+    return {Outcome::Wrong, unmarked(wrong_words(error, *app_, text()))};
   }
   return {};
 }

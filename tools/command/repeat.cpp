@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/command/repeat.h"
 
+#include <chrono>
+#include <string>
+
+#include "base/duration.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 
 namespace indurop::tools {
+namespace {
+
+constexpr std::chrono::milliseconds kShortest{10};
+
+}  // namespace
 
 void add_repeat_options(base::Options& app, Repeat& repeat) {
   app.flag("-w,--watch", repeat.on, "Again every second until Ctrl-C");
   app.flag("--once", repeat.once, "One round (the default without -w)");
   app.add("-n,--count", "COUNT", repeat.count, "COUNT rounds");
-  add_time_option(app, "--interval", repeat.interval_ns, "With -w: time between rounds (default 1 s)");
+  add_time_option(app, "--interval", repeat.interval_ns, "With -w: time between rounds, at least 10 ms (default 1 s)")
+      .check([](const std::string& text) {
+        const base::DurationText read = base::read_duration(text, true, base::PlainNumber::Seconds);
+        return read.value && *read.value < kShortest ? "'" + text + "' is too short; 10 ms is the shortest" : "";
+      });
   add_time_option(app, "--timeout", repeat.timeout_ns, "With -w: stop after this time");
 }
 
@@ -19,8 +32,7 @@ int repeat_rounds(Context& context, const Repeat& repeat, const std::function<in
   if (!repeated || repeat.once) {
     return round();
   }
-  constexpr std::int64_t kShortestNs = 10'000'000;
-  const std::int64_t interval = std::max(kShortestNs, repeat.interval_ns);
+  const std::int64_t interval = repeat.interval_ns;
   const std::int64_t begin = rt::now_ns();
   const bool repaint = context.out.terminal() && context.format == Format::Table;
   int code = kOk;

@@ -58,13 +58,14 @@ void add_format_option(base::Options& app, Context& context, std::initializer_li
   app.add("-o,--output", "FORM", take, "Form of the output: " + choices).choices(names);
 }
 
-void add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns, const std::string& help) {
+base::Option add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns,
+                             const std::string& help) {
   const auto take = [&to_ns](const std::string& text) {
     const base::DurationText read = base::read_duration(text, true, base::PlainNumber::Seconds);
     to_ns = read.value ? read.value->count() : to_ns;
     return read.problem;
   };
-  app.add(names, "TIME", take, help);
+  return app.add(names, "TIME", take, help);
 }
 
 JsonValue document() {

@@ -59,7 +59,8 @@ void add_far_options(base::Options& app, Context& context);
 void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats);
 
 // A time given in seconds or with a unit, into nanoseconds; wrong text is a usage error.
-void add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns, const std::string& help);
+base::Option add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns,
+                             const std::string& help);
 
 // Prints `head` with "schema_version" in front and the table's rows under `rows_key`, or the table as text or CSV.
 void print_table(Context& context, const Table& table, const JsonValue& head, const std::string& rows_key);

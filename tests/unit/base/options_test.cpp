@@ -99,9 +99,11 @@ TEST(Options, What_is_wrong_names_the_option) {
       {{"--rate", "fast"}, "--rate: 'fast' is no number"},
       {{"--core", "1.5"}, "--core: '1.5' is no whole number"},
       {{"--form", "wide"}, "--form: 'wide' is not one of short|long"},
-      {{"--form"}, "--form"},
+      {{"--form"}, "--form: FORM is missing"},
+      {{"--quiet=3"}, "--quiet takes no value"},
       {{"--one-host"}, "--one-host requires --board"},
-      {{"--nonsense"}, "--nonsense"},
+      {{"--cuont=3"}, "there is no option --cuont; did you mean --count?"},
+      {{"--zzzzz"}, "there is no option --zzzzz"},
   };
   for (const auto& [words, text] : cases) {
     Sample sut;
@@ -109,6 +111,28 @@ TEST(Options, What_is_wrong_names_the_option) {
     EXPECT_EQ(result.outcome, Outcome::Wrong);
     EXPECT_THAT(result.text, HasSubstr(text));
   }
+}
+
+TEST(Options, What_is_missing_or_too_much_is_named_as_the_help_names_it) {
+  Options sut("sample", "Show how it is done");
+  std::string file;
+  std::string name;
+  sut.add("file", "FILE", file, "What to read").required();
+  sut.add("-b,--board", "NAME", name, "Which board").required();
+  EXPECT_EQ(sut.parse({"-b", "x"}).text, "FILE is missing");
+  EXPECT_EQ(sut.parse({"-b", "x", "--flie"}).text, "there is no option --flie");
+  EXPECT_EQ(sut.parse({"in.xml"}).text, "--board NAME is missing");
+  EXPECT_EQ(sut.parse({"in.xml", "-b", "x", "more", "-1"}).text, "'more', '-1' are too much");
+}
+
+TEST(Options, Words_of_a_command_are_judged_by_its_own_options) {
+  Options sut("sample", "Show how it is done");
+  std::uint64_t count = 0;
+  sut.command("list", "List them", [] {}).add("--count", "N", count, "How many");
+  EXPECT_EQ(sut.parse({}).text, "a command is missing");
+  EXPECT_EQ(sut.parse({"list", "--coutn", "1"}).text, "there is no option --coutn; did you mean --count?");
+  EXPECT_EQ(sut.parse({"list", "x"}).text, "'x' is not expected here");
+  EXPECT_EQ(sut.parse({"lits"}).text, "there is no command 'lits'; did you mean list?");
 }
 
 TEST(Options, Help_and_version_are_told) {
