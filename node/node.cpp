@@ -25,16 +25,18 @@ Ending run_modules(const Options& options, Console& console, base::StopSignal& s
   return ending;
 }
 
-void save_values(Prepared& prepared, Console& console) {
+// False if values that are to be kept are not on the disk.
+bool save_values(Prepared& prepared, Console& console) {
   scheduler::RunBlock& run = prepared.run();
   run.state.store(scheduler::NodeState::Stopping);
-  prepared.retainer->stop(console);
+  const bool saved = prepared.retainer->stop(console);
   for (std::uint32_t i = 0; i < run.module_count; ++i) {
     auto& state = run.modules()[i].state;
     if (const ModuleState now = state.load(); now != ModuleState::Faulted && now != ModuleState::Exited) {
       state.store(ModuleState::Stopped);
     }
   }
+  return saved;
 }
 
 // What was measured, for people and as a file. False: the file could not be written.
@@ -96,7 +98,9 @@ int run_node(const Options& options) {
     return prepared.error().code;
   }
   Ending ending = run_modules(options, console, signals, *checked, *prepared);
-  save_values(*prepared, console);
+  if (!save_values(*prepared, console) && (ending.code == kOk || ending.code == kInterrupted)) {
+    ending.code = kFailed;
+  }
   return conclude(options, console, prepared->run(), std::move(ending));
 }
 

@@ -66,18 +66,20 @@ void Retainer::loop() {
   }
 }
 
-void Retainer::stop(Console& console) {
+bool Retainer::stop(Console& console) {
   stop_.store(true);
   thread_.join();
   if (!any_) {
-    return;
+    return true;
   }
-  if (const Status saved = file_.save(store_); !saved) {
+  const Status saved = file_.save(store_);
+  if (!saved) {
     console.error("retained variables could not be saved: {}: {}", saved.error().where,
                   std::strerror(saved.error().sys_errno));
   } else if (failed_.load() != 0) {
     console.warning("an earlier save of the retained variables failed; the last one succeeded");
   }
+  return saved.ok();
 }
 
 }  // namespace indurop::node

@@ -23,8 +23,8 @@ class Retainer {
   // Values from the disk into a fresh store; says what was damaged.
   void load(Console& console);
   void start();
-  // Last save. Says on the console if it failed.
-  void stop(Console& console);
+  // Last save. False if it failed, which it says on the console.
+  [[nodiscard]] bool stop(Console& console);
 
  private:
   void loop();

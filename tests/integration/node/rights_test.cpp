@@ -132,12 +132,13 @@ TEST_F(Rights, Folder_of_the_report_must_exist) {
   EXPECT_CONTAINS(sut.err, "No such file or directory");
 }
 
-TEST_F(Rights, State_directory_that_cannot_be_written_is_said_and_does_not_stop_the_node) {
+TEST_F(Rights, State_directory_that_cannot_be_written_does_not_stop_the_node_and_its_exit_code_says_so) {
   Environment environment = this->environment();
   environment.variables.emplace_back("INDUROP_STATE_DIR=/proc/nowhere");
   const std::string file = write("module.xml", xml({{.file = "counter.so", .name = "counter"}}));
   Program& sut = start_file(file, {"--duration", "20ms"}, environment);
-  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_EQ(sut.wait(), 1);
+  EXPECT_GT(run()->tick.load(), 0U);
   EXPECT_CONTAINS(sut.err(), "retained variables could not be saved");
 }
 
