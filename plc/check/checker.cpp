@@ -6,6 +6,7 @@
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
 #include "plc/check/pou_checker.h"
+#include "plc/check/shared_names.h"
 #include "plc/check/task_checker.h"
 #include "plc/check/type_builder.h"
 
@@ -44,6 +45,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   declare_pous(context);
   declare_globals(context, true);
   declare_types(context);
+  name_types(context);
   declare_globals(context, false);
   declare_variables(context);
   check_bodies(context);

@@ -8,15 +8,11 @@
 
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
+#include "plc/check/shared_names.h"
 #include "plc/check/type_builder.h"
 
 namespace indurop::plc {
 namespace {
-
-std::string_view last_name(std::string_view full) noexcept {
-  const std::size_t at = full.rfind("::");
-  return at == std::string_view::npos ? full : full.substr(at + 2);
-}
 
 // "IX0_3" of %IX0.3
 std::string name_of(const ast::DirectAddress& address) {
@@ -73,6 +69,20 @@ std::string free_name(const Program& program, std::string name) {
   return name;
 }
 
+// What is seen of a variable outside of the program: its name, unless that is taken there.
+std::string free_shared_name(const Program& program, const std::string& name) {
+  std::string shared = name_of_shared(name);
+  const auto taken = [&] {
+    return std::any_of(program.globals.begin(), program.globals.end(), [&](const Global& one) {
+      return one.kind != Global::Kind::Foreign && same_name(last_name(one.shared_name), shared);
+    });
+  };
+  while (taken()) {
+    shared += "_value";
+  }
+  return shared;
+}
+
 void declare_one(Context& context, ast::Variable& variable, const Type& type) {
   Program& program = context.program;
   if (variable.name.empty()) {
@@ -108,7 +118,12 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     }
     global.kind = Global::Kind::Private;
   }
-  global.shared_name = fmt::format("{}::{}", program.space, global.name);
+  global.shared_name = fmt::format("{}::{}", program.space, free_shared_name(program, global.name));
+  if (!global.shared_name.ends_with("::" + global.name) && global.kind == Global::Kind::Own) {
+    context.warning(variable.at,
+                    fmt::format("'{}' has another meaning in C++ or IDL, so modules and tools see it as {}",
+                                global.name, global.shared_name));
+  }
   add(program, std::move(global));
 }
 
@@ -197,7 +212,7 @@ Global& located_global(Context& context, const ast::DirectAddress& address, cons
   global.name = free_name(context.program, name_of(address));
   global.type = context.elementary(type_of(address));
   global.address = text;
-  global.shared_name = fmt::format("{}::{}", context.program.space, global.name);
+  global.shared_name = fmt::format("{}::{}", context.program.space, free_shared_name(context.program, global.name));
   return add(context.program, std::move(global));
 }
 

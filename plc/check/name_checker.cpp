@@ -221,8 +221,8 @@ const Type* ExpressionChecker::member(Expression& expression) {
   }
   std::vector<std::string> known;
   for (const Field& field : type->fields) {
-    if (same_name(field.name, expression.name)) {
-      expression.name = field.name;
+    if (same_name(field.name, expression.name) || field.member() == expression.name) {
+      expression.name = field.member();
       return field.type;
     }
     known.push_back(field.name);

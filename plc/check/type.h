@@ -25,11 +25,14 @@ struct Field {
   const Type* type = nullptr;
   const ast::Initial* initial = nullptr;  // null: the type's own
   std::string comment;
+  std::string shared = {};  // in the .glb and in C++; empty: as it is
+  [[nodiscard]] const std::string& member() const noexcept { return shared.empty() ? name : shared; }
 };
 
 struct EnumItem {
   std::string name;
   std::int64_t value = 0;
+  std::string shared = {};  // in the .glb
 };
 
 struct Bounds {
@@ -55,6 +58,7 @@ struct Type {
   const LibraryBlock* block = nullptr;      // Block of the library
   const ast::Initial* initial = nullptr;    // of the declaration; null: zero, or the first value of an enumeration
   std::string shared_name;                  // Struct, Enum of a .glb file: "knu::Robot::Point"
+  std::string glb_name = {};                // Struct, Enum of the project: its name in the .glb
 
   [[nodiscard]] bool is(Elementary type) const noexcept { return kind == Kind::Elementary && elementary == type; }
   [[nodiscard]] bool is_string() const noexcept { return is(Elementary::String); }

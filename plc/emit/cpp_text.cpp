@@ -16,24 +16,34 @@ namespace indurop::plc {
 namespace {
 
 // Words of C++, macros of the C library; then, from std on, names that the generated code uses itself.
-constexpr std::array<std::string_view, 116> kTaken{
-    "alignas",     "alignof",   "and",        "and_eq",     "asm",      "auto",         "bitand",
-    "bitor",       "bool",      "break",      "case",       "catch",    "char",         "char8_t",
-    "char16_t",    "char32_t",  "class",      "compl",      "concept",  "const",        "consteval",
-    "constexpr",   "constinit", "const_cast", "continue",   "co_await", "co_return",    "co_yield",
-    "decltype",    "default",   "delete",     "do",         "double",   "dynamic_cast", "else",
-    "enum",        "explicit",  "export",     "extern",     "false",    "float",        "for",
-    "friend",      "goto",      "if",         "inline",     "int",      "long",         "mutable",
-    "namespace",   "new",       "noexcept",   "not",        "not_eq",   "nullptr",      "operator",
-    "or",          "or_eq",     "private",    "protected",  "public",   "register",     "reinterpret_cast",
-    "requires",    "return",    "short",      "signed",     "sizeof",   "static",       "static_assert",
-    "static_cast", "struct",    "switch",     "template",   "this",     "thread_local", "throw",
-    "true",        "try",       "typedef",    "typeid",     "typename", "union",        "unsigned",
-    "using",       "virtual",   "void",       "volatile",   "wchar_t",  "while",        "xor",
-    "xor_eq",      "assert",    "errno",      "NULL",       "EOF",      "INFINITY",     "NAN",
-    "unix",        "linux",     "stdin",      "stdout",     "stderr",   "std",          "iec",
-    "irp",         "indurop",   "plc",        "scan",       "shared",   "before",       "kept",
-    "BUFSIZ",      "main",      "run",        "POU_PROGRAM"};
+constexpr std::array<std::string_view, 117> kTaken{
+    "alignas",     "alignof",   "and",        "and_eq",      "asm",      "auto",         "bitand",
+    "bitor",       "bool",      "break",      "case",        "catch",    "char",         "char8_t",
+    "char16_t",    "char32_t",  "class",      "compl",       "concept",  "const",        "consteval",
+    "constexpr",   "constinit", "const_cast", "continue",    "co_await", "co_return",    "co_yield",
+    "decltype",    "default",   "delete",     "do",          "double",   "dynamic_cast", "else",
+    "enum",        "explicit",  "export",     "extern",      "false",    "float",        "for",
+    "friend",      "goto",      "if",         "inline",      "int",      "long",         "mutable",
+    "namespace",   "new",       "noexcept",   "not",         "not_eq",   "nullptr",      "operator",
+    "or",          "or_eq",     "private",    "protected",   "public",   "register",     "reinterpret_cast",
+    "requires",    "return",    "short",      "signed",      "sizeof",   "static",       "static_assert",
+    "static_cast", "struct",    "switch",     "template",    "this",     "thread_local", "throw",
+    "true",        "try",       "typedef",    "typeid",      "typename", "union",        "unsigned",
+    "using",       "virtual",   "void",       "volatile",    "wchar_t",  "while",        "xor",
+    "xor_eq",      "assert",    "errno",      "NULL",        "EOF",      "INFINITY",     "NAN",
+    "unix",        "linux",     "stdin",      "stdout",      "stderr",   "std",          "iec",
+    "irp",         "indurop",   "plc",        "scan",        "shared",   "before",       "kept",
+    "BUFSIZ",      "main",      "run",        "POU_PROGRAM", "Image"};
+
+// What the emitters call their own variables beside those of the program.
+bool is_generated(std::string_view name) noexcept {
+  const std::string_view letters = name.substr(0, name.find_last_not_of("0123456789") + 1);
+  const bool numbered = letters.size() < name.size();
+  const auto is = [&](std::string_view one) { return numbered && letters == one; };
+  return is("case_") || is("loop_") || is("counter_") || is("end_") || is("begin_") || is("enabled_") ||
+         name == "result" || name.starts_with("out_") || name.ends_with("_result") || name.ends_with("_edge") ||
+         name.ends_with("_before");
+}
 
 std::string number(Integer value, const Type& type) {
   if (value == Integer{std::numeric_limits<std::int32_t>::min()}) {
@@ -119,14 +129,12 @@ std::string of_block(const Type& type, const ast::Initial& initial) {
 
 }  // namespace
 
+// With '_' behind it where it is taken, and one more where it would then be the name of another one: new, new_, new__.
 std::string cpp_name(std::string_view name) {
-  const bool taken = std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end() || glb2idl::is_system_macro(name);
+  const std::string_view bare = name.substr(0, name.find_last_not_of('_') + 1);
+  const bool taken = std::find(kTaken.begin(), kTaken.end(), bare) != kTaken.end() || is_generated(bare) ||
+                     glb2idl::is_system_macro(bare) || bare.starts_with("__");
   return std::string(name) + (taken ? "_" : "");
-}
-
-std::string cpp_field(std::string_view name) {
-  const auto* own = std::find(kTaken.begin(), kTaken.end(), std::string_view("std"));
-  return std::string(name) + (std::find(kTaken.begin(), own, name) != own ? "_" : "");
 }
 
 std::string cpp_name(const Global& global) {

@@ -13,8 +13,6 @@ namespace indurop::plc {
 
 // The name itself; with '_' behind it where C++ or the generated code has another use for it.
 [[nodiscard]] std::string cpp_name(std::string_view name);
-// The same for a field of a struct: as it is, unless it is a word of C++.
-[[nodiscard]] std::string cpp_field(std::string_view name);
 // "std::int16_t", "iec::String<80>", "std::array<plc::Motor, 3>"
 [[nodiscard]] std::string cpp_type(const Type& type);
 // The member of the image of the shared variables, or the constant.

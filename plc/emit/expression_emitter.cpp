@@ -156,10 +156,8 @@ std::string ExpressionEmitter::member(const Expression& expression) const {
     return cpp_constant(*constant_of(expression), *expression.type, true);
   }
   const Type& base = *expression.operands[0].type;
-  const bool as_is = !base.shared_name.empty() || base.block != nullptr;
-  const std::string own =
-      base.kind == Type::Kind::Struct ? cpp_field(expression.name) : cpp_name(std::string_view(expression.name));
-  return raw(expression.operands[0]) + "." + (as_is ? expression.name : own);
+  const bool as_is = base.kind == Type::Kind::Struct || base.block != nullptr;
+  return raw(expression.operands[0]) + "." + (as_is ? expression.name : cpp_name(std::string_view(expression.name)));
 }
 
 std::string ExpressionEmitter::index(const Expression& expression) const {

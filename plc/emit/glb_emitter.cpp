@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/utf8.h"
+#include "plc/check/shared_names.h"
 #include "plc/check/value_tree.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/task_use.h"
@@ -58,7 +59,7 @@ class GlbEmitter {
     line(fmt::format("namespace {};", program.space));
     for (const Global& global : program.globals) {
       if (global.kind == Global::Kind::Own) {
-        taken_.insert(upper(global.name));
+        taken_.insert(upper(last_name(global.shared_name)));
       }
     }
   }
@@ -69,14 +70,15 @@ class GlbEmitter {
         need(*global.type);
         std::string comment = global.address;
         comment += comment.empty() || global.comment.empty() ? "" : " ";
-        variable(global.name, *global.type, global.initial, global.retain, comment + global.comment, global.at);
+        variable(std::string(last_name(global.shared_name)), *global.type, global.initial, global.retain,
+                 comment + global.comment, global.at);
       }
     }
     for (const TaskPlan& task : program_.tasks) {
       for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
         const ast::Variable& declared = *one.variable->declared;
         need(*one.variable->type);
-        variable(one.instance + "_" + one.variable->name, *one.variable->type,
+        variable(std::string(last_name(one.shared_name)), *one.variable->type,
                  declared.initial ? &*declared.initial : nullptr, declared.retain, declared.comment, declared.at);
       }
     }
@@ -106,26 +108,26 @@ class GlbEmitter {
     for (const Field& field : type.fields) {
       need(*field.type);
     }
-    line(fmt::format("struct {} {{", type.name));
+    line(fmt::format("struct {} {{", type.glb_name));
     for (const Field& field : type.fields) {
-      line("  " + declarator(*field.type, field.name) + ";" + description(field.comment));
+      line("  " + declarator(*field.type, field.member()) + ";" + description(field.comment));
     }
     line("};");
   }
 
   void enumeration(const Type& type) {
     const bool free = std::none_of(type.items.begin(), type.items.end(),
-                                   [&](const EnumItem& one) { return taken_.contains(upper(one.name)); });
+                                   [&](const EnumItem& one) { return taken_.contains(upper(one.shared)); });
     if (!is_glb_enum(type) || !free) {
       return;  // shown as a number
     }
     enums_.insert(&type);
     std::string items;
     for (const EnumItem& one : type.items) {
-      taken_.insert(upper(one.name));
-      items += (items.empty() ? "" : ", ") + one.name;
+      taken_.insert(upper(one.shared));
+      items += (items.empty() ? "" : ", ") + one.shared;
     }
-    line(fmt::format("enum {} {{ {} }};", type.name, items));
+    line(fmt::format("enum {} {{ {} }};", type.glb_name, items));
   }
 
   std::string declarator(const Type& type, const std::string& name) {
@@ -148,7 +150,7 @@ class GlbEmitter {
       return type.shared_name;
     }
     if (type.kind == Type::Kind::Struct || enums_.contains(&type)) {
-      return type.name;
+      return type.glb_name;
     }
     return std::string(kGlbTypes[static_cast<std::size_t>(type.elementary)]);
   }
@@ -165,7 +167,7 @@ class GlbEmitter {
 
   std::string value(const Type& type, const ValueTree& tree, std::size_t level) {
     if (type.kind == Type::Kind::Enum && enums_.contains(&type)) {
-      return type.items[static_cast<std::size_t>(*as_int64(tree.value))].name;
+      return type.items[static_cast<std::size_t>(*as_int64(tree.value))].shared;
     }
     if (type.kind == Type::Kind::Elementary || type.kind == Type::Kind::Enum) {
       return tree.zero && type.is_string() ? "\"\"" : tree.zero ? "0" : glb_constant(tree.value);

@@ -93,7 +93,7 @@ class ModuleEmitter {
     out_.open("struct " + name);
     std::string fields;
     for (const Field& field : type.fields) {
-      const std::string member = cpp_field(field.name);
+      const std::string& member = field.member();
       out_.line(fmt::format("{} {}{{}};", cpp_type(*field.type), member));
       fields += fmt::format(" iec::copy_value(to.{0}, from.{0});", member);
     }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "plc/check/reach.h"
+#include "plc/check/shared_names.h"
 
 namespace indurop::plc {
 namespace {
@@ -33,7 +34,8 @@ TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals) {
   for (const TaskProgram& one : task.programs) {
     for (const Variable& variable : one.pou->variables) {
       if (is_shown(variable, show_locals)) {
-        out.locals.push_back({one.instance, &variable, program.space + "::" + one.instance + "_" + variable.name});
+        out.locals.push_back(
+            {one.instance, &variable, program.space + "::" + name_of_shared(one.instance + "_" + variable.name)});
       }
     }
   }

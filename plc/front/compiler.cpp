@@ -8,6 +8,7 @@
 
 #include "glb2idl/compiler.h"
 #include "plc/check/checker.h"
+#include "plc/check/shared_names.h"
 #include "plc/emit/glb_emitter.h"
 #include "plc/emit/module_emitter.h"
 #include "plc/front/reader.h"
@@ -90,8 +91,7 @@ class Compiler {
  private:
   void translate() {
     CheckOptions check_options;
-    // C++ keeps the name main for itself.
-    check_options.space = !options_.space.empty() ? options_.space : out_.name == "main" ? "plc" : out_.name;
+    check_options.space = !options_.space.empty() ? options_.space : name_of_space(out_.name);
     if (!options_.glb_files.empty()) {
       auto foreign = glb2idl::compile(options_.glb_files, read_);
       if (!foreign.ok) {

@@ -8,7 +8,8 @@ constexpr int kMaxNesting = 64;  // statements inside each other
 
 // Words that end the statement before them, so that reading can go on there after an error.
 bool begins_something(const Token& token) {
-  return token.kind == TokenKind::Word && (token.text.size() > 4 && same_name(token.text.substr(0, 4), "END_"));
+  return token.kind == TokenKind::Word && is_keyword(token.text) && token.text.size() > 4 &&
+         same_name(token.text.substr(0, 4), "END_");
 }
 
 }  // namespace

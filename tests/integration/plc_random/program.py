@@ -16,6 +16,12 @@ from units import Function, LibraryBlock, Parameter, UserBlock, declared
 TIMES = [ms * 10**6 for ms in (1000, 1010, 1020, 1040, 1540, 1550, 3050, 3060)]
 
 
+# Words of C++ and IDL, macros, and what the compiler itself may call something.
+HARD = """new default result out_b case_1 case_2 loop_1 counter_1 end_1 begin_1 enabled_1 this delete operator signed _x x__y NULL
+EOF std iec irp shared before scan kept errno assert __FILE__ __LINE__ switch goto register double float unsigned template
+virtual INT_MAX M_PI Image run main plc new_ new__ result_ value_type get any sequence octet in0_edge indurop_x void char""".split()
+
+
 class Program:
     def __init__(self, seed, number):
         self.rng = random.Random(seed)
@@ -102,13 +108,17 @@ class Program:
     def parameters(self, section, letter, most, least=0, type_of=None):
         out = []
         for i in range(self.rng.randint(least, most)):
+            name = f"{letter}{i}"
+            if self.hard and self.rng.random() < 0.25:
+                name = self.hard.pop()
             type_ = (type_of or self.any_type)()
             initial = None if section == "VAR_IN_OUT" else self.initial(type_)
-            out.append(Parameter(f"{letter}{i}", type_, section, initial))
+            out.append(Parameter(name, type_, section, initial))
         return out
 
     def make_function(self, i):
         rng = self.rng
+        self.hard = rng.sample(HARD, 6)
         pure = rng.random() < 0.5
         kinds = ["VAR_INPUT"] if pure else ["VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT"]
         made = [self.parameters(one, one[4:6].lower() + ("n" if one == "VAR_IN_OUT" else ""), 3, one == "VAR_INPUT") for one in kinds]
@@ -134,10 +144,13 @@ class Program:
 
     def make_block(self, i):
         rng = self.rng
+        self.hard = []
+        outputs = self.parameters("VAR_OUTPUT", "ou", 3, 1)  # the driver calls them by their names
+        self.hard = rng.sample(HARD, 6)
         parameters = self.parameters("VAR_INPUT", "in", 3, 1)
         if rng.random() < 0.3:
             parameters.append(Parameter("edge", BOOL, "VAR_INPUT", None, rng.choice(("R_EDGE", "F_EDGE"))))
-        parameters += self.parameters("VAR_OUTPUT", "ou", 3, 1) + self.parameters("VAR_IN_OUT", "io", 1)
+        parameters += outputs + self.parameters("VAR_IN_OUT", "io", 1)
         parameters += self.parameters("VAR", "v", 3, 1) + self.parameters("VAR_TEMP", "t", 1)
         blocks = self.instances(rng.randint(0, 2))
         block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
@@ -158,6 +171,7 @@ class Program:
 
     def make_body(self):
         rng = self.rng
+        self.hard = []
         self.variables = self.parameters("VAR", "x", 14, 6)
         self.variables += [Parameter("n0", INT, "VAR"), Parameter("s0", STRING, "VAR"), Parameter("t0", TIME, "VAR"),
                            Parameter("w0", rng.choice(BITS), "VAR")]
