@@ -15,6 +15,7 @@
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/mirror_text.h"
+#include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
 #include "rt/clock.h"
@@ -76,8 +77,10 @@ class Agent {
   int run(base::StopSignal& signals) {
     state_.collect_old_garbage();
     resume();
+    service_manager_.ready();
     while (signals.wait({}) == 0) {
       const rt::MonoTime now = rt::MonoClock::now();
+      service_manager_.alive(now);
       process_.step(now);
       connect(now);
       if (link_ != nullptr) {
@@ -89,6 +92,7 @@ class Agent {
       pause(signals);
     }
     log_.info("stopping: signal {}", signals.received());
+    service_manager_.stopping();
     commands_.reset();
     link_.reset();  // the others see at once that this board leaves
     process_.end();
@@ -353,6 +357,7 @@ class Agent {
   BoardCommands board_commands_;
   BlobServer server_;
   LinkSettings link_settings_;
+  ServiceManager service_manager_;
   std::unique_ptr<deploy::DeployLink> link_;
   std::unique_ptr<deploy::CommandLink> commands_;
   rt::MonoTime connect_at_;

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "base/exit_code.h"
 #include "base/spawn.h"
@@ -213,6 +214,9 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
   if (!last_error_.empty()) {
     reason_ += ": " + last_error_;
   }
+  if (!hung_.empty()) {
+    reason_ = std::exchange(hung_, {});
+  }
   if (!died) {
     // Orderly: somebody stopped it, or it refuses to run; again and again would not help.
     condition_ = NodeCondition::Failed;
@@ -263,6 +267,9 @@ void BoardProcess::step(rt::MonoTime now) {
                present(run_).state.load() == scheduler::NodeState::Running) {
       condition_ = NodeCondition::Running;
     }
+    if (condition_ == NodeCondition::Running) {
+      end_if_it_hangs(now);
+    }
     return;
   }
   if (wanted_.empty() || !held_.empty() || condition_ == NodeCondition::Failed || now < start_at_) {
@@ -270,6 +277,20 @@ void BoardProcess::step(rt::MonoTime now) {
   }
   if (!adopt()) {
     launch(now);
+  }
+}
+
+// Nothing of it can be asked to end any more; the restart goes the way of a node that died.
+void BoardProcess::end_if_it_hangs(rt::MonoTime now) {
+  if (!look()) {
+    return;
+  }
+  if (const auto stood = tick_watch_.look(present(run_), now)) {
+    hung_ = fmt::format("the node hung: its tick stood at {} for {:.1f} s", present(run_).tick.load(),
+                        std::chrono::duration<double>(*stood).count());
+    log_.error("{}; it is killed", hung_);
+    ::kill(pid_, SIGKILL);
+    tick_watch_.reset();
   }
 }
 
@@ -291,6 +312,7 @@ bool BoardProcess::look() {
       return false;
     }
     run_ = std::move(file).value();
+    tick_watch_.reset();
   }
   return true;
 }

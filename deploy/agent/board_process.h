@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "deploy/agent/tick_watch.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
 #include "vars/run_file.h"
@@ -63,6 +64,7 @@ class BoardProcess {
   void launch(rt::MonoTime now);
   bool adopt();
   void read_output();
+  void end_if_it_hangs(rt::MonoTime now);
   bool ended(int& status);
   void note_end(int status, rt::MonoTime now);
   void signal_stop(rt::MonoTime now);
@@ -92,6 +94,8 @@ class BoardProcess {
   NodeCondition condition_ = NodeCondition::None;
   std::string reason_;
   std::optional<vars::RunFile> run_;
+  TickWatch tick_watch_;
+  std::string hung_;  // why the node was killed
   // By module: the faults that a node which runs on had at want().
   std::vector<std::uint64_t> faults_before_;
 };

@@ -5,10 +5,10 @@
 
 #include <atomic>
 #include <charconv>
+#include <cstddef>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -22,9 +22,14 @@ namespace {
 
 constexpr double kPatienceSeconds = 2;
 
+// The first of it. A process may end between two calls: then there is nothing, and no exception of a stream's buffer.
 std::string text_of(const std::filesystem::path& file) {
+  constexpr std::size_t kMost = 4096;
+  std::string text(kMost, '\0');
   std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  stream.read(text.data(), kMost);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
 }
 
 // A node, or `indurop run` that is about to become one.
@@ -66,12 +71,13 @@ double age_in_seconds(pid_t pid) {
 
 bool node_is_starting() {
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
-    const std::string name = entry.path().filename();
+  for (std::filesystem::directory_iterator entry("/proc", error), end_of_all; entry != end_of_all && !error;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename();
     pid_t pid = 0;
     const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), pid);
     if (problem == std::errc() && *end == '\0' && pid != ::getpid() && age_in_seconds(pid) < kPatienceSeconds &&
-        becomes_node(entry.path()) && sees_our_files(entry.path()) && !runs_already(pid)) {
+        becomes_node(entry->path()) && sees_our_files(entry->path()) && !runs_already(pid)) {
       return true;
     }
   }

@@ -33,6 +33,15 @@ TEST_F(Killed, A_node_that_is_killed_is_started_again) {
   EXPECT_TRUE(wait_until([&] { return vars::running_node(board("a")) != node && runs("a", committed_); }));
 }
 
+TEST_F(Killed, A_node_that_hangs_is_killed_and_started_again) {
+  const pid_t node = vars::running_node(board("a"));
+  ASSERT_EQ(::kill(node, SIGSTOP), 0);
+  EXPECT_TRUE(wait_until([&] {
+    return agent("a").err().find("the node hung: its tick stood at") != std::string::npos;
+  })) << agent("a").err();
+  EXPECT_TRUE(wait_until([&] { return vars::running_node(board("a")) != node && runs("a", committed_); }));
+}
+
 TEST_F(Killed, A_node_that_dies_again_and_again_stays_down) {
   for (int i = 0; i < 4; ++i) {
     pid_t node = 0;
