@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Topics for tools of others: libraries of their types, and rules for single variables.
 
+#include <algorithm>
 #include <map>
 
 #include "base/text.h"
@@ -70,11 +71,43 @@ void check_external_rules(const std::vector<VariableRule>& rules, bool shown, co
   }
 }
 
+bool has_array_of_texts(const schema::Type& type) {
+  return (type.base == schema::Base::Text && !type.dims.empty()) ||
+         std::any_of(type.fields.begin(), type.fields.end(),
+                     [](const schema::Field& field) { return has_array_of_texts(field.type); });
+}
+
+void check_foreign_types(const TypeFiles& named, const std::vector<VariableRule>& rules, const schema::Schema& schema,
+                         base::Diagnostics& report) {
+  if (named.types.empty()) {
+    return;
+  }
+  std::vector<std::string> names;
+  for (const schema::Variable& variable : schema.variables) {
+    const bool off = std::any_of(rules.begin(), rules.end(), [&](const VariableRule& rule) {
+      return rule.name == variable.name && rule.external == VariableRule::External::Off;
+    });
+    if (!off && has_array_of_texts(variable.type)) {
+      names.push_back(variable.name);
+    }
+  }
+  if (!names.empty()) {
+    report.note(
+        named.type_places.front(),
+        "arrays of texts are misread by programs made with fastddsgen 2.3 (Debian 12), with what follows in the "
+        "same struct: " +
+            base::enumerate(names) + "; give each text a name of its own if such a program reads it");
+  }
+}
+
 std::set<std::string> check_external(CheckContext& context, const Uses& uses) {
   ExternalPlane& plane = context.config.external;
   check_type_libraries(plane, context.report);
   resolve_rules(plane.variables, context.result.schema, context.report);
   check_external_rules(plane.variables, plane.domain && !plane.types.empty(), uses, context.report);
+  if (plane.domain) {
+    check_foreign_types(plane, plane.variables, context.result.schema, context.report);
+  }
   std::set<std::string> settable;
   for (const VariableRule& rule : plane.variables) {
     if (rule.external == VariableRule::External::Write) {

@@ -58,7 +58,11 @@ void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schem
 void check_external_rules(const std::vector<VariableRule>& rules, bool shown, const Uses& uses,
                           base::Diagnostics& report);
 
-// All three of a module.xml. Returns the variables that tools may set.
+// Types that programs of others are known to misread. For an external plane that is shown.
+void check_foreign_types(const TypeFiles& named, const std::vector<VariableRule>& rules, const schema::Schema& schema,
+                         base::Diagnostics& report);
+
+// All of a module.xml. Returns the variables that tools may set.
 std::set<std::string> check_external(CheckContext& context, const Uses& uses);
 
 struct NamedFile {

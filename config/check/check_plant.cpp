@@ -85,6 +85,9 @@ class PlantCheckRun {
     check_agreement(views, report);
     resolve_rules(plant_.variables, schema_, report);
     check_external_rules(plant_.variables, plant_.external_domain && !plant_.types.empty(), uses, report);
+    if (plant_.external_domain) {
+      check_foreign_types(plant_, plant_.variables, schema_, report);
+    }
     result_.routes = find_routes(context, result_);
     add_owners_of_the_rest();
     std::set<std::string> set_by_hand;

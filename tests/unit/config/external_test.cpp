@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "config/check/check_parts.h"
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 
@@ -101,6 +102,44 @@ TEST(External, Of_a_secured_plant_is_off_unless_it_is_asked_for) {
   const ReadPlant sut = read_board(secured + "<external>0</external>");
   EXPECT_EQ(sut.plant.external_domain, 0);
   EXPECT_THAT(said(sut), ElementsAre(HasSubstr("the boards are secured, this domain is not")));
+}
+
+TEST(External, Arrays_of_texts_are_named_because_Debians_fastddsgen_misreads_them) {
+  const auto text = [](std::vector<std::uint32_t> dims) {
+    schema::Type type;
+    type.base = schema::Base::Text;
+    type.text_size = type.element_size = 16;
+    type.dims = std::move(dims);
+    return type;
+  };
+  const auto variable = [](const std::string& name, schema::Type type) {
+    schema::Variable made;
+    made.name = name;
+    made.type = std::move(type);
+    return made;
+  };
+  schema::Type inside;
+  inside.base = schema::Base::Struct;
+  inside.fields.resize(1);
+  inside.fields[0].type = text({3});
+  schema::Schema schema;
+  schema.variables = {variable("a::names", text({3})), variable("a::one", text({})), variable("a::deep", inside),
+                      variable("a::hidden", text({2}))};
+  VariableRule off;
+  off.name = "a::hidden";
+  off.external = External::Off;
+  TypeFiles types;
+  types.types = {"/cell/libt.so"};
+  types.type_places = {{3, 5}};
+  std::vector<base::Diagnostic> said;
+  base::Diagnostics report("m.xml", said);
+  check_foreign_types(types, {off}, schema, report);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_THAT(base::to_string(said[0]), HasSubstr("m.xml:3:5: note: arrays of texts are misread by programs made with "
+                                                  "fastddsgen 2.3 (Debian 12)"));
+  EXPECT_THAT(said[0].text, HasSubstr("a::names and a::deep;"));
+  check_foreign_types({}, {}, schema, report);
+  EXPECT_EQ(said.size(), 1U) << "nobody is shown anything";
 }
 
 }  // namespace
