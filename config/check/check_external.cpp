@@ -92,11 +92,10 @@ void check_foreign_types(const TypeFiles& named, const std::vector<VariableRule>
     }
   }
   if (!names.empty()) {
-    report.note(
-        named.type_places.front(),
-        "arrays of texts are misread by programs made with fastddsgen 2.3 (Debian 12), with what follows in the "
-        "same struct: " +
-            base::enumerate(names) + "; give each text a name of its own if such a program reads it");
+    report.note(named.type_places.front(),
+                "arrays of texts are misread by programs made with fastddsgen 2.3 (Debian 12), with all that follows "
+                "them: " +
+                    base::enumerate(names) + "; for such programs use an array of structs with one text each");
   }
 }
 
