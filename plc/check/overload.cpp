@@ -98,6 +98,10 @@ std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, cons
     }
     inputs[*position] = &*argument.value;
   }
+  if (!first.extensible && inputs.size() > first.inputs.size()) {
+    context_.error(call.at, fmt::format("{} takes {} values, not {}", first.name, first.inputs.size(), inputs.size()));
+    return std::nullopt;
+  }
   if (std::find(inputs.begin(), inputs.end(), nullptr) != inputs.end()) {
     context_.error(call.at, fmt::format("{} has inputs without a value, give all of them", first.name));
     return std::nullopt;

@@ -15,8 +15,6 @@ namespace {
 
 using ast::Section;
 
-constexpr std::string_view kTimer = "TON";  // charts are built on it
-
 const Type& innermost(const Type& type) noexcept {
   return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
 }
@@ -167,7 +165,7 @@ class PouOrder {
 
 void declare_pous(Context& context) {
   for (ast::Pou& tree : context.program.project.pous) {
-    if (elementary_named(tree.name) || same_name(tree.name, kTimer)) {
+    if (elementary_named(tree.name)) {
       context.error(tree.at, fmt::format("'{}' is a name of the standard, use another one", tree.name));
       continue;
     }

@@ -260,6 +260,7 @@ std::vector<const LibraryFunction*> find_functions(std::string_view name) {
 }
 
 const LibraryBlock* find_block(std::string_view name) {
+  name.remove_prefix(name.starts_with('@') ? 1 : 0);
   const auto& all = library_blocks();
   const auto found =
       std::find_if(all.begin(), all.end(), [name](const LibraryBlock& block) { return same_name(block.name, name); });

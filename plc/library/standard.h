@@ -63,6 +63,7 @@ struct LibraryBlock {
 
 // All overloads of the name, in any case; none if it is no standard function. TOD_TO_STRING is TIME_OF_DAY_TO_STRING.
 [[nodiscard]] std::vector<const LibraryFunction*> find_functions(std::string_view name);
+// "@TON" is what no program can call a block of its own.
 [[nodiscard]] const LibraryBlock* find_block(std::string_view name);
 
 // "std::int16_t", "iec::Time". Requires another type than STRING, whose C++ type depends on its length.

@@ -51,7 +51,7 @@ class ChartLowering {
         variable.initial->elements.push_back(std::move(field));
       }
       code_.variables.push_back(std::move(variable));
-      declare(ast::Section::Local, step_timer(i), make::type(at, std::string("TON")));
+      declare(ast::Section::Local, step_timer(i), make::type(at, std::string(kTimerType)));
       declare(ast::Section::Local, step_before(i), make::type(at, Elementary::Bool));
     }
     const Place at = chart_.steps.empty() ? Place{} : chart_.steps.front().element->at;

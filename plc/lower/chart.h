@@ -22,6 +22,8 @@ using network::Transition;
 
 // The type of the variable that each step is: X, T.
 inline constexpr const char* kStepType = "SFC_STEP";
+// That of the standard, whatever the program calls TON.
+inline constexpr const char* kTimerType = "@TON";
 [[nodiscard]] ast::TypeDeclaration step_type();
 
 // What a chart finds in its POU.

@@ -198,7 +198,7 @@ class Actions {
   // `input` has been true for the duration, or is true and has not yet.
   ast::Expression timed(const Association& association, std::size_t number, ast::Expression input, bool limit) {
     const Place& at = association.line->at;
-    const std::string timer = hidden(ast::Section::Local, "at", number, make::type(at, std::string("TON")));
+    const std::string timer = hidden(ast::Section::Local, "at", number, make::type(at, std::string(kTimerType)));
     auto duration = st::parse_expression({association.line->duration, at}, diagnostics_);
     std::vector<ast::Argument> arguments;
     arguments.push_back(make::argument("IN", input));

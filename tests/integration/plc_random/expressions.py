@@ -65,7 +65,8 @@ class Maker:
         if constant or choice < 0.5:
             return fixed
         if loops and choice < 0.8:
-            return self.scope.read(next(one for one in self.scope.variables if one.name == self.rng.choice(loops)))
+            loop = self.rng.choice(loops)
+            return self.scope.read(next(one for one in self.scope.variables if one.name == loop))
         plain = [one for one in self.scope.places(False) if one.type.kind == "int" and one.type.bits < 64]
         if not plain:
             return fixed

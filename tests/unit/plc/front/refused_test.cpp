@@ -161,6 +161,24 @@ TEST(PlcRefused, A_division_of_whole_numbers_that_becomes_a_REAL_is_a_warning) {
   }
 }
 
+TEST(PlcRefused, Functions_without_inputs_take_none) {
+  EXPECT_THAT(wrong(times("t := TIME(4);")), HasSubstr("TIME takes 0 values, not 1"));
+  EXPECT_THAT(wrong(times("t := TIME() + T#1s;")), "");
+}
+
+TEST(PlcRefused, A_block_of_the_project_takes_the_place_of_any_of_the_library) {
+  const Compiled sut = compiled(
+      "FUNCTION_BLOCK TON VAR_INPUT IN : BOOL; END_VAR VAR_OUTPUT calls : INT; END_VAR calls := calls + 1; "
+      "END_FUNCTION_BLOCK\n"
+      "PROGRAM Main\nVAR t : TON; n : INT; END_VAR\nINITIAL_STEP a: act(L, T#1s); END_STEP\nSTEP b: END_STEP\n"
+      "TRANSITION FROM a TO b := t.calls > 3; END_TRANSITION\nTRANSITION FROM b TO a := TRUE; END_TRANSITION\n"
+      "ACTION act: t(IN := TRUE); n := t.calls; END_ACTION\nEND_PROGRAM\n");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("'TON' takes the place of that of the standard library"));
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("plc::TON t{};"));
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("iec::Ton _st0{};")) << "charts have that of the library";
+}
+
 TEST(PlcRefused, A_REAL_that_is_too_large_is_no_constant) {
   const std::string head = "PROGRAM Main VAR x : REAL; y : LREAL; END_VAR\n";
   for (const char* code : {"x := 1.0E39;", "x := REAL#1.0E39;", "x := -1.0E39;", "x := 3.0E38 * 10.0;"}) {
