@@ -59,10 +59,14 @@ void DeviceImage::give_inputs() noexcept {
     const Sample& sample = input_samples_[i];
     InputImage::Value& value = image_.inputs[i];
     value.quality = sample.quality;
-    if (sample.quality == Quality::Good) {
+    if (sample.quality == Quality::Good && std::isfinite(sample.value)) {
       value.quality = to_variable(point.scaling, sample.value, value.bits) ? Quality::Good : Quality::OutOfRange;
-      value.is_set = value.is_set || !std::isnan(sample.value);
-    } else if (point.other) {
+      value.is_set = true;
+      continue;
+    }
+    // What is no number, or endless, has no nearest value either.
+    value.quality = sample.quality == Quality::Good ? Quality::OutOfRange : sample.quality;
+    if (point.other) {
       (void)to_variable(point.scaling.base, static_cast<Number>(*point.other), value.bits);
       value.is_set = true;
     }

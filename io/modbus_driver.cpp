@@ -6,10 +6,12 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 #include <modbus/modbus.h>
 
+#include "io/modbus_frame.h"
 #include "io/wire.h"
 
 namespace indurop::io {
@@ -147,9 +149,49 @@ ModbusDriver::Reply ModbusDriver::judge(const ModbusRequest& request, bool is_wr
   return Reply::Silent;
 }
 
+int ModbusDriver::over_tcp(const ModbusRequest& request, bool is_write) {
+  ++transaction_;
+  const ModbusFrame frame = is_write ? ModbusFrame::writing(transaction_, request, bits_, registers_)
+                                     : ModbusFrame::reading(transaction_, request);
+  const auto bytes = frame.bytes();
+  const ssize_t sent = ::send(modbus_get_socket(context_.get()), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  if (sent != static_cast<ssize_t>(bytes.size())) {
+    errno = sent < 0 ? errno : EAGAIN;
+    return -1;
+  }
+  std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> buffer{};
+  const int size = modbus_receive_confirmation(context_.get(), buffer.data());
+  if (size < 0) {
+    return -1;
+  }
+  const auto answer = std::span<const std::uint8_t>(buffer).first(static_cast<std::size_t>(size));
+  switch (frame.judge(answer)) {
+    case ModbusFrame::Fit::Answer:
+      if (!is_write) {
+        frame.take(answer, bits_, registers_);
+      }
+      return size;
+    case ModbusFrame::Fit::Exception: {
+      const int code = ModbusFrame::exception(answer);
+      errno = code < MODBUS_EXCEPTION_MAX ? MODBUS_ENOBASE + code : EMBBADEXC;
+      return -1;
+    }
+    case ModbusFrame::Fit::Stranger:
+      errno = EMBBADSLAVE;
+      return -1;
+    case ModbusFrame::Fit::Garbage:
+      break;
+  }
+  errno = EMBBADDATA;
+  return -1;
+}
+
 int ModbusDriver::write_bits(const ModbusRequest& request, std::span<Sample> outputs) {
   for (const std::size_t i : request.points) {
     bits_[outputs_[i].address.number - request.first] = outputs[i].value != 0 ? 1 : 0;
+  }
+  if (device_.driver == IoDriver::ModbusTcp) {
+    return over_tcp(request, true);
   }
   return request.count == 1 ? modbus_write_bit(context_.get(), request.first, bits_[0])
                             : modbus_write_bits(context_.get(), request.first, request.count, bits_.data());
@@ -163,6 +205,9 @@ int ModbusDriver::write_registers(const ModbusRequest& request, std::span<Sample
     if (!encode(form_of(point), outputs[i].value, at)) {
       outputs[i].quality = Quality::OutOfRange;
     }
+  }
+  if (device_.driver == IoDriver::ModbusTcp) {
+    return over_tcp(request, true);
   }
   return request.count == 1 ? modbus_write_register(context_.get(), request.first, registers_[0])
                             : modbus_write_registers(context_.get(), request.first, request.count, registers_.data());
@@ -204,27 +249,29 @@ void ModbusDriver::read_values(const ModbusRequest& request, std::span<Sample> i
   }
 }
 
+int ModbusDriver::read_table(const ModbusRequest& request) {
+  if (device_.driver == IoDriver::ModbusTcp) {
+    return over_tcp(request, false);
+  }
+  modbus_t* context = context_.get();
+  modbus_set_slave(context, request.unit);
+  switch (request.table) {
+    case IoTable::Coil:
+      return modbus_read_bits(context, request.first, request.count, bits_.data());
+    case IoTable::Discrete:
+      return modbus_read_input_bits(context, request.first, request.count, bits_.data());
+    case IoTable::Input:
+      return modbus_read_input_registers(context, request.first, request.count, registers_.data());
+    case IoTable::Holding:
+      return modbus_read_registers(context, request.first, request.count, registers_.data());
+  }
+  return -1;
+}
+
 ModbusDriver::Reply ModbusDriver::read(const ModbusRequest& request, std::span<Sample> inputs) {
   Reply reply = Reply::Silent;
   if (!connection_lost_ && is_awake(request)) {
-    modbus_t* context = context_.get();
-    modbus_set_slave(context, request.unit);
-    int result = -1;
-    switch (request.table) {
-      case IoTable::Coil:
-        result = modbus_read_bits(context, request.first, request.count, bits_.data());
-        break;
-      case IoTable::Discrete:
-        result = modbus_read_input_bits(context, request.first, request.count, bits_.data());
-        break;
-      case IoTable::Input:
-        result = modbus_read_input_registers(context, request.first, request.count, registers_.data());
-        break;
-      case IoTable::Holding:
-        result = modbus_read_registers(context, request.first, request.count, registers_.data());
-        break;
-    }
-    reply = judge(request, false, result);
+    reply = judge(request, false, read_table(request));
   }
   if (reply == Reply::Good) {
     read_values(request, inputs);

@@ -35,7 +35,10 @@ class ModbusDriver final : public Driver {
   Reply read(const ModbusRequest& request, std::span<Sample> inputs);
   int write_registers(const ModbusRequest& request, std::span<Sample> outputs);
   int write_bits(const ModbusRequest& request, std::span<Sample> outputs);
+  int read_table(const ModbusRequest& request);
   void read_values(const ModbusRequest& request, std::span<Sample> inputs);
+  // One request over TCP; as libmodbus: below 0 if it failed, for the reason in errno.
+  int over_tcp(const ModbusRequest& request, bool is_write);
   Reply judge(const ModbusRequest& request, bool is_write, int result);
   // True if the request may be made: its unit has not been silent in this exchange.
   [[nodiscard]] bool is_awake(const ModbusRequest& request) const;
@@ -49,6 +52,7 @@ class ModbusDriver final : public Driver {
   std::vector<std::uint16_t> registers_;  // of one request
   std::vector<std::uint8_t> bits_;
   std::vector<int> silent_units_;  // of this exchange
+  std::uint16_t transaction_ = 0;
   bool connection_lost_ = false;
   std::string problem_;
 };

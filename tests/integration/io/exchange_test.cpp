@@ -65,7 +65,7 @@ TEST_F(Exchange, Values_go_round_while_the_tick_goes_on) {
 
 TEST_F(Exchange, Everything_comes_back) {
   const auto sut = started();
-  for (const char* how : {"hang", "garbage", "leave"}) {
+  for (const char* how : {"hang", "garbage", "stranger", "leave"}) {
     server_.input("serve\n");
     ASSERT_TRUE(runs_until(*sut, [] { return TEST_CELL::I0_quality == 1; })) << how;
     server_.input(std::string(how) + "\n");

@@ -3,8 +3,8 @@
 //   modbus_server tcp|rtu      prints "at ADDRESS"
 //   set coil|discrete|input|holding NUMBER VALUE
 //   get coil|holding NUMBER    prints "coil 3 = 1"
-//   serve | hang | garbage | trickle | refuse     how requests are answered; each prints its word when it is in force
-//   leave | return             nobody listens at the address any more, and again
+//   serve | hang | garbage | trickle | refuse | stranger     how requests are answered; each prints its word when it is
+//   in force leave | return             nobody listens at the address any more, and again
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -139,6 +139,10 @@ class Server {
     if (mode_ == "garbage") {
       const std::string noise = "\x7F no Modbus at all, but long enough to be taken for some \xFF\x03";
       return ::write(fd, noise.data(), noise.size()) > 0;
+    }
+    if (mode_ == "stranger" && !serial_) {
+      constexpr std::size_t kUnit = 6;
+      ++request[kUnit];
     }
     if (mode_ == "trickle") {
       for (int i = 0; i < 8 && ::write(fd, request.data(), 1) == 1; ++i) {

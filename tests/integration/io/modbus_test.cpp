@@ -87,6 +87,7 @@ TEST_F(Modbus, Tcp_survives_what_a_device_may_do) {
   survives("hang", kLost);
   survives("garbage", kLost);
   survives("trickle", kLost);
+  survives("stranger", kLost);
   survives("refuse", kRefused);
   no_period_was_lost_by_the_module();
 }

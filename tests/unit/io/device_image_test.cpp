@@ -105,6 +105,29 @@ TEST(DeviceImage, What_the_variable_cannot_hold_is_cut_and_marked) {
   EXPECT_EQ(sut.current().inputs[0].quality, Quality::OutOfRange);
 }
 
+TEST(DeviceImage, What_is_no_number_is_bad) {
+  for (const Number number : {std::numeric_limits<Number>::quiet_NaN(), std::numeric_limits<Number>::infinity(),
+                              -std::numeric_limits<Number>::infinity()}) {
+    FakeDriver driver;
+    config::BoundPoint p = point(schema::Base::Double);
+    DeviceImage held = input(p);
+    driver.answer.value = number;
+    held.exchange(driver, {}, Outputs::Unknown, {});
+    EXPECT_FALSE(held.current().inputs[0].is_set);
+    driver.answer.value = 7;
+    held.exchange(driver, {}, Outputs::Unknown, {});
+    driver.answer.value = number;
+    held.exchange(driver, {}, Outputs::Unknown, {});
+    EXPECT_EQ(value_of<double>(held), 7);
+    EXPECT_EQ(held.current().inputs[0].quality, Quality::OutOfRange);
+    p.point.bad_value = -1;
+    DeviceImage replaced = input(p);
+    replaced.exchange(driver, {}, Outputs::Unknown, {});
+    EXPECT_EQ(value_of<double>(replaced), -1);
+    EXPECT_EQ(replaced.current().inputs[0].quality, Quality::OutOfRange);
+  }
+}
+
 TEST(DeviceImage, Refused_points_are_told_from_a_lost_device) {
   FakeDriver driver;
   DeviceImage sut = input(point(schema::Base::Int8));
