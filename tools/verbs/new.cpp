@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include "base/replace_file.h"
+#include "glb2idl/names.h"
 #include "tools/command/self.h"
 #include "tools/verbs/new_templates.h"
 #include "tools/verbs/verbs.h"
@@ -50,6 +53,16 @@ std::string filled_in(std::string text, const std::vector<std::pair<std::string,
   return text;
 }
 
+// The project's name as that of a namespace, which none of its variables may have.
+std::string namespace_of(const std::string& project) {
+  constexpr std::array<std::string_view, 5> kVariables{"gain", "wave", "smoothed", "starts", "seen"};
+  std::string name = project;
+  std::replace(name.begin(), name.end(), '-', '_');
+  const bool taken = std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end();
+  const bool refused = glb2idl::objection(name, glb2idl::NameRole::Namespace, true).has_value();
+  return taken || refused ? name + "_project" : name;
+}
+
 // "0.1.0" -> "0.1": what find_package asks for.
 std::string minor_version() {
   const std::string whole = INDUROP_VERSION;
@@ -64,13 +77,15 @@ bool write_project(Context& context, const fs::path& folder, const std::string& 
         "the CMake package of InduRoP was not found beside this program; if `make` does not find it either: "
         "make INDUROP_PACKAGE=<folder of InduRoPConfig.cmake>");
   }
+  const std::string space = namespace_of(name);
   for (const ProjectFile& file : project_files()) {
-    const fs::path path = folder / file.path;
+    const fs::path path = folder / filled_in(file.path, {{"@NAMESPACE@", space}});
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     std::string problem = error ? fmt::format("cannot make {}: {}", path.parent_path().string(), error.message()) : "";
     if (problem.empty()) {
       const std::string text = filled_in(file.text, {{"@NAME@", name},
+                                                     {"@NAMESPACE@", space},
                                                      {"@PACKAGE@", package.string()},
                                                      {"@PROGRAMS@", programs.string()},
                                                      {"@VERSION@", minor_version()}});

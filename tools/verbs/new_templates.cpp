@@ -17,7 +17,7 @@ endif()
 find_package(InduRoP @VERSION@ REQUIRED)
 
 # Shared variables: whoever names the target below can include <indurop/generated.h>.
-indurop_add_glb(variables FILES demo.glb)
+indurop_add_glb(variables FILES @NAMESPACE@.glb)
 
 # Thread modules (.so) run inside the node, process modules (.exe) beside it.
 indurop_add_module(wave SOURCES src/wave.cpp GLB variables)
@@ -50,7 +50,7 @@ clean:
 
 constexpr const char* kGlb =
     R"text(// Variables that all modules of @NAME@ share. A comment behind a declaration is its description.
-namespace demo;
+namespace @NAMESPACE@;
 
 double gain = 1.0 @range(0, 10);  // amplitude of the wave: try `indurop set gain 2.5`
 double wave @unit("mm");          // written by wave, every millisecond
@@ -71,7 +71,7 @@ constexpr const char* kWave = R"text(// Thread module, every millisecond: makes 
 #include <cmath>
 #include <numbers>
 
-using namespace demo;
+using namespace @NAMESPACE@;
 
 namespace {
 double seconds_per_wave = 2.0;
@@ -99,7 +99,7 @@ constexpr const char* kSmooth = R"text(// Thread module, every 10 milliseconds: 
 #include <indurop/indurop.h>
 #include <indurop/generated.h>
 
-using namespace demo;
+using namespace @NAMESPACE@;
 
 void on_run() {
   constexpr double kPart = 0.2;
@@ -121,8 +121,8 @@ int main() {
     return 1;  // the reason was printed
   }
   while (irp::waitPeriod()) {
-    const double now = demo::smoothed;
-    auto seen = lock(demo::seen);  // one commit when the scope ends
+    const double now = @NAMESPACE@::smoothed;
+    auto seen = lock(@NAMESPACE@::seen);  // one commit when the scope ends
     seen->lowest = std::min(seen->lowest, now);
     seen->highest = std::max(seen->highest, now);
     seen->samples += 1;
@@ -170,7 +170,7 @@ An InduRoP project: two thread modules and a process module that share variables
 
 | file | what it is |
 |---|---|
-| `demo.glb` | the shared variables |
+| `@NAMESPACE@.glb` | the shared variables |
 | `src/wave.cpp`, `src/smooth.cpp` | thread modules |
 | `src/monitor.cpp` | process module |
 | `module.xml` | periods, priorities, properties |
@@ -178,9 +178,9 @@ An InduRoP project: two thread modules and a process module that share variables
     make                      # builds into build/
     indurop check             # mistakes, who reads and writes what
     indurop plan              # which module runs in which basic period
-    indurop run &             # runs module.xml in the background
+    indurop run --detach      # runs module.xml in the background
     indurop status
-    indurop watch 'demo::*'   # q quits
+    indurop watch '@NAMESPACE@::*'   # q quits
     indurop set gain 2.5
     indurop jitter
     indurop stop
@@ -193,7 +193,7 @@ constexpr const char* kGitignore = "build/\n";
 
 constexpr std::array<ProjectFile, 9> kFiles{{{"CMakeLists.txt", kCMakeLists},
                                              {"Makefile", kMakefile},
-                                             {"demo.glb", kGlb},
+                                             {"@NAMESPACE@.glb", kGlb},
                                              {"src/wave.cpp", kWave},
                                              {"src/smooth.cpp", kSmooth},
                                              {"src/monitor.cpp", kMonitor},

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // stop, reset, clean, run, new.
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
 
 #include "fixture.h"
 
@@ -129,7 +132,7 @@ TEST_F(CommandLine, New_makes_a_project_and_never_overwrites) {
   const auto sut = indurop({"new", folder});
   EXPECT_EQ(sut.code, 0) << sut.err;
   for (const char* file :
-       {"CMakeLists.txt", "Makefile", "demo.glb", "module.xml", "README.md", "src/wave.cpp", "src/monitor.cpp"}) {
+       {"CMakeLists.txt", "Makefile", "cell7.glb", "module.xml", "README.md", "src/wave.cpp", "src/monitor.cpp"}) {
     EXPECT_TRUE(fs::exists(fs::path(folder) / file)) << file;
   }
   EXPECT_EQ(indurop({"check", folder + "/module.xml"}).code, 4);  // the modules are not built yet
@@ -137,6 +140,16 @@ TEST_F(CommandLine, New_makes_a_project_and_never_overwrites) {
   const auto again = indurop({"new", folder});
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.err, HasSubstr("nothing was written"));
+}
+
+TEST_F(CommandLine, New_calls_the_namespace_like_the_project_if_it_can) {
+  for (const auto& [name, space] : {std::pair("five", "five"), std::pair("cell-7", "cell_7"),
+                                    std::pair("class", "class_project"), std::pair("wave", "wave_project")}) {
+    ASSERT_EQ(indurop({"new", (scratch() / name).string()}).code, 0) << name;
+    std::ifstream glb(scratch() / name / (std::string(space) + ".glb"));
+    const std::string text(std::istreambuf_iterator<char>(glb), {});
+    EXPECT_THAT(text, HasSubstr("\nnamespace " + std::string(space) + ";\n"));
+  }
 }
 
 TEST_F(CommandLine, New_refuses_names_that_make_trouble) {
