@@ -4,11 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "node/setup.h"
 #include "rt/clock.h"
+#include "vars/node_lock.h"
 #include "vars/process.h"
+#include "vars/store.h"
 
 namespace indurop::node {
 namespace {
@@ -17,6 +20,22 @@ bool ended_well(const std::string& node) {
   const auto file = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   return file.ok() &&
          static_cast<const scheduler::RunBlock*>(file.value().data())->state.load() == scheduler::NodeState::Stopped;
+}
+
+// What nodes of this user left that ended in an orderly way, so that their values are on the disk or not wanted. A node
+// that crashed keeps its values for its return.
+void forget_old_nodes() {
+  constexpr std::chrono::hours kKept{24};
+  for (const std::string& node : vars::list_nodes()) {
+    const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+    if (!store || vars::running_node(node) > 0 || !ended_well(node)) {
+      continue;
+    }
+    const std::int64_t beat = store.value().header().heartbeat_ns.load();
+    if (beat != 0 && rt::MonoClock::now() - rt::mono_time(beat) > kKept) {
+      (void)vars::remove_node(node);  // busy: it has just started again; no rights: another user's
+    }
+  }
 }
 
 Ending no_memory(const char* what, const Error& error, const Console& console) {
@@ -86,6 +105,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     return std::move(rights).error();
   }
   const bool previous_run_ended_well = ended_well(options.node);
+  forget_old_nodes();
   auto made = vars::Store::create(options.node, checked.check.schema);
   if (!made) {
     return no_memory("the shared variables", made.error(), console);

@@ -4,11 +4,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
+#include "rt/clock.h"
+#include "vars/store.h"
 
 namespace indurop::test {
 namespace {
@@ -164,6 +167,27 @@ TEST_F(Lifecycle, Usage_errors_exit_with_2) {
     EXPECT_EQ(sut.code, 2) << arguments.front();
     EXPECT_THAT(sut.err + sut.out, ::testing::Not(::testing::IsEmpty()));
   }
+}
+
+TEST_F(Lifecycle, What_ended_well_a_day_ago_is_removed_when_a_node_starts) {
+  const std::string other = node() + "-2";
+  const auto start_other = [&] {
+    const auto sut = start_file((folder() / "module.xml").string(), {"--node", other, "--duration", "10ms"}).finish();
+    EXPECT_EQ(sut.code, 0) << sut.err;
+    EXPECT_TRUE(vars::remove_node(other).ok());
+  };
+  ASSERT_EQ(run_to_end(kCounter, {"--duration", "10ms"}).code, 0);
+  start_other();
+  EXPECT_FALSE(files_left().empty()) << "it ended just now";
+  const auto long_ago = rt::MonoClock::now() - std::chrono::hours(25);
+  vars::Store::attach(node(), vars::Mode::ReadWrite)->beat(long_ago);
+  start_other();
+  EXPECT_TRUE(files_left().empty());
+  Program& killed = start_and_wait(kCounter);
+  killed.kill();
+  vars::Store::attach(node(), vars::Mode::ReadWrite)->beat(long_ago);
+  start_other();
+  EXPECT_FALSE(files_left().empty()) << "what crashed keeps its values";
 }
 
 TEST_F(Lifecycle, Closed_output_does_not_end_a_running_node) {
