@@ -2,8 +2,10 @@
 #include "scheduler/engine.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scheduler/execution_order.h"
+#include "scheduler/work_time.h"
 
 namespace indurop::scheduler {
 namespace {
@@ -281,15 +283,21 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
     spinner.wait_until(rt::mono_time(t));
   }
+  std::uint64_t missed = 0;  // ticks since the last that was run
+  WorkTime work;
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
     const std::int64_t planned = epoch_ns_ + static_cast<std::int64_t>(tick) * basic;
-    const std::int64_t late = rt::to_ns(spinner.wait_until(rt::mono_time(planned))) - planned;
-    const auto lost = static_cast<std::uint64_t>(late / basic);
-    tick += lost;
-    if (ticks != 0 && tick >= ticks) {
-      end_run(core, ticks, ticks - (tick - lost));
+    const std::int64_t begin = rt::to_ns(spinner.wait_until(rt::mono_time(planned)));
+    const std::int64_t late = begin - planned;
+    const std::uint64_t first = tick;
+    tick += static_cast<std::uint64_t>(late / basic);
+    const bool in_vain = work.does_not_fit(late % basic, basic);
+    const std::uint64_t lost = tick - first + (in_vain ? 1 : 0);
+    if (ticks != 0 && first + lost >= ticks) {
+      end_run(core, ticks, ticks - first);
       break;
     }
+    missed += lost;
     if (core.primary) {
       add_sample(block_.tick_lateness, late);
       if (lost > 0) {
@@ -297,7 +305,10 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
       }
       block_.spin_margin_ns.store(spinner.margin_ns(), std::memory_order_relaxed);
     }
-    do_tick(core, tick, lost);
+    if (!in_vain) {
+      do_tick(core, tick, std::exchange(missed, 0));
+      work.add(rt::to_ns(clock_.now()) - begin);
+    }
   }
   for (Band* band : core.here) {
     band->runner().detach_thread();

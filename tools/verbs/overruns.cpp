@@ -18,9 +18,11 @@ struct Options {
 std::string reason(const RunView& run, const OverrunSample& overrun) {
   const bool other_longer = overrun.previous >= 0 && overrun.previous_ns > overrun.own_ns;
   if (!overrun.started) {
-    return overrun.previous >= 0 ? fmt::format("did not get its turn: {} took {}", run.module_name(overrun.previous),
-                                               human_ns(overrun.previous_ns))
-                                 : "did not get its turn";
+    // Only what took a good part of the period explains it; else it was not one of the node's modules.
+    const bool explains = overrun.previous >= 0 && 4 * overrun.previous_ns >= run.module(overrun.module).period_ns;
+    return explains ? fmt::format("did not get its turn: {} took {}", run.module_name(overrun.previous),
+                                  human_ns(overrun.previous_ns))
+                    : "did not get its turn, and no module took so long: the machine was busy or stood still";
   }
   if (overrun.latency_ns > overrun.own_ns) {
     return other_longer ? fmt::format("started late, after {}", run.module_name(overrun.previous)) : "started late";

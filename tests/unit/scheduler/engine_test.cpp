@@ -4,10 +4,14 @@
 #include "scheduler/engine.h"
 
 #include <gmock/gmock.h>
+#include <pthread.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include "fixture.h"
@@ -194,6 +198,54 @@ TEST_F(EngineThreads, Runs_exactly_the_ticks_asked_for) {
   sut->join();
   EXPECT_EQ(block->modules()[0].runs.load() + block->modules()[0].skipped.load(), 50U);
   EXPECT_EQ(static_cast<std::uint64_t>(g_calls.load()), block->modules()[0].runs.load());
+}
+
+// Moves with the tick thread alone; others sleep really, and a little only.
+class TickClock final : public Clock {
+ public:
+  rt::MonoTime now() noexcept override { return rt::mono_time(now_.load()); }
+  void sleep_until(rt::MonoTime deadline) noexcept override {
+    char name[16] = {};
+    ::pthread_getname_np(::pthread_self(), name, sizeof name);
+    if (!std::string_view(name).starts_with("irp-tick")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return;
+    }
+    now_ = std::max(now_.load(), rt::to_ns(deadline)) + (++sleeps == late_sleep ? late_ns : 0);
+  }
+  void advance(std::int64_t ns) noexcept { now_ += ns; }
+  int late_sleep = 0;  // the one that takes longer, counted from 1
+  std::int64_t late_ns = 0;
+  std::atomic<int> sleeps{0};
+
+ private:
+  std::atomic<std::int64_t> now_{1'000'000'000};
+};
+TickClock* g_tick_clock = nullptr;
+
+TEST_F(EngineThreads, A_tick_that_comes_right_before_the_next_one_is_lost_and_nobodys_overrun) {
+  for (const std::int64_t late : {0LL, 900'000LL, 991'000LL, 1'000'000LL, 3'991'000LL}) {
+    TickClock ticking;
+    g_tick_clock = &ticking;
+    ticking.late_ns = late;
+    ticking.late_sleep = 40;
+    const std::vector<Task> tasks = {periodic(0, 1'000'000, 1, [] { g_tick_clock->advance(50'000); })};
+    block = make_block(tasks, 1'000'000, 1'000'000);
+    EngineSettings settings;
+    settings.basic_period_ns = 1'000'000;
+    settings.realtime = false;
+    settings.spin.mode = SpinMode::Off;
+    Engine sut(*block, tasks, settings, Hooks{}, ticking);
+    ASSERT_TRUE(sut.start(100).ok());
+    sut.join();
+    ASSERT_GT(ticking.sleeps, 40);
+    const ModuleRecord& record = block->modules()[0];
+    EXPECT_EQ(record.overruns.load(), 0U) << late;
+    const std::uint64_t lost = late == 0 || late == 900'000 ? 0 : late == 3'991'000 ? 4 : 1;
+    EXPECT_EQ(block->lost_ticks.load(), lost) << late;
+    EXPECT_EQ(record.runs.load(), 100 - lost) << late;
+    EXPECT_EQ(record.skipped.load(), lost) << late;
+  }
 }
 
 TEST_F(EngineThreads, Skips_a_release_while_the_band_is_still_busy) {
