@@ -10,6 +10,7 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kLookNs = 20'000'000;
+constexpr std::int64_t kQuietNs = 300'000'000;
 constexpr std::int64_t kSilentNs = 1'500'000'000;  // agents speak twice a second
 
 }  // namespace
@@ -36,6 +37,7 @@ void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vec
         gone->push_back({key.first, key.second});
       }
     } else {
+      newest_ns_ = boards_.contains(key) ? newest_ns_ : now_ns;
       boards_[key] = {std::move(news.report), now_ns};
     }
   }
@@ -51,6 +53,14 @@ void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, b
       return;
     }
   }
+}
+
+bool BoardRoster::complete() const {
+  const bool nobody_missing = std::all_of(boards_.begin(), boards_.end(), [this](const auto& one) {
+    const std::vector<std::string>& members = one.second.report.members;
+    return std::all_of(members.begin(), members.end(), [this](const auto& name) { return find(name) != nullptr; });
+  });
+  return !boards_.empty() && nobody_missing && rt::now_ns() - newest_ns_ > kQuietNs;
 }
 
 const BoardRoster::Entry* BoardRoster::find(const std::string& board) const {

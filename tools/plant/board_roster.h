@@ -15,7 +15,6 @@
 
 namespace indurop::tools {
 
-// --domain, --interface, --one-host
 // Null after an error message.
 std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings);
 
@@ -38,6 +37,9 @@ class BoardRoster {
         link, time_ns, [](void* e) { return (*static_cast<Enough*>(e))(); }, &enough);
   }
 
+  // Somebody was heard, all boards of the plants they belong to were, and nobody new for a while.
+  [[nodiscard]] bool complete() const;
+
   // Newest word of the board; null if it is not there.
   [[nodiscard]] const Entry* find(const std::string& board) const;
   [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, Entry>& all() const noexcept { return boards_; }
@@ -50,6 +52,7 @@ class BoardRoster {
   void gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context);
   std::map<std::pair<std::string, std::uint64_t>, Entry> boards_;  // by name and agent
   std::vector<deploy::OtherAgent> others_;
+  std::int64_t newest_ns_ = 0;  // when somebody was heard for the first time
 };
 
 }  // namespace indurop::tools

@@ -57,7 +57,7 @@ int PlantStatus::show(Context& context) {
     if (open_ == nullptr) {
       return kUnreachable;
     }
-    roster_.gather(*open_, kHearNs, [&] { return false; });
+    roster_.gather(*open_, kHearNs, [&] { return roster_.complete(); });
   }
   const VariablesRead read = ask(*open_, link.self, roster_);
   const std::int64_t now = rt::now_ns();

@@ -26,7 +26,7 @@ int show(Context& context, Options& options) {
     if (options.open == nullptr) {
       return kUnreachable;
     }
-    options.roster.gather(*options.open, options.wait_ns, [] { return false; });
+    options.roster.gather(*options.open, options.wait_ns, [&] { return options.roster.complete(); });
   }
   const std::int64_t now = rt::now_ns();
   options.roster.listen(*options.open, now);
@@ -46,7 +46,7 @@ int show(Context& context, Options& options) {
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   deploy::add_link_options(app, options->link);
-  add_time_option(app, "--wait", options->wait_ns, "Listen so long before the first table (default: 1s)");
+  add_time_option(app, "--wait", options->wait_ns, "Listen at most so long before the first table (default: 1s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, options->repeat);
   return [options](Context& c) { return repeat_rounds(c, options->repeat, [&] { return show(c, *options); }); };

@@ -60,7 +60,7 @@ int history(Context& context, Options& options) {
   }
   BoardRoster roster;
   roster.gather(*link, options.wait_ns,
-                [&] { return !options.board.empty() && roster.find(options.board) != nullptr; });
+                [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
   std::vector<Row> rows;
   bool heard = false;
   for (const auto& [key, entry] : roster.all()) {

@@ -92,7 +92,7 @@ int roll_back(Context& context, Options& options) {
     return kUnreachable;
   }
   BoardRoster roster;
-  roster.gather(*link, kHearNs, [] { return false; });
+  roster.gather(*link, kHearNs, [&] { return roster.complete(); });
   const auto meant = choose_plant(roster, options);
   if (!meant) {
     return report(context.out, meant.error());
