@@ -56,7 +56,11 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kBoardsVerb{
     "boards", "Plants", "Show all boards of the network and what they run",
-    "HEARD is the time since the board's last word; agents speak twice a second. Exit code 6 if none was heard.\n",
+    "HEARD is the time since the board's last word; agents speak twice a second. Exit code 6 if none was heard.\n"
+    "Examples:\n"
+    "  indurop boards\n"
+    "  indurop boards -w\n"
+    "  indurop boards --one-host -o json\n",
     &declare};
 
 }  // namespace indurop::tools

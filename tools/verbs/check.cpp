@@ -94,7 +94,11 @@ const Verb kCheckVerb{
     "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
     "read them, and one summary line. With -q only diagnostics and summary; -o csv prints the variables.\n"
     "For a plant it shows the boards and the variables that travel between them; -o csv prints these variables.\n"
-    "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n",
+    "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n"
+    "Examples:\n"
+    "  indurop check\n"
+    "  indurop check plant.xml\n"
+    "  indurop check module.xml -o json\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -175,7 +175,10 @@ const Verb kDeployVerb{
     "one instant, watches them for a while and commits. If anything goes wrong on any board, all of them go back.\n"
     "Every board needs a running agent: indurop-agent --board NAME.\n"
     "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it), 4 the\n"
-    "check found errors, 5 rolled back, 6 boards are missing.\n",
+    "check found errors, 5 rolled back, 6 boards are missing.\n"
+    "Examples:\n"
+    "  indurop deploy plant.xml\n"
+    "  indurop deploy plant.xml --keys keys --health 5s\n",
     &declare};
 
 }  // namespace indurop::tools

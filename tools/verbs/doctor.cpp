@@ -115,7 +115,10 @@ const Verb kDoctorVerb{
     "doctor", "Before it runs", "Show whether this machine is fit for real time, and what to do if not",
     "Looks at the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a thread is\n"
     "woken up every millisecond. What a running node was really granted is in `indurop status`.\n"
-    "Exit code 0 if nothing is marked FAIL, else 1.\n",
+    "Exit code 0 if nothing is marked FAIL, else 1.\n"
+    "Examples:\n"
+    "  indurop doctor\n"
+    "  indurop doctor -o json\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -178,6 +178,10 @@ const Verb kUnforceVerb{"unforce", "Variables", "Let forced values go",
                         "  indurop unforce --all\n",
                         &declare_unforce};
 
-const Verb kForcesVerb{"forces", "Variables", "List what is forced, and for how long", "", &declare_forces};
+const Verb kForcesVerb{"forces", "Variables", "List what is forced, and for how long",
+                       "Examples:\n"
+                       "  indurop forces\n"
+                       "  indurop forces -o csv\n",
+                       &declare_forces};
 
 }  // namespace indurop::tools

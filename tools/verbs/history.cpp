@@ -119,6 +119,10 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kHistoryVerb{
     "history", "Plants", "Show what was deployed to the boards before, and what became of it",
-    "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n", &declare};
+    "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n"
+    "Examples:\n"
+    "  indurop history\n"
+    "  indurop history --board press_1 -o json\n",
+    &declare};
 
 }  // namespace indurop::tools

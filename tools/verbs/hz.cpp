@@ -186,7 +186,9 @@ Action declare(base::Options& app, Context& context) {
 const Verb kHzVerb{
     "hz", "Variables", "Measure how often a variable is written",
     "Structs and arrays number their versions, so any rate is exact. Single numbers have no versions: only\n"
-    "changes up to 1 kHz can be seen.\n",
+    "changes up to 1 kHz can be seen.\n"
+    "Examples:\n"
+    "  indurop hz 'station::*'\n",
     &declare};
 
 }  // namespace indurop::tools

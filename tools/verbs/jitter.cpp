@@ -236,7 +236,11 @@ const Verb kJitterVerb{"jitter", "Timing", "Show how exactly modules start and h
                        "latency   from the release to the first instruction of run()\n"
                        "exec      run() itself\n"
                        "response  from the release to the end of run()\n"
-                       "Statistics begin after the warm-up; quantiles are exact to 6 %.\n",
+                       "Statistics begin after the warm-up; quantiles are exact to 6 %.\n"
+                       "Examples:\n"
+                       "  indurop jitter\n"
+                       "  indurop jitter wave --histogram\n"
+                       "  indurop jitter --svg jitter.svg\n",
                        &declare};
 
 }  // namespace indurop::tools

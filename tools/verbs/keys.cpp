@@ -270,7 +270,10 @@ Action declare(base::Options& app, Context& context) {
 const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plant",
                      "Only holders of keys of the plant can read or write its variables once the manifest says\n"
                      "<security>keys</security>. docs/security.md tells which file belongs where.\n"
-                     "Private keys are readable by their owner alone and never replaced.\n",
+                     "Private keys are readable by their owner alone and never replaced.\n"
+                     "Examples:\n"
+                     "  indurop keys init plant.xml --dir keys\n"
+                     "  indurop keys list --dir keys\n",
                      &declare};
 
 }  // namespace indurop::tools

@@ -91,7 +91,10 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kLogVerb{"log", "Timing", "Show which module ran when, as table or as a trace for Perfetto",
                     "TIME is the release, counted from tick 0; LATENCY from there to the first instruction of run();\n"
-                    "EXEC run() itself; RESPONSE release to end. The node keeps the newest 8192 runs.\n",
+                    "EXEC run() itself; RESPONSE release to end. The node keeps the newest 8192 runs.\n"
+                    "Examples:\n"
+                    "  indurop log -n 50\n"
+                    "  indurop log --trace trace.json   # for ui.perfetto.dev\n",
                     &declare};
 
 }  // namespace indurop::tools

@@ -136,7 +136,9 @@ Action declare(base::Options& app, Context& /*context*/) {
 
 const Verb kNewVerb{"new", "Before it runs", "Make a project that builds and runs",
                     "A .glb file, two thread modules, a process module, module.xml, CMakeLists.txt, Makefile, README.\n"
-                    "It never writes into a folder that is not empty.\n",
+                    "It never writes into a folder that is not empty.\n"
+                    "Examples:\n"
+                    "  indurop new demo\n",
                     &declare};
 
 }  // namespace indurop::tools

@@ -113,6 +113,10 @@ Action declare(base::Options& app, Context& context) {
 
 const Verb kNodesVerb{
     "nodes", "A running node", "List the nodes that run on this machine (also: indurop ps)",
-    "Nodes that ended and left values behind are listed with --all; indurop clean removes what they left.\n", &declare};
+    "Nodes that ended and left values behind are listed with --all; indurop clean removes what they left.\n"
+    "Examples:\n"
+    "  indurop nodes\n"
+    "  indurop nodes --all -o json\n",
+    &declare};
 
 }  // namespace indurop::tools

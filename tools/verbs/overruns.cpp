@@ -96,7 +96,10 @@ const Verb kOverrunsVerb{
     "overruns", "Timing", "Show the recorded overruns and who caused them",
     "An overrun is a release that found the module's previous run unfinished. OWN TIME is what the module itself had\n"
     "used by then, LATENCY how late it had started, BEFORE IT who ran before it in that basic period. The newest 256\n"
-    "records are kept; the counters of `indurop status` count all.\n",
+    "records are kept; the counters of `indurop status` count all.\n"
+    "Examples:\n"
+    "  indurop overruns\n"
+    "  indurop overruns control -n 100\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -84,7 +84,10 @@ Action declare(base::Options& app, Context& context) {
 const Verb kPlanVerb{"plan", "Before it runs",
                      "Show the schedule: which module runs in which basic period, in which order",
                      "Works without the module files: only the periods, offsets and priorities count.\n"
-                     "-o svg prints a timing diagram for a browser or a document. Of a plant, all boards are shown.\n",
+                     "-o svg prints a timing diagram for a browser or a document. Of a plant, all boards are shown.\n"
+                     "Examples:\n"
+                     "  indurop plan\n"
+                     "  indurop plan plant.xml -o svg > plan.svg\n",
                      &declare};
 
 }  // namespace indurop::tools

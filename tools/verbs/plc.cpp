@@ -26,7 +26,8 @@ const Verb kPlcVerb{
     "Examples:\n"
     "  indurop plc build motor.st -o build\n"
     "  indurop plc print conveyor.xml --pou main --svg conveyor.svg\n"
-    "  indurop plc build conveyor.xml --watch; indurop plc watch conveyor.xml\n",
+    "  indurop plc build conveyor.xml --watch\n"
+    "  indurop plc watch conveyor.xml\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -109,7 +109,10 @@ Action declare(base::Options& app, Context& context) {
 const Verb kResetVerb{
     "reset", "Start and stop", "Set variables back to their initial values",
     "Works on a running node (its modules see the new values in their next run) and on what a stopped\n"
-    "one left behind.\n",
+    "one left behind.\n"
+    "Examples:\n"
+    "  indurop reset\n"
+    "  indurop reset --cold --yes\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -161,7 +161,10 @@ const Verb kRollbackVerb{
     "rollback", "Plants", "Put all boards of a plant back to what they ran before",
     "This is a deployment like any other, of files the boards still have: it is watched, and if a board is not\n"
     "healthy, all boards go back to what they run now. A second rollback goes forward again.\n"
-    "The exit codes are those of indurop deploy.\n",
+    "The exit codes are those of indurop deploy.\n"
+    "Examples:\n"
+    "  indurop rollback\n"
+    "  indurop rollback 3f2a91\n",
     &declare};
 
 }  // namespace indurop::tools

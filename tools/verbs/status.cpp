@@ -170,7 +170,11 @@ const Verb kStatusVerb{
     "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
     "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown).\n"
     "With --plant it shows the boards of the network instead, as their agents report: 6 if one that belongs to a\n"
-    "plant is missing.\n",
+    "plant is missing.\n"
+    "Examples:\n"
+    "  indurop status\n"
+    "  indurop status -w\n"
+    "  indurop status --plant\n",
     &declare};
 
 }  // namespace indurop::tools
