@@ -152,53 +152,6 @@ void Engine::connect_predecessors() {
   }
 }
 
-TaskState* Engine::thread_module(std::uint32_t module) noexcept {
-  for (const auto& state : states_) {
-    if (state->task.index == module && state->task.type == ModuleType::Thread) {
-      return state.get();
-    }
-  }
-  return nullptr;
-}
-
-Band* Engine::find_band(std::uint32_t module) const noexcept {
-  const auto found = std::find_if(bands_.begin(), bands_.end(), [module](const auto& band) {
-    return std::any_of(band->tasks().begin(), band->tasks().end(), [module](const TaskState* state) {
-      return state->task.index == module && state->task.legacy_signal == 0;
-    });
-  });
-  return found == bands_.end() ? nullptr : found->get();
-}
-
-bool Engine::disable(std::uint32_t module) noexcept {
-  TaskState* state = thread_module(module);
-  const Band* band = state == nullptr ? nullptr : find_band(module);
-  if (band == nullptr) {
-    return false;
-  }
-  state->enabled.store(false, std::memory_order_seq_cst);
-  state->last_release = band->released();
-  return true;
-}
-
-bool Engine::at_rest(std::uint32_t module) noexcept {
-  TaskState* state = thread_module(module);
-  Band* band = state == nullptr ? nullptr : find_band(module);
-  if (band == nullptr || band->has_done(state->last_release)) {
-    return true;
-  }
-  if (band->runner().current() == state) {
-    band->runner().enforce_budget(clock_.now(), true, settings_.stop_grace_ns);
-  }
-  return false;
-}
-
-void Engine::enable(std::uint32_t module) noexcept {
-  if (TaskState* state = thread_module(module); state != nullptr) {
-    state->enabled.store(true, std::memory_order_release);
-  }
-}
-
 void Engine::wake_waiting() noexcept {
   for (const auto& band : bands_) {
     band->look_again();
