@@ -129,6 +129,7 @@ void CallChecker::statement(Expression& call) {
                    fmt::format("{} cannot be called, only functions and function blocks can", with_article(*type)));
     return;
   }
+  expressions_.note_call(callee);
   if (!take_enable(call, true)) {
     return;
   }

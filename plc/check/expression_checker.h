@@ -59,6 +59,9 @@ class ExpressionChecker {
   bool meet(ast::Expression& a, ast::Expression& b);
   const Type* unknown(ast::Expression& expression);
   void note_write(const ast::Expression& expression);
+  // An instance that is called, or passed by reference.
+  void note_call(const ast::Expression& expression);
+  void warn_about_exactness(const ast::Expression& expression);
   static ast::Expression& make_truth(ast::Expression& expression);
   bool writable(const ast::Expression& expression);
   bool array_initial(ast::Initial& initial, const Type& type);

@@ -318,6 +318,7 @@ const Type* ExpressionChecker::reference(Expression& expression) {
     context_.error(expression.at, "a single bit cannot be passed by reference, copy it to a BOOL first");
     return nullptr;
   }
+  note_call(expression);
   note_write(expression);
   return type;
 }
@@ -358,6 +359,13 @@ bool ExpressionChecker::writable(const Expression& expression) {
   return true;
 }
 
+void ExpressionChecker::note_call(const Expression& expression) {
+  const Resolved* root = root_of(expression).resolved.get();
+  if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
+    context_.pou->find(upper(root->variable->name))->called = true;
+  }
+}
+
 void ExpressionChecker::note_write(const Expression& expression) {
   if (context_.pou == nullptr) {
     return;
@@ -369,6 +377,9 @@ void ExpressionChecker::note_write(const Expression& expression) {
                                                 "inside; leave the loop with EXIT, or use WHILE",
                                                 to_string(at)));
     }
+  }
+  if (root.variable != nullptr) {
+    context_.pou->find(upper(root.variable->name))->written = true;
   }
   if (root.meaning == Meaning::FunctionResult) {
     context_.pou->result_assigned = true;

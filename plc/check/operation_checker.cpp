@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plc/check/bare_number.h"
 #include "plc/check/call_checker.h"
 #include "plc/check/expression_checker.h"
@@ -114,7 +116,20 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
   if (!is_enum) {
     fold(expression, *resolved(expression).operand);
   }
+  warn_about_exactness(expression);
   return context_.elementary(Elementary::Bool);
+}
+
+// Sums of REALs are rounded; a REAL that was never computed with, or is compared with 0, is what it is.
+void ExpressionChecker::warn_about_exactness(const Expression& expression) {
+  const Type& type = *expression.resolved->operand;
+  const bool exact = expression.op == Operator::Equal || expression.op == Operator::NotEqual;
+  const auto known = [](const Expression& one) { return constant_of(one) != nullptr; };
+  if (exact && type.kind == Type::Kind::Elementary && is_real(type.elementary) &&
+      std::none_of(expression.operands.begin(), expression.operands.end(), known)) {
+    context_.warning(expression.at, fmt::format("two {} are seldom exactly equal, compare ABS(a - b) with a tolerance",
+                                                name_of(type.elementary)));
+  }
 }
 
 const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wanted*/) {

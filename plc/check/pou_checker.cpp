@@ -8,6 +8,7 @@
 #include "plc/check/global_table.h"
 #include "plc/check/statement_checker.h"
 #include "plc/check/type_builder.h"
+#include "plc/check/usage_checker.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -118,16 +119,6 @@ class VariableDeclarer {
   ExpressionChecker expressions_;
 };
 
-void warn_about_unused(Context& context, const Pou& pou) {
-  for (const Variable& variable : pou.variables) {
-    const bool own = variable.section == Section::Local || variable.section == Section::Temp ||
-                     variable.section == Section::External;
-    if (own && !variable.used && !variable.declared->address && !variable.retain) {
-      context.warning(variable.declared->at, fmt::format("'{}' is never used", variable.name));
-    }
-  }
-}
-
 class PouOrder {
  public:
   explicit PouOrder(Context& context) : context_(context) {}
@@ -210,7 +201,7 @@ void check_bodies(Context& context) {
       context.warning(pou.tree->at,
                       fmt::format("the function never gives its result, assign it: {} := ...;", pou.name));
     }
-    warn_about_unused(context, pou);
+    warn_about_usage(context, pou);
   }
   context.pou = nullptr;
 }

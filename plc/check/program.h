@@ -54,6 +54,8 @@ struct Variable {
   bool is_constant = false;
   bool retain = false;
   bool used = false;
+  bool written = false;
+  bool called = false;  // an instance, or passed as VAR_IN_OUT
 };
 
 // Which parts of a global a POU touches: "" is the whole, ".eOpCode" a field.

@@ -62,6 +62,11 @@ class TaskPlanner {
       context_.error(task.at, "SINGLE is not supported, use INTERVAL and R_TRIG in the program");
       return;
     }
+    if (!task.interval_ns) {
+      context_.warning(
+          task.at,
+          fmt::format("the task {} has no interval and runs every 10 ms, write INTERVAL := T#10ms", task.name));
+    }
     TaskPlan& made = tasks().emplace_back();
     made.at = task.at;
     made.name = task.name;

@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "plc/model/elementary.h"
+#include "plc/network/chart_reach.h"
 
 namespace indurop::plc::network {
 namespace {
@@ -60,6 +61,9 @@ class Reader {
       if (transition.to.empty()) {
         diagnostics_.error(transition.element->at, "this transition leads to no step; draw a line to one, or a jump");
       }
+    }
+    if (diagnostics_.errors() == before_) {
+      warn_about_reach(chart_, diagnostics_);
     }
     return std::move(chart_);
   }
@@ -187,6 +191,7 @@ class Reader {
   const Diagram& diagram_;
   Index index_;
   Diagnostics& diagnostics_;
+  const std::size_t before_ = diagnostics_.errors();
   Chart chart_;
   std::unordered_map<const Element*, std::size_t> steps_;
   std::unordered_map<const Element*, std::size_t> numbers_;  // of transitions

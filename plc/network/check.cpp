@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "plc/model/elementary.h"
@@ -53,6 +54,7 @@ class Check {
       }
     }
     used(diagram);
+    coils(diagram);
     for (const Element* element : order.circles) {
       diagnostics_.error(
           element->at,
@@ -171,6 +173,23 @@ class Check {
         diagnostics_.error(element.at, "its right side is connected to nothing; draw a line to a coil, or remove it");
       } else if (element.kind == Kind::InVariable && !sources.contains(&element)) {
         diagnostics_.warning(element.at, "its value goes nowhere; remove it");
+      }
+    }
+  }
+
+  // Of two coils of a variable the last one wins, whatever the first has got.
+  void coils(const Diagram& diagram) {
+    std::unordered_map<std::string, const Element*> known;
+    for (const Element& element : diagram.elements) {
+      if (element.kind != Kind::Coil || element.storage != Storage::None || element.edge != ast::Edge::None) {
+        continue;
+      }
+      const auto [first, is_new] = known.emplace(upper(element.text), &element);
+      if (!is_new && !element.text.empty()) {
+        diagnostics_.warning(element.at,
+                             fmt::format("'{}' has another coil already, of which nothing remains: join both "
+                                         "rungs, or use set and reset coils",
+                                         element.text));
       }
     }
   }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What compiles and is seldom meant.
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/plc/front/compiled.h"
+
+namespace indurop::plc {
+namespace {
+
+using testing::compiled;
+using ::testing::HasSubstr;
+using testing::messages;
+using ::testing::Not;
+
+std::string warnings(const std::string& text, const std::string& file = "in.st") {
+  const Compiled sut = compiled(text, file);
+  return (sut.ok ? "" : "it does not compile: ") + messages(sut);
+}
+
+constexpr const char* kBlock =
+    "FUNCTION_BLOCK Valve VAR_INPUT on : BOOL; END_VAR VAR_OUTPUT open, closed : BOOL; END_VAR VAR_IN_OUT n : INT; "
+    "END_VAR\n"
+    "open := on; n := n + 1;\nEND_FUNCTION_BLOCK\n";
+
+TEST(PlcWarnings, An_output_that_is_never_written) {
+  const std::string all =
+      warnings(std::string(kBlock) + "PROGRAM Main VAR v : Valve; i : INT; END_VAR v(on := TRUE, n := i); END_PROGRAM");
+  EXPECT_THAT(all, HasSubstr("warning: Valve: the output 'closed' is never written"));
+  EXPECT_THAT(all, Not(HasSubstr("'open'")));
+}
+
+TEST(PlcWarnings, An_instance_that_is_never_called) {
+  const std::string head =
+      std::string(kBlock) +
+      "FUNCTION_BLOCK User VAR_IN_OUT t : TON; END_VAR t(IN := TRUE, PT := T#1s); END_FUNCTION_BLOCK\n"
+      "PROGRAM Main VAR v : Valve; t : TON; u : User; a : ARRAY[1..2] OF TON; b : BOOL; i : INT; END_VAR\n";
+  const std::string none = warnings(head + "b := v.open; b := t.Q; b := a[1].Q; u(t := t); END_PROGRAM");
+  EXPECT_THAT(none, HasSubstr("'v' is never called, so its outputs never change; call it: v(...);"));
+  EXPECT_THAT(none, HasSubstr("'a' is never called"));
+  EXPECT_THAT(none, Not(HasSubstr("'t' is never called"))) << "it is passed to u, which calls it";
+  const std::string all = warnings(head + "v(n := i); u(t := t); a[i](IN := v.open); END_PROGRAM");
+  EXPECT_THAT(all, Not(HasSubstr("never called")));
+}
+
+TEST(PlcWarnings, Two_REALs_that_are_compared_exactly) {
+  const std::string head = "PROGRAM Main VAR x, y : REAL; z : LREAL; b : BOOL; i : INT; END_VAR\n";
+  EXPECT_THAT(warnings(head + "b := x = y; END_PROGRAM"),
+              HasSubstr("two REAL are seldom exactly equal, compare ABS(a - b)"));
+  EXPECT_THAT(warnings(head + "b := z <> x * y; END_PROGRAM"), HasSubstr("two LREAL are seldom exactly equal"));
+  EXPECT_THAT(warnings(head + "b := x < y OR x = 0.0 OR x <> 2.5 OR i = 3; END_PROGRAM"),
+              Not(HasSubstr("exactly equal")));
+}
+
+TEST(PlcWarnings, An_empty_body) {
+  EXPECT_THAT(warnings("PROGRAM Main VAR_INPUT x : BOOL; END_VAR ; END_PROGRAM"), HasSubstr("Main: the body is empty"));
+}
+
+TEST(PlcWarnings, A_task_without_an_interval) {
+  const std::string program = "PROGRAM Main VAR x : BOOL; END_VAR x := NOT x; END_PROGRAM\n";
+  const auto configured = [&](const std::string& task) {
+    return program + "CONFIGURATION c RESOURCE r ON pc TASK fast (" + task +
+           "); PROGRAM p WITH fast : Main; END_RESOURCE END_CONFIGURATION";
+  };
+  EXPECT_THAT(warnings(configured("PRIORITY := 1")), HasSubstr("the task fast has no interval and runs every 10 ms"));
+  EXPECT_THAT(warnings(configured("INTERVAL := T#1ms, PRIORITY := 1")), Not(HasSubstr("no interval")));
+}
+
+std::string chart(const std::string& transitions) {
+  std::string text = "PROGRAM Main VAR x : BOOL; END_VAR\nINITIAL_STEP a: END_STEP\n";
+  for (const char* step : {"b", "c", "d"}) {
+    text += std::string("STEP ") + step + ": END_STEP\n";
+  }
+  return text + transitions + "END_PROGRAM\n";
+}
+
+std::string from(const std::string& source, const std::string& target) {
+  return "TRANSITION FROM " + source + " TO " + target + " := NOT x; END_TRANSITION\n";
+}
+
+TEST(PlcWarnings, A_step_that_is_never_reached) {
+  const std::string all = warnings(chart(from("a", "b") + from("b", "a") + from("c", "d") + from("d", "c")));
+  EXPECT_THAT(all, HasSubstr("the step 'c' never becomes active; lead a transition to it"));
+  EXPECT_THAT(all, HasSubstr("the step 'd' never"));
+  EXPECT_THAT(all, Not(HasSubstr("the step 'b'")));
+}
+
+TEST(PlcWarnings, A_jump_out_of_simultaneous_sequences) {
+  const std::string fine = warnings(chart(from("a", "(b, c)") + from("(b, c)", "d") + from("d", "a")));
+  EXPECT_THAT(fine, Not(HasSubstr("the step")));
+  const std::string all = warnings(chart(from("a", "(b, c)") + from("(b, c)", "d") + from("d", "a") + from("b", "a")));
+  EXPECT_THAT(all, HasSubstr("the step 'c' can become active while it is active"));
+}
+
+TEST(PlcWarnings, A_second_coil_of_a_variable) {
+  const auto coil = [](int id, const std::string& attributes) {
+    return "<coil localId=\"" + std::to_string(id) + "\"" + attributes +
+           "><connectionPointIn><connection refLocalId=\"1\"/></connectionPointIn><variable>lamp</variable></coil>";
+  };
+  const auto ladder = [&](const std::string& second) {
+    return R"(<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><dataTypes/><pous><pou name="Main" )"
+           R"(pouType="program"><interface><localVars><variable name="lamp"><type><BOOL/></type></variable></localVars>)"
+           R"(</interface><body><LD><leftPowerRail localId="1"/>)" +
+           coil(2, "") + coil(3, second) + "</LD></body></pou></pous></types></project>";
+  };
+  EXPECT_THAT(warnings(ladder(""), "in.xml"), HasSubstr("'lamp' has another coil already, of which nothing remains"));
+  EXPECT_THAT(warnings(ladder(" storage=\"set\""), "in.xml"), Not(HasSubstr("another coil")));
+}
+
+}  // namespace
+}  // namespace indurop::plc
