@@ -1,45 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/csv_driver.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "base/read_file.h"
 
 namespace indurop::io {
 
 Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> CsvDriver::make(
     const config::IoDevice& device, std::span<const config::IoPoint> inputs) {
-  const auto problem = [&device](base::SourcePlace place, std::string what) {
-    return std::vector{
-        base::Diagnostic{base::Diagnostic::Severity::Error, device.csv.file.string(), place, std::move(what)}};
-  };
-  const std::string file = device.csv.file.string();
-  const auto text = base::read_file(file);
-  if (!text) {
-    return problem({}, fmt::format("cannot be read: {}", text.error().text));
+  auto source = config::read_csv_device(device, inputs);
+  if (!source) {
+    return std::move(source).error();
   }
-  auto table = read_csv(*text, file);
-  if (!table) {
-    return std::move(table).error();
-  }
-  std::vector<std::size_t> columns;
-  for (const config::IoPoint& point : inputs) {
-    const auto found = std::find(table->columns.begin(), table->columns.end(), point.at);
-    if (found == table->columns.end()) {
-      return problem({1, 1},
-                     fmt::format("there is no column '{}'; there are {}", point.at, fmt::join(table->columns, ", ")));
-    }
-    columns.push_back(static_cast<std::size_t>(found - table->columns.begin()));
-  }
-  return std::make_unique<CsvDriver>(std::move(table).value(), std::move(columns), device.csv.loop);
+  return std::make_unique<CsvDriver>(std::move(source->table), std::move(source->columns), device.csv.loop);
 }
 
-CsvDriver::CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop)
+CsvDriver::CsvDriver(config::CsvTable table, std::vector<std::size_t> columns, bool loop)
     : table_(std::move(table)), columns_(std::move(columns)), loop_(loop && table_.rows.size() > 1) {
   // The last row lasts as long as the one before it.
   const auto& rows = table_.rows;

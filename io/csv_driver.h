@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "io/csv_table.h"
+#include "config/check/csv_table.h"
 #include "io/driver.h"
 
 namespace indurop::io {
@@ -17,7 +17,7 @@ class CsvDriver final : public Driver {
   static Result<std::unique_ptr<CsvDriver>, std::vector<base::Diagnostic>> make(
       const config::IoDevice& device, std::span<const config::IoPoint> inputs);
   // `columns`: that of each point.
-  CsvDriver(CsvTable table, std::vector<std::size_t> columns, bool loop);
+  CsvDriver(config::CsvTable table, std::vector<std::size_t> columns, bool loop);
 
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
   bool open() override { return true; }
@@ -26,7 +26,7 @@ class CsvDriver final : public Driver {
   [[nodiscard]] std::string problem() const override { return {}; }
 
  private:
-  CsvTable table_;
+  config::CsvTable table_;
   std::vector<std::size_t> columns_;
   bool loop_;
   std::int64_t length_ns_;  // of one turn of the loop

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "base/text.h"
+#include "config/check/csv_table.h"
 #include "config/check/io_binding.h"
 #include "config/xml/io_reader.h"
 
@@ -21,6 +24,24 @@ const Property* find_property(const Module& module, std::string_view name) {
 void add(const std::optional<schema::Place>& place, std::vector<const schema::Variable*>& to) {
   if (place) {
     to.push_back(place->variable);
+  }
+}
+
+// What a node would say of the recorded values when it starts.
+void check_csv(const BoundDevice& bound, CheckContext& context) {
+  const IoDevice& device = bound.device;
+  std::error_code ignored;
+  if (device.driver != IoDriver::Csv ||
+      (!context.options.machine && !std::filesystem::exists(device.csv.file, ignored))) {
+    return;
+  }
+  std::vector<IoPoint> inputs;
+  for (const BoundPoint& point : bound.points) {
+    inputs.push_back(point.point);
+  }
+  if (auto source = read_csv_device(device, inputs); !source) {
+    auto& all = context.result.diagnostics;
+    all.insert(all.end(), source.error().begin(), source.error().end());
   }
 }
 
@@ -80,6 +101,9 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
   const auto devices = bind_io(read.config, context.result.schema, read.diagnostics);
   context.result.diagnostics.insert(context.result.diagnostics.end(), read.diagnostics.begin(), read.diagnostics.end());
   for (const BoundDevice& device : devices) {
+    if (word != "outputs") {
+      check_csv(device, context);
+    }
     add(device.quality, access.writes);
     add(device.errors, access.writes);
     for (const BoundPoint& bound : device.points) {

@@ -64,10 +64,24 @@ TEST_F(IoNode, A_module_without_a_file_and_one_whose_values_are_missing_do_not_s
   const Outcome no_file = run_to_end(without);
   EXPECT_EQ(no_file.code, 4);
   EXPECT_CONTAINS(no_file.err, "module io needs an ioconfig.xml; add <property>");
-  const Outcome no_values =
-      run_to_end(modules("<device name='rec' driver='csv' file='gone.csv'><input variable='I0'/></device>"));
-  EXPECT_EQ(no_values.code, 1);
+  const auto gone = modules("<device name='rec' driver='csv' file='gone.csv'><input variable='I0'/></device>");
+  const Outcome no_values = run_to_end(gone);
+  EXPECT_EQ(no_values.code, 4);
   EXPECT_CONTAINS(no_values.out + no_values.err, "gone.csv: error: cannot be read: No such file");
+  const Outcome check = indurop({"check", write("module.xml", xml(gone))});
+  EXPECT_EQ(check.code, 4);
+  EXPECT_CONTAINS(check.out + check.err, "gone.csv: error: cannot be read: No such file");
+}
+
+TEST_F(IoNode, Check_reads_recorded_values) {
+  write("run.csv", "time,I0\n0,1\n1,one\n");
+  const auto wrong = modules("<device name='rec' driver='csv' file='run.csv'><input variable='I0'/></device>");
+  const Outcome bad_cell = indurop({"check", write("module.xml", xml(wrong))});
+  EXPECT_EQ(bad_cell.code, 4);
+  EXPECT_CONTAINS(bad_cell.out + bad_cell.err, "run.csv:3:3: error: 'one' is not a number");
+  write("run.csv", "time,I1\n0,1\n");
+  const Outcome no_column = indurop({"check", write("module.xml", xml(wrong))});
+  EXPECT_CONTAINS(no_column.out + no_column.err, "run.csv:1:1: error: there is no column 'I0'; there are I1");
 }
 
 TEST_F(IoNode, Two_modules_split_inputs_and_outputs) {

@@ -2,6 +2,8 @@
 // What the access map tells: writers, readers, order and age, fail-safe values.
 
 #include <algorithm>
+#include <fstream>
+
 #include "configuration.h"
 #include "module_file.h"
 
@@ -172,6 +174,28 @@ TEST_F(CheckAccess, Fail_safe_values_must_fit_their_variable) {
               ElementsAre(HasSubstr("error: <failsafe>: ")));
   EXPECT_THAT(check_lines(periodic("w.so", "1ms", 1, "<failsafe variable=\"x\">fast</failsafe>") + r),
               ElementsAre(HasSubstr("error: <failsafe>: ")));
+}
+
+TEST_F(CheckAccess, Recorded_values_are_read_as_the_node_would) {
+  write("reader.so", {"n::a"}, {});
+  ModuleSpec io;
+  io.exports.emplace_back("indurop_io_format");
+  write_module(folder_ / "io.so", io);
+  std::ofstream(folder_ / "ioconfig.xml") << "<ioconfig><device name='rec' driver='csv' file='run.csv'>"
+                                             "<input variable='n::a' at='a'/></device></ioconfig>";
+  const std::string modules =
+      periodic("io.so", "1ms", 1, "<property><value name='config'>ioconfig.xml</value></property>") +
+      periodic("reader.so", "1ms", 2);
+  EXPECT_THAT(checked(modules).lines(), Contains(HasSubstr("run.csv: error: cannot be read: No such file")));
+  CheckOptions elsewhere;
+  elsewhere.machine = false;  // what is not here may be there
+  EXPECT_THAT(check(root(modules), elsewhere, folder_ / "module.xml").lines(), Not(Contains(HasSubstr("run.csv"))));
+  std::ofstream(folder_ / "run.csv") << "time,a\n0,1\n1,one\n";
+  EXPECT_THAT(checked(modules).lines(), Contains(HasSubstr("run.csv:3:3: error: 'one' is not a number")));
+  std::ofstream(folder_ / "run.csv") << "time,b\n0,1\n";
+  EXPECT_THAT(checked(modules).lines(), Contains(HasSubstr("run.csv:1:1: error: there is no column 'a'; there are b")));
+  std::ofstream(folder_ / "run.csv") << "time,a\n0,1\n";
+  EXPECT_THAT(checked(modules).lines(), Not(Contains(HasSubstr("run.csv"))));
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 
 #include <cmath>
 
+#include "config/check/csv_table.h"
 #include "io/csv_driver.h"
-#include "io/csv_table.h"
 
 namespace indurop::io {
 namespace {
 
+using config::CsvTable;
+using config::read_csv;
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::HasSubstr;

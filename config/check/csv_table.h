@@ -7,13 +7,15 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "config/model/io_config.h"
 
-namespace indurop::io {
+namespace indurop::config {
 
 struct CsvRow {
   std::int64_t time_ns = 0;    // from the first row on, strictly rising
@@ -30,4 +32,13 @@ struct CsvTable {
 // that is wrong with the text of `file`, at most 20.
 Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, const std::string& file);
 
-}  // namespace indurop::io
+// The file of a device and the column of each of its points. Errors: the file cannot be read, what is wrong in it, or
+// that it lacks columns.
+struct CsvSource {
+  CsvTable table;
+  std::vector<std::size_t> columns;
+};
+Result<CsvSource, std::vector<base::Diagnostic>> read_csv_device(const IoDevice& device,
+                                                                 std::span<const IoPoint> inputs);
+
+}  // namespace indurop::config

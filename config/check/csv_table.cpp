@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/csv_table.h"
+#include "config/check/csv_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "base/csv_row.h"
 #include "base/diagnostics.h"
+#include "base/read_file.h"
 #include "base/text.h"
 
-namespace indurop::io {
+namespace indurop::config {
 namespace {
 
 constexpr std::size_t kMostProblems = 20;
@@ -154,4 +157,35 @@ Result<CsvTable, std::vector<base::Diagnostic>> read_csv(std::string_view text, 
   return Reader(file).read(text);
 }
 
-}  // namespace indurop::io
+Result<CsvSource, std::vector<base::Diagnostic>> read_csv_device(const IoDevice& device,
+                                                                 std::span<const IoPoint> inputs) {
+  const std::string file = device.csv.file.string();
+  const auto text = base::read_file(file);
+  if (!text) {
+    return std::vector{base::Diagnostic{
+        base::Diagnostic::Severity::Error, file, {}, fmt::format("cannot be read: {}", text.error().text)}};
+  }
+  auto table = read_csv(*text, file);
+  if (!table) {
+    return std::move(table).error();
+  }
+  CsvSource source{std::move(table).value(), {}};
+  std::vector<base::Diagnostic> missing;
+  const auto& names = source.table.columns;
+  for (const IoPoint& point : inputs) {
+    const auto found = std::find(names.begin(), names.end(), point.at);
+    if (found == names.end()) {
+      missing.push_back({base::Diagnostic::Severity::Error,
+                         file,
+                         {1, 1},
+                         fmt::format("there is no column '{}'; there are {}", point.at, fmt::join(names, ", "))});
+    }
+    source.columns.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  if (!missing.empty()) {
+    return missing;
+  }
+  return source;
+}
+
+}  // namespace indurop::config
