@@ -61,17 +61,16 @@ std::string threads(const NetworkSettings& settings) {
   return "<Threads>" + text + "</Threads>";
 }
 
-// Frames are small and their receiver is quick: a quarter of the usual buffer, in pieces that hold any datagram.
-std::string sizes(const NetworkSettings& settings) {
-  return settings.known_ports ? ""
-                              : "<Sizing><ReceiveBufferSize>256 kB</ReceiveBufferSize>"
-                                "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>";
-}
+// Receivers are quick: a quarter of the usual buffer, in pieces that hold any datagram. Memory grows until messages
+// have gone through all of it, which takes those of an agent that rests two minutes.
+constexpr const char* kSizes =
+    "<Sizing><ReceiveBufferSize>256 kB</ReceiveBufferSize>"
+    "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>";
 
 }  // namespace
 
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
-  return network(settings, interface_name) + discovery(settings) + threads(settings) + sizes(settings) +
+  return network(settings, interface_name) + discovery(settings) + threads(settings) + kSizes +
          // One receive thread: with more, ending can hang, and none could get a priority.
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>"
          // A lost last value is repaired within milliseconds, not 100.

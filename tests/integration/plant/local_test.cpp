@@ -80,7 +80,7 @@ TEST_F(Local, A_standby_keeps_the_loop_closed) {
   for (const char* leaving : {"control", "backup"}) {
     ::kill(pid_of(leaving), SIGKILL);
     if (leaving == std::string("control")) {
-      const double before = number<double>("backup", "cell::encoder");
+      const auto before = number<double>("backup", "cell::encoder");
       EXPECT_TRUE(wait_until([&] { return number<double>("backup", "cell::encoder") > before + 1; }))
           << "the table turns on";
       EXPECT_GT(torque("sensor"), 0);
@@ -102,6 +102,10 @@ TEST_F(Local, What_one_module_writes_is_read_together_on_the_other_board) {
 
 // The mirror is woken by another module while the writer is in the middle of its run.
 TEST_F(Local, What_a_module_has_half_written_is_not_sent) {
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP()
+      << "ThreadSanitizer's own locks let a pause of 2.5 ms last 300 at times, and the node shuts the module out";
+#endif
   const std::string table = "<module><filename>" TWO_BOARDS
                             "/table.so</filename><moduletype>thread</moduletype><operationtype>periodic"
                             "</operationtype><period>1ms</period><priority>1</priority></module>";

@@ -9,7 +9,7 @@
 namespace indurop::rt {
 namespace {
 
-constexpr std::size_t kStack = std::size_t{64} * 1024;
+constexpr std::size_t kStack = std::size_t{128} * 1024;
 
 thread_local volatile char large[16 * kStack];
 
