@@ -15,6 +15,7 @@
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/mirror_text.h"
+#include "deploy/agent/run_image.h"
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
@@ -126,6 +127,9 @@ class Agent {
     }
     if (name == kMirrorBlob) {
       return BlobServer::Blob{{}, mirror_text(options_.board)};
+    }
+    if (name == kRunBlob) {
+      return BlobServer::Blob{{}, run_image(options_.board)};
     }
     return state_.has(name) ? std::optional(BlobServer::Blob{state_.file(name), {}}) : std::nullopt;
   }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/board_commands.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
+#include "deploy/agent/board_forces.h"
 #include "rt/clock.h"
 
 namespace indurop::deploy {
@@ -30,11 +32,24 @@ const char* word_of(Action action) {
     case Action::StartModule:
     case Action::StartNode:
       return "start";
+    case Action::Force:
+      return "force";
+    case Action::Unforce:
+      return "unforce";
     case Action::RestartModule:
     case Action::RestartNode:
       break;
   }
   return "restart";
+}
+
+bool is_force(Action action) noexcept {
+  return action == Action::Force || action == Action::Unforce;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
 }
 
 std::uint64_t new_nonce() {
@@ -64,7 +79,7 @@ void BoardCommands::step(CommandLink& link, const std::string& plant, const std:
   }
   if (const auto done = look(now)) {
     log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
-              command_->module.empty() ? "the node" : "module " + command_->module,
+              command_->target.empty() ? "the node" : "module " + command_->target,
               done->outcome == Outcome::Failed ? done->text : "done");
     known_[command_->commander].last = done;
     link.send(*done);
@@ -119,7 +134,9 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
-  CommandReply answer = command.module.empty() ? begin_node(command) : begin_module(command);
+  CommandReply answer = is_force(command.action) ? force(command)
+                        : command.target.empty() ? begin_node(command)
+                                                 : begin_module(command);
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
   } else {
@@ -149,11 +166,22 @@ scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
   return nullptr;
 }
 
+CommandReply BoardCommands::force(const Command& command) const {
+  if (process_.condition() != NodeCondition::Running) {
+    return reply(command, Outcome::Refused, "its node does not run");
+  }
+  const bool hold = command.action == Action::Force;
+  const auto done = hold ? force_values(board_, command.target) : unforce_values(board_, command.target);
+  log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), one_line(command.target),
+            done ? "done" : done.error().text);
+  return done ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, done.error().text);
+}
+
 CommandReply BoardCommands::begin_module(const Command& command) {
   if (process_.condition() != NodeCondition::Running || !open_run()) {
     return reply(command, Outcome::Refused, "its node does not run");
   }
-  module_ = find(command.module);
+  module_ = find(command.target);
   if (module_ == nullptr) {
     std::string names;
     auto& block = *static_cast<scheduler::RunBlock*>(run_->data());
@@ -161,8 +189,8 @@ CommandReply BoardCommands::begin_module(const Command& command) {
       names += (i > 0 ? ", " : "") + std::string(block.modules()[i].name);
     }
     return reply(command, Outcome::Refused,
-                 names.empty() ? fmt::format("it has no module {}, nor any other", command.module)
-                               : fmt::format("it has no module {}; it has {}", command.module, names));
+                 names.empty() ? fmt::format("it has no module {}, nor any other", command.target)
+                               : fmt::format("it has no module {}; it has {}", command.target, names));
   }
   const auto ticket = scheduler::place_command(*module_, module_command_of(command.action));
   if (!ticket) {
@@ -190,7 +218,7 @@ CommandReply BoardCommands::begin_node(const Command& command) {
 }
 
 std::optional<CommandReply> BoardCommands::look(rt::MonoTime now) {
-  auto done = command_->module.empty() ? look_at_node() : look_at_module();
+  auto done = command_->target.empty() ? look_at_node() : look_at_module();
   if (!done && now > deadline_) {
     done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands from elsewhere to this board's node and its modules: who may give them, carrying them out one at a time, and
-// the answers. The agent's business, beside deployments and never during one.
+// Commands from elsewhere to this board's node, its modules and variables: who may give them, carrying them out one at
+// a time, and the answers. The agent's business, beside deployments and never during one.
 
 #pragma once
 
@@ -38,6 +38,7 @@ class BoardCommands {
   CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
   CommandReply begin_module(const Command& command);
   CommandReply begin_node(const Command& command);
+  [[nodiscard]] CommandReply force(const Command& command) const;
   // Empty while it goes on.
   std::optional<deploy::CommandReply> look(rt::MonoTime now);
   std::optional<deploy::CommandReply> look_at_module();

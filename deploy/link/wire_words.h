@@ -116,7 +116,7 @@ struct Wire<Command> {
       Pair{&Command::commander, &Sample::commander}, Pair{&Command::host, &Sample::host},
       Pair{&Command::board, &Sample::board},         Pair{&Command::agent, &Sample::agent},
       Pair{&Command::plant, &Sample::plant},         Pair{&Command::action, &Sample::action},
-      Pair{&Command::module, &Sample::target},       Pair{&Command::nonce, &Sample::nonce},
+      Pair{&Command::target, &Sample::target},       Pair{&Command::nonce, &Sample::nonce},
       Pair{&Command::signature, &Sample::signature},
   };
 };
@@ -214,7 +214,7 @@ constexpr NodeCondition last_of(NodeCondition /*any*/) noexcept {
   return NodeCondition::Stopped;
 }
 constexpr Action last_of(Action /*any*/) noexcept {
-  return Action::RestartNode;
+  return Action::Unforce;
 }
 constexpr Outcome last_of(Outcome /*any*/) noexcept {
   return Outcome::Refused;

@@ -7,7 +7,7 @@ namespace indurop::deploy {
 
 std::string command_text(const Command& command) {
   return fmt::format("indurop command\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n", command.plant, command.board, command.agent,
-                     static_cast<int>(command.action), command.module, command.commander, command.nonce);
+                     static_cast<int>(command.action), command.target, command.commander, command.nonce);
 }
 
 }  // namespace indurop::deploy

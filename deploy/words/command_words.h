@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to one board outside of deployments: stop, start or restart its node or one of its modules. The agent
+// Commands to one board outside of deployments: stop, start or restart its node or one of its modules, hold values of
+// its variables. The agent
 // answers the first word with a number that counts once, so that a recorded command cannot be played again. No network
 // here.
 
@@ -10,7 +11,16 @@
 
 namespace indurop::deploy {
 
-enum class Action : std::uint8_t { StopModule, StartModule, RestartModule, StopNode, StartNode, RestartNode };
+enum class Action : std::uint8_t {
+  StopModule,
+  StartModule,
+  RestartModule,
+  StopNode,
+  StartNode,
+  RestartNode,
+  Force,    // target: nanoseconds (0: until released), then NAME=VALUE in a line each
+  Unforce,  // target: a NAME in a line each, or "*" for all
+};
 
 struct Command {
   std::uint64_t commander = 0;  // this run of whoever commands
@@ -19,7 +29,7 @@ struct Command {
   std::uint64_t agent = 0;  // of the board that is meant
   std::string plant;        // what the board runs
   Action action = Action::StopModule;
-  std::string module;       // empty: the node
+  std::string target;       // the module; of forces, see there; empty: the node
   std::uint64_t nonce = 0;  // as the agent gave it; 0: asks for one
   std::string signature;    // of command_text(); empty: unsigned
 };

@@ -138,5 +138,7 @@ inline std::string shown_id(const std::string& id) {
 inline constexpr const char* kHistoryBlob = "history";
 // Likewise: what the board's node reads from other boards at this moment, and how old it is.
 inline constexpr const char* kMirrorBlob = "mirror";
+// Likewise: the run block of the board's node as it is at this moment (deploy/agent/run_image.h), for tools elsewhere.
+inline constexpr const char* kRunBlob = "run";
 
 }  // namespace indurop::deploy

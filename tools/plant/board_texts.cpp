@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kPatienceNs = 2'000'000'000;
 constexpr std::int64_t kAskAgainNs = 250'000'000;
 constexpr std::int64_t kLookNs = 20'000'000;
-constexpr std::uint64_t kLargest = 4U << 20U;
+constexpr std::uint64_t kLargest = 64U << 20U;
 
 struct Text {
   std::string text;

@@ -45,7 +45,7 @@ NodeReport report_of(const std::string& node, const RunView& run) {
   report.ticks = block.tick.load(kRelaxed);
   report.lost_ticks = block.lost_ticks.load(kRelaxed);
   if (report.alive && block.epoch_ns > 0) {
-    report.uptime_ns = std::max<std::int64_t>(0, rt::now_ns() - block.epoch_ns);
+    report.uptime_ns = std::max<std::int64_t>(0, run.now_ns() - block.epoch_ns);
   }
   report.modules = run.module_count();
   for (std::uint32_t i = 0; i < run.module_count(); ++i) {
@@ -53,7 +53,7 @@ NodeReport report_of(const std::string& node, const RunView& run) {
     report.faults += run.module(i).faults.load(kRelaxed);
   }
   report.rt = block.obtained;
-  if (report.alive && report.rt.pinned != 0) {
+  if (report.alive && run.here() && report.rt.pinned != 0) {
     report.same_core = nodes_on(report.rt.tick_core, node);
   }
   report.lateness = scheduler::summarize(block.tick_lateness);

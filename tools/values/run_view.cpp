@@ -2,7 +2,9 @@
 #include "tools/values/run_view.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "rt/clock.h"
 #include "vars/process.h"
 
 namespace indurop::tools {
@@ -64,25 +66,42 @@ bool RunView::check(const scheduler::RunBlock& block, std::uint64_t file_size, C
   return out.modules != nullptr && out.slots != nullptr && out.overruns != nullptr;
 }
 
+Result<RunView> RunView::checked(std::shared_ptr<void> memory, std::uint64_t size) {
+  const auto* block = static_cast<const scheduler::RunBlock*>(memory.get());
+  if (block->abi != scheduler::kRunAbi) {
+    return Error{Errc::VersionMismatch, 0, "run block of another version"};
+  }
+  Checked found;
+  if (!check(*block, size, found)) {
+    return Error{Errc::Corrupt, 0, "run block damaged"};
+  }
+  return RunView(std::move(memory), found);
+}
+
 Result<RunView> RunView::open(const std::string& node, vars::Mode mode) {
   auto opened = vars::RunFile::open(node, mode, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   if (!opened.ok()) {
     return opened.error();
   }
   const auto mapping = std::make_shared<const vars::RunFile>(std::move(opened).value());
-  const auto* block = static_cast<const scheduler::RunBlock*>(mapping->data());
-  if (block->abi != scheduler::kRunAbi) {
-    return Error{Errc::VersionMismatch, 0, "run block of another version"};
+  return checked({mapping, mapping->data()}, mapping->size());
+}
+
+Result<RunView> RunView::from_image(std::string_view bytes, bool alive, std::int64_t now_ns) {
+  if (bytes.size() < sizeof(scheduler::RunBlock)) {
+    return Error{Errc::Corrupt, 0, "run block cut off"};
   }
-  Checked checked;
-  if (!check(*block, mapping->size(), checked)) {
-    return Error{Errc::Corrupt, 0, "run block damaged"};
+  const auto words = std::make_shared<std::vector<std::uint64_t>>(bytes.size() / sizeof(std::uint64_t) + 1);
+  std::memcpy(words->data(), bytes.data(), bytes.size());
+  auto view = checked({words, words->data()}, bytes.size());
+  if (view) {
+    view->elsewhere_ = Elsewhere{alive, now_ns};
   }
-  return RunView(mapping, block, checked);
+  return view;
 }
 
 scheduler::ModuleRecord& RunView::module_to_command(std::uint32_t index) noexcept {
-  auto* block = static_cast<scheduler::RunBlock*>(mapping_->data());
+  auto* block = static_cast<scheduler::RunBlock*>(memory_.get());
   return *block->at<scheduler::ModuleRecord>(static_cast<std::uint64_t>(
       reinterpret_cast<const std::byte*>(checked_.modules + index) - reinterpret_cast<const std::byte*>(block_)));
 }
@@ -95,8 +114,13 @@ std::string RunView::module_name(std::int64_t index) const {
   return index >= 0 && index < checked_.module_count ? fixed_text(module(static_cast<std::uint32_t>(index)).name) : "?";
 }
 
+std::int64_t RunView::now_ns() const noexcept {
+  return elsewhere_ ? elsewhere_->now_ns : rt::now_ns();
+}
+
 bool RunView::node_alive() const noexcept {
-  return vars::process_alive(block_->node_pid.load(std::memory_order_relaxed), block_->node_start_time);
+  return elsewhere_ ? elsewhere_->alive
+                    : vars::process_alive(block_->node_pid.load(std::memory_order_relaxed), block_->node_start_time);
 }
 
 std::vector<SlotSample> RunView::slot_log(std::uint64_t most) const {

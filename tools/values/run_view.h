@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,8 @@ class RunView {
   // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
   // VersionMismatch (another version of InduRoP), Busy (the node is still building it).
   static Result<RunView> open(const std::string& node, vars::Mode mode = vars::Mode::ReadOnly);
+  // Of a node elsewhere, as it was at `now_ns` of its CLOCK_MONOTONIC. Errors: Corrupt, VersionMismatch.
+  static Result<RunView> from_image(std::string_view bytes, bool alive, std::int64_t now_ns);
 
   [[nodiscard]] const scheduler::RunBlock& block() const noexcept { return *block_; }
   [[nodiscard]] std::uint32_t module_count() const noexcept { return checked_.module_count; }
@@ -55,6 +58,8 @@ class RunView {
   // Name for an index found in a log; "?" if it leads nowhere.
   [[nodiscard]] std::string module_name(std::int64_t index) const;
   [[nodiscard]] bool node_alive() const noexcept;
+  [[nodiscard]] bool here() const noexcept { return !elsewhere_; }  // a node of this machine
+  [[nodiscard]] std::int64_t now_ns() const noexcept;               // CLOCK_MONOTONIC of its machine
 
   // The newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left out.
   [[nodiscard]] std::vector<SlotSample> slot_log(std::uint64_t most) const;
@@ -70,14 +75,20 @@ class RunView {
     std::uint32_t slot_capacity = 0;
     std::uint32_t overrun_capacity = 0;
   };
-  RunView(std::shared_ptr<const vars::RunFile> mapping, const scheduler::RunBlock* block,
-          const Checked& checked) noexcept
-      : mapping_(std::move(mapping)), block_(block), checked_(checked) {}
+  struct Elsewhere {
+    bool alive = false;
+    std::int64_t now_ns = 0;
+  };
+  // `memory` begins with the block.
+  static Result<RunView> checked(std::shared_ptr<void> memory, std::uint64_t size);
+  RunView(std::shared_ptr<void> memory, const Checked& checked) noexcept
+      : memory_(std::move(memory)), block_(static_cast<const scheduler::RunBlock*>(memory_.get())), checked_(checked) {}
   static bool check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept;
 
-  std::shared_ptr<const vars::RunFile> mapping_;
+  std::shared_ptr<void> memory_;
   const scheduler::RunBlock* block_;
   Checked checked_;
+  std::optional<Elsewhere> elsewhere_;
 };
 
 // Text of a fixed char array, NUL or not.

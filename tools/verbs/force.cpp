@@ -6,6 +6,7 @@
 
 #include "rt/clock.h"
 #include "tools/command/units.h"
+#include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
 #include "tools/values/force_view.h"
 #include "tools/values/node_choice.h"
@@ -39,11 +40,15 @@ bool is_number(const schema::Type& type) {
 }
 
 struct ForceOptions {
+  BoardForces board;
   std::vector<std::string> words;
   std::int64_t for_ns = 0;
 };
 
-int force(Context& context, const ForceOptions& options) {
+int force(Context& context, ForceOptions& options) {
+  if (options.board.board.wanted()) {
+    return force_on_board(context, options.board, options.words, options.for_ns);
+  }
   auto store = open_running(context);
   if (!store) {
     return report(context.out, store.error());
@@ -76,6 +81,7 @@ int force(Context& context, const ForceOptions& options) {
 }
 
 struct UnforceOptions {
+  BoardForces board;
   std::vector<std::string> names;
   bool all = false;
 };
@@ -85,10 +91,13 @@ bool lies_in(const vars::Force& force, const Item& item) {
   return force.variable == item.entry && force.offset >= begin && force.offset < begin + item.place.type.size();
 }
 
-int unforce(Context& context, const UnforceOptions& options) {
+int unforce(Context& context, UnforceOptions& options) {
   if (options.names.empty() != options.all) {
     context.out.error("name what to release: names, globs, or --all");
     return kUsage;
+  }
+  if (options.board.board.wanted()) {
+    return unforce_on_board(context, options.board, options.names);
   }
   auto store = open_store(context, vars::Mode::ReadWrite);
   if (!store) {
@@ -116,13 +125,23 @@ int unforce(Context& context, const UnforceOptions& options) {
   return kOk;
 }
 
-int forces(Context& context) {
+Result<std::vector<ForceView>, Failure> forces_of(Context& context, BoardChoice& board) {
+  if (board.wanted()) {
+    auto run = open_run(context, board);
+    return run ? Result<std::vector<ForceView>, Failure>(run->forces.value_or(std::vector<ForceView>()))
+               : std::move(run).error();
+  }
   const auto store = open_store(context, vars::Mode::ReadOnly);
-  if (!store) {
-    return report(context.out, store.error());
+  return store ? Result<std::vector<ForceView>, Failure>(view_forces(*store)) : store.error();
+}
+
+int forces(Context& context, BoardChoice& board) {
+  const auto all = forces_of(context, board);
+  if (!all) {
+    return report(context.out, all.error());
   }
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right}, {"LEFT", "left_ns", Align::Right}});
-  for (const ForceView& one : view_forces(*store)) {
+  for (const ForceView& one : *all) {
     table.add({Cell(one.name), Cell(one.value, one.raw),
                Cell(one.left_ns ? human_age(*one.left_ns) : "until unforced",
                     one.left_ns ? JsonValue(*one.left_ns) : JsonValue(), Style::None)});
@@ -130,7 +149,7 @@ int forces(Context& context) {
   if (table.empty() && context.format == Format::Table) {
     context.out.note("nothing is forced");
   }
-  print_table(context, table, {{"node", context.node}}, "forces");
+  print_table(context, table, {{"node", board.wanted() ? board.board : context.node}}, "forces");
   return kOk;
 }
 
@@ -141,6 +160,7 @@ Action declare_force(base::Options& app, Context& context) {
       .completes(base::Completion::Variable);
   add_time_option(app, "--for", options->for_ns, "Let go by itself after this time (default: until unforce)");
   add_node_option(app, context);
+  add_board_force_options(app, options->board);
   return [options](Context& c) { return force(c, *options); };
 }
 
@@ -150,37 +170,44 @@ Action declare_unforce(base::Options& app, Context& context) {
       .completes(base::Completion::Variable);
   app.flag("--all", options->all, "Everything that is forced");
   add_node_option(app, context);
+  add_board_force_options(app, options->board);
   return [options](Context& c) { return unforce(c, *options); };
 }
 
 Action declare_forces(base::Options& app, Context& context) {
+  auto board = std::make_shared<BoardChoice>();
   add_node_option(app, context);
+  add_board_options(app, *board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [](Context& c) { return forces(c); };
+  return [board](Context& c) { return forces(c, *board); };
 }
 
 }  // namespace
 
-const Verb kForceVerb{"force", "Variables", "Hold numbers at a value, whoever writes them",
-                      "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
-                      "input can be simulated and an output be held while the program runs. Programs see the forced\n"
-                      "value, and boards that mirror the variable do too: force on the board that owns it. Other\n"
-                      "elements and fields go on. A force ends with unforce, after --for, or when the node ends; the\n"
-                      "value then stays until it is written. 'indurop status' shows what is forced.\n"
-                      "Examples:\n"
-                      "  indurop force PLC_ROBOT::I0 true --for 30s\n"
-                      "  indurop force 'joints[1].y=-0.5' mode=AUTO\n",
-                      &declare_force};
+const Verb kForceVerb{
+    "force", "Variables", "Hold numbers at a value, whoever writes them",
+    "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
+    "input can be simulated and an output be held while the program runs. Programs see the forced\n"
+    "value, and boards that mirror the variable do too: force on the board that owns it. Other\n"
+    "elements and fields go on. A force ends with unforce, after --for, or when the node ends; the\n"
+    "value then stays until it is written. 'indurop status' shows what is forced. With --board it is done by the\n"
+    "agent of a board anywhere in the network; a board that has keys obeys only who has them too.\n"
+    "Examples:\n"
+    "  indurop force PLC_ROBOT::I0 true --for 30s\n"
+    "  indurop force 'joints[1].y=-0.5' mode=AUTO\n"
+    "  indurop force motor_on=false --board control --keys keys\n",
+    &declare_force};
 
 const Verb kUnforceVerb{"unforce", "Variables", "Let forced values go",
                         "Examples:\n"
                         "  indurop unforce PLC_ROBOT::I0 'joints[1]'\n"
-                        "  indurop unforce --all\n",
+                        "  indurop unforce --all --board control\n",
                         &declare_unforce};
 
 const Verb kForcesVerb{"forces", "Variables", "List what is forced, and for how long",
                        "Examples:\n"
                        "  indurop forces\n"
+                       "  indurop forces --board control\n"
                        "  indurop forces -o csv\n",
                        &declare_forces};
 

@@ -10,7 +10,7 @@
 #include "tools/command/units.h"
 #include "tools/pictures/histogram_bins.h"
 #include "tools/pictures/histogram_svg.h"
-#include "tools/values/node_choice.h"
+#include "tools/plant/board_run.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -27,6 +27,7 @@ constexpr std::array<Quantity, 4> kQuantities{{{"jitter", "jitter_ns", &schedule
                                                {"response", "response_ns", &scheduler::ModuleRecord::response}}};
 
 struct Options {
+  BoardChoice board;
   std::string glob;
   std::string quantity = "all";
   std::string svg_file;
@@ -175,8 +176,8 @@ std::string picture(const RunView& run, const std::string& node, const std::vect
       fmt::format("Node {}: {} of its modules", node, options.quantity == "all" ? "jitter" : options.quantity), panels);
 }
 
-int show(Context& context, const Options& options) {
-  const auto chosen = open_run(context.node);
+int show(Context& context, Options& options) {
+  const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
   }
@@ -222,6 +223,7 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--no-histogram", options->no_histogram, "Only the table");
   app.add("--svg", "FILE", options->svg_file, "Write histograms as a picture to FILE");
   add_node_option(app, context);
+  add_board_options(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   add_repeat_options(app, options->repeat);
   return [options](Context& c) {
@@ -240,7 +242,8 @@ const Verb kJitterVerb{"jitter", "Timing", "Show how exactly modules start and h
                        "Examples:\n"
                        "  indurop jitter\n"
                        "  indurop jitter wave --histogram\n"
-                       "  indurop jitter --svg jitter.svg\n",
+                       "  indurop jitter --svg jitter.svg\n"
+                       "  indurop jitter --board control\n",
                        &declare};
 
 }  // namespace indurop::tools

@@ -5,13 +5,14 @@
 #include "base/replace_file.h"
 #include "tools/command/units.h"
 #include "tools/pictures/trace.h"
-#include "tools/values/node_choice.h"
+#include "tools/plant/board_run.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
 
 struct Options {
+  BoardChoice board;
   std::string glob;
   std::string trace_file;
   std::uint64_t count = 0;
@@ -44,8 +45,8 @@ Table table_of(const RunView& run, const std::vector<SlotSample>& samples) {
   return table;
 }
 
-int show_log(Context& context, const Options& options) {
-  const auto chosen = open_run(context.node);
+int show_log(Context& context, Options& options) {
+  const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
   }
@@ -83,6 +84,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT runs (default 40)");
   app.add("--trace", "FILE", options->trace_file, "Write a trace for Perfetto (all runs in the log) to FILE");
   add_node_option(app, context);
+  add_board_options(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return show_log(c, *options); };
 }
@@ -94,7 +96,8 @@ const Verb kLogVerb{"log", "Timing", "Show which module ran when, as table or as
                     "EXEC run() itself; RESPONSE release to end. The node keeps the newest 8192 runs.\n"
                     "Examples:\n"
                     "  indurop log -n 50\n"
-                    "  indurop log --trace trace.json   # for ui.perfetto.dev\n",
+                    "  indurop log --trace trace.json   # for ui.perfetto.dev\n"
+                    "  indurop log --board control\n",
                     &declare};
 
 }  // namespace indurop::tools

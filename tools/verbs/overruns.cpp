@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "tools/command/units.h"
-#include "tools/values/node_choice.h"
+#include "tools/plant/board_run.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
 
 struct Options {
+  BoardChoice board;
   std::string glob;
   std::uint64_t count = 20;
 };
@@ -30,8 +31,8 @@ std::string reason(const RunView& run, const OverrunSample& overrun) {
   return "took too long itself";
 }
 
-int overruns(Context& context, const Options& options) {
-  const auto chosen = open_run(context.node);
+int overruns(Context& context, Options& options) {
+  const auto chosen = open_run(context, options.board);
   if (!chosen) {
     return report(context.out, chosen.error());
   }
@@ -86,6 +87,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT records (default 20)");
   add_node_option(app, context);
+  add_board_options(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return overruns(c, *options); };
 }
@@ -99,7 +101,8 @@ const Verb kOverrunsVerb{
     "records are kept; the counters of `indurop status` count all.\n"
     "Examples:\n"
     "  indurop overruns\n"
-    "  indurop overruns control -n 100\n",
+    "  indurop overruns control -n 100\n"
+    "  indurop overruns --board control\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -7,11 +7,11 @@
 #include "tools/command/interrupt.h"
 #include "tools/command/repeat.h"
 #include "tools/command/units.h"
+#include "tools/plant/board_run.h"
 #include "tools/plant/plant_status.h"
 #include "tools/values/external_view.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
-#include "tools/values/node_choice.h"
 #include "tools/values/run_report.h"
 #include "tools/verbs/verbs.h"
 
@@ -110,12 +110,18 @@ Table module_table(const RunView& run, bool alive) {
   return table;
 }
 
-int show_once(Context& context, const std::string& node, const RunView& run) {
-  const NodeReport report = report_of(node, run);
-  const auto mirror = view_mirror(node);
-  const auto external = view_external(node);
+std::vector<ForceView> forces_here(const std::string& node) {
   const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
-  const auto forces = store ? view_forces(*store) : std::vector<ForceView>();
+  return store ? view_forces(*store) : std::vector<ForceView>();
+}
+
+int show_once(Context& context, const BoardRun& chosen) {
+  const std::string& node = chosen.node;
+  const RunView& run = chosen.run;
+  const NodeReport report = report_of(node, run);
+  const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
+  const auto external = run.here() ? view_external(node) : std::nullopt;
+  const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
@@ -146,18 +152,21 @@ int show_once(Context& context, const std::string& node, const RunView& run) {
 Action declare(base::Options& app, Context& context) {
   auto repeat = std::make_shared<Repeat>();
   auto plant = std::make_shared<PlantStatus>();
+  auto board = std::make_shared<BoardChoice>();
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, *repeat);
   app.flag("--plant", plant->wanted, "All boards of the network, from any machine; boards not heard are named");
-  deploy::add_link_options(app, plant->link);
-  return [repeat, plant](Context& c) {
-    return repeat_rounds(c, *repeat, [&c, &plant] {
+  deploy::add_link_options(app, board->link);
+  add_board_options(app, *board, false);
+  return [repeat, plant, board](Context& c) {
+    plant->link = board->link;
+    return repeat_rounds(c, *repeat, [&c, &plant, &board] {
       if (plant->wanted) {
         return plant->show(c);
       }
-      const auto chosen = open_run(c.node);
-      return chosen ? show_once(c, chosen->node, chosen->run) : report(c.out, chosen.error());
+      const auto chosen = open_run(c, *board);
+      return chosen ? show_once(c, *chosen) : report(c.out, chosen.error());
     });
   };
 }
@@ -170,11 +179,12 @@ const Verb kStatusVerb{
     "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
     "Exit code 0 if the node runs, 6 if it does not (then the last figures are shown).\n"
     "With --plant it shows the boards of the network instead, as their agents report: 6 if one that belongs to a\n"
-    "plant is missing.\n"
+    "plant is missing. With --board it shows the node of one board.\n"
     "Examples:\n"
     "  indurop status\n"
     "  indurop status -w\n"
-    "  indurop status --plant\n",
+    "  indurop status --plant\n"
+    "  indurop status --board control\n",
     &declare};
 
 }  // namespace indurop::tools

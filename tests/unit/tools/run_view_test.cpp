@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "deploy/agent/run_image.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
 #include "vars/process.h"
@@ -130,6 +131,56 @@ TEST_F(RunViewTest, What_a_damaged_block_says_stays_within_its_bounds) {
       EXPECT_LE(sut.value().overrun_log(100).size(), 100U);
       for (std::uint32_t i = 0; i < sut.value().module_count(); ++i) {
         EXPECT_LE(sut.value().module_name(i).size(), sizeof(scheduler::ModuleRecord::name));
+      }
+    }
+  }
+}
+
+TEST_F(RunViewTest, An_image_of_another_machine_shows_the_same) {
+  for (std::uint64_t tick = 0; tick < 9; ++tick) {
+    scheduler::log_slot(*block_, {tick, 1, {100, 110, 150}});
+  }
+  block_->at<scheduler::SlotEntry>(block_->slot_log_offset)[2].sequence.store(0);
+  block_->modules()[1].runs.store(77);
+  const std::string text = deploy::run_image(node_);
+  const std::string image = text.substr(text.find('\n') + 1);
+  EXPECT_LT(image.size(), file_->size()) << "the texts of modules are left out";
+  const auto sut = RunView::from_image(image, true, 4711);
+  ASSERT_TRUE(sut.ok());
+  EXPECT_TRUE(sut->node_alive());
+  EXPECT_FALSE(sut->here());
+  EXPECT_EQ(sut->now_ns(), 4711);
+  EXPECT_EQ(sut->module_name(1), "second");
+  EXPECT_EQ(sut->module(1).runs.load(), 77U);
+  const auto here = RunView::open(node_);
+  ASSERT_TRUE(here.ok());
+  const auto far_log = sut->slot_log(100);
+  const auto log = here->slot_log(100);
+  ASSERT_EQ(far_log.size(), 8U);
+  ASSERT_EQ(log.size(), 8U);
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    EXPECT_EQ(far_log[i].tick, log[i].tick);
+    EXPECT_EQ(far_log[i].end_ns, log[i].end_ns);
+  }
+}
+
+TEST_F(RunViewTest, Images_that_are_cut_off_or_damaged_are_refused_or_stay_within_their_bounds) {
+  const std::string text = deploy::run_image(node_);
+  const std::string image = text.substr(text.find('\n') + 1);
+  for (std::size_t size = 0; size < image.size(); size += 997) {
+    EXPECT_FALSE(RunView::from_image(image.substr(0, size), true, 0).ok()) << size;
+  }
+  std::mt19937_64 random(4);
+  for (int round = 0; round < 200; ++round) {
+    std::string damaged = image;
+    for (int i = 0; i < 3; ++i) {
+      damaged[random() % sizeof(scheduler::RunBlock)] = static_cast<char>(random());
+    }
+    const auto sut = RunView::from_image(damaged, true, 0);
+    if (sut.ok()) {
+      EXPECT_LE(sut->slot_log(100).size() + sut->overrun_log(100).size(), 200U);
+      for (std::uint32_t i = 0; i < sut->module_count(); ++i) {
+        EXPECT_LE(sut->module_name(i).size(), sizeof(scheduler::ModuleRecord::name));
       }
     }
   }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/run_image.h"
+
+#include <atomic>
+#include <cstring>
+#include <vector>
+
+#include "base/json.h"
+#include "rt/clock.h"
+#include "scheduler/run_block.h"
+#include "schema/schema.h"
+#include "vars/node_lock.h"
+#include "vars/run_file.h"
+#include "vars/store.h"
+
+namespace indurop::deploy {
+namespace {
+
+using base::Json;
+using scheduler::OverrunEntry;
+using scheduler::RunBlock;
+using scheduler::SlotEntry;
+
+Json forces_of(const std::string& board) {
+  Json list = Json::array();
+  const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
+  if (!store) {
+    return list;
+  }
+  const rt::MonoTime now = rt::MonoClock::now();
+  for (const vars::Force& force : store->forces()) {
+    const schema::Part part = schema::part_at(store->schema().variables[force.variable->schema_index], force.offset);
+    list.push_back({{"name", part.name},
+                    {"value", schema::format_value(part.type, force.bytes())},
+                    {"raw", Json::parse(schema::value_to_json(part.type, force.bytes())).value_or(Json())},
+                    {"left_ns", force.until == vars::kForever ? Json() : Json((force.until - now).count())}});
+  }
+  return list;
+}
+
+// An entry that changes meanwhile counts as being written.
+template <class Entry>
+void copy_log(const Entry* from, Entry* to, std::uint64_t count) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint64_t before = from[i].sequence.load(std::memory_order_acquire);
+    std::memcpy(static_cast<void*>(to + i), from + i, sizeof(Entry));
+    std::atomic_thread_fence(std::memory_order_acquire);
+    const bool whole = from[i].sequence.load(std::memory_order_relaxed) == before;
+    to[i].sequence.store(whole ? before : 0, std::memory_order_relaxed);
+  }
+}
+
+class Image {
+ public:
+  Image(const RunBlock& block, std::uint64_t size) : block_(block), size_(size) {}
+
+  // Empty if the block makes no sense.
+  std::string make() {
+    const std::uint64_t modules = place<scheduler::ModuleRecord>(block_.modules_offset, block_.module_count);
+    const std::uint64_t slots = place<SlotEntry>(block_.slot_log_offset, block_.slot_log_capacity);
+    const std::uint64_t overruns = place<OverrunEntry>(block_.overrun_log_offset, block_.overrun_log_capacity);
+    if (!sound_) {
+      return {};
+    }
+    // Whole words, for the alignment of what is in them.
+    std::vector<std::uint64_t> words((end_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
+    auto* const bytes = reinterpret_cast<std::byte*>(words.data());
+    std::memcpy(bytes, &block_, sizeof block_);
+    std::memcpy(bytes + modules, block_.modules(), block_.module_count * sizeof(scheduler::ModuleRecord));
+    auto& image = *reinterpret_cast<RunBlock*>(bytes);
+    copy_log(block_.at<SlotEntry>(block_.slot_log_offset), image.at<SlotEntry>(slots), block_.slot_log_capacity);
+    copy_log(block_.at<OverrunEntry>(block_.overrun_log_offset), image.at<OverrunEntry>(overruns),
+             block_.overrun_log_capacity);
+    image.total_size = end_;
+    image.modules_offset = modules;
+    image.slot_log_offset = slots;
+    image.overrun_log_offset = overruns;
+    image.slots_offset = 0;
+    image.rings_offset = 0;
+    return {reinterpret_cast<const char*>(bytes), end_};
+  }
+
+ private:
+  // Where it begins in the image.
+  template <class T>
+  std::uint64_t place(std::uint64_t offset, std::uint64_t count) {
+    sound_ = sound_ && offset % alignof(T) == 0 && offset <= size_ && count <= (size_ - offset) / sizeof(T);
+    const std::uint64_t begin = (end_ + alignof(T) - 1) / alignof(T) * alignof(T);
+    end_ = sound_ ? begin + count * sizeof(T) : end_;
+    return begin;
+  }
+
+  const RunBlock& block_;
+  std::uint64_t size_;
+  std::uint64_t end_ = sizeof(RunBlock);
+  bool sound_ = true;
+};
+
+std::string block_of(const std::string& board) {
+  const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(RunBlock));
+  const auto* block = file ? static_cast<const RunBlock*>(file->data()) : nullptr;
+  return block != nullptr && block->abi == scheduler::kRunAbi ? Image(*block, file->size()).make() : std::string();
+}
+
+}  // namespace
+
+std::string run_image(const std::string& board) {
+  const Json head{{"running", vars::running_node(board) > 0}, {"now_ns", rt::now_ns()}, {"forces", forces_of(board)}};
+  return head.dump() + "\n" + block_of(board);
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the node of a board does and what is forced on it, seen and changed from elsewhere.
+
+#include <cstdlib>
+
+#include "agents_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class RemoteLook : public AgentsTest {
+ protected:
+  RemoteLook() { std::filesystem::copy_file(TWO_BOARDS "/table.so", folder() / "table.so"); }
+  void start_boards(const std::vector<std::string>& more = {}) {
+    start_agent("a");
+    start_agent("b");
+    const Outcome done = deploy(manifest("v1.xml", {{"a", "table"}, {"b", "steady"}}), more);
+    ASSERT_EQ(done.code, 0) << done.err;
+  }
+  Outcome at_a(std::vector<std::string> words) {
+    words.insert(words.end(), {"--board", board("a")});
+    return indurop(words);
+  }
+  Json here(std::vector<std::string> words) {
+    words.insert(words.end(), {"--node", board("a"), "-o", "json"});
+    return indurop_here(words).json();
+  }
+};
+
+// Compared with what the same verbs read in the node's own memory.
+TEST_F(RemoteLook, Runs_and_figures_are_those_of_the_node) {
+  start_boards();
+  const Json far = at_a({"log", "-n", "500", "-o", "json"}).json();
+  const Json near = here({"log", "-n", "8192"});
+  ASSERT_GE(far["runs"].size(), 100U);
+  std::map<std::uint64_t, Json> known;
+  for (const Json& run : near["runs"]) {
+    known[run["tick"]] = run;
+  }
+  for (const Json& run : far["runs"]) {
+    EXPECT_EQ(run, known[run["tick"]]);
+  }
+  const Json before = here({"jitter"})["modules"][0];
+  const Json seen = at_a({"jitter", "-o", "json"}).json()["modules"][0];
+  const Json after = here({"jitter"})["modules"][0];
+  EXPECT_EQ(seen["name"], "table");
+  for (const char* quantity : {"jitter_ns", "latency_ns", "exec_ns", "response_ns"}) {
+    for (const char* rising : {"count", "max"}) {
+      EXPECT_LE(before[quantity][rising], seen[quantity][rising]) << quantity;
+      EXPECT_LE(seen[quantity][rising], after[quantity][rising]) << quantity;
+    }
+  }
+  const Json status = at_a({"status", "-o", "json"}).json();
+  const Json same = here({"status"});
+  for (const char* constant : {"node", "running", "pid", "config_file", "deployment", "basic_period_ns", "forces"}) {
+    EXPECT_EQ(status[constant], same[constant]) << constant;
+  }
+  EXPECT_NEAR(status["uptime_ns"].get<double>(), same["uptime_ns"].get<double>(), 60e9);
+  EXPECT_EQ(at_a({"overruns", "-o", "json"}).json()["node"], board("a"));
+}
+
+TEST_F(RemoteLook, Values_are_forced_all_or_none) {
+  start_boards();
+  const Outcome wrong = at_a({"force", "torque=9", "echo=7", "nothing=1", "encoder=2"});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("9 is outside -5..5"));
+  EXPECT_THAT(wrong.err, HasSubstr("no variable 'nothing'"));
+  EXPECT_THAT(wrong.err, HasSubstr("encoder is a cell::Encoder; force its numbers one by one"));
+  EXPECT_EQ(here({"forces"})["forces"], Json::array()) << "all or none";
+  ASSERT_EQ(at_a({"force", "echo=7", "encoder.speed=0.5", "--for", "60s"}).code, 0);
+  EXPECT_EQ(here({"get", "echo", "encoder.speed"})["values"][0]["value"], 7);
+  Json near = here({"forces"})["forces"];
+  Json far = at_a({"forces", "-o", "json"}).json()["forces"];
+  ASSERT_EQ(near.size(), 2U);
+  for (Json* list : {&near, &far}) {
+    for (Json& force : *list) {
+      EXPECT_GT(force["left_ns"].get<std::int64_t>(), 0);
+      force["left_ns"] = 0;
+    }
+  }
+  EXPECT_EQ(far, near);
+  EXPECT_THAT(at_a({"status"}).out, HasSubstr("forced    cell::echo = 7"));
+  EXPECT_EQ(at_a({"unforce", "nothing"}).code, 1);
+  ASSERT_EQ(at_a({"unforce", "encoder"}).code, 0);
+  EXPECT_EQ(here({"forces"})["forces"].size(), 1U);
+  ASSERT_EQ(at_a({"unforce", "--all"}).code, 0);
+  EXPECT_EQ(here({"forces"})["forces"], Json::array());
+}
+
+TEST_F(RemoteLook, Boards_with_keys_are_forced_by_who_has_them) {
+  const std::string file = manifest("v1.xml", {{"a", "table"}, {"b", "steady"}});
+  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("keys")}).code, 0);
+  std::filesystem::create_directories(folder() / "etc");
+  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / ("p" + std::to_string(::getpid())),
+                        std::filesystem::copy_options::recursive);
+  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  start_boards({"--keys", path("keys")});
+  ::unsetenv("INDUROP_KEYS_DIR");
+  const Outcome refused = at_a({"force", "echo=7"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("it is not signed"));
+  EXPECT_EQ(here({"forces"})["forces"], Json::array());
+  EXPECT_EQ(at_a({"force", "echo=7", "--keys", path("keys")}).code, 0);
+  EXPECT_EQ(here({"forces"})["forces"].size(), 1U);
+}
+
+TEST_F(RemoteLook, Who_is_not_there_is_named) {
+  start_boards();
+  const Outcome unknown = indurop({"log", "--board", "nobody"});
+  EXPECT_EQ(unknown.code, 6);
+  EXPECT_THAT(unknown.err, HasSubstr("no agent calls itself nobody"));
+  EXPECT_THAT(unknown.err, HasSubstr(board("a") + ", " + board("b")));
+  const Outcome which = indurop({"jitter", "--remote"});
+  EXPECT_EQ(which.code, 2);
+  EXPECT_THAT(which.err, HasSubstr("say which with --board: " + board("a") + ", " + board("b")));
+  EXPECT_EQ(indurop({"status", "--board", board("a"), "--node", board("a")}).code, 2);
+  ASSERT_EQ(indurop({"stop", "@" + board("a")}).code, 0);
+  EXPECT_EQ(at_a({"status"}).code, 6) << "the last figures are shown";
+  EXPECT_EQ(at_a({"force", "echo=7"}).code, 1);
+}
+
+}  // namespace
+}  // namespace indurop::test

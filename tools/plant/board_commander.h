@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives one command to a board and hears what became of it: asks for a number that counts once, signs, repeats.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "deploy/link/command_link.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/words/command_words.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+struct Answered {
+  deploy::CommandReply reply;  // Done, Unchanged, Failed or Refused
+  std::int64_t took_ns = 0;
+};
+
+class BoardCommander {
+ public:
+  // With the key in that folder of the plant's; empty: boards that have no keys obey.
+  static Result<BoardCommander, Failure> make(Context& context, const std::filesystem::path& keys);
+
+  // `self`: session of the link. Fails if no final answer comes in time, or the user interrupts.
+  Result<Answered, Failure> give(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
+                                 deploy::Action action, const std::string& target, std::int64_t timeout_ns);
+
+ private:
+  explicit BoardCommander(std::string key) : key_(std::move(key)) {}
+
+  std::string key_;
+  std::unique_ptr<deploy::CommandLink> commands_;
+};
+
+}  // namespace indurop::tools

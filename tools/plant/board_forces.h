@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// force, unforce and forces on a board anywhere in the network, through its agent.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/plant/board_run.h"
+
+namespace indurop::tools {
+
+struct BoardForces {
+  BoardChoice board;
+  std::filesystem::path keys;
+};
+// Those of add_board_options, and --keys.
+void add_board_force_options(base::Options& app, BoardForces& options);
+
+// The board holds all of `assignments` (NAME=VALUE) for `for_ns` (0: until unforced), or none. Returns the exit code.
+int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns);
+// No names: all.
+int unforce_on_board(Context& context, BoardForces& options, const std::vector<std::string>& names);
+
+}  // namespace indurop::tools
