@@ -72,6 +72,9 @@ class Walk {
 }  // namespace
 
 void warn_about_reach(const Chart& chart, Diagnostics& diagnostics) {
+  if (std::none_of(chart.steps.begin(), chart.steps.end(), [](const Step& step) { return step.initial; })) {
+    return;  // which is an error of its own
+  }
   Walk walk(chart);
   walk.run();
   for (std::size_t i = 0; i < chart.steps.size(); ++i) {
