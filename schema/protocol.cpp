@@ -5,7 +5,7 @@
 namespace indurop::schema {
 
 unsigned protocol() noexcept {
-  return 2;
+  return 3;
 }
 
 }  // namespace indurop::schema

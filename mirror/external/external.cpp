@@ -2,6 +2,7 @@
 #include "mirror/external/external.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <vector>
 
@@ -37,6 +38,19 @@ dds::NetworkSettings network_of(const ExternalSettings& external) {
   }
   settings.lease_ns = kLeaseNs;
   return settings;
+}
+
+std::vector<ExternalDirectory::Content::Mirrored> mirrored_in(const vars::Store& store, const MirrorBlock* plant) {
+  std::vector<ExternalDirectory::Content::Mirrored> all;
+  for (std::uint32_t i = 0; plant != nullptr && i < plant->incoming; ++i) {
+    const IncomingRecord& record = plant->variables()[i];
+    const auto* entry = store.find(record.name_hash);
+    if (entry != nullptr && record.peer < plant->peer_count) {
+      const char* owner = plant->peers()[record.peer].name;
+      all.push_back({store.schema().variables[entry->schema_index].name, {owner, ::strnlen(owner, kBoardName)}});
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -82,6 +96,7 @@ External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, const M
   shown.plant = settings.plant;
   shown.board = settings.network.board;
   shown.boards = settings.boards;
+  shown.mirrored = mirrored_in(store, plant);
   for (const Exported& exported : settings.variables) {
     const auto* entry = store.find(abi::fnv1a64(exported.variable.data(), exported.variable.size()));
     if (entry == nullptr || exported.type == nullptr ||

@@ -62,6 +62,12 @@ Result<void, base::Problem> ExternalDirectory::tell(const Content& content) {
   lend(out.boards, boards);
   out.schema = dds::lent(content.schema);
   lend(out.writable, writable);
+  std::vector<indurop_wire_Mirrored> mirrored;
+  for (const Content::Mirrored& one : content.mirrored) {
+    mirrored.push_back({dds::lent(one.name), dds::lent(one.board)});
+  }
+  out.mirrored._buffer = mirrored.data();
+  out.mirrored._length = out.mirrored._maximum = static_cast<std::uint32_t>(mirrored.size());
   if (const dds::Written written = dds::write(writer_.get(), out); !written.ok()) {
     return base::Problem{"cannot tell which variables there are: " + written.why()};
   }

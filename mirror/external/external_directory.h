@@ -23,6 +23,11 @@ class ExternalDirectory {
     std::vector<std::string> boards;  // of the plant
     std::string schema;               // JSON
     std::vector<std::string> writable;
+    struct Mirrored {
+      std::string name;
+      std::string board;  // that owns it
+    };
+    std::vector<Mirrored> mirrored;  // what the board reads from others
   };
   // `asked`: somebody may ask for topics.
   Result<void, base::Problem> open(dds::Handle participant, const Content& content, bool asked);

@@ -234,6 +234,18 @@ std::vector<RemoteVariable> RemotePlane::variables() const {
   return all;
 }
 
+std::map<std::string, std::string> RemotePlane::silent_variables() const {
+  std::map<std::string, std::string> all;
+  for (const auto& [participant, source] : impl_->sources.all()) {
+    for (const auto& [variable, board] : source.mirrored) {
+      if (impl_->sources.of(board) == nullptr) {
+        all.emplace(variable, board);
+      }
+    }
+  }
+  return all;
+}
+
 std::uint64_t RemotePlane::generation() const noexcept {
   return impl_->generation + impl_->sources.generation();  // neither ever decreases
 }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -51,6 +52,8 @@ class RemotePlane {
   [[nodiscard]] std::vector<RemoteBoard> boards() const;        // by name
   [[nodiscard]] std::vector<RemoteVariable> variables() const;  // by name and board
   [[nodiscard]] std::uint64_t generation() const noexcept;      // another one: other variables
+  // Variable -> its board, of boards that are not heard, as far as others read it from them.
+  [[nodiscard]] std::map<std::string, std::string> silent_variables() const;
   // Everybody who was seen has told what he shows, and all boards that are known of are there.
   [[nodiscard]] bool complete() const;
   // Topics that are there and cannot be shown, with the reason.

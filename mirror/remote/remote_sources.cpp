@@ -27,8 +27,11 @@ void RemoteSources::take_one(dds::Handle directories, const indurop_wire_Directo
   if (!participant || !schema) {
     return;
   }
-  Source source{told.board, told.plant, std::move(schema).value(), {}, told.session};
+  Source source{told.board, told.plant, std::move(schema).value(), {}, {}, told.session};
   source.writable.insert(told.writable._buffer, told.writable._buffer + told.writable._length);
+  for (std::uint32_t i = 0; i < told.mirrored._length; ++i) {
+    source.mirrored.emplace(told.mirrored._buffer[i].name, told.mirrored._buffer[i].board);
+  }
   boards_[source.board] = source.plant;
   for (std::uint32_t i = 0; i < told.boards._length; ++i) {
     boards_[told.boards._buffer[i]] = source.plant;

@@ -25,6 +25,7 @@ class RemoteSources {
     std::string plant;
     schema::Schema schema;
     std::set<std::string> writable;
+    std::map<std::string, std::string> mirrored;  // variable -> the board it reads it from
     std::uint64_t session = 0;
   };
 

@@ -28,15 +28,15 @@ std::vector<std::pair<std::string, std::string>> split(Context& context, const c
   return out;
 }
 
-bool parse_one(Context& context, const vars::Store& store, const char* verb, const std::string& name,
-               const std::string& text, std::vector<Assignment>& out) {
+int parse_one(Context& context, const vars::Store& store, const char* verb, const std::string& name,
+              const std::string& text, std::vector<Assignment>& out) {
   std::vector<Item> items;
   if (is_glob(name)) {
     context.out.error(fmt::format("'{}': {} takes names, not globs", name, verb));
-    return false;
+    return kFailed;
   }
-  if (!select_items(context, store, {name}, items)) {
-    return false;
+  if (const int code = select_items(context, store, {name}, items); code != kOk) {
+    return code;
   }
   Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size())};
   const auto& place = assignment.item.place;
@@ -50,17 +50,17 @@ bool parse_one(Context& context, const vars::Store& store, const char* verb, con
     context.out.error(fmt::format(
         "{}: {}", assignment.item.name,
         message.empty() ? fmt::format("'{}' is not a valid {}", text, schema::display_name(place.type)) : message));
-    return false;
+    return kFailed;
   }
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   const schema::Range range = place.range.value_or(schema::Range{-kUnlimited, kUnlimited});
   const Status in_range = schema::check_range(range, place.type, assignment.bytes, message);
   if (!in_range.ok()) {
     context.out.error(fmt::format("{}: {}", assignment.item.name, message));
-    return false;
+    return kFailed;
   }
   out.push_back(std::move(assignment));
-  return true;
+  return kOk;
 }
 
 }  // namespace
@@ -72,17 +72,18 @@ Result<std::vector<Assignment>, Failure> read_assignments(Context& context, cons
     return Failure{kUsage, {}};
   }
   std::vector<Assignment> assignments;
-  bool good = true;
+  int code = kOk;
   for (const auto& [name, text] : pairs) {
-    good = parse_one(context, store, verb, name, text, assignments) && good;
+    const int parsed = parse_one(context, store, verb, name, text, assignments);
+    code = parsed != kOk ? parsed : code;
   }
-  if (good) {
+  if (code == kOk) {
     return assignments;
   }
   if (pairs.size() > 1) {
     context.out.note("nothing was changed");
   }
-  return Failure{kFailed, {}};
+  return Failure{code, {}};
 }
 
 }  // namespace indurop::tools

@@ -62,6 +62,10 @@ std::string HereSource::owner(const std::string& /*variable*/) const {
   return {};
 }
 
+std::string HereSource::silent_owner(const std::string& /*name*/) const {
+  return {};
+}
+
 std::vector<std::string> HereSource::follow(const std::set<std::string>& /*variables*/) {
   return {};
 }

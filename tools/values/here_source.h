@@ -24,6 +24,7 @@ class HereSource final : public ValueSource {
   // No boards here.
   std::string prefer(const std::string& pattern, const std::string& board) override;
   [[nodiscard]] std::string owner(const std::string& variable) const override;
+  [[nodiscard]] std::string silent_owner(const std::string& name) const override;
   std::vector<std::string> follow(const std::set<std::string>& variables) override;
 
  private:

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <netdb.h>
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -49,12 +52,29 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
                                              fmt::join(names, ", "))};
 }
 
-Result<vars::Store, Failure> open_remote(Context& context) {
+// Empty if the name, with or without a port, is that of a machine.
+std::string peer_problem(const std::string& peer) {
+  const auto colon = peer.rfind(':');
+  const bool port = colon != std::string::npos && peer.find(':') == colon;  // more of them: an address of IPv6
+  addrinfo* found = nullptr;
+  const int code = ::getaddrinfo(peer.substr(0, port ? colon : peer.size()).c_str(), nullptr, nullptr, &found);
+  if (code == 0) {
+    ::freeaddrinfo(found);
+  }
+  return code == 0 ? std::string{} : ::gai_strerror(code);
+}
+
+Result<vars::Store, Failure> open_remote(Context& context, const std::vector<std::string>& names) {
   if (!context.node.empty()) {
     return Failure{kUsage, "--node names a node of this machine; boards in the network are chosen by NAME@BOARD"};
   }
+  for (const std::string& peer : context.far.network.peers) {
+    if (const std::string problem = peer_problem(peer); !problem.empty()) {
+      return Failure{kUsage, fmt::format("--peer {}: {}", printable(peer), problem)};
+    }
+  }
   std::vector<std::string> notes;
-  auto source = RemoteSource::open(context.far.network, context.far.wait_ns, notes);
+  auto source = RemoteSource::open(context.far.network, context.far.wait_ns, names, notes);
   for (const std::string& note : notes) {
     context.out.note(note);
   }
@@ -138,9 +158,9 @@ int exit_code_of(const Error& error) {
   }
 }
 
-Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode) {
+Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names) {
   if (context.far.wanted) {
-    return open_remote(context);
+    return open_remote(context, names);
   }
   auto node = choose_node(context.node);
   if (!node.ok()) {

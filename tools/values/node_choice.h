@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tools/command/verb.h"
 #include "tools/values/run_view.h"
@@ -18,7 +19,8 @@ namespace indurop::tools {
 Result<std::string, Failure> choose_node(const std::string& asked);
 
 // The store of the chosen node, or with --remote of the boards in the network; `context.values` is then its source.
-Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode);
+// `names`: those that are wanted; silent boards are not waited for once they are known.
+Result<vars::Store, Failure> open_store(Context& context, vars::Mode mode, const std::vector<std::string>& names = {});
 
 // The chosen node's run block.
 struct ChosenRun {

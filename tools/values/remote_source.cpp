@@ -33,10 +33,27 @@ std::vector<std::string> silent(const std::vector<mirror::RemoteBoard>& boards) 
   return names;
 }
 
+// Whether a name on a command line means the variable or a part of it. It may lack namespaces, and name a board.
+bool means(const std::string& text, const std::string& variable) {
+  std::string name = text.substr(0, text.find('@'));
+  for (auto dot = name.find('.'); dot != std::string::npos; dot = name.find('.')) {
+    name.replace(dot, 1, "::");  // either may separate namespaces
+  }
+  name = name.substr(0, name.find('['));
+  for (std::string begin = name;; begin.resize(begin.rfind("::"))) {
+    const bool whole = variable == begin;
+    const bool last = variable.size() > begin.size() + 2 && variable.ends_with("::" + begin);
+    if (whole || last || begin.rfind("::") == std::string::npos) {
+      return whole || last;
+    }
+  }
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RemoteSource>, Failure> RemoteSource::open(const dds::NetworkSettings& network,
                                                                   std::int64_t wait_ns,
+                                                                  const std::vector<std::string>& names,
                                                                   std::vector<std::string>& notes) {
   auto opened = mirror::RemotePlane::open(network);
   if (!opened) {
@@ -46,7 +63,7 @@ Result<std::unique_ptr<RemoteSource>, Failure> RemoteSource::open(const dds::Net
     notes.push_back(opened->note);
   }
   std::unique_ptr<RemoteSource> made(new RemoteSource(std::move(opened->plane), wait_ns));
-  if (auto gathered = made->gather(network.domain, notes); !gathered.ok()) {
+  if (auto gathered = made->gather(network.domain, names, notes); !gathered.ok()) {
     return std::move(gathered).error();
   }
   made->thread_ = std::thread([&self = *made] { self.feed(); });
@@ -60,8 +77,20 @@ RemoteSource::~RemoteSource() {
   }
 }
 
+// Each of them is of a board that is heard, or of one of which only that is known.
+bool RemoteSource::knows(const std::vector<std::string>& names) const {
+  const auto variables = plane_->variables();
+  const auto silent = plane_->silent_variables();
+  return !names.empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::any_of(variables.begin(), variables.end(),
+                       [&](const auto& seen) { return means(name, seen.declared.name); }) ||
+           std::any_of(silent.begin(), silent.end(), [&](const auto& entry) { return means(name, entry.first); });
+  });
+}
+
 // Until nothing new has come for a while and nobody is missing, or the time is over.
-Result<void, Failure> RemoteSource::gather(int domain, std::vector<std::string>& notes) {
+Result<void, Failure> RemoteSource::gather(int domain, const std::vector<std::string>& names,
+                                           std::vector<std::string>& notes) {
   const std::int64_t end = rt::now_ns() + wait_ns_;
   std::int64_t changed_ns = rt::now_ns();
   std::uint64_t generation = plane_->generation();
@@ -71,11 +100,12 @@ Result<void, Failure> RemoteSource::gather(int domain, std::vector<std::string>&
       generation = plane_->generation();
       changed_ns = rt::now_ns();
     }
-    if (plane_->complete() && rt::now_ns() - changed_ns > kQuietNs) {
+    if (rt::now_ns() - changed_ns > kQuietNs && (plane_->complete() || knows(names))) {
       break;
     }
   }
   update();
+  silent_ = plane_->silent_variables();
   title_ = fmt::format("DDS domain {}", domain);
   std::set<std::string> plants;
   for (const mirror::RemoteBoard& board : boards_) {
@@ -88,7 +118,7 @@ Result<void, Failure> RemoteSource::gather(int domain, std::vector<std::string>&
     notes.push_back(fmt::format("not shown: {}", printable(why)));
   }
   if (const auto missing = silent(boards_); !missing.empty()) {
-    notes.push_back(fmt::format("{}: not heard within {}: {}", title_, human_age(wait_ns_), fmt::join(missing, ", ")));
+    notes.push_back(fmt::format("{}: silent: {}", title_, fmt::join(missing, ", ")));
   }
   if (interrupted()) {
     return Failure{interrupt_code(), {}};
@@ -250,6 +280,12 @@ std::string RemoteSource::owner(const std::string& variable) const {
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto known = variables_.find(variable);
   return known == variables_.end() ? std::string{} : known->second.owner;
+}
+
+std::string RemoteSource::silent_owner(const std::string& name) const {
+  const auto found =
+      std::find_if(silent_.begin(), silent_.end(), [&](const auto& entry) { return means(name, entry.first); });
+  return found == silent_.end() ? std::string{} : found->second;
 }
 
 std::vector<std::string> RemoteSource::follow(const std::set<std::string>& variables) {

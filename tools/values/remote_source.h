@@ -36,8 +36,10 @@ struct RemoteOrder {
 
 class RemoteSource final : public ValueSource {
  public:
-  // Joins the network and looks who shows what, at most so long. `notes` are for people: boards that were not heard.
+  // Joins the network and looks who shows what, at most so long; less if all boards were heard, or, should boards be
+  // silent, once `names` are known. `notes` are for people: boards that were not heard.
   static Result<std::unique_ptr<RemoteSource>, Failure> open(const dds::NetworkSettings& network, std::int64_t wait_ns,
+                                                             const std::vector<std::string>& names,
                                                              std::vector<std::string>& notes);
   ~RemoteSource() override;
 
@@ -54,6 +56,7 @@ class RemoteSource final : public ValueSource {
                             const schema::Place& place, std::span<const std::uint8_t> bytes) override;
   std::string prefer(const std::string& pattern, const std::string& board) override;
   [[nodiscard]] std::string owner(const std::string& variable) const override;
+  [[nodiscard]] std::string silent_owner(const std::string& name) const override;
   std::vector<std::string> follow(const std::set<std::string>& variables) override;
 
  private:
@@ -65,7 +68,8 @@ class RemoteSource final : public ValueSource {
   };
   RemoteSource(std::unique_ptr<mirror::RemotePlane> plane, std::int64_t wait_ns)
       : plane_(std::move(plane)), wait_ns_(wait_ns) {}
-  Result<void, Failure> gather(int domain, std::vector<std::string>& notes);
+  Result<void, Failure> gather(int domain, const std::vector<std::string>& names, std::vector<std::string>& notes);
+  [[nodiscard]] bool knows(const std::vector<std::string>& names) const;
   Result<void, Failure> set_whole(const std::string& variable, std::span<const std::uint8_t> value);
   void feed();
   void update();
@@ -77,6 +81,7 @@ class RemoteSource final : public ValueSource {
   std::int64_t wait_ns_;
   std::string title_;
   std::atomic<std::uint64_t> generation_{0};
+  std::map<std::string, std::string> silent_;  // variable -> board that was not heard when it was opened
 
   mutable std::mutex mutex_;  // all below
   std::condition_variable news_;

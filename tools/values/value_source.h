@@ -44,6 +44,9 @@ class ValueSource {
   virtual std::string prefer(const std::string& pattern, const std::string& board) = 0;
   // Board whose value of the variable is shown; empty: none.
   [[nodiscard]] virtual std::string owner(const std::string& variable) const = 0;
+  // Board that has the variable and is not heard; empty: none is known. `name` as the user wrote it, with or without
+  // its namespaces.
+  [[nodiscard]] virtual std::string silent_owner(const std::string& name) const = 0;
   // Waits until each of these has a value, at most so long as it may. Returns those without.
   virtual std::vector<std::string> follow(const std::set<std::string>& variables) = 0;
 };

@@ -52,11 +52,18 @@ std::string full_name(const std::string& text, const schema::Place& place) {
   return variable;
 }
 
-// "NAME@BOARD" is taken apart. False after an error message.
-bool take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
+// Exit code, after an error message: there is no such variable, or its board cannot be asked.
+int unknown(Context& context, const std::string& name, const std::string& message) {
+  const std::string owner = context.values->silent_owner(name);
+  context.out.error(owner.empty() ? message : fmt::format("'{}' is of board {}, which is silent", name, owner));
+  return owner.empty() ? kFailed : kUnreachable;
+}
+
+// "NAME@BOARD" is taken apart. The exit code, after an error message.
+int take_board(Context& context, const vars::Store& store, std::string& name, std::string& board) {
   const auto at = name.rfind('@');
   if (context.values->here() || at == std::string::npos) {
-    return true;
+    return kOk;
   }
   board = name.substr(at + 1);
   name.resize(at);
@@ -67,10 +74,7 @@ bool take_board(Context& context, const vars::Store& store, std::string& name, s
     pattern = place.ok() ? place.value().variable->name : name;
   }
   const std::string problem = context.values->prefer(pattern, board);
-  if (!problem.empty()) {
-    context.out.error(problem);
-  }
-  return problem.empty();
+  return problem.empty() ? kOk : unknown(context, name, problem);
 }
 
 }  // namespace
@@ -93,21 +97,20 @@ bool is_glob(std::string_view text) {
   return false;
 }
 
-bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
-                  std::vector<Item>& items, Values values) {
-  bool all_found = true;
+int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+                 std::vector<Item>& items, Values values) {
+  int code = kOk;
   for (std::string name : names) {
     std::string board;
-    if (!take_board(context, store, name, board)) {
-      all_found = false;
+    if (const int refused = take_board(context, store, name, board); refused != kOk) {
+      code = refused;
       continue;
     }
     if (!is_glob(name)) {
       std::string message;
       const auto place = schema::find_place(store.schema(), name, message);
       if (!place.ok() || !add_item(store, full_name(name, place.value()), place.value(), items)) {
-        context.out.error(message.empty() ? fmt::format("there is no variable '{}'", name) : message);
-        all_found = false;
+        code = unknown(context, name, message.empty() ? fmt::format("there is no variable '{}'", name) : message);
       }
       continue;
     }
@@ -121,10 +124,10 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
     if (!any) {
       context.out.error(
           fmt::format("no variable of {} matches '{}' (indurop vars lists all)", context.values->whose(), name));
-      all_found = false;
+      code = kFailed;
     }
   }
-  if (all_found && values == Values::Needed) {
+  if (code == kOk && values == Values::Needed) {
     std::set<std::string> variables;
     for (const Item& item : items) {
       variables.insert(item.place.variable->name);
@@ -134,7 +137,7 @@ bool select_items(Context& context, const vars::Store& store, const std::vector<
           fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.far.wait_ns)));
     }
   }
-  return all_found;
+  return code;
 }
 
 Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item) {

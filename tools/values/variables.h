@@ -24,12 +24,12 @@ struct Item {
   const vars::DirectoryEntry* entry = nullptr;
 };
 
-// Items for names (exact parts) and globs, in the order given, no item twice. False after an error message for each
-// name that is nothing.
+// Items for names (exact parts) and globs, in the order given, no item twice. The exit code, after an error message for
+// each name that is nothing, or of a board that is silent.
 // Those of boards in the network have a value then, if it comes in time, or are named in a message.
 enum class Values { Needed, NotNeeded };
-bool select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
-                  std::vector<Item>& items, Values values = Values::Needed);
+int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
+                 std::vector<Item>& items, Values values = Values::Needed);
 bool is_glob(std::string_view text);
 
 // One consistent version of the item's bytes, or why there is none.

@@ -13,7 +13,7 @@
 namespace indurop::tools {
 Result<void, Failure> WatchSource::open(Context& context) {
   context.node = node_;
-  auto store = open_store(context, vars::Mode::ReadOnly);
+  auto store = open_store(context, vars::Mode::ReadOnly, names_);
   if (!store.ok()) {
     return std::move(store).error();
   }
@@ -21,8 +21,8 @@ Result<void, Failure> WatchSource::open(Context& context) {
   node_ = context.values->title();
   generation_ = context.values->generation();
   std::vector<Item> items;
-  if (!select_items(context, *store_, names_, items)) {
-    return Failure{kFailed, {}};
+  if (const int code = select_items(context, *store_, names_, items); code != kOk) {
+    return Failure{code, {}};
   }
   for (Item& item : items) {
     std::vector<std::uint8_t> bytes(item.place.type.size());

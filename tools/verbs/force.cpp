@@ -104,8 +104,8 @@ int unforce(Context& context, UnforceOptions& options) {
     return report(context.out, store.error());
   }
   std::vector<Item> items;
-  if (!options.all && !select_items(context, *store, options.names, items)) {
-    return kFailed;
+  if (const int code = options.all ? kOk : select_items(context, *store, options.names, items); code != kOk) {
+    return code;
   }
   std::size_t gone = 0;
   for (const vars::Force& one : store->forces()) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kAlignedValue = 24;
 
 int get(Context& context, const std::vector<std::string>& names) {
-  const auto store = open_store(context, vars::Mode::ReadOnly);
+  const auto store = open_store(context, vars::Mode::ReadOnly, names);
   if (!store) {
     return report(context.out, store.error());
   }
@@ -21,8 +21,8 @@ int get(Context& context, const std::vector<std::string>& names) {
     context.out.note(context.values->gone(absence) + ": these are the last values");
   }
   std::vector<Item> items;
-  if (!select_items(context, *store, names, items)) {
-    return kFailed;
+  if (const int code = select_items(context, *store, names, items); code != kOk) {
+    return code;
   }
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
   for (const Item& item : items) {

@@ -119,13 +119,13 @@ void print(Context& context, const Item& item, const Counter& counter) {
 }
 
 int hz(Context& context, const Options& options) {
-  const auto store = open_store(context, vars::Mode::ReadOnly);
+  const auto store = open_store(context, vars::Mode::ReadOnly, {options.name});
   if (!store) {
     return report(context.out, store.error());
   }
   std::vector<Item> items;
-  if (!select_items(context, *store, {options.name}, items)) {
-    return kFailed;
+  if (const int code = select_items(context, *store, {options.name}, items); code != kOk) {
+    return code;
   }
   if (items.size() != 1) {
     context.out.error(fmt::format("'{}' matches {} variables; hz takes one", options.name, items.size()));

@@ -25,7 +25,12 @@ bool any_forced(Context& context, const vars::Store& store, const std::vector<As
 }
 
 int set(Context& context, const std::vector<std::string>& words) {
-  auto store = open_store(context, vars::Mode::ReadWrite);
+  std::vector<std::string> names;
+  for (const std::string& word : words) {
+    names.push_back(word.substr(0, word.find('=')));
+  }
+  names.resize(words.size() == 2 && names[1] == words[1] ? 1 : names.size());  // NAME VALUE
+  auto store = open_store(context, vars::Mode::ReadWrite, names);
   if (!store) {
     return report(context.out, store.error());
   }

@@ -44,13 +44,13 @@ void add_parts(Table& table, const std::string& name, const schema::Place& place
 }
 
 int type_of(Context& context, const std::vector<std::string>& names) {
-  const auto store = open_store(context, vars::Mode::ReadOnly);
+  const auto store = open_store(context, vars::Mode::ReadOnly, names);
   if (!store) {
     return report(context.out, store.error());
   }
   std::vector<Item> items;
-  if (!select_items(context, *store, names, items, Values::NotNeeded)) {
-    return kFailed;
+  if (const int code = select_items(context, *store, names, items, Values::NotNeeded); code != kOk) {
+    return code;
   }
   Table table({{"NAME", "name"},
                {"TYPE", "type"},

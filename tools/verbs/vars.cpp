@@ -100,9 +100,10 @@ int list(Context& context, const Options& options) {
   const std::vector<std::string> everything{"*"};
   if (options.globs.empty() && store->schema().variables.empty()) {
     context.out.note(fmt::format("{} has no shared variables", context.values->whose()));
-  } else if (!select_items(context, *store, options.globs.empty() ? everything : options.globs, items,
-                           options.names ? Values::NotNeeded : Values::Needed)) {
-    return kFailed;
+  } else if (const int found = select_items(context, *store, options.globs.empty() ? everything : options.globs, items,
+                                            options.names ? Values::NotNeeded : Values::Needed);
+             found != kOk) {
+    return found;
   }
   std::erase_if(items, [&](const Item& item) {
     return !options.type.empty() && !schema::glob_match(options.type, schema::display_name(item.place.type));
