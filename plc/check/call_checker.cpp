@@ -83,6 +83,9 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     }
     return user_function(call, *pou->second);
   }
+  if (const Type* type = nullptr; enumeration_call(call, type)) {
+    return type;
+  }
   auto overloads = find_functions(callee.name);
   if (same_name(callee.name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
     // Any whole number, says the standard: the one that is wanted, else DINT.
@@ -148,7 +151,7 @@ void CallChecker::output_to(Argument& argument, const Type& type) {
   }
   if (argument.negated && !type.is(Elementary::Bool)) {
     context_.error(argument.at, fmt::format("NOT needs a BOOL, and {} is {}", argument.name, with_article(type)));
-  } else if (!assignable(type, *to)) {
+  } else if (!context_.assignable(type, *to)) {
     context_.error(argument.value->at, fmt::format("the output {} is {}, which does not become {}", argument.name,
                                                    with_article(type), with_article(*to)));
   }
@@ -160,10 +163,17 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   std::set<const LibraryParameter*> given;
   for (Argument& argument : call.arguments) {
     // EN of a block that has an input of this name is that input.
-    const LibraryParameter* parameter = argument.name.empty() && position < block.inputs.size()
-                                            ? &block.inputs[position++]
-                                        : argument.output ? block.output(argument.name)
-                                                          : block.input(argument.name);
+    const std::size_t behind = position - std::min(position, block.inputs.size());
+    const LibraryParameter* parameter = nullptr;
+    if (argument.name.empty() && position < block.inputs.size()) {
+      parameter = &block.inputs[position++];
+    } else if (argument.name.empty() && behind < block.outputs.size()) {
+      parameter = &block.outputs[behind];
+      argument.output = true;
+      ++position;
+    } else {
+      parameter = argument.output ? block.output(argument.name) : block.input(argument.name);
+    }
     if (parameter == nullptr && (is_enable(argument) || is_enable_out(argument))) {
       continue;
     }
@@ -171,7 +181,7 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
       context_.error(
           argument.at,
           argument.name.empty()
-              ? fmt::format("{} has only {} inputs", block.name, block.inputs.size())
+              ? fmt::format("{} has only {} inputs and outputs", block.name, block.inputs.size() + block.outputs.size())
               : fmt::format("{} has no {} '{}'{}", block.name, argument.output ? "output" : "input", argument.name,
                             did_you_mean(argument.name, names_of(argument.output ? block.outputs : block.inputs))));
       continue;
@@ -204,16 +214,28 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
   }
 }
 
-void CallChecker::user_block(Expression& call, const Pou& pou) {
-  Resolved& out = ExpressionChecker::resolved(call);
-  out.pou = &pou;
+// What values without a name are for: the inputs; if there are more values, all parameters as they are declared.
+std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
-  std::set<const Variable*> given;
+  std::vector<const Variable*> all;
   for (const Variable& one : pou.variables) {
     if (is_parameter(one, false)) {
       inputs.push_back(&one);
     }
+    if (is_parameter(one, false) || is_parameter(one, true)) {
+      all.push_back(&one);
+    }
   }
+  const auto unnamed =
+      std::count_if(call.arguments.begin(), call.arguments.end(), [](const Argument& one) { return one.name.empty(); });
+  return static_cast<std::size_t>(unnamed) > inputs.size() ? all : inputs;
+}
+
+void CallChecker::user_block(Expression& call, const Pou& pou) {
+  Resolved& out = ExpressionChecker::resolved(call);
+  out.pou = &pou;
+  const std::vector<const Variable*> inputs = by_position(call, pou);
+  std::set<const Variable*> given;
   std::size_t position = 0;
   for (Argument& argument : call.arguments) {
     if (is_enable(argument) || is_enable_out(argument)) {
@@ -221,6 +243,8 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     }
     const Variable* parameter = argument.name.empty() ? (position < inputs.size() ? inputs[position++] : nullptr)
                                                       : pou.find(upper(argument.name));
+    argument.output =
+        argument.output || (argument.name.empty() && parameter != nullptr && is_parameter(*parameter, true));
     if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {
       std::vector<std::string> known;
       for (const Variable& one : pou.variables) {
@@ -230,13 +254,18 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
       }
       context_.error(argument.at,
                      argument.name.empty()
-                         ? fmt::format("{} has only {} inputs", pou.name, inputs.size())
+                         ? fmt::format("{} has only {} inputs and outputs", pou.name, inputs.size())
                          : fmt::format("{} has no {} '{}'{}", pou.name, argument.output ? "output" : "input",
                                        argument.name, did_you_mean(argument.name, known)));
       continue;
     }
     if (!given.insert(parameter).second) {
       context_.error(argument.at, fmt::format("{} is given twice, remove one of them", parameter->name));
+    }
+    if (argument.output && argument.name.empty() && argument.value->kind == Expression::Kind::Literal) {
+      context_.error(argument.at, fmt::format("{} has fewer inputs; this value stands at its output {}, remove it",
+                                              pou.name, parameter->name));
+      continue;
     }
     if (!argument.value || parameter->type == nullptr) {
       continue;

@@ -34,9 +34,11 @@ class CallChecker {
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* library_function(ast::Expression& call, const std::vector<const LibraryFunction*>& overloads,
                                const Type* wanted);
+  bool enumeration_call(ast::Expression& call, const Type*& type);
   const Type* user_function(ast::Expression& call, const Pou& pou);
   void library_block(ast::Expression& call, const LibraryBlock& block);
   void in_out(const ast::Expression& call, ast::Expression& given, const Variable& parameter);
+  static std::vector<const Variable*> by_position(const ast::Expression& call, const Pou& pou);
   void user_block(ast::Expression& call, const Pou& pou);
   void output_to(ast::Argument& argument, const Type& type);
   bool take_enable(ast::Expression& call, bool allowed);

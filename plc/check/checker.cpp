@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "plc/check/constant_order.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
 #include "plc/check/pou_checker.h"
@@ -43,11 +44,12 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   Context context{*program, diagnostics};
   check_identifiers(context);
   declare_pous(context);
+  order_constants(context.program.project);
   declare_globals(context, true);
   declare_types(context);
-  name_types(context);
   declare_globals(context, false);
   declare_variables(context);
+  name_types(context);
   check_bodies(context);
   order_pous(context);
   plan_tasks(context);

@@ -25,6 +25,14 @@ struct Context {
 
   [[nodiscard]] const Type* elementary(Elementary type) const { return program.types.elementary(type); }
 
+  [[nodiscard]] bool codesys() const noexcept { return program.project.dialect == Dialect::Codesys; }
+  [[nodiscard]] bool assignable(const Type& from, const Type& to) const noexcept {
+    return plc::assignable(from, to, program.project.dialect);
+  }
+  [[nodiscard]] const Type* common_type(const Type& a, const Type& b) const noexcept {
+    return plc::common_type(a, b, program.project.dialect);
+  }
+
  private:
   // Errors of texts name the POU too.
   [[nodiscard]] std::string located(std::string text) const {

@@ -75,14 +75,16 @@ const Type* ExpressionChecker::value(Expression& expression, const Type* wanted)
 }
 
 const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted) {
-  static_cast<void>(resolved(expression));
+  if (resolved(expression).cast) {
+    return expression.type;
+  }
   const Type* type = nullptr;
   switch (expression.kind) {
     case Expression::Kind::Literal:
       type = literal(expression, wanted);
       break;
     case Expression::Kind::Name:
-      type = name(expression);
+      type = name(expression, wanted);
       break;
     case Expression::Kind::Direct:
       type = direct(expression);
@@ -120,7 +122,8 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
   if (type == nullptr) {
     return false;
   }
-  const bool fine = adapt(expression, to) || assignable(*expression.type, to);
+  const bool fine =
+      adapt(expression, to) || context_.assignable(*expression.type, to) || convert_enumeration(expression, to);
   if (!fine) {
     const Constant* known = constant_of(expression);
     if (known != nullptr && expression.resolved->untyped) {
@@ -149,8 +152,10 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
 }
 
 const Type* ExpressionChecker::top_call(Expression& expression, const Type* wanted) {
-  static_cast<void>(resolved(expression));
-  expression.type = CallChecker(*this).function(expression, wanted, true);
+  if (!resolved(expression).cast) {
+    const Type* type = CallChecker(*this).function(expression, wanted, true);
+    expression.type = type;  // the call may have become another expression
+  }
   return expression.type;
 }
 
@@ -186,11 +191,29 @@ const Type* ExpressionChecker::bit(Expression& expression) {
   }
   const bool has_bits = base->kind == Type::Kind::Elementary && !base->is(Elementary::Bool) &&
                         (is_bit(base->elementary) || is_int(base->elementary));
+  if (expression.width > 1) {
+    return part(expression, *base);
+  }
   if (!has_bits || expression.bit >= bits_of(base->elementary)) {
     context_.error(expression.at, fmt::format("{} has no bit {}", with_article(*base), expression.bit));
     return nullptr;
   }
   return context_.elementary(Elementary::Bool);
+}
+
+// w.%B1
+const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
+  const Elementary type = expression.width == 8    ? Elementary::Byte
+                          : expression.width == 16 ? Elementary::Word
+                                                   : Elementary::Dword;
+  const bool has_parts = base.kind == Type::Kind::Elementary && is_bit(base.elementary) && !base.range &&
+                         expression.width < bits_of(base.elementary);
+  if (!has_parts || expression.bit >= bits_of(base.elementary)) {
+    context_.error(expression.at, fmt::format("{} has no {} {}", with_article(base), name_of(type),
+                                              expression.bit / expression.width));
+    return nullptr;
+  }
+  return context_.elementary(type);
 }
 
 const Type* ExpressionChecker::index(Expression& expression) {
@@ -212,7 +235,7 @@ const Type* ExpressionChecker::index(Expression& expression) {
       fine = false;
       continue;
     }
-    if (type->kind != Type::Kind::Elementary || !is_int(type->elementary)) {
+    if (!is_whole(*type)) {
       context_.error(one.at, fmt::format("an index is a whole number, not {}", with_article(*type)));
       fine = false;
       continue;
@@ -228,6 +251,12 @@ const Type* ExpressionChecker::index(Expression& expression) {
   }
   reading_ = reading;
   return fine ? base->element : nullptr;
+}
+
+// What counts: integers, and for CODESYS bit strings.
+bool ExpressionChecker::is_whole(const Type& type) const noexcept {
+  return type.kind == Type::Kind::Elementary &&
+         (is_int(type.elementary) || (context_.codesys() && is_bit(type.elementary) && !type.is(Elementary::Bool)));
 }
 
 const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted) {
@@ -252,9 +281,9 @@ const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted)
   const bool number =
       type->kind == Type::Kind::Elementary && (is_signed_int(type->elementary) || is_real(type->elementary) ||
                                                type->is(Elementary::Time) || operand.resolved->untyped);
-  if (expression.op == Operator::Not
-          ? !is_elementary_bit(*type) && !adapt(operand, *context_.elementary(Elementary::Bool))
-          : !number) {
+  if (expression.op == Operator::Not ? !is_elementary_bit(*type) && !(context_.codesys() && is_whole(*type)) &&
+                                           !adapt(operand, *context_.elementary(Elementary::Bool))
+                                     : !number) {
     context_.error(expression.at, expression.op == Operator::Not
                                       ? fmt::format("NOT needs a BOOL or a bit string, not {}", with_article(*type))
                                       : fmt::format("{} has no sign", with_article(*type)));

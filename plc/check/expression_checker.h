@@ -4,6 +4,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "plc/check/context.h"
@@ -27,6 +29,7 @@ class ExpressionChecker {
   const Type* reference(ast::Expression& expression);
   // A call as a statement: functions and instances of function blocks.
   void call_statement(ast::Expression& expression);
+  [[nodiscard]] bool is_whole(const Type& type) const noexcept;
   // Assigns the result of a call that may have EN and ENO.
   const Type* top_call(ast::Expression& expression, const Type* wanted);
   // A whole number known now.
@@ -40,7 +43,7 @@ class ExpressionChecker {
 
   const Type* typed(ast::Expression& expression, const Type* wanted);
   const Type* literal(ast::Expression& expression, const Type* wanted);
-  const Type* name(ast::Expression& expression);
+  const Type* name(ast::Expression& expression, const Type* wanted);
   const Type* enum_value(ast::Expression& expression, const Type& type, std::string_view item);
   const Type* direct(ast::Expression& expression);
   const Type* global(ast::Expression& expression, Global& global);
@@ -49,19 +52,30 @@ class ExpressionChecker {
   const Type* namespace_member(ast::Expression& expression, const std::string& path);
   const Type* index(ast::Expression& expression);
   const Type* bit(ast::Expression& expression);
+  const Type* part(ast::Expression& expression, const Type& base);
+  const Type* named_bit(ast::Expression& expression, const Type& base);
   const Type* unary(ast::Expression& expression, const Type* wanted);
   const Type* binary(ast::Expression& expression, const Type* wanted);
+  // The value as another type: an enumeration is a number, and a number one of an enumeration.
+  void cast(ast::Expression& expression, const Type& to);
+  void count_enumerations(ast::Expression& expression);
+  bool convert_enumeration(ast::Expression& expression, const Type& to);
+  [[nodiscard]] bool is_no_variable(const ast::Expression& expression) const;
   bool sides(ast::Expression& expression, const Type* wanted);
   const Type* comparison(ast::Expression& expression);
   const Type* logic(ast::Expression& expression, const Type* wanted);
   const Type* arithmetic(ast::Expression& expression, const Type* wanted);
   void fold(ast::Expression& expression, const Type& operand);
   bool meet(ast::Expression& a, ast::Expression& b);
-  const Type* unknown(ast::Expression& expression);
+  const Type* bare_enum_value(ast::Expression& expression, const Type* wanted,
+                              std::pair<std::string, std::string>& both);
+  const Type* unknown(ast::Expression& expression, const Type* wanted);
   void note_write(const ast::Expression& expression);
   // An instance that is called, or passed by reference.
   void note_call(const ast::Expression& expression);
   void warn_about_exactness(const ast::Expression& expression);
+  // The variable of x.a[3].b
+  static const ast::Expression& root_of(const ast::Expression& expression) noexcept;
   static ast::Expression& make_truth(ast::Expression& expression);
   bool writable(const ast::Expression& expression);
   bool array_initial(ast::Initial& initial, const Type& type);

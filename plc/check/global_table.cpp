@@ -191,6 +191,9 @@ Global& declare_located(Context& context, ast::Variable& variable, const Type& t
       context.error(variable.at, fmt::format("{} is {} at {}, use one type", known->address, with_article(*known->type),
                                              to_string(known->at)));
     }
+    if (context.pou == nullptr && !variable.name.empty()) {
+      context.program.global_names.emplace(upper(variable.name), known);  // another name of it
+    }
     return *known;
   }
   const std::string wanted = variable.name.empty() ? name_of(*variable.address) : variable.name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What names mean: variables, members, values of enumerations, shared variables, addresses; and who writes what.
+// What names mean: variables, members, values of enumerations, shared variables, addresses.
 
 #include <fmt/format.h>
 
@@ -15,44 +15,6 @@ namespace {
 using ast::Expression;
 using Meaning = Resolved::Meaning;
 
-// What can stand left of := : a name, with members, indices and bits of it.
-bool is_designator(const Expression& expression) noexcept {
-  switch (expression.kind) {
-    case Expression::Kind::Name:
-    case Expression::Kind::Direct:
-      return true;
-    case Expression::Kind::Member:
-    case Expression::Kind::Bit:
-    case Expression::Kind::Index:
-      return is_designator(expression.operands[0]);
-    case Expression::Kind::Literal:
-    case Expression::Kind::Call:
-    case Expression::Kind::Unary:
-    case Expression::Kind::Binary:
-      break;
-  }
-  return false;
-}
-
-const Expression& root_of(const Expression& expression) noexcept {
-  const Expression* at = &expression;
-  while (!at->operands.empty() && (!at->resolved || at->resolved->meaning == Meaning::Value)) {
-    at = &at->operands[0];
-  }
-  return *at;
-}
-
-// ".a.b" as far as it is fixed: an index and what is behind it do not count.
-std::string path_of(const Expression& expression, bool& fixed) {
-  if (expression.resolved && expression.resolved->meaning != Meaning::Value) {
-    fixed = true;
-    return "";
-  }
-  std::string path = path_of(expression.operands[0], fixed);
-  fixed = fixed && expression.kind == Expression::Kind::Member;
-  return fixed ? path + "." + expression.name : path;
-}
-
 bool is_global_list(const Program& program, std::string_view name) {
   const auto& lists = program.project.global_lists;
   return std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return same_name(list, name); });
@@ -60,7 +22,7 @@ bool is_global_list(const Program& program, std::string_view name) {
 
 }  // namespace
 
-const Type* ExpressionChecker::name(Expression& expression) {
+const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) {
   Resolved& out = resolved(expression);
   const std::string capitals = upper(expression.name);
   Program& program = context_.program;
@@ -99,11 +61,11 @@ const Type* ExpressionChecker::name(Expression& expression) {
     out.path = expression.name;
     return nullptr;
   }
-  return unknown(expression);
+  return unknown(expression, wanted);
 }
 
 bool ExpressionChecker::counts_as_truth(const Expression& expression, const Type& type) noexcept {
-  const Resolved* root = root_of(expression).resolved.get();
+  const Resolved* root = ExpressionChecker::root_of(expression).resolved.get();
   const bool shared = root != nullptr && root->global != nullptr && root->global->kind == Global::Kind::Foreign;
   return expression.as_truth && shared && type.kind == Type::Kind::Elementary &&
          (is_int(type.elementary) || (is_bit(type.elementary) && !type.is(Elementary::Bool)));
@@ -126,24 +88,41 @@ Expression& ExpressionChecker::make_truth(Expression& expression) {
   return expression;
 }
 
-const Type* ExpressionChecker::unknown(Expression& expression) {
+// A value of the enumeration that is wanted, else of the only one that has it; null if there is none, and `both` names
+// two that have it.
+const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Type* wanted,
+                                               std::pair<std::string, std::string>& both) {
   const Type* found = nullptr;
+  bool several = false;
   for (const Type* type : context_.program.named_types) {
     for (const EnumItem& item : type->items) {
       if (!same_name(item.name, expression.name)) {
         continue;
       }
-      if (found != nullptr) {
-        context_.error(expression.at, fmt::format("'{0}' is a value of {1} and of {2}, write {1}#{0} or {2}#{0}",
-                                                  expression.name, found->name, type->name));
-        return nullptr;
+      if (wanted != nullptr && same_type(*type, *wanted)) {
+        expression.resolved->constant = Integer{item.value};
+        return type;
       }
-      found = type;
+      if (found != nullptr && !several) {
+        several = true;
+        both = {found->name, type->name};
+      }
+      found = found == nullptr ? type : found;
       expression.resolved->constant = Integer{item.value};
     }
   }
-  if (found != nullptr) {
+  return several ? nullptr : found;
+}
+
+const Type* ExpressionChecker::unknown(Expression& expression, const Type* wanted) {
+  std::pair<std::string, std::string> both;
+  if (const Type* found = bare_enum_value(expression, wanted, both)) {
     return found;
+  }
+  if (!both.first.empty()) {
+    context_.error(expression.at, fmt::format("'{0}' is a value of {1} and of {2}, write {1}#{0} or {2}#{0}",
+                                              expression.name, both.first, both.second));
+    return nullptr;
   }
   if (Global* shared = only_foreign_global(context_, expression.name)) {
     return global(expression, *shared);
@@ -219,6 +198,9 @@ const Type* ExpressionChecker::member(Expression& expression) {
   if (type->kind == Type::Kind::Block) {
     return block_member(expression, *type);
   }
+  if (type->kind == Type::Kind::Elementary && !type->is_string()) {
+    return named_bit(expression, *type);
+  }
   std::vector<std::string> known;
   for (const Field& field : type->fields) {
     if (same_name(field.name, expression.name) || field.member() == expression.name) {
@@ -230,6 +212,28 @@ const Type* ExpressionChecker::member(Expression& expression) {
   context_.error(expression.at, fmt::format("{} has no member '{}'{}", with_article(*type), expression.name,
                                             did_you_mean(expression.name, known)));
   return nullptr;
+}
+
+// w.RUNNING, where RUNNING is a CONSTANT: the bit of that number.
+const Type* ExpressionChecker::named_bit(Expression& expression, const Type& base) {
+  const std::string capitals = upper(expression.name);
+  const Constant* known = nullptr;
+  if (Variable* local = context_.pou != nullptr ? context_.pou->find(capitals) : nullptr) {
+    local->used = true;
+    known = local->constant ? &*local->constant : nullptr;
+  } else if (const auto global = context_.program.global_names.find(capitals);
+             global != context_.program.global_names.end()) {
+    known = global->second->constant ? &*global->second->constant : nullptr;
+  }
+  const auto number = known != nullptr ? as_int64(*known) : std::nullopt;
+  if (!number || *number < 0 || *number > 63) {
+    context_.error(expression.at, fmt::format("{} has no member '{}'; a bit of it is a number or a CONSTANT: x.3",
+                                              with_article(base), expression.name));
+    return nullptr;
+  }
+  expression.kind = Expression::Kind::Bit;
+  expression.bit = static_cast<unsigned>(*number);
+  return bit(expression);
 }
 
 const Type* ExpressionChecker::block_member(Expression& expression, const Type& block) {
@@ -296,97 +300,6 @@ const Type* ExpressionChecker::namespace_member(Expression& expression, const st
   context_.error(expression.at, fmt::format("there is no shared variable '{}'{}", full,
                                             shared.empty() ? "" : fmt::format(", did you mean '{}'?", shared)));
   return nullptr;
-}
-
-const Type* ExpressionChecker::target(Expression& expression) {
-  const bool reading = std::exchange(reading_, expression.kind == Expression::Kind::Bit);
-  const Type* type = value(expression);
-  reading_ = reading;
-  if (type == nullptr || !writable(expression)) {
-    return nullptr;
-  }
-  note_write(expression);
-  return type;
-}
-
-const Type* ExpressionChecker::reference(Expression& expression) {
-  const Type* type = typed(expression, nullptr);
-  if (type == nullptr || !writable(expression)) {
-    return nullptr;
-  }
-  if (expression.kind == Expression::Kind::Bit) {
-    context_.error(expression.at, "a single bit cannot be passed by reference, copy it to a BOOL first");
-    return nullptr;
-  }
-  note_call(expression);
-  note_write(expression);
-  return type;
-}
-
-bool ExpressionChecker::writable(const Expression& expression) {
-  const Expression& root = root_of(expression);
-  const Meaning meaning = !is_designator(expression) ? Meaning::Value
-                          : root.resolved            ? root.resolved->meaning
-                                                     : Meaning::Value;
-  if (meaning == Meaning::FunctionResult) {
-    return true;
-  }
-  if (meaning != Meaning::Variable && meaning != Meaning::Global) {
-    context_.error(expression.at, "this is not a variable, so nothing can be assigned to it");
-    return false;
-  }
-  const Variable* variable = root.resolved->variable;
-  const Global* global = root.resolved->global;
-  if ((variable != nullptr && variable->is_constant) || (global != nullptr && global->kind == Global::Kind::Fixed)) {
-    context_.error(expression.at, fmt::format("'{}' is CONSTANT and cannot be changed", root.name));
-    return false;
-  }
-  if (global != nullptr && global->address.starts_with("%I")) {
-    context_.error(expression.at,
-                   fmt::format("{} is an input, which only the world outside changes; use %Q or %M", global->address));
-    return false;
-  }
-  // Outputs of an instance belong to its function block.
-  for (const Expression* at = &expression; at != &root; at = &at->operands[0]) {
-    const Type* base = at->operands[0].type;
-    const bool of_block = at->kind == Expression::Kind::Member && base != nullptr && base->kind == Type::Kind::Block;
-    if (of_block && at->resolved->is_output) {
-      context_.error(expression.at, fmt::format("'{}' is an output of {}, only the block itself writes it", at->name,
-                                                to_string(*base)));
-      return false;
-    }
-  }
-  return true;
-}
-
-void ExpressionChecker::note_call(const Expression& expression) {
-  const Resolved* root = root_of(expression).resolved.get();
-  if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
-    context_.pou->find(upper(root->variable->name))->called = true;
-  }
-}
-
-void ExpressionChecker::note_write(const Expression& expression) {
-  if (context_.pou == nullptr) {
-    return;
-  }
-  const Resolved& root = *root_of(expression).resolved;
-  for (const auto& [variable, at] : context_.loop_variables) {
-    if (variable == root.variable || variable == root.global) {
-      context_.error(expression.at, fmt::format("this is the variable of the FOR at {}, which must not be changed "
-                                                "inside; leave the loop with EXIT, or use WHILE",
-                                                to_string(at)));
-    }
-  }
-  if (root.variable != nullptr) {
-    context_.pou->find(upper(root.variable->name))->written = true;
-  }
-  if (root.meaning == Meaning::FunctionResult) {
-    context_.pou->result_assigned = true;
-  } else if (root.global != nullptr) {
-    bool fixed = false;
-    context_.pou->globals[root.global].writes.insert(path_of(expression, fixed));
-  }
 }
 
 }  // namespace indurop::plc

@@ -38,6 +38,30 @@ bool loses_fraction(const Expression& expression, const Constant& a, const Const
 
 }  // namespace
 
+// For CODESYS the values of an enumeration are numbers, except where two of one enumeration are told apart.
+void ExpressionChecker::count_enumerations(Expression& expression) {
+  Expression& a = expression.operands[0];
+  Expression& b = expression.operands[1];
+  const bool equality = expression.op == Operator::Equal || expression.op == Operator::NotEqual;
+  if (!context_.codesys() || (equality && same_type(*a.type, *b.type))) {
+    return;
+  }
+  for (Expression* one : {&a, &b}) {
+    if (one->type->kind == Type::Kind::Enum) {
+      cast(*one, *context_.elementary(one->type->elementary));
+    }
+  }
+}
+
+// A name that is at most a value of an enumeration.
+bool ExpressionChecker::is_no_variable(const Expression& expression) const {
+  const std::string capitals = upper(expression.name);
+  return expression.kind == Expression::Kind::Name && expression.value_enum.empty() &&
+         (context_.pou == nullptr || context_.pou->find(capitals) == nullptr) &&
+         !context_.program.global_names.contains(capitals) && !context_.program.type_names.contains(capitals) &&
+         (context_.pou == nullptr || !same_name(context_.pou->name, expression.name));
+}
+
 // The sides' values: first of one that has a type, which numbers without one on the other side take where nothing else
 // is wanted. False after an error.
 bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
@@ -45,6 +69,11 @@ bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
   Expression& b = expression.operands[1];
   const bool a_bare = is_bare(a, context_.program);
   const bool b_bare = is_bare(b, context_.program);
+  const bool a_value = is_no_variable(a);
+  if (expression.op >= Operator::Less && expression.op <= Operator::NotEqual && a_value != is_no_variable(b)) {
+    const Type* type = value(a_value ? b : a);  // says which enumeration the value is of
+    return value(a_value ? a : b, type) != nullptr && type != nullptr;
+  }
   if (a_bare == b_bare) {
     const bool fine = value(a, wanted) != nullptr;
     return value(b, wanted) != nullptr && fine;
@@ -63,6 +92,7 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
   if (!sides(expression, compares ? nullptr : wanted)) {
     return nullptr;
   }
+  count_enumerations(expression);
   if (!expression.operands[0].resolved->untyped || !expression.operands[1].resolved->untyped) {
     return compares ? comparison(expression) : combines ? logic(expression, wanted) : arithmetic(expression, wanted);
   }
@@ -91,7 +121,7 @@ bool ExpressionChecker::meet(Expression& a, Expression& b) {
   if (b.resolved->untyped && !adapt(b, *context_.elementary(a.type->elementary)) && !a.type->is_string()) {
     adapt(b, *b.type);
   }
-  return common_type(*a.type, *b.type) != nullptr;
+  return context_.common_type(*a.type, *b.type) != nullptr;
 }
 
 const Type* ExpressionChecker::comparison(Expression& expression) {
@@ -111,7 +141,7 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
                                                   : unit));
     return nullptr;
   }
-  const Type* common = common_type(*a.type, *b.type);
+  const Type* common = context_.common_type(*a.type, *b.type);
   resolved(expression).operand = common->range ? context_.elementary(common->elementary) : common;
   if (!is_enum) {
     fold(expression, *resolved(expression).operand);
@@ -135,12 +165,16 @@ void ExpressionChecker::warn_about_exactness(const Expression& expression) {
 const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wanted*/) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
-  if (!meet(a, b) || !is_elementary_bit(*a.type) || !is_elementary_bit(*b.type)) {
+  const auto has_bits = [this](const Type& type) {
+    return is_elementary_bit(type) ||
+           (context_.codesys() && type.kind == Type::Kind::Elementary && is_int(type.elementary));
+  };
+  if (!meet(a, b) || !has_bits(*a.type) || !has_bits(*b.type)) {
     context_.error(expression.at, fmt::format("AND, OR and XOR combine two BOOL or two bit strings, not {} and {}",
                                               with_article(*a.type), with_article(*b.type)));
     return nullptr;
   }
-  const Type* type = common_type(*a.type, *b.type);
+  const Type* type = context_.common_type(*a.type, *b.type);
   resolved(expression).operand = type;
   fold(expression, *type);
   return type;

@@ -36,8 +36,15 @@ bool untyped(const Expression& expression) noexcept {
   return expression.resolved->untyped;
 }
 
-bool generic_accepts(Generic generic, const Type& type) noexcept {
-  return generic == Generic::Any || (type.kind == Type::Kind::Elementary && accepts(generic, type.elementary));
+// For CODESYS a bit string is a number, and a number has bits.
+bool generic_accepts(Generic generic, const Type& type, bool codesys) noexcept {
+  if (generic == Generic::Any || type.kind != Type::Kind::Elementary) {
+    return generic == Generic::Any;
+  }
+  const Elementary own = type.elementary;
+  const bool counts = codesys && is_bit(own) && own != Elementary::Bool;
+  return accepts(generic, own) || (counts && (generic == Generic::AnyNum || generic == Generic::AnyInt)) ||
+         (codesys && is_int(own) && generic == Generic::AnyBit);
 }
 
 std::string types_of(const std::vector<Expression*>& inputs) {
@@ -131,7 +138,7 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
           is_num(found->elementary)) {
         const Type* plain = context_.elementary(found->elementary);
         const Type*& known = beside[*generic];
-        known = known == nullptr ? plain : common_type(*known, *plain);
+        known = known == nullptr ? plain : context_.common_type(*known, *plain);
       }
     }
   }
@@ -145,6 +152,13 @@ const Type* CallChecker::library_function(Expression& call, const std::vector<co
     return nullptr;
   }
   const Inputs& inputs = *found;
+  const LibraryFunction& first = *overloads.front();
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const bool counts = context_.codesys() || first.name.starts_with("TO_");
+    if (counts && inputs[i]->type->kind == Type::Kind::Enum && first.input(i).type != LibraryType(Generic::Any)) {
+      expressions_.cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
+    }
+  }
   const Type* result = choose(call, overloads, inputs, wanted);
   if (result == nullptr) {
     return nullptr;
@@ -233,7 +247,7 @@ std::optional<int> CallChecker::cost_of(const Expression& input, const Type& typ
   if (untyped(input)) {
     return adapts(*input.resolved->constant, type) ? std::optional(0) : std::nullopt;
   }
-  if (!assignable(*input.type, type)) {
+  if (!context_.assignable(*input.type, type)) {
     return std::nullopt;
   }
   return same_type(*input.type, type) || type.is_string() ? 0 : 1;
@@ -253,7 +267,7 @@ const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t
       if (numbers) {
         group = join_untyped(generic, group, *inputs[i], wanted);
       } else {
-        group = first ? inputs[i]->type : common_type(*group, *inputs[i]->type);
+        group = first ? inputs[i]->type : context_.common_type(*group, *inputs[i]->type);
       }
       first = false;
       if (group == nullptr) {
@@ -264,9 +278,9 @@ const Type* CallChecker::group_type(const LibraryFunction& function, std::size_t
   if (group != nullptr && group->kind == Type::Kind::Elementary && group->range) {
     group = context_.elementary(group->elementary);
   }
-  if (group != nullptr && !generic_accepts(generic, *group)) {
+  if (group != nullptr && !generic_accepts(generic, *group, context_.codesys())) {
     for (const Elementary real : {Elementary::Real, Elementary::Lreal}) {
-      if (generic == Generic::AnyReal && assignable(*group, *context_.elementary(real))) {
+      if (generic == Generic::AnyReal && context_.assignable(*group, *context_.elementary(real))) {
         return context_.elementary(real);
       }
     }
@@ -281,8 +295,8 @@ const Type* CallChecker::join_untyped(Generic generic, const Type* group, const 
   if (group != nullptr && adapts(number, *group)) {
     return group;
   }
-  const bool helps = wanted != nullptr && wanted->kind == Type::Kind::Elementary && generic_accepts(generic, *wanted) &&
-                     adapts(number, *wanted);
+  const bool helps = wanted != nullptr && wanted->kind == Type::Kind::Elementary &&
+                     generic_accepts(generic, *wanted, context_.codesys()) && adapts(number, *wanted);
   if (group == nullptr && helps) {
     return context_.elementary(wanted->elementary);
   }
@@ -295,7 +309,7 @@ const Type* CallChecker::join_untyped(Generic generic, const Type* group, const 
                                                                   : Elementary::Lword;
   }
   const Type* type = context_.elementary(own);
-  return group == nullptr ? type : common_type(*group, *type);
+  return group == nullptr ? type : context_.common_type(*group, *type);
 }
 
 void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inputs) {

@@ -57,7 +57,8 @@ class VariableDeclarer {
  private:
   void check_kind(const ast::Variable& declared, const Type& type) {
     const bool is_block = innermost(type).kind == Type::Kind::Block;
-    if (is_block && pou_.tree->kind == ast::Pou::Kind::Function && declared.section != Section::InOut) {
+    if (is_block && pou_.tree->kind == ast::Pou::Kind::Function && declared.section != Section::InOut &&
+        !declared.is_static) {
       context_.error(declared.at, "a FUNCTION has no memory for function blocks, make it a FUNCTION_BLOCK");
     }
     if (is_block && declared.constant) {

@@ -96,6 +96,7 @@ struct Resolved {
   bool is_output = false;            // Member of an instance: one of its outputs
 
   // Call
+  bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
   const Pou* pou = nullptr;
   struct Actual {

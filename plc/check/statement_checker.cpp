@@ -203,7 +203,7 @@ void StatementChecker::case_label(ast::CaseLabel& label, const Type& type) {
 
 void StatementChecker::for_statement(Statement& one) {
   const Type* type = expressions_.target(*one.target);
-  const bool whole = type != nullptr && type->kind == Type::Kind::Elementary && is_int(type->elementary);
+  const bool whole = type != nullptr && expressions_.is_whole(*type);
   if (type != nullptr && (!whole || one.target->kind != ast::Expression::Kind::Name)) {
     context_.error(one.target->at, "the variable of a FOR is a plain variable of a whole number type");
   }

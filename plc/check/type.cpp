@@ -56,8 +56,8 @@ bool same_type(const Type& a, const Type& b) noexcept {
     case Type::Kind::Block:
       return a.pou == b.pou && a.block == b.block;
     case Type::Kind::Enum:
-    case Type::Kind::Struct:
-      return false;  // each declaration is a type of its own
+    case Type::Kind::Struct:  // TYPE Paint : Color := Red; is a Color that begins with another value
+      return a.name == b.name && a.shared_name == b.shared_name;
   }
   return false;
 }
@@ -69,24 +69,30 @@ bool in_range_of(const Type& from, const Type& to) noexcept {
   return !to.range || (from.range && from.range->low >= to.range->low && from.range->high <= to.range->high);
 }
 
-bool assignable(const Type& from, const Type& to) noexcept {
+bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
   if (from.kind == Type::Kind::Block) {
     return false;
   }
   if (from.kind == Type::Kind::Elementary && to.kind == Type::Kind::Elementary) {
-    return widens(from.elementary, to.elementary);
+    return widens(from.elementary, to.elementary) ||
+           (dialect == Dialect::Codesys && converts_in_codesys(from.elementary, to.elementary));
   }
   return same_type(from, to) && in_range_of(from, to);
 }
 
-const Type* common_type(const Type& a, const Type& b) noexcept {
+const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept {
   if (a.is_string() && b.is_string()) {
     return a.length >= b.length ? &a : &b;
   }
-  if (assignable(a, b)) {
-    return &b;
+  const bool a_to_b = assignable(a, b, dialect);
+  const bool b_to_a = assignable(b, a, dialect);
+  if (a_to_b && b_to_a && a.kind == Type::Kind::Elementary && b.kind == Type::Kind::Elementary) {
+    if (is_real(a.elementary) && is_real(b.elementary)) {
+      return bits_of(a.elementary) > bits_of(b.elementary) ? &a : &b;
+    }
+    return is_signed_int(b.elementary) ? &a : &b;  // of the same size: CODESYS takes the one without a sign
   }
-  return assignable(b, a) ? &a : nullptr;
+  return a_to_b ? &b : b_to_a ? &a : nullptr;
 }
 
 std::uint64_t parts_of(const Type& type) noexcept {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plc/model/ast.h"
+#include "plc/model/dialect.h"
 
 namespace indurop::plc {
 
@@ -73,9 +74,9 @@ struct Type {
 // Whether every value of `from` is one of `to`, as far as subranges say: also those in arrays.
 [[nodiscard]] bool in_range_of(const Type& from, const Type& to) noexcept;
 // Whether a value of `from` can be assigned to a `to` without a conversion function.
-[[nodiscard]] bool assignable(const Type& from, const Type& to) noexcept;
+[[nodiscard]] bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept;
 // The one of both that the other widens to; null if there is none. Texts: the longer one.
-[[nodiscard]] const Type* common_type(const Type& a, const Type& b) noexcept;
+[[nodiscard]] const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept;
 // Number of elementary values, those of arrays counted; saturates.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;
 

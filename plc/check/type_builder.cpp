@@ -206,12 +206,9 @@ class TypeBuilder {
     Type type;
     type.kind = Type::Kind::Enum;
     type.elementary = is_whole(spec.elementary) ? spec.elementary : Elementary::Int;
-    type.name = name;
+    type.name = name.empty() ? free_type_name() : name;
     std::int64_t next = 0;
-    bool fine = !name.empty();
-    if (!fine) {
-      context_.error(spec.at, "an enumeration needs a name, declare it between TYPE and END_TYPE");
-    }
+    bool fine = true;
     for (ast::EnumValue& one : spec.values) {
       if (one.value) {
         const auto number = expressions_.constant(*one.value, "the value of an enumeration");
@@ -233,7 +230,26 @@ class TypeBuilder {
     }
     Type* added = context_.program.types.add(std::move(type));
     context_.program.named_types.push_back(added);
+    if (name.empty()) {
+      context_.program.type_names.emplace(upper(added->name), added);
+    }
     return added;
+  }
+
+  // Of an enumeration that is declared where it is used: mode : (Off, On);
+  [[nodiscard]] std::string free_type_name() const {
+    const std::string begin = context_.pou != nullptr ? context_.pou->name + "_values" : "values";
+    std::string name = begin;
+    for (int i = 2; is_type(name); ++i) {
+      name = fmt::format("{}_{}", begin, i);
+    }
+    return name;
+  }
+
+  [[nodiscard]] bool is_type(const std::string& name) const {
+    const auto& types = context_.program.project.types;
+    return context_.program.type_names.contains(upper(name)) ||
+           std::any_of(types.begin(), types.end(), [&](const auto& one) { return same_name(one.name, name); });
   }
 
   Context& context_;

@@ -110,10 +110,16 @@ std::string ExpressionEmitter::raw(const Expression& expression) const {
     case Expression::Kind::Member:
       return member(expression);
     case Expression::Kind::Bit:
-      return fmt::format("iec::bit({}, {}U)", raw(expression.operands[0]), expression.bit);
+      return expression.width == 1 ? fmt::format("iec::bit({}, {}U)", raw(expression.operands[0]), expression.bit)
+                                   : fmt::format("iec::part<{}>({}, {}U)", cpp_type(*expression.type),
+                                                 raw(expression.operands[0]), expression.bit);
     case Expression::Kind::Index:
       return index(expression);
     case Expression::Kind::Call:
+      if (expression.resolved->cast) {
+        const Resolved::Actual& one = expression.resolved->actuals.front();
+        return fmt::format("static_cast<{}>({})", cpp_type(*expression.type), value(*one.argument->value, *one.type));
+      }
       return expression.resolved->function != nullptr ? library_call(expression) : user_call(expression);
     case Expression::Kind::Unary:
       return unary(expression);
@@ -317,6 +323,10 @@ std::string ExpressionEmitter::assign(const Expression& target, const std::strin
     const Bounds& range = *target.operands[0].type->range;
     return fmt::format("iec::set_bit_in_range({}, {}, {}U, {}, {}, {})", place(target.at), raw(target.operands[0]),
                        target.bit, text, range.low, range.high);
+  }
+  if (target.kind == Expression::Kind::Bit && target.width > 1) {
+    return fmt::format("iec::set_part<{}>({}, {}U, {})", cpp_type(*target.type), raw(target.operands[0]), target.bit,
+                       text);
   }
   if (target.kind == Expression::Kind::Bit) {
     return fmt::format("iec::set_bit({}, {}U, {})", raw(target.operands[0]), target.bit, text);

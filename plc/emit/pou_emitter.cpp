@@ -41,6 +41,8 @@ void members(const Pou& pou, TextWriter& out) {
       out.line(fmt::format("{}* {} = nullptr;{}", cpp_type(*one.type), name_of(one), comment));
     } else if (one.is_constant) {
       out.line("static inline const " + declaration(one) + comment);
+    } else if (one.declared->is_static) {
+      out.line("static inline " + declaration(one) + comment);
     } else {
       out.line(declaration(one) + comment);
     }
@@ -97,7 +99,8 @@ void emit_function(const Pou& pou, TextWriter& out) {
     if (one.section == Section::Output) {
       out.line(fmt::format("{} = {};", name_of(one), cpp_initial(*one.type, initial_of(one))));
     } else if (is_own(one) && (one.section == Section::Local || one.section == Section::Temp)) {
-      out.line(std::string("[[maybe_unused]] ") + (one.is_constant ? "const " : "") + declaration(one));
+      out.line(std::string("[[maybe_unused]] ") + (one.declared->is_static ? "static " : "") +
+               (one.is_constant ? "const " : "") + declaration(one));
     }
   }
   StatementEmitter(pou, out).list(pou.tree->body);

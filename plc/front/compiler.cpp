@@ -101,8 +101,9 @@ class Compiler {
       }
       check_options.foreign = variables_of(foreign.program);
     }
-    const auto program = check(read_project(options_.files, {options_.watch}, read_, diagnostics_),
-                               std::move(check_options), diagnostics_);
+    Project project = read_project(options_.files, {options_.watch}, read_, diagnostics_);
+    project.dialect = options_.dialect.value_or(project.dialect);
+    const auto program = check(std::move(project), std::move(check_options), diagnostics_);
     if (diagnostics_.failed()) {
       return;
     }

@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
 #include "glb2idl/source.h"
+#include "plc/model/dialect.h"
 
 namespace indurop::plc {
 
@@ -16,6 +18,7 @@ struct CompileOptions {
   std::vector<std::string> glb_files;  // whose shared variables the program may use
   std::string name;                    // of the module; empty: the first file's name
   std::string space;                   // namespace of its shared variables; empty: the module's name, "plc" for main
+  std::optional<Dialect> dialect;      // none: of the editor that wrote the files, as far as they say
   bool show_locals = false;
   bool watch = false;  // drawn programs tell `indurop plc watch` about their power flow
 };

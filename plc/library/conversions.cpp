@@ -84,6 +84,8 @@ void append_decimals(std::vector<LibraryFunction>& all) {
     append(all, string(name_of(number)) + "_TO_BCD", name_of(number), name_of(bits),
            "to_bcd<" + string(cpp_type(bits)) + ">");
   }
+  append(all, "BCD_TO_INT", "BYTE", "INT", "bcd_to_int");  // as the library Util has it
+  append(all, "INT_TO_BCD", "INT", "BYTE", "int_to_bcd");
   for (const Elementary bits : {Elementary::Byte, Elementary::Word, Elementary::Dword, Elementary::Lword}) {
     for (const Elementary number : {Elementary::Usint, Elementary::Uint, Elementary::Udint, Elementary::Ulint}) {
       append(all, string(name_of(bits)) + "_BCD_TO_" + string(name_of(number)), name_of(bits), name_of(number),

@@ -101,6 +101,7 @@ constexpr Row kFunctions[] = {
     {"CONCAT_DT(YEAR INT, MONTH INT, DAY INT, HOUR INT, MINUTE INT, SECOND INT, MILLISECOND INT): DT", "concat_dt"},
     {"DAY_OF_WEEK(IN DATE): INT", "day_of_week"},
     {"TIME(): TIME", "time"},
+    {"LTIME(): TIME", "time"},
     {"T_PLC_MS(): DWORD", "t_plc_ms"},
     {"T_PLC_US(): DWORD", "t_plc_us"},
 };
@@ -114,6 +115,7 @@ constexpr Row kBlocks[] = {
     {"TP(IN BOOL, PT TIME): Q BOOL, ET TIME", "Tp"},
     {"TON(IN BOOL, PT TIME): Q BOOL, ET TIME", "Ton"},
     {"TOF(IN BOOL, PT TIME): Q BOOL, ET TIME", "Tof"},
+    {"BLINK(ENABLE BOOL, TIMELOW TIME, TIMEHIGH TIME): OUT BOOL", "Blink"},
     {"RTC(IN/EN BOOL, PDT DT): Q BOOL, CDT DT", "Rtc"},
     {"HYSTERESIS(XIN1 REAL, XIN2 REAL, EPS REAL): Q BOOL", "Hysteresis"},
     {"INTEGRAL(RUN BOOL, R1 BOOL, XIN REAL, X0 REAL, CYCLE TIME): Q BOOL, XOUT REAL", "Integral"},

@@ -67,7 +67,7 @@ struct Expression {
     Name,    // name
     Direct,  // address
     Member,  // operands[0].name; also Enum#Value, namespace.variable, instance.output, step.X
-    Bit,     // operands[0].bit, w.3
+    Bit,     // operands[0].bit, w.3; also w.%B1, the `width` bits from `bit` on
     Index,   // operands[0][operands[1], operands[2], ...]
     Call,    // operands[0](arguments): a function, or in a statement an instance of a function block
     Unary,   // op operands[0]
@@ -82,6 +82,7 @@ struct Expression {
   std::string value_enum;                // Name: the type in Color#Red
   bool as_truth = false;                 // at a contact or coil: a number of a .glb is a BOOL, 0 is FALSE
   unsigned bit = 0;
+  unsigned width = 1;
   DirectAddress address;
   std::vector<Expression> operands;
   std::vector<Argument> arguments;  // Call
@@ -212,6 +213,7 @@ struct Variable {
   std::optional<DirectAddress> address;  // AT %IX0.0; then the name may be empty
   bool constant = false;
   bool retain = false;
+  bool is_static = false;  // VAR_STAT: one for all instances, or of a function: kept from call to call
   Edge edge = Edge::None;
   std::string comment;
 };

@@ -9,31 +9,30 @@ namespace {
 
 struct Row {
   std::string_view name;
-  std::string_view other_name;
   unsigned bits;
 };
 
 // In the order of the enumeration.
-constexpr std::array<Row, kElementaryCount> kRows{{{"BOOL", "", 1},
-                                                   {"BYTE", "", 8},
-                                                   {"WORD", "", 16},
-                                                   {"DWORD", "", 32},
-                                                   {"LWORD", "", 64},
-                                                   {"SINT", "", 8},
-                                                   {"INT", "", 16},
-                                                   {"DINT", "", 32},
-                                                   {"LINT", "", 64},
-                                                   {"USINT", "", 8},
-                                                   {"UINT", "", 16},
-                                                   {"UDINT", "", 32},
-                                                   {"ULINT", "", 64},
-                                                   {"REAL", "", 32},
-                                                   {"LREAL", "", 64},
-                                                   {"TIME", "LTIME", 64},
-                                                   {"DATE", "", 64},
-                                                   {"TIME_OF_DAY", "TOD", 64},
-                                                   {"DATE_AND_TIME", "DT", 64},
-                                                   {"STRING", "", 0}}};
+constexpr std::array<Row, kElementaryCount> kRows{
+    {{"BOOL", 1},   {"BYTE", 8},  {"WORD", 16}, {"DWORD", 32},       {"LWORD", 64},         {"SINT", 8},   {"INT", 16},
+     {"DINT", 32},  {"LINT", 64}, {"USINT", 8}, {"UINT", 16},        {"UDINT", 32},         {"ULINT", 64}, {"REAL", 32},
+     {"LREAL", 64}, {"TIME", 64}, {"DATE", 64}, {"TIME_OF_DAY", 64}, {"DATE_AND_TIME", 64}, {"STRING", 0}}};
+
+struct OtherName {
+  std::string_view name;
+  Elementary type;
+};
+
+// All times and dates have the resolution of the long ones; a BIT is a BOOL.
+constexpr std::array<OtherName, 9> kOtherNames{{{"TOD", Elementary::TimeOfDay},
+                                                {"DT", Elementary::DateAndTime},
+                                                {"LTIME", Elementary::Time},
+                                                {"LDATE", Elementary::Date},
+                                                {"LTOD", Elementary::TimeOfDay},
+                                                {"LTIME_OF_DAY", Elementary::TimeOfDay},
+                                                {"LDT", Elementary::DateAndTime},
+                                                {"LDATE_AND_TIME", Elementary::DateAndTime},
+                                                {"BIT", Elementary::Bool}}};
 
 constexpr const Row& row(Elementary type) noexcept {
   return kRows[static_cast<std::size_t>(type)];
@@ -55,11 +54,13 @@ std::string_view name_of(Elementary type) noexcept {
 
 std::optional<Elementary> elementary_named(std::string_view name) noexcept {
   for (std::size_t i = 0; i < kRows.size(); ++i) {
-    if (same_name(name, kRows[i].name) || (!kRows[i].other_name.empty() && same_name(name, kRows[i].other_name))) {
+    if (same_name(name, kRows[i].name)) {
       return static_cast<Elementary>(i);
     }
   }
-  return std::nullopt;
+  const auto* other = std::find_if(kOtherNames.begin(), kOtherNames.end(),
+                                   [name](const OtherName& one) { return same_name(name, one.name); });
+  return other == kOtherNames.end() ? std::nullopt : std::optional(other->type);
 }
 
 unsigned bits_of(Elementary type) noexcept {
@@ -102,6 +103,14 @@ bool widens(Elementary from, Elementary to) noexcept {
     return bits_of(to) > bits_of(from) && (is_unsigned_int(from) || is_signed_int(to));
   }
   return from == Elementary::Real && to == Elementary::Lreal;
+}
+
+bool converts_in_codesys(Elementary from, Elementary to) noexcept {
+  const auto whole = [](Elementary type) { return is_int(type) || (is_bit(type) && type != Elementary::Bool); };
+  if (whole(from) && whole(to)) {
+    return bits_of(to) >= bits_of(from);
+  }
+  return from == to || ((whole(from) || is_real(from)) && is_real(to));
 }
 
 std::string upper(std::string_view name) {

@@ -26,7 +26,7 @@ enum class Elementary : std::uint8_t {
   Ulint,
   Real,
   Lreal,
-  Time,  // LTIME is the same type: both count nanoseconds in 64 bits
+  Time,  // LTIME is the same type: both count nanoseconds in 64 bits; and so LDATE, LTOD, LDT
   Date,
   TimeOfDay,
   DateAndTime,
@@ -54,6 +54,10 @@ inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Element
 // wider ones (SINT -> INT -> DINT -> LINT, USINT -> UINT -> ..., unsigned into wider signed, integers of up to 16 bits
 // into REAL, of up to 32 into LREAL, REAL -> LREAL), BYTE -> WORD -> DWORD -> LWORD. BOOL goes nowhere.
 [[nodiscard]] bool widens(Elementary from, Elementary to) noexcept;
+
+// The same for CODESYS: integers and bit strings into each other where no bit is lost, both into reals, reals into each
+// other.
+[[nodiscard]] bool converts_in_codesys(Elementary from, Elementary to) noexcept;
 
 // Names are compared without case, in ASCII. "MotorOn" -> "MOTORON"
 [[nodiscard]] std::string upper(std::string_view name);

@@ -20,7 +20,7 @@ bool is_letter(char c) noexcept {
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
   // Type and function names are not in it: they are ordinary names with a meaning.
-  static constexpr std::array<std::string_view, 76> kWords{"ACTION",
+  static constexpr std::array<std::string_view, 77> kWords{"ACTION",
                                                            "AND",
                                                            "ARRAY",
                                                            "AT",
@@ -87,6 +87,7 @@ bool is_keyword(std::string_view word) noexcept {
                                                            "VAR_INPUT",
                                                            "VAR_IN_OUT",
                                                            "VAR_OUTPUT",
+                                                           "VAR_STAT",
                                                            "VAR_TEMP",
                                                            "WHILE",
                                                            "WITH",

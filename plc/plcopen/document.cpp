@@ -189,7 +189,11 @@ Document read_document(std::string_view bytes, const std::string& name, Diagnost
   if (bytes.find(kExtensionsOfCodesys) == std::string_view::npos) {
     quote_texts(*root);
   }
-  return Reader(diagnostics).read(*root);
+  Document document = Reader(diagnostics).read(*root);
+  if (bytes.find(kExtensionsOfCodesys) != std::string_view::npos) {
+    document.project.dialect = Dialect::Codesys;
+  }
+  return document;
 }
 
 }  // namespace indurop::plc::plcopen

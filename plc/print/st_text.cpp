@@ -97,6 +97,10 @@ std::string text_of(const Expression& expression, int around) {
     case Expression::Kind::Member:
       return text_of(expression.operands.front()) + "." + expression.name;
     case Expression::Kind::Bit:
+      if (expression.width > 1) {
+        const char size = expression.width == 8 ? 'B' : expression.width == 16 ? 'W' : 'D';
+        return fmt::format("{}.%{}{}", text_of(expression.operands.front()), size, expression.bit / expression.width);
+      }
       return fmt::format("{}.{}", text_of(expression.operands.front()), expression.bit);
     case Expression::Kind::Index:
       return index_text(expression);

@@ -14,13 +14,14 @@ struct SectionWord {
   std::string_view word;
   ast::Section section;
 };
-constexpr std::array<SectionWord, 7> kSections{{{"VAR", ast::Section::Local},
+constexpr std::array<SectionWord, 8> kSections{{{"VAR", ast::Section::Local},
                                                 {"VAR_INPUT", ast::Section::Input},
                                                 {"VAR_OUTPUT", ast::Section::Output},
                                                 {"VAR_IN_OUT", ast::Section::InOut},
                                                 {"VAR_TEMP", ast::Section::Temp},
                                                 {"VAR_GLOBAL", ast::Section::Global},
-                                                {"VAR_EXTERNAL", ast::Section::External}}};
+                                                {"VAR_EXTERNAL", ast::Section::External},
+                                                {"VAR_STAT", ast::Section::Local}}};
 
 }  // namespace
 
@@ -50,6 +51,7 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   }
   Block out;
   out.section = known->section;
+  out.is_static = word.is("VAR_STAT");
   while (true) {
     if (in_.accept("CONSTANT")) {
       out.constant = true;
@@ -104,6 +106,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     one.section = block.section;
     one.constant = block.constant;
     one.retain = block.retain;
+    one.is_static = block.is_static;
     one.at = in_.here();
     if (!in_.peek().is("AT")) {
       if (!in_.expect_name("a variable")) {
@@ -111,20 +114,17 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
       }
       one.name = in_.take().text;
     }
-    if (in_.accept("AT")) {
-      one.address = in_.peek().kind == TokenKind::Address ? address_literal(in_.peek().text) : std::nullopt;
-      if (!one.address) {
-        in_.error(in_.peek(),
-                  fmt::format("expected an address as %IX0.3 behind AT, found {}", TokenReader::spelled(in_.peek())));
-        return false;
-      }
-      in_.take();
+    if (in_.accept("AT") && !address(one)) {
+      return false;
     }
     found.push_back(std::move(one));
   } while (in_.accept(","));
   auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
   if (!spec) {
     return broken(found, to);
+  }
+  if (found.size() == 1 && !found.front().address && in_.accept("AT") && !address(found.front())) {
+    return broken(found, to);  // Level : UINT AT %MW0, as OpenPLC has it
   }
   const auto edge = in_.accept("R_EDGE")   ? ast::Edge::Rising
                     : in_.accept("F_EDGE") ? ast::Edge::Falling
@@ -147,6 +147,17 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     one.comment = text;
     to.push_back(std::move(one));
   }
+  return true;
+}
+
+bool DeclarationParser::address(ast::Variable& out) {
+  out.address = in_.peek().kind == TokenKind::Address ? address_literal(in_.peek().text) : std::nullopt;
+  if (!out.address) {
+    in_.error(in_.peek(),
+              fmt::format("expected an address as %IX0.3 behind AT, found {}", TokenReader::spelled(in_.peek())));
+    return false;
+  }
+  in_.take();
   return true;
 }
 

@@ -28,9 +28,11 @@ class DeclarationParser {
     ast::Section section = ast::Section::Local;
     bool constant = false;
     bool retain = false;
+    bool is_static = false;
   };
   [[nodiscard]] std::optional<Block> block();
   [[nodiscard]] bool declaration(const Block& block, std::vector<ast::Variable>& to);
+  [[nodiscard]] bool address(ast::Variable& out);
   static bool broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to);
   [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
   [[nodiscard]] bool array(ast::TypeSpec& out);

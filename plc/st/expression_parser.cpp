@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "plc/st/literal.h"
+#include "plc/st/nesting.h"
 
 namespace indurop::plc::st {
 namespace {
@@ -34,21 +35,6 @@ Operator operator_of(const Token& token, const Level& level) noexcept {
       std::find_if(level.begin(), level.end(), [&](const Symbol& s) { return !s.text.empty() && token.is(s.text); });
   return found == level.end() ? Operator::None : found->op;
 }
-
-constexpr int kBracket = 8;
-
-// Keeps the depth of the expression around it; what is inside counts from there.
-class Nesting {
- public:
-  explicit Nesting(int& depth) noexcept : depth_(depth), before_(depth) {}
-  Nesting(const Nesting&) = delete;
-  Nesting& operator=(const Nesting&) = delete;
-  ~Nesting() { depth_ = before_; }
-
- private:
-  int& depth_;
-  int before_;
-};
 
 Expression wrap(Expression::Kind kind, Expression inner) {
   Expression out;
@@ -242,7 +228,7 @@ std::optional<Expression> ExpressionParser::postfix(Expression base) {
   }
 }
 
-// .name, .3, .%X3
+// .name, .3, .%X3, .%B1
 bool ExpressionParser::member(Expression& base) {
   in_.take();
   const Token& token = in_.take();
@@ -252,8 +238,11 @@ bool ExpressionParser::member(Expression& base) {
     return true;
   }
   std::string_view digits = token.text;
-  if (token.kind == TokenKind::Address && digits.size() > 2 && (digits[1] == 'X' || digits[1] == 'x')) {
-    digits.remove_prefix(2);
+  unsigned width = 1;
+  if (token.kind == TokenKind::Address && digits.size() > 2) {
+    const std::string size = upper(digits.substr(1, 1));
+    width = size == "X" ? 1U : size == "B" ? 8U : size == "W" ? 16U : size == "D" ? 32U : 0U;
+    digits.remove_prefix(width > 0 ? 2 : 0);
   }
   unsigned bit = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), bit);
@@ -262,7 +251,8 @@ bool ExpressionParser::member(Expression& base) {
     return false;
   }
   base = wrap(Expression::Kind::Bit, std::move(base));
-  base.bit = bit;
+  base.width = width;
+  base.bit = std::min(bit, 64U) * width;
   return true;
 }
 
@@ -320,77 +310,6 @@ std::optional<ast::Argument> ExpressionParser::argument() {
   }
   out.value = expression();
   return out.value ? std::optional(std::move(out)) : std::nullopt;
-}
-
-std::optional<ast::Initial> ExpressionParser::initial() {
-  const Nesting nesting(depth_);
-  const Token& token = in_.peek();
-  if (!deeper(token, kBracket)) {
-    return std::nullopt;
-  }
-  if (token.is("[")) {
-    return array_initial();
-  }
-  if (token.is("(") && in_.peek(1).kind == TokenKind::Word && in_.peek(2).is(":=")) {
-    return struct_initial();
-  }
-  ast::Initial out;
-  out.at = in_.here();
-  out.value = binary(0);
-  return out.value ? std::optional(std::move(out)) : std::nullopt;
-}
-
-std::optional<ast::Initial> ExpressionParser::array_initial() {
-  ast::Initial out;
-  out.kind = ast::Initial::Kind::Array;
-  out.at = in_.place(in_.take());
-  do {
-    auto one = array_element();
-    if (!one) {
-      return std::nullopt;
-    }
-    out.elements.push_back(std::move(*one));
-  } while (in_.accept(","));
-  return in_.expect("]", "to close '['") ? std::optional(std::move(out)) : std::nullopt;
-}
-
-// value or count(value)
-std::optional<ast::InitialElement> ExpressionParser::array_element() {
-  ast::InitialElement out;
-  const bool counted = in_.peek().kind == TokenKind::Number && in_.peek(1).is("(");
-  if (counted) {
-    out.count = primary();
-    in_.take();
-    if (!out.count) {
-      return std::nullopt;
-    }
-  }
-  auto value = initial();
-  if (!value || (counted && !in_.expect(")", "behind the repeated value"))) {
-    return std::nullopt;
-  }
-  out.value = std::move(*value);
-  return out;
-}
-
-std::optional<ast::Initial> ExpressionParser::struct_initial() {
-  ast::Initial out;
-  out.kind = ast::Initial::Kind::Struct;
-  out.at = in_.place(in_.take());
-  do {
-    ast::InitialElement element;
-    if (!in_.expect_name("a field")) {
-      return std::nullopt;
-    }
-    element.field = in_.take().text;
-    auto value = in_.expect(":=", "behind the field's name") ? initial() : std::nullopt;
-    if (!value) {
-      return std::nullopt;
-    }
-    element.value = std::move(*value);
-    out.elements.push_back(std::move(element));
-  } while (in_.accept(","));
-  return in_.expect(")", "to close '('") ? std::optional(std::move(out)) : std::nullopt;
 }
 
 }  // namespace indurop::plc::st

@@ -223,13 +223,13 @@ class Lexer {
         step();
       }
     };
-    if (prefix == "D" || prefix == "DATE") {
+    if (prefix == "D" || prefix == "DATE" || prefix == "LD" || prefix == "LDATE") {
       skip("-");
-    } else if (prefix == "DT" || prefix == "DATE_AND_TIME") {
+    } else if (prefix == "DT" || prefix == "DATE_AND_TIME" || prefix == "LDT" || prefix == "LDATE_AND_TIME") {
       skip("-:.");
-    } else if (prefix == "TOD" || prefix == "TIME_OF_DAY") {
+    } else if (prefix == "TOD" || prefix == "TIME_OF_DAY" || prefix == "LTOD" || prefix == "LTIME_OF_DAY") {
       skip(":.");
-    } else if (prefix == "T" || prefix == "TIME" || prefix == "LTIME") {
+    } else if (prefix == "T" || prefix == "TIME" || prefix == "LT" || prefix == "LTIME") {
       step(peek() == '-' || peek() == '+' ? 1 : 0);
       skip(".");
     } else {

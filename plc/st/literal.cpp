@@ -156,9 +156,9 @@ Literal typed_literal(std::string_view text) {
   const std::string_view prefix = text.substr(0, hash);
   const std::string_view rest = text.substr(hash + 1);
   auto type = elementary_named(prefix);
-  if (same_name(prefix, "T")) {
+  if (same_name(prefix, "T") || same_name(prefix, "LT")) {
     type = Elementary::Time;
-  } else if (same_name(prefix, "D")) {
+  } else if (same_name(prefix, "D") || same_name(prefix, "LD")) {
     type = Elementary::Date;
   }
   if (!type) {

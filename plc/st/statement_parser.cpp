@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/st/statement_parser.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "plc/model/make.h"
+
 namespace indurop::plc::st {
 namespace {
 
@@ -10,6 +15,11 @@ constexpr int kMaxNesting = 64;  // statements inside each other
 bool begins_something(const Token& token) {
   return token.kind == TokenKind::Word && is_keyword(token.text) && token.text.size() > 4 &&
          same_name(token.text.substr(0, 4), "END_");
+}
+
+bool has_call(const ast::Expression& expression) {
+  return expression.kind == ast::Expression::Kind::Call ||
+         std::any_of(expression.operands.begin(), expression.operands.end(), has_call);
 }
 
 }  // namespace
@@ -32,11 +42,14 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
     if (begins_something(in_.peek())) {
       break;  // the end of something around this list: its reader says what is missing
     }
+    before_.clear();
     if (auto one = statement()) {
+      std::move(before_.begin(), before_.end(), std::back_inserter(out));
       out.push_back(std::move(*one));
     } else {
       recover(from);
     }
+    before_.clear();
   }
   return out;
 }
@@ -110,7 +123,7 @@ bool StatementParser::fill(Statement& out) {
   return simple(out);
 }
 
-// label: / name(arguments); / name := value;
+// label: / name(arguments); / name := value; / name := other := value; / name S= value;
 bool StatementParser::simple(Statement& out) {
   const Token& first = in_.peek();
   if (first.kind == TokenKind::Word && !is_keyword(first.text) && in_.peek(1).is(":")) {
@@ -136,14 +149,59 @@ bool StatementParser::simple(Statement& out) {
     in_.error(in_.peek(), "'=' compares, write ':=' to assign");
     return false;
   }
+  if (in_.next_is({"S", "R"}) && in_.peek(1).is("=")) {
+    return set_or_reset(std::move(*target), out);
+  }
   if (!in_.accept(":=")) {
     in_.missing("expected ':=' or '('");
     return false;
   }
+  return assignment(std::move(*target), out);
+}
+
+// lamp S= button; is IF button THEN lamp := TRUE; END_IF;
+bool StatementParser::set_or_reset(ast::Expression target, Statement& out) {
+  const bool set = in_.take().is("S");
+  in_.take();
+  auto value = expressions_.expression();
+  if (!value) {
+    return false;
+  }
+  ast::Body body;
+  body.push_back(make::assign(std::move(target), make::truth(out.at, set)));
+  Statement made = make::when(std::move(*value), std::move(body));
+  made.at = out.at;
+  made.comment = std::move(out.comment);
+  out = std::move(made);
+  return in_.expect_end("behind the value");
+}
+
+// a := b := c; is b := c; a := b;
+bool StatementParser::assignment(ast::Expression target, Statement& out) {
+  std::vector<ast::Expression> targets;
+  targets.push_back(std::move(target));
+  auto value = expressions_.expression();
+  while (value && in_.accept(":=")) {
+    targets.push_back(std::move(*value));
+    value = expressions_.expression();
+  }
+  if (!value) {
+    return false;
+  }
+  for (std::size_t i = targets.size() - 1; i > 0; --i) {
+    if (has_call(targets[i])) {  // it would run twice
+      in_.error(targets[i].at, "a call in the middle of an assignment of several variables, write one for each");
+      return false;
+    }
+    Statement inner = make::assign(targets[i], std::move(*value));
+    inner.at = out.at;
+    before_.push_back(std::move(inner));
+    value = std::move(targets[i]);
+  }
   out.kind = Statement::Kind::Assign;
-  out.target = std::move(target);
-  out.value = expressions_.expression();
-  return out.value && in_.expect_end("behind the value");
+  out.target = std::move(targets.front());
+  out.value = std::move(value);
+  return in_.expect_end("behind the value");
 }
 
 bool StatementParser::if_statement(Statement& out) {
@@ -218,22 +276,22 @@ bool StatementParser::labels(ast::Branch& out) {
   return in_.expect(":", "behind the values of this case");
 }
 
-// Whether values and a ':' stand here, and no statement. Statements begin with a name followed by := ( [ . or with a
-// keyword; values are numbers, or names followed by , : ..
+// Whether values and a ':' stand here, and no statement: those have a ':=' or end before.
 bool StatementParser::at_case_label() const {
-  const Token& first = in_.peek();
-  if (first.kind == TokenKind::Number || first.kind == TokenKind::Typed || first.is("-") || first.is("+") ||
-      first.is("TRUE") || first.is("FALSE") || first.kind == TokenKind::Text || first.is("(")) {
-    return true;
+  int depth = 0;
+  for (std::size_t ahead = 0;; ++ahead) {
+    const Token& token = in_.peek(ahead);
+    const bool word = token.kind == TokenKind::Word && is_keyword(token.text) && !token.is("AND") && !token.is("OR") &&
+                      !token.is("XOR") && !token.is("MOD") && !token.is("NOT") && !token.is("TRUE") &&
+                      !token.is("FALSE");
+    if (token.kind == TokenKind::End || token.is(";") || word || (depth == 0 && (token.is(":=") || token.is("=>")))) {
+      return false;
+    }
+    if (depth == 0 && token.is(":")) {
+      return ahead > 0;
+    }
+    depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
   }
-  if (first.kind != TokenKind::Word || is_keyword(first.text)) {
-    return false;
-  }
-  std::size_t ahead = 1;
-  while (in_.peek(ahead).is(".") && in_.peek(ahead + 1).kind == TokenKind::Word) {
-    ahead += 2;
-  }
-  return in_.peek(ahead).is(":") || in_.peek(ahead).is(",") || in_.peek(ahead).is("..");
 }
 
 bool StatementParser::for_statement(Statement& out) {

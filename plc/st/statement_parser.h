@@ -27,6 +27,8 @@ class StatementParser {
   [[nodiscard]] std::optional<Statement> statement();
   [[nodiscard]] bool fill(Statement& out);
   [[nodiscard]] bool simple(Statement& out);
+  [[nodiscard]] bool set_or_reset(ast::Expression target, Statement& out);
+  [[nodiscard]] bool assignment(ast::Expression target, Statement& out);
   [[nodiscard]] bool if_statement(Statement& out);
   [[nodiscard]] bool case_statement(Statement& out);
   [[nodiscard]] bool case_branch(Statement& out);
@@ -41,6 +43,7 @@ class StatementParser {
   ExpressionParser expressions_;
   int depth_ = 0;
   std::optional<Place> c_code_;
+  ast::Body before_;  // statements that the one being read begins with
 };
 
 }  // namespace indurop::plc::st

@@ -168,6 +168,13 @@ void add_sources(base::Options& app, PlcRequest& request) {
   app.add("--name", "NAME", request.compile.name, "Name of the module (default: the first file's)");
   app.add("--namespace", "NAME", request.compile.space,
           "Namespace of its shared variables (default: the module's name)");
+  const base::Take take = [&request](const std::string& text) {
+    request.compile.dialect = text == "codesys" ? plc::Dialect::Codesys : plc::Dialect::Iec;
+    return std::string();
+  };
+  app.add("--dialect", "DIALECT", take,
+          "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
+      .choices({"iec", "codesys"});
   app.flag("--show-locals", request.compile.show_locals, "Make the variables of programs shared variables too");
 }
 

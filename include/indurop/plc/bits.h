@@ -55,6 +55,25 @@ constexpr T ror(T in, N n) noexcept {
   return rol(in, 0U - static_cast<unsigned>(n));
 }
 
+// Integers, as CODESYS shifts and turns them: their bits, and to the right the sign follows.
+template <std::signed_integral T, Integer N>
+constexpr T shl(T in, N n) noexcept {
+  return static_cast<T>(shl(static_cast<std::make_unsigned_t<T>>(in), n));
+}
+template <std::signed_integral T, Integer N>
+constexpr T shr(T in, N n) noexcept {
+  constexpr int kMost = std::numeric_limits<T>::digits;
+  return n <= N{} ? in : static_cast<T>(in >> (std::cmp_greater(n, kMost) ? kMost : static_cast<int>(n)));
+}
+template <std::signed_integral T, Integer N>
+constexpr T rol(T in, N n) noexcept {
+  return static_cast<T>(rol(static_cast<std::make_unsigned_t<T>>(in), n));
+}
+template <std::signed_integral T, Integer N>
+constexpr T ror(T in, N n) noexcept {
+  return static_cast<T>(ror(static_cast<std::make_unsigned_t<T>>(in), n));
+}
+
 template <std::integral T, std::same_as<T>... More>
 constexpr T bit_and(T a, More... more) noexcept {
   return static_cast<T>((a & ... & more));
@@ -86,6 +105,17 @@ constexpr void set_bit(T& value, unsigned number, bool to) noexcept {
   const std::uint64_t mask = std::uint64_t{1} << number;
   const std::uint64_t old{static_cast<std::make_unsigned_t<T>>(value)};
   value = static_cast<T>(to ? old | mask : old & ~mask);
+}
+
+// The bits from `first` on, as many as a P has: `w.%B1` is part<std::uint8_t>(w, 8). Requires that the value has them.
+template <BitString P, BitString T>
+constexpr P part(T value, unsigned first) noexcept {
+  return static_cast<P>(std::uint64_t{value} >> first);
+}
+template <BitString P, BitString T>
+constexpr void set_part(T& value, unsigned first, P to) noexcept {
+  const std::uint64_t mask = std::uint64_t{std::numeric_limits<P>::max()} << first;
+  value = static_cast<T>((std::uint64_t{value} & ~mask) | (std::uint64_t{to} << first));
 }
 
 }  // namespace indurop::iec

@@ -136,4 +136,13 @@ constexpr To to_bcd(From value) noexcept {
   return static_cast<To>(result);
 }
 
+// BCD_TO_INT and INT_TO_BCD of the library Util: -1 and 255 where there is no such number.
+constexpr std::int16_t bcd_to_int(std::uint8_t value) noexcept {
+  const bool fine = (value >> 4U) < 10U && (value & 0xFU) < 10U;
+  return fine ? from_bcd<std::int16_t>(value) : std::int16_t{-1};
+}
+constexpr std::uint8_t int_to_bcd(std::int16_t value) noexcept {
+  return value >= 0 && value < 100 ? to_bcd<std::uint8_t>(value) : std::uint8_t{255};
+}
+
 }  // namespace indurop::iec

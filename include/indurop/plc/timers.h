@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function blocks TP TON TOF and RTC. `pt` may change while a timer runs and counts at once; negative it is zero. A
-// timer ends in the first scan whose time reaches `pt`; `et` then stands at `pt`. Real-time safe.
+// Function blocks TP TON TOF BLINK and RTC. `pt` may change while a timer runs and counts at once; negative it is zero.
+// A timer ends in the first scan whose time reaches `pt`; `et` then stands at `pt`. Real-time safe.
 
 #pragma once
 
@@ -94,6 +94,28 @@ struct Tof {
       const Time elapsed = watch_.elapsed(scan);
       q = elapsed < end;
       et = std::min(elapsed, end);
+    }
+  }
+
+ private:
+  detail::Stopwatch watch_;
+  bool running_ = false;
+};
+
+// BLINK of the library Util: while `enable` is true, `out` is true for `timehigh` and false for `timelow` in turn, true
+// first. It stays as it is when `enable` falls.
+struct Blink {
+  bool enable = false;
+  Time timelow;
+  Time timehigh;
+  bool out = false;
+
+  void operator()(const Scan& scan) noexcept {
+    const bool begins = enable && !running_;
+    running_ = enable;
+    if (enable && (begins || watch_.elapsed(scan) >= std::max(out ? timehigh : timelow, Time{}))) {
+      watch_.start(scan);
+      out = begins || !out;
     }
   }
 

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be written and passed by reference, and who writes what.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "plc/check/expression_checker.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using Meaning = Resolved::Meaning;
+
+// What can stand left of := : a name, with members, indices and bits of it.
+bool is_designator(const Expression& expression) noexcept {
+  switch (expression.kind) {
+    case Expression::Kind::Name:
+    case Expression::Kind::Direct:
+      return true;
+    case Expression::Kind::Member:
+    case Expression::Kind::Bit:
+    case Expression::Kind::Index:
+      return is_designator(expression.operands[0]);
+    case Expression::Kind::Literal:
+    case Expression::Kind::Call:
+    case Expression::Kind::Unary:
+    case Expression::Kind::Binary:
+      break;
+  }
+  return false;
+}
+
+// ".a.b" as far as it is fixed: an index and what is behind it do not count.
+std::string path_of(const Expression& expression, bool& fixed) {
+  if (expression.resolved && expression.resolved->meaning != Meaning::Value) {
+    fixed = true;
+    return "";
+  }
+  std::string path = path_of(expression.operands[0], fixed);
+  fixed = fixed && expression.kind == Expression::Kind::Member;
+  return fixed ? path + "." + expression.name : path;
+}
+
+}  // namespace
+
+const Expression& ExpressionChecker::root_of(const Expression& expression) noexcept {
+  const Expression* at = &expression;
+  while (!at->operands.empty() && (!at->resolved || at->resolved->meaning == Meaning::Value)) {
+    at = &at->operands[0];
+  }
+  return *at;
+}
+
+const Type* ExpressionChecker::target(Expression& expression) {
+  const bool reading = std::exchange(reading_, expression.kind == Expression::Kind::Bit);
+  const Type* type = value(expression);
+  reading_ = reading;
+  if (type == nullptr || !writable(expression)) {
+    return nullptr;
+  }
+  note_write(expression);
+  return type;
+}
+
+const Type* ExpressionChecker::reference(Expression& expression) {
+  const Type* type = typed(expression, nullptr);
+  if (type == nullptr || !writable(expression)) {
+    return nullptr;
+  }
+  if (expression.kind == Expression::Kind::Bit) {
+    context_.error(expression.at, "a part of a variable cannot be passed by reference, copy it to a variable first");
+    return nullptr;
+  }
+  note_call(expression);
+  note_write(expression);
+  return type;
+}
+
+bool ExpressionChecker::writable(const Expression& expression) {
+  const Expression& root = root_of(expression);
+  const Meaning meaning = !is_designator(expression) ? Meaning::Value
+                          : root.resolved            ? root.resolved->meaning
+                                                     : Meaning::Value;
+  if (meaning == Meaning::FunctionResult) {
+    return true;
+  }
+  if (meaning != Meaning::Variable && meaning != Meaning::Global) {
+    context_.error(expression.at, "this is not a variable, so nothing can be assigned to it");
+    return false;
+  }
+  const Variable* variable = root.resolved->variable;
+  const Global* global = root.resolved->global;
+  if ((variable != nullptr && variable->is_constant) || (global != nullptr && global->kind == Global::Kind::Fixed)) {
+    context_.error(expression.at, fmt::format("'{}' is CONSTANT and cannot be changed", root.name));
+    return false;
+  }
+  if (global != nullptr && global->address.starts_with("%I")) {
+    context_.error(expression.at,
+                   fmt::format("{} is an input, which only the world outside changes; use %Q or %M", global->address));
+    return false;
+  }
+  // Outputs of an instance belong to its function block.
+  for (const Expression* at = &expression; at != &root; at = &at->operands[0]) {
+    const Type* base = at->operands[0].type;
+    const bool of_block = at->kind == Expression::Kind::Member && base != nullptr && base->kind == Type::Kind::Block;
+    if (of_block && at->resolved->is_output) {
+      context_.error(expression.at, fmt::format("'{}' is an output of {}, only the block itself writes it", at->name,
+                                                to_string(*base)));
+      return false;
+    }
+  }
+  return true;
+}
+
+void ExpressionChecker::note_call(const Expression& expression) {
+  const Resolved* root = root_of(expression).resolved.get();
+  if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
+    context_.pou->find(upper(root->variable->name))->called = true;
+  }
+}
+
+void ExpressionChecker::note_write(const Expression& expression) {
+  if (context_.pou == nullptr) {
+    return;
+  }
+  const Resolved& root = *root_of(expression).resolved;
+  for (const auto& [variable, at] : context_.loop_variables) {
+    if (variable == root.variable || variable == root.global) {
+      context_.error(expression.at, fmt::format("this is the variable of the FOR at {}, which must not be changed "
+                                                "inside; leave the loop with EXIT, or use WHILE",
+                                                to_string(at)));
+    }
+  }
+  if (root.variable != nullptr) {
+    context_.pou->find(upper(root.variable->name))->written = true;
+  }
+  if (root.meaning == Meaning::FunctionResult) {
+    context_.pou->result_assigned = true;
+  } else if (root.global != nullptr) {
+    bool fixed = false;
+    context_.pou->globals[root.global].writes.insert(path_of(expression, fixed));
+  }
+}
+
+}  // namespace indurop::plc

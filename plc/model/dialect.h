@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whose rules decide where the standard and an editor differ.
+
+#pragma once
+
+#include <cstdint>
+
+namespace indurop::plc {
+
+enum class Dialect : std::uint8_t {
+  Iec,
+  Codesys,  // and TwinCAT: bit strings are numbers, values are converted where no digit can be lost
+};
+
+}  // namespace indurop::plc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Initial values: a value, [1, 2, 3(0)] or (x := 1).
+
+#include "plc/st/expression_parser.h"
+#include "plc/st/nesting.h"
+
+namespace indurop::plc::st {
+
+std::optional<ast::Initial> ExpressionParser::initial() {
+  const Nesting nesting(depth_);
+  const Token& token = in_.peek();
+  if (!deeper(token, kBracket)) {
+    return std::nullopt;
+  }
+  if (token.is("[")) {
+    return array_initial();
+  }
+  if (token.is("(") && in_.peek(1).kind == TokenKind::Word && in_.peek(2).is(":=")) {
+    return struct_initial();
+  }
+  ast::Initial out;
+  out.at = in_.here();
+  out.value = binary(0);
+  return out.value ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::optional<ast::Initial> ExpressionParser::array_initial() {
+  ast::Initial out;
+  out.kind = ast::Initial::Kind::Array;
+  out.at = in_.place(in_.take());
+  do {
+    auto one = array_element();
+    if (!one) {
+      return std::nullopt;
+    }
+    out.elements.push_back(std::move(*one));
+  } while (in_.accept(","));
+  return in_.expect("]", "to close '['") ? std::optional(std::move(out)) : std::nullopt;
+}
+
+// value or count(value)
+std::optional<ast::InitialElement> ExpressionParser::array_element() {
+  ast::InitialElement out;
+  const bool counted = in_.peek().kind == TokenKind::Number && in_.peek(1).is("(");
+  if (counted) {
+    out.count = primary();
+    in_.take();
+    if (!out.count) {
+      return std::nullopt;
+    }
+  }
+  auto value = initial();
+  if (!value || (counted && !in_.expect(")", "behind the repeated value"))) {
+    return std::nullopt;
+  }
+  out.value = std::move(*value);
+  return out;
+}
+
+std::optional<ast::Initial> ExpressionParser::struct_initial() {
+  ast::Initial out;
+  out.kind = ast::Initial::Kind::Struct;
+  out.at = in_.place(in_.take());
+  do {
+    ast::InitialElement element;
+    if (!in_.expect_name("a field")) {
+      return std::nullopt;
+    }
+    element.field = in_.take().text;
+    auto value = in_.expect(":=", "behind the field's name") ? initial() : std::nullopt;
+    if (!value) {
+      return std::nullopt;
+    }
+    element.value = std::move(*value);
+    out.elements.push_back(std::move(element));
+  } while (in_.accept(","));
+  return in_.expect(")", "to close '('") ? std::optional(std::move(out)) : std::nullopt;
+}
+
+}  // namespace indurop::plc::st
