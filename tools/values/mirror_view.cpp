@@ -16,6 +16,7 @@ namespace indurop::tools {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
+constexpr std::int64_t kJustNowNs = 250'000'000;  // boards that live confirm their values more often
 
 PeerView view_peer(const mirror::PeerRecord& record, std::int64_t now) {
   const std::int64_t heard = record.heard_ns.load(kRelaxed);
@@ -73,6 +74,31 @@ std::optional<MirrorView> view_mirror(const std::string& node) {
     view.peers.push_back(view_peer(block->peers()[i], now));
   }
   return view;
+}
+
+std::vector<std::string> explain_old(const MirrorView& view, const std::set<std::string>& variables) {
+  std::vector<std::string> lines;
+  for (const PeerView& peer : view.peers) {
+    const bool silent = peer.state != "alive";
+    if (!silent && peer.heard_ns < kJustNowNs) {
+      continue;
+    }
+    std::string names;
+    for (const mirror::MirroredVariable& one : view.variables) {
+      if (one.owner == peer.name && variables.contains(one.name)) {
+        names += (names.empty() ? "" : ", ") + one.name;
+      }
+    }
+    if (!names.empty()) {
+      const std::string heard = peer.heard_ns < 0 ? "never heard" : "last heard " + human_age(peer.heard_ns) + " ago";
+      lines.push_back(silent ? fmt::format("board {} is {} ({}): its last values, or their fallback: {}", peer.name,
+                                           peer.state, heard, names)
+                             : fmt::format("board {} was {}, and counts as there until its plant's lease is over: its "
+                                           "last values: {}",
+                                           peer.name, heard, names));
+    }
+  }
+  return lines;
 }
 
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output) {

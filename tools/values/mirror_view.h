@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ struct MirrorView {
 
 // Empty if the node is no board of a plant, or its file makes no sense.
 std::optional<MirrorView> view_mirror(const std::string& node);
+// Of these variables, those of boards that were not heard just now: for each such board why its values are old, and
+// what they are.
+std::vector<std::string> explain_old(const MirrorView& view, const std::set<std::string>& variables);
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
 JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables);
 JsonValue json_of(const MirrorView& view);

@@ -2,6 +2,9 @@
 // indurop get: values of variables or parts of them, once.
 #include <fmt/format.h>
 
+#include <set>
+
+#include "tools/values/mirror_view.h"
 #include "tools/values/node_choice.h"
 #include "tools/values/variables.h"
 #include "tools/verbs/verbs.h"
@@ -10,6 +13,18 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::size_t kAlignedValue = 24;
+
+// Values of a board that has just died look like any others until its lease is over.
+void note_old(Context& context, const std::vector<Item>& items) {
+  const auto mirror = context.values->here() ? view_mirror(context.node) : std::nullopt;
+  std::set<std::string> names;
+  for (const Item& item : items) {
+    names.insert(item.place.variable->name);
+  }
+  for (const std::string& line : mirror ? explain_old(*mirror, names) : std::vector<std::string>()) {
+    context.out.note(line);
+  }
+}
 
 int get(Context& context, const std::vector<std::string>& names) {
   const auto store = open_store(context, vars::Mode::ReadOnly, names);
@@ -24,6 +39,7 @@ int get(Context& context, const std::vector<std::string>& names) {
   if (const int code = select_items(context, *store, names, items); code != kOk) {
     return code;
   }
+  note_old(context, items);
   Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right, 0, kAlignedValue}, {"UNIT", "unit"}});
   for (const Item& item : items) {
     const auto bytes = read_item(*store, item);

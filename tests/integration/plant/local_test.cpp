@@ -63,6 +63,18 @@ TEST_F(Local, A_killed_board_leaves_the_others_running_and_can_come_back) {
   EXPECT_EQ(sut.wait(), 143);
 }
 
+TEST_F(Local, What_is_shown_of_a_board_that_has_just_died_is_explained) {
+  Program& sut = run(two_boards());
+  ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
+  const auto get = [&] { return indurop({"get", "cell::torque", "--node", board("sensor")}).finish(); };
+  EXPECT_TRUE(wait_until([&] { return get().err.empty(); })) << "as long as it lives";
+  kill_node(board("control"));
+  EXPECT_TRUE(wait_until(
+      [&] { return get().err.find("board " + board("control") + " is silent (last heard ") != std::string::npos; }));
+  EXPECT_THAT(get().err, HasSubstr("its last values, or their fallback: cell::torque"));
+  EXPECT_EQ(get().out, "0\n");
+}
+
 TEST_F(Local, A_killed_runner_takes_its_boards_along) {
   Program& sut = run(two_boards());
   ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
