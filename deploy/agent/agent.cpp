@@ -66,7 +66,7 @@ class Agent {
         deployment_(state, options.board, options.link.network.one_host),
         transaction_(options.board),
         fetcher_(state, self_, options.board),
-        process_(options.board, node_arguments(options), log),
+        process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
         board_commands_(options.board, self_, keys_, process_, log),
         server_(self_, [this](const std::string& name) { return find(name); }) {
     link_settings_ = options.link;

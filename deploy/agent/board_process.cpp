@@ -62,8 +62,13 @@ std::string describe(int status) {
 
 }  // namespace
 
-BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, const base::Log& log)
-    : board_(std::move(board)), arguments_(std::move(arguments)), log_(log), program_(open_node_program()) {}
+BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box,
+                           const base::Log& log)
+    : board_(std::move(board)),
+      arguments_(std::move(arguments)),
+      black_box_(std::move(black_box)),
+      log_(log),
+      program_(open_node_program()) {}
 
 BoardProcess::~BoardProcess() {
   leave();
@@ -226,6 +231,7 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
     log_.error("{}; it is not started again", reason_);
     return;
   }
+  log_.info("{}", black_box_.keep());
   while (!restarts_.empty() && now - restarts_.front() > kRestartWindow) {
     restarts_.pop_front();
   }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "deploy/agent/black_box.h"
 #include "deploy/agent/tick_watch.h"
 #include "deploy/words/deployment_words.h"
 #include "rt/clock.h"
@@ -29,7 +30,7 @@ class BoardProcess {
   static constexpr std::size_t kRestarts = 3;  // within the window
 
   // `arguments`: of every node started, besides the manifest and the board.
-  BoardProcess(std::string board, std::vector<std::string> arguments, const base::Log& log);
+  BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, const base::Log& log);
   BoardProcess(const BoardProcess&) = delete;
   BoardProcess& operator=(const BoardProcess&) = delete;
   ~BoardProcess();
@@ -75,6 +76,7 @@ class BoardProcess {
 
   std::string board_;
   std::vector<std::string> arguments_;
+  BlackBox black_box_;
   const base::Log& log_;
   int program_;  // indurop-node
   std::filesystem::path wanted_;

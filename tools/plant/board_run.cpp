@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/read_file.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/suggest.h"
@@ -57,25 +58,38 @@ const BoardRoster::Entry* chosen(const BoardChoice& choice) {
   return !choice.board.empty() ? choice.roster.find(choice.board) : all.size() == 1 ? &all.begin()->second : nullptr;
 }
 
-// `text`: a line of JSON and the run block, as deploy/agent/run_image.h says.
-Result<BoardRun, Failure> run_in(const std::string& board, const std::string& text) {
+// `text`: a line of JSON and the run block, as deploy/agent/run_image.h says; `who` said it.
+Result<BoardRun, Failure> run_in(const std::string& who, const std::string& text) {
   const auto line = text.find('\n');
   const JsonValue head = JsonValue::parse(text.substr(0, line)).value_or(JsonValue());
   bool running = false;
   std::int64_t now_ns = 0;
   if (line == std::string::npos || !read(head, "running", running) || !read(head, "now_ns", now_ns)) {
-    return Failure{kFailed, fmt::format("board {} does not say how its node does", board)};
+    return Failure{kFailed, fmt::format("{} does not say how a node does", who)};
   }
   if (line + 1 == text.size()) {
-    return Failure{kUnreachable, fmt::format("board {} has no node that runs or ran", board)};
+    return Failure{kUnreachable, fmt::format("{} has no node that runs or ran", who)};
   }
   auto run = RunView::from_image(std::string_view(text).substr(line + 1), running, now_ns);
   if (!run) {
     return run.error().code == Errc::VersionMismatch
-               ? Failure{kSchemaMismatch, fmt::format("board {} has another release of InduRoP", board)}
-               : Failure{kFailed, fmt::format("what board {} says is damaged ({})", board, run.error().where)};
+               ? Failure{kSchemaMismatch, fmt::format("{} is of another release of InduRoP", who)}
+               : Failure{kFailed, fmt::format("what {} says is damaged ({})", who, run.error().where)};
   }
-  return BoardRun{{board, std::move(run).value()}, forces_in(head)};
+  const std::string node = fixed_text(run->block().node_name);
+  return BoardRun{{node, std::move(run).value()}, forces_in(head)};
+}
+
+Result<BoardRun, Failure> kept_in(const std::string& file) {
+  const auto text = base::read_file(file);
+  if (!text) {
+    return Failure{kFailed, base::cannot_read(file, text.error())};
+  }
+  auto run = run_in(file, *text);
+  if (run) {
+    run->kept = true;
+  }
+  return run;
 }
 
 }  // namespace
@@ -86,6 +100,10 @@ void add_board_options(base::Options& app, BoardChoice& choice, bool link) {
   if (link) {
     deploy::add_link_options(app, choice.link);
   }
+}
+
+void add_kept_option(base::Options& app, BoardChoice& choice) {
+  app.add("--from", "FILE", choice.file, "What an agent has kept of a node that died (STATE/BOARD/blackbox)");
 }
 
 Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice) {
@@ -119,6 +137,9 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
 }
 
 Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice) {
+  if (!choice.file.empty()) {
+    return kept_in(choice.file);
+  }
   if (!choice.wanted()) {
     auto here = open_run(context.node);
     return here ? Result<BoardRun, Failure>(BoardRun{std::move(here).value(), std::nullopt}) : std::move(here).error();
@@ -135,7 +156,7 @@ Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice) {
   const auto answer = answers.find(report.agent);
   return answer == answers.end()
              ? Failure{kUnreachable, fmt::format("the agent of board {} does not answer", report.board)}
-             : run_in(report.board, answer->second);
+             : run_in("board " + report.board, answer->second);
 }
 
 }  // namespace indurop::tools

@@ -19,6 +19,7 @@ namespace indurop::tools {
 struct BoardChoice {
   bool remote = false;
   std::string board;  // empty: the only one that is heard
+  std::string file;   // instead of both: what an agent has kept of a node that died
   deploy::LinkSettings link;
   [[nodiscard]] bool wanted() const noexcept { return remote || !board.empty(); }
 
@@ -29,14 +30,17 @@ struct BoardChoice {
 
 // --remote and --board, and with `link` --domain and the like.
 void add_board_options(base::Options& app, BoardChoice& choice, bool link = true);
+// --from, for verbs that only look.
+void add_kept_option(base::Options& app, BoardChoice& choice);
 
 // The agent of the chosen board; a failure that names the boards there are.
 Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice);
 
 struct BoardRun : ChosenRun {
   std::optional<std::vector<ForceView>> forces;  // of a board
+  bool kept = false;                             // of long ago
 };
-// The chosen board's run block as it is now, or that of a node of this machine (--node).
+// The chosen board's run block as it is now, that of a node of this machine (--node), or the one in the file.
 Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice);
 
 }  // namespace indurop::tools

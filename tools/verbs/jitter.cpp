@@ -224,6 +224,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("--svg", "FILE", options->svg_file, "Write histograms as a picture to FILE");
   add_node_option(app, context);
   add_board_options(app, options->board);
+  add_kept_option(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   add_repeat_options(app, options->repeat);
   return [options](Context& c) {

@@ -85,6 +85,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("--trace", "FILE", options->trace_file, "Write a trace for Perfetto (all runs in the log) to FILE");
   add_node_option(app, context);
   add_board_options(app, options->board);
+  add_kept_option(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return show_log(c, *options); };
 }

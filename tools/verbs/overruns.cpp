@@ -88,6 +88,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("-n,--count", "COUNT", options->count, "The newest COUNT records (default 20)");
   add_node_option(app, context);
   add_board_options(app, options->board);
+  add_kept_option(app, options->board);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return overruns(c, *options); };
 }

@@ -146,7 +146,7 @@ int show_once(Context& context, const BoardRun& chosen) {
   head["forces"] = json_of(forces);
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), head, "modules");
-  return report.alive ? kOk : kUnreachable;
+  return report.alive || chosen.kept ? kOk : kUnreachable;
 }
 
 Action declare(base::Options& app, Context& context) {
@@ -159,6 +159,7 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--plant", plant->wanted, "All boards of the network, from any machine; boards not heard are named");
   deploy::add_link_options(app, board->link);
   add_board_options(app, *board, false);
+  add_kept_option(app, *board);
   return [repeat, plant, board](Context& c) {
     plant->link = board->link;
     return repeat_rounds(c, *repeat, [&c, &plant, &board] {

@@ -106,6 +106,30 @@ TEST_F(RemoteLook, Boards_with_keys_are_forced_by_who_has_them) {
   EXPECT_EQ(here({"forces"})["forces"].size(), 1U);
 }
 
+TEST_F(RemoteLook, What_a_node_did_before_it_died_is_kept) {
+  start_boards();
+  const std::uint64_t ticks = here({"status"})["ticks"];
+  const pid_t first = vars::running_node(board("a"));
+  ::kill(first, SIGKILL);
+  const std::filesystem::path kept = folder() / "state" / board("a") / "blackbox";
+  ASSERT_TRUE(
+      wait_until([&] { return vars::running_node(board("a")) > 0 && vars::running_node(board("a")) != first; }));
+  ASSERT_TRUE(std::filesystem::exists(kept));
+  const std::string file = std::filesystem::directory_iterator(kept)->path();
+  const Outcome status = indurop_here({"status", "--from", file, "-o", "json"});
+  ASSERT_EQ(status.code, 0) << status.err;
+  const Json sut = status.json();
+  EXPECT_EQ(sut["node"], board("a"));
+  EXPECT_EQ(sut["running"], false);
+  EXPECT_GE(sut["ticks"].get<std::uint64_t>(), ticks);
+  const Json log = indurop_here({"log", "--from", file, "-n", "8192", "-o", "json"}).json();
+  ASSERT_FALSE(log["runs"].empty());
+  EXPECT_GE(log["runs"].back()["tick"].get<std::uint64_t>() + 2, sut["ticks"].get<std::uint64_t>());
+  EXPECT_EQ(indurop_here({"jitter", "--from", file}).code, 0);
+  EXPECT_EQ(indurop_here({"overruns", "--from", path("v1.xml")}).code, 1);
+  EXPECT_EQ(indurop_here({"overruns", "--from", path("none")}).code, 1);
+}
+
 TEST_F(RemoteLook, Who_is_not_there_is_named) {
   start_boards();
   const Outcome unknown = indurop({"log", "--board", "nobody"});
