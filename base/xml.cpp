@@ -84,15 +84,28 @@ class Copier {
   std::size_t next_ = 0;
 };
 
-XmlMistake mistake_of_library(const tinyxml2::XMLDocument& document, const XmlPlaces& places) {
+// Where the text of a line begins: the library knows no columns.
+SourcePlace begin_of_line(std::string_view xml, int line) {
+  std::size_t begin = 0;
+  for (int passed = 1; passed < line; ++passed) {
+    begin = std::min(xml.find('\n', begin), xml.size() - 1) + 1;
+  }
+  const std::size_t text = std::min(xml.find_first_not_of(" \t", begin), xml.size());
+  return {line, static_cast<int>(text - begin) + 1};
+}
+
+XmlMistake mistake_of_library(const tinyxml2::XMLDocument& document, const XmlPlaces& places, std::string_view xml,
+                              const XmlRules& rules) {
   if (places.unclosed) {
     const TagPlaces& tag = places.tags[*places.unclosed];
     const std::string name(tag.name);
-    return {{tag.place.line, 0}, "<" + name + "> is never closed; add </" + name + ">, or is the file cut off?"};
+    return {tag.place, "<" + name + "> is never closed; add </" + name + ">, or is the file cut off?"};
   }
-  return {
-      {std::max(0, document.ErrorLineNum()), 0},
-      std::string("not well-formed XML (") + document.ErrorName() + "); check the tags and quotes around this line"};
+  if (places.tags.empty()) {
+    return {{1, 1}, std::string("there is no tag in this file; a ") + rules.name + " is " + rules.form};
+  }
+  return {begin_of_line(xml, std::max(1, document.ErrorLineNum())),
+          "not well-formed XML; check the tags and quotes around this line"};
 }
 
 }  // namespace
@@ -110,7 +123,7 @@ std::optional<Element> read_xml(std::string_view bytes, const XmlRules& rules, s
   }
   const auto document = std::make_unique<tinyxml2::XMLDocument>();
   if (document->Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS || document->RootElement() == nullptr) {
-    mistakes.push_back(mistake_of_library(*document, places));
+    mistakes.push_back(mistake_of_library(*document, places, xml, rules));
     return std::nullopt;
   }
   return Copier(places, rules.tolerant).copy(*document->RootElement());
