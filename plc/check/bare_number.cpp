@@ -49,6 +49,7 @@ bool is_bare(const Expression& expression, const Program& program) {
     case Expression::Kind::Member:
     case Expression::Kind::Bit:
     case Expression::Kind::Index:
+    case Expression::Kind::Deref:
       break;
   }
   return false;

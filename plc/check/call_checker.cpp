@@ -83,6 +83,9 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     }
     return user_function(call, *pou->second);
   }
+  if (const Type* type = nullptr; address_call(call, type)) {
+    return type;
+  }
   if (const Type* type = nullptr; enumeration_call(call, type)) {
     return type;
   }

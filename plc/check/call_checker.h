@@ -34,6 +34,8 @@ class CallChecker {
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* library_function(ast::Expression& call, const std::vector<const LibraryFunction*>& overloads,
                                const Type* wanted);
+  bool address_call(ast::Expression& call, const Type*& type);
+  const Type* size_of(ast::Expression& call, ast::Expression& of);
   bool enumeration_call(ast::Expression& call, const Type*& type);
   const Type* user_function(ast::Expression& call, const Pou& pou);
   void library_block(ast::Expression& call, const LibraryBlock& block);

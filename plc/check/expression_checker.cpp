@@ -98,6 +98,9 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
     case Expression::Kind::Index:
       type = index(expression);
       break;
+    case Expression::Kind::Deref:
+      type = deref(expression);
+      break;
     case Expression::Kind::Call:
       type = CallChecker(*this).function(expression, wanted, false);
       break;
@@ -107,6 +110,9 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
     case Expression::Kind::Binary:
       type = binary(expression, wanted);
       break;
+  }
+  if (type != nullptr && type->is_reference() && following_ && expression.kind != Expression::Kind::Call) {
+    return follow(expression, *type);
   }
   if (type != nullptr && reading_ && counts_as_truth(expression, *type)) {
     return typed(make_truth(expression), nullptr);
@@ -118,6 +124,9 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
 }
 
 bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
+  if (to.is_reference()) {
+    return bind(expression, to);
+  }
   const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
   if (type == nullptr) {
     return false;
@@ -218,6 +227,9 @@ const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
 
 const Type* ExpressionChecker::index(Expression& expression) {
   const Type* base = value(expression.operands[0]);
+  if (base != nullptr && base->kind == Type::Kind::Pointer && expression.operands.size() == 2) {
+    return pointer_index(expression, *base);
+  }
   const bool reading = std::exchange(reading_, true);
   bool fine = base != nullptr;
   if (base != nullptr && base->kind != Type::Kind::Array) {

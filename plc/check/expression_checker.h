@@ -30,6 +30,14 @@ class ExpressionChecker {
   // A call as a statement: functions and instances of function blocks.
   void call_statement(ast::Expression& expression);
   [[nodiscard]] bool is_whole(const Type& type) const noexcept;
+  // The variable of x.a[3].b
+  static const ast::Expression& root_of(const ast::Expression& expression) noexcept;
+  // p of p^.x and p[3].x; null if the value is not behind a pointer.
+  static const ast::Expression* through_pointer(const ast::Expression& expression) noexcept;
+  // A REFERENCE TO, which is not followed: what REF= sets.
+  const Type* reference_itself(ast::Expression& expression);
+  // Makes the address of the variable of it.
+  bool bind(ast::Expression& expression, const Type& to);
   // Assigns the result of a call that may have EN and ENO.
   const Type* top_call(ast::Expression& expression, const Type* wanted);
   // A whole number known now.
@@ -57,6 +65,12 @@ class ExpressionChecker {
   const Type* unary(ast::Expression& expression, const Type* wanted);
   const Type* binary(ast::Expression& expression, const Type* wanted);
   // The value as another type: an enumeration is a number, and a number one of an enumeration.
+  const Type* deref(ast::Expression& expression);
+  const Type* pointer_index(ast::Expression& expression, const Type& pointer);
+  const Type* follow(ast::Expression& expression, const Type& reference);
+  const Type* pointer_operation(ast::Expression& expression);
+  const Type* pointer_comparison(ast::Expression& expression);
+  bool assigned_pointer(ast::Expression& expression, const Type& to);
   void cast(ast::Expression& expression, const Type& to);
   void count_enumerations(ast::Expression& expression);
   bool convert_enumeration(ast::Expression& expression, const Type& to);
@@ -74,15 +88,14 @@ class ExpressionChecker {
   // An instance that is called, or passed by reference.
   void note_call(const ast::Expression& expression);
   void warn_about_exactness(const ast::Expression& expression);
-  // The variable of x.a[3].b
-  static const ast::Expression& root_of(const ast::Expression& expression) noexcept;
   static ast::Expression& make_truth(ast::Expression& expression);
   bool writable(const ast::Expression& expression);
   bool array_initial(ast::Initial& initial, const Type& type);
   bool struct_initial(ast::Initial& initial, const Type& type);
 
   Context& context_;
-  bool reading_ = true;  // whether names count as read
+  bool reading_ = true;    // whether names count as read
+  bool following_ = true;  // whether a REFERENCE TO stands for what it refers to
 };
 
 // Gives an untyped constant the type if it fits. True if the value can be used as a `to` afterwards.

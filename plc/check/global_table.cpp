@@ -41,14 +41,6 @@ unsigned bits_of_size(char size) noexcept {
   return bits_of(type_of({'I', size, {}}));
 }
 
-bool contains_block(const Type& type) noexcept {
-  if (type.kind == Type::Kind::Array) {
-    return contains_block(*type.element);
-  }
-  return type.kind == Type::Kind::Block || std::any_of(type.fields.begin(), type.fields.end(),
-                                                       [](const Field& field) { return contains_block(*field.type); });
-}
-
 Global& add(Program& program, Global global) {
   Global& added = program.globals.emplace_back(std::move(global));
   program.global_names.emplace(upper(added.name), &added);
@@ -112,7 +104,7 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     const bool scalar = variable.initial && variable.initial->value && type.kind == Type::Kind::Elementary;
     const Constant* known = scalar ? constant_of(*variable.initial->value) : nullptr;
     global.constant = known != nullptr && !type.is_string() ? std::optional(stored(*known, type)) : std::nullopt;
-  } else if (contains_block(type)) {
+  } else if (is_private(type)) {
     if (variable.retain) {
       context.error(variable.at, kNoRetain);
     }

@@ -119,6 +119,11 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
   if (const Type* found = bare_enum_value(expression, wanted, both)) {
     return found;
   }
+  if (same_name(expression.name, "NULL")) {
+    expression.resolved->constant = Integer{0};
+    expression.resolved->untyped = true;
+    return context_.elementary(Elementary::Int);
+  }
   if (!both.first.empty()) {
     context_.error(expression.at, fmt::format("'{0}' is a value of {1} and of {2}, write {1}#{0} or {2}#{0}",
                                               expression.name, both.first, both.second));

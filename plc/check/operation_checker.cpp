@@ -93,6 +93,10 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
     return nullptr;
   }
   count_enumerations(expression);
+  if (expression.operands[0].type->kind == Type::Kind::Pointer ||
+      expression.operands[1].type->kind == Type::Kind::Pointer) {
+    return compares ? pointer_comparison(expression) : pointer_operation(expression);
+  }
   if (!expression.operands[0].resolved->untyped || !expression.operands[1].resolved->untyped) {
     return compares ? comparison(expression) : combines ? logic(expression, wanted) : arithmetic(expression, wanted);
   }

@@ -17,7 +17,12 @@ namespace {
 using ast::Section;
 
 const Type& innermost(const Type& type) noexcept {
-  return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
+  const bool inside = type.kind == Type::Kind::Array || (type.kind == Type::Kind::Pointer && type.element != nullptr);
+  return inside ? innermost(*type.element) : type;
+}
+
+bool is_instance(const Type& type) noexcept {
+  return type.kind == Type::Kind::Block || (type.kind == Type::Kind::Array && is_instance(*type.element));
 }
 
 class VariableDeclarer {
@@ -46,7 +51,8 @@ class VariableDeclarer {
       made->global = declare_placeless(context_, declared, *type);
     } else if (declared.address) {
       made->global = &declare_located(context_, declared, *type);
-    } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant) {
+    } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
+               declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
       remember_constant(*made, declared);
     }
     if (innermost(*type).pou != nullptr) {
@@ -56,7 +62,7 @@ class VariableDeclarer {
 
  private:
   void check_kind(const ast::Variable& declared, const Type& type) {
-    const bool is_block = innermost(type).kind == Type::Kind::Block;
+    const bool is_block = is_instance(type);
     if (is_block && pou_.tree->kind == ast::Pou::Kind::Function && declared.section != Section::InOut &&
         !declared.is_static) {
       context_.error(declared.at, "a FUNCTION has no memory for function blocks, make it a FUNCTION_BLOCK");
@@ -76,7 +82,7 @@ class VariableDeclarer {
     if (declared.section == Section::InOut && declared.initial) {
       context_.error(declared.at, "VAR_IN_OUT has no initial value, the caller gives the variable");
     }
-    if (declared.constant && !declared.initial && declared.section != Section::External) {
+    if (declared.constant && !declared.initial && declared.section == Section::Local) {
       context_.error(declared.at, "a CONSTANT needs a value: name : INT := 5;");
     }
     if (pou_.tree->kind == ast::Pou::Kind::Program && declared.section == Section::InOut) {

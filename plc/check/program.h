@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plc/check/constant.h"
@@ -96,6 +97,8 @@ struct Resolved {
   bool is_output = false;            // Member of an instance: one of its outputs
 
   // Call
+  enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid };
+  Intrinsic intrinsic = Intrinsic::None;      // ADR() and REF(), SIZEOF(), __ISVALIDREF()
   bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
   const Pou* pou = nullptr;
@@ -134,7 +137,9 @@ struct Program {
   std::map<std::string, Global*> global_names;
   std::deque<Pou> pous;
   std::map<std::string, Pou*> pou_names;
-  std::vector<const Pou*> order;  // each behind those it uses
+  bool types_known = false;
+  std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later
+  std::vector<const Pou*> order;                                // each behind those it uses
   std::vector<TaskPlan> tasks;
   std::string space;  // namespace of the shared variables
 };

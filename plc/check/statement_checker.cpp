@@ -114,7 +114,21 @@ bool StatementChecker::infer(Statement& one) {
   return type != nullptr;
 }
 
+// r REF= x; the reference itself, not what it refers to.
+void StatementChecker::bind(Statement& one) {
+  const Type* to = expressions_.reference_itself(*one.target);
+  if (to != nullptr && !to->is_reference()) {
+    context_.error(one.at, fmt::format("REF= sets a REFERENCE TO, not {}", with_article(*to)));
+  } else if (to != nullptr) {
+    expressions_.assigned(*one.value, *to);
+  }
+}
+
 void StatementChecker::assign(Statement& one) {
+  if (one.binds) {
+    bind(one);
+    return;
+  }
   if (!infer(one)) {
     return;
   }

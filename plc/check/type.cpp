@@ -25,6 +25,12 @@ std::string to_string(const Type& type) {
     }
     return fmt::format("ARRAY[{}] OF {}", bounds, to_string(*type.element));
   }
+  if (type.kind == Type::Kind::Pointer) {
+    const char* word = type.pointer == ast::PointerKind::PointerTo ? "POINTER TO"
+                       : type.pointer == ast::PointerKind::RefTo   ? "REF_TO"
+                                                                   : "REFERENCE TO";
+    return fmt::format("{} {}", word, type.element != nullptr ? to_string(*type.element) : "?");
+  }
   if (!type.name.empty()) {
     return type.name;
   }
@@ -55,6 +61,8 @@ bool same_type(const Type& a, const Type& b) noexcept {
       return same_bounds(a, b) && same_type(*a.element, *b.element);
     case Type::Kind::Block:
       return a.pou == b.pou && a.block == b.block;
+    case Type::Kind::Pointer:
+      return a.element != nullptr && b.element != nullptr && same_type(*a.element, *b.element);
     case Type::Kind::Enum:
     case Type::Kind::Struct:  // TYPE Paint : Color := Red; is a Color that begins with another value
       return a.name == b.name && a.shared_name == b.shared_name;
@@ -77,7 +85,19 @@ bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
     return widens(from.elementary, to.elementary) ||
            (dialect == Dialect::Codesys && converts_in_codesys(from.elementary, to.elementary));
   }
+  if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer && to.pointer == ast::PointerKind::PointerTo) {
+    return true;
+  }
   return same_type(from, to) && in_range_of(from, to);
+}
+
+bool is_private(const Type& type) noexcept {
+  if (type.kind == Type::Kind::Array) {
+    return is_private(*type.element);
+  }
+  return type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer ||
+         std::any_of(type.fields.begin(), type.fields.end(),
+                     [](const Field& field) { return is_private(*field.type); });
 }
 
 const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept {
@@ -103,6 +123,7 @@ std::uint64_t parts_of(const Type& type) noexcept {
       return type.is_string() ? (type.length + 8) / 8 : 1;
     case Type::Kind::Enum:
     case Type::Kind::Block:
+    case Type::Kind::Pointer:
       return 1;
     case Type::Kind::Struct:
       for (const Field& field : type.fields) {
@@ -154,6 +175,7 @@ const Type* TypeTable::string(std::size_t length) {
 }
 
 Type* TypeTable::add(Type type) {
+  has_pointers_ = has_pointers_ || type.kind == Type::Kind::Pointer;
   return &types_.emplace_back(std::move(type));
 }
 

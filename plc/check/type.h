@@ -45,7 +45,7 @@ struct Bounds {
 };
 
 struct Type {
-  enum class Kind : std::uint8_t { Elementary, Enum, Struct, Array, Block };
+  enum class Kind : std::uint8_t { Elementary, Enum, Struct, Array, Block, Pointer };
   Kind kind = Kind::Elementary;
   Elementary elementary = Elementary::Int;  // Elementary; Enum: what it is stored in
   std::string name;                         // Enum, Struct, Block and subranges: as declared
@@ -54,14 +54,18 @@ struct Type {
   std::vector<Field> fields;                // Struct
   std::vector<EnumItem> items;              // Enum
   std::vector<Bounds> dimensions;           // Array
-  const Type* element = nullptr;            // Array
-  const Pou* pou = nullptr;                 // Block of the user
-  const LibraryBlock* block = nullptr;      // Block of the library
-  const ast::Initial* initial = nullptr;    // of the declaration; null: zero, or the first value of an enumeration
-  std::string shared_name;                  // Struct, Enum of a .glb file: "knu::Robot::Point"
-  std::string glb_name = {};                // Struct, Enum of the project: its name in the .glb
+  const Type* element = nullptr;            // Array, Pointer
+  ast::PointerKind pointer = ast::PointerKind::PointerTo;
+  const Pou* pou = nullptr;               // Block of the user
+  const LibraryBlock* block = nullptr;    // Block of the library
+  const ast::Initial* initial = nullptr;  // of the declaration; null: zero, or the first value of an enumeration
+  std::string shared_name;                // Struct, Enum of a .glb file: "knu::Robot::Point"
+  std::string glb_name = {};              // Struct, Enum of the project: its name in the .glb
 
   [[nodiscard]] bool is(Elementary type) const noexcept { return kind == Kind::Elementary && elementary == type; }
+  [[nodiscard]] bool is_reference() const noexcept {
+    return kind == Kind::Pointer && pointer == ast::PointerKind::ReferenceTo;
+  }
   [[nodiscard]] bool is_string() const noexcept { return is(Elementary::String); }
 };
 
@@ -77,6 +81,8 @@ struct Type {
 [[nodiscard]] bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept;
 // The one of both that the other widens to; null if there is none. Texts: the longer one.
 [[nodiscard]] const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept;
+// Whether function blocks or pointers are in it, which no other module can share.
+[[nodiscard]] bool is_private(const Type& type) noexcept;
 // Number of elementary values, those of arrays counted; saturates.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;
 
@@ -97,11 +103,13 @@ class TypeTable {
     return elementary_[static_cast<std::size_t>(type)];
   }
   [[nodiscard]] const Type* string(std::size_t length);
+  [[nodiscard]] bool has_pointers() const noexcept { return has_pointers_; }
   // A new type; the address stays.
   Type* add(Type type);
 
  private:
   std::deque<Type> types_;
+  bool has_pointers_ = false;
   std::vector<const Type*> elementary_;
   std::map<std::size_t, const Type*> strings_;
 };

@@ -45,6 +45,8 @@ class TypeBuilder {
         return named(spec);
       case ast::TypeSpec::Kind::Array:
         return array(spec);
+      case ast::TypeSpec::Kind::Pointer:
+        return pointer(spec);
       case ast::TypeSpec::Kind::Subrange:
         return subrange(spec, name);
       case ast::TypeSpec::Kind::Struct:
@@ -101,6 +103,24 @@ class TypeBuilder {
     context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
                                         hint.empty() ? whose(spec.name) : hint));
     return nullptr;
+  }
+
+  // To a type that comes later, too: close_pointers() finds that.
+  const Type* pointer(ast::TypeSpec& spec) {
+    Type type;
+    type.kind = Type::Kind::Pointer;
+    type.pointer = spec.pointer;
+    const bool later = !context_.program.types_known && spec.element->kind == ast::TypeSpec::Kind::Named &&
+                       !context_.program.type_names.contains(upper(spec.element->name));
+    type.element = later ? nullptr : build(*spec.element, "");
+    if (type.element == nullptr && !later) {
+      return nullptr;
+    }
+    Type* added = context_.program.types.add(std::move(type));
+    if (later) {
+      context_.program.open_pointers.emplace_back(added, spec.element.get());
+    }
+    return added;
   }
 
   const Type* array(ast::TypeSpec& spec) {
@@ -261,7 +281,7 @@ void collect_names(const ast::TypeSpec& spec, std::vector<std::string>& to) {
   if (spec.kind == ast::TypeSpec::Kind::Named) {
     to.push_back(upper(spec.name));
   }
-  if (spec.element) {
+  if (spec.element && spec.kind != ast::TypeSpec::Kind::Pointer) {
     collect_names(*spec.element, to);
   }
   for (const ast::Variable& field : spec.fields) {
@@ -352,6 +372,10 @@ void declare_types(Context& context) {
     context.program.type_names.emplace(upper(pou.name), pou.type);
   }
   TypeOrder(context).run();
+  context.program.types_known = true;
+  for (const auto& [pointer, spec] : context.program.open_pointers) {
+    pointer->element = build_type(context, *spec);
+  }
 }
 
 const Type* build_type(Context& context, ast::TypeSpec& spec) {

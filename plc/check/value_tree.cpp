@@ -113,6 +113,7 @@ ValueTree initial_value(const Type& type, const ast::Initial* initial) {
       return rows(type, 0, given ? elements(*initial, count) : std::vector<const ast::Initial*>(), next);
     }
     case Type::Kind::Block:
+    case Type::Kind::Pointer:
       return zero();
   }
   return zero();

@@ -22,6 +22,7 @@ bool is_designator(const Expression& expression) noexcept {
     case Expression::Kind::Member:
     case Expression::Kind::Bit:
     case Expression::Kind::Index:
+    case Expression::Kind::Deref:
       return is_designator(expression.operands[0]);
     case Expression::Kind::Literal:
     case Expression::Kind::Call:
@@ -79,6 +80,9 @@ const Type* ExpressionChecker::reference(Expression& expression) {
 }
 
 bool ExpressionChecker::writable(const Expression& expression) {
+  if (is_designator(expression) && through_pointer(expression) != nullptr) {
+    return true;
+  }
   const Expression& root = root_of(expression);
   const Meaning meaning = !is_designator(expression) ? Meaning::Value
                           : root.resolved            ? root.resolved->meaning
@@ -114,6 +118,18 @@ bool ExpressionChecker::writable(const Expression& expression) {
   return true;
 }
 
+const Expression* ExpressionChecker::through_pointer(const Expression& expression) noexcept {
+  for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
+    const Type* base = at->operands[0].type;
+    const bool follows = at->kind == Expression::Kind::Deref ||
+                         (at->kind == Expression::Kind::Index && base != nullptr && base->kind == Type::Kind::Pointer);
+    if (follows) {
+      return &at->operands[0];
+    }
+  }
+  return nullptr;
+}
+
 void ExpressionChecker::note_call(const Expression& expression) {
   const Resolved* root = root_of(expression).resolved.get();
   if (context_.pou != nullptr && root != nullptr && root->variable != nullptr) {
@@ -122,8 +138,8 @@ void ExpressionChecker::note_call(const Expression& expression) {
 }
 
 void ExpressionChecker::note_write(const Expression& expression) {
-  if (context_.pou == nullptr) {
-    return;
+  if (context_.pou == nullptr || through_pointer(expression) != nullptr) {
+    return;  // what a pointer leads to was noted where its address was taken
   }
   const Resolved& root = *root_of(expression).resolved;
   for (const auto& [variable, at] : context_.loop_variables) {

@@ -158,6 +158,8 @@ std::string cpp_type(const Type& type) {
       return type.shared_name.empty() ? "plc::" + cpp_name(std::string_view(type.name)) : "::" + type.shared_name;
     case Type::Kind::Block:
       return type.block != nullptr ? type.block->cpp : "plc::" + cpp_name(std::string_view(type.pou->name));
+    case Type::Kind::Pointer:
+      return fmt::format("iec::Pointer<{}>", cpp_type(*type.element));
     case Type::Kind::Array: {
       std::string text = cpp_type(*type.element);
       for (auto one = type.dimensions.rbegin(); one != type.dimensions.rend(); ++one) {
@@ -195,7 +197,7 @@ std::string cpp_initial(const Type& type, const ast::Initial* initial) {
   if (type.kind == Type::Kind::Block) {
     return initial != nullptr ? of_block(type, *initial) : "{}";
   }
-  if (type.kind == Type::Kind::Array && type.element->kind == Type::Kind::Block) {
+  if (type.kind == Type::Kind::Pointer || (type.kind == Type::Kind::Array && type.element->kind == Type::Kind::Block)) {
     return "{}";
   }
   return of_tree(type, initial_value(type, initial), 0);

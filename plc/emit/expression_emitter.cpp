@@ -82,6 +82,9 @@ std::string ExpressionEmitter::result_name(const Pou& pou) {
 
 std::string ExpressionEmitter::value(const Expression& expression, const Type& to, bool exact) const {
   const Constant* known = constant_of(expression);
+  if (to.kind == Type::Kind::Pointer) {
+    return known != nullptr ? cpp_type(to) + "{}" : raw(expression);
+  }
   const bool scalar = to.kind == Type::Kind::Elementary || to.kind == Type::Kind::Enum;
   if (known != nullptr && scalar && !is_named(expression)) {
     if (to.is_string()) {
@@ -115,7 +118,12 @@ std::string ExpressionEmitter::raw(const Expression& expression) const {
                                                  raw(expression.operands[0]), expression.bit);
     case Expression::Kind::Index:
       return index(expression);
+    case Expression::Kind::Deref:
+      return fmt::format("iec::deref({}, {})", place(expression.at), raw(expression.operands[0]));
     case Expression::Kind::Call:
+      if (expression.resolved->intrinsic != Resolved::Intrinsic::None) {
+        return intrinsic(expression);
+      }
       if (expression.resolved->cast) {
         const Resolved::Actual& one = expression.resolved->actuals.front();
         return fmt::format("static_cast<{}>({})", cpp_type(*expression.type), value(*one.argument->value, *one.type));
@@ -166,8 +174,39 @@ std::string ExpressionEmitter::member(const Expression& expression) const {
   return raw(expression.operands[0]) + "." + (as_is ? expression.name : cpp_name(std::string_view(expression.name)));
 }
 
+// ADR(x), SIZEOF(x), __ISVALIDREF(r)
+std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
+  const Resolved& resolved = *expression.resolved;
+  const Expression& of = *expression.arguments[0].value;
+  if (resolved.intrinsic == Resolved::Intrinsic::Size) {
+    return fmt::format("static_cast<std::uint32_t>(sizeof({}))", cpp_type(*resolved.operand));
+  }
+  if (resolved.intrinsic == Resolved::Intrinsic::IsValid) {
+    return fmt::format("({}.base != nullptr)", raw(of));
+  }
+  if (const Expression* pointer = ExpressionChecker::through_pointer(of)) {
+    const bool itself = of.kind == Expression::Kind::Deref && pointer == &of.operands[0];
+    return itself ? raw(*pointer) : fmt::format("iec::address_in({}, {})", raw(*pointer), raw(of));
+  }
+  return fmt::format("iec::address({}, {})", raw(of), raw(ExpressionChecker::root_of(of)));
+}
+
+// An element of what a pointer leads to: only that has to be there, not the whole array.
+std::string ExpressionEmitter::index_through_pointer(const Expression& expression) const {
+  const Expression& base = expression.operands[0];
+  const bool whole = base.type->kind == Type::Kind::Array;  // p^[i], else p[i]
+  const std::string index =
+      whole ? one_index(expression.operands[1], base.type->dimensions[0]) : value(expression.operands[1]);
+  return fmt::format("iec::element<{}>({}, {}, static_cast<std::int64_t>({}))", cpp_type(*expression.type),
+                     place(expression.at), raw(whole ? base.operands[0] : base), index);
+}
+
 std::string ExpressionEmitter::index(const Expression& expression) const {
   const Type& array = *expression.operands[0].type;
+  const bool one = expression.operands.size() == 2;
+  if (array.kind == Type::Kind::Pointer || (one && expression.operands[0].kind == Expression::Kind::Deref)) {
+    return index_through_pointer(expression);
+  }
   std::string text = raw(expression.operands[0]);
   for (std::size_t i = 1; i < expression.operands.size(); ++i) {
     text += "[" + one_index(expression.operands[i], array.dimensions[i - 1]) + "]";
@@ -228,6 +267,11 @@ std::string ExpressionEmitter::binary(const Expression& expression) const {
   }
   if (expression.op >= Operator::And) {
     return logic(expression);
+  }
+  if (expression.type->kind == Type::Kind::Pointer) {
+    const std::string bytes = fmt::format("static_cast<std::int64_t>({})", value(expression.operands[1]));
+    return fmt::format("iec::moved({}, {}{})", raw(expression.operands[0]),
+                       expression.op == Operator::Subtract ? "-" : "", bytes);
   }
   const bool native =
       expression.op == Operator::Add || expression.op == Operator::Subtract || expression.op == Operator::Multiply;

@@ -42,6 +42,8 @@ class ExpressionEmitter {
   [[nodiscard]] std::string name(const ast::Expression& expression) const;
   [[nodiscard]] std::string global(const Global& global) const;
   [[nodiscard]] std::string member(const ast::Expression& expression) const;
+  [[nodiscard]] std::string intrinsic(const ast::Expression& expression) const;
+  [[nodiscard]] std::string index_through_pointer(const ast::Expression& expression) const;
   [[nodiscard]] std::string index(const ast::Expression& expression) const;
   [[nodiscard]] std::string one_index(const ast::Expression& expression, Bounds bounds) const;
   [[nodiscard]] bool stays_within(const ast::Expression& expression, Bounds bounds) const;

@@ -20,6 +20,10 @@ bool writes(const ast::Expression& target, const Variable& variable) noexcept {
 
 // Whether a call in it has the variable as an output or passes it by reference.
 bool gives_away(const ast::Expression& expression, const Variable& variable) {
+  const bool address = expression.resolved && expression.resolved->intrinsic == Resolved::Intrinsic::Address;
+  if (address && writes(*expression.arguments[0].value, variable)) {
+    return true;
+  }
   for (const ast::Argument& one : expression.arguments) {
     if (one.value && ((one.output && writes(*one.value, variable)) || gives_away(*one.value, variable))) {
       return true;

@@ -34,6 +34,9 @@ class ModuleEmitter {
 
   std::string run() {
     out_.line("// Written by indurop plc from " + comment_text(options_.sources) + ": change that, not this.");
+    if (program_.types.has_pointers()) {
+      out_.line("#pragma GCC optimize(\"no-strict-aliasing\")  // pointers lead to values of other types");
+    }
     out_.line("#include <indurop/indurop.h>");
     out_.line("#include <indurop/plc/library.h>");
     out_.line("#include <indurop/plc/program.h>");
@@ -65,8 +68,25 @@ class ModuleEmitter {
   }
 
  private:
+  // What pointers lead to may come later.
+  void announce() {
+    for (const Type* type : program_.named_types) {
+      if (type->shared_name.empty() && type->kind == Type::Kind::Struct) {
+        out_.line(fmt::format("struct {};", cpp_name(std::string_view(type->name))));
+      }
+    }
+    for (const Pou* pou : use_.pous) {
+      if (pou->tree->kind == ast::Pou::Kind::FunctionBlock) {
+        out_.line(fmt::format("struct {};", cpp_name(std::string_view(pou->name))));
+      }
+    }
+  }
+
   void types() {
     out_.line("namespace plc {");
+    if (program_.types.has_pointers()) {
+      announce();
+    }
     for (const Type* type : program_.named_types) {
       if (!type->shared_name.empty()) {
         continue;

@@ -39,7 +39,7 @@ void members(const Pou& pou, TextWriter& out) {
         one.declared->comment.empty() ? std::string() : "  // " + comment_text(one.declared->comment);
     if (one.section == Section::InOut) {
       out.line(fmt::format("{}* {} = nullptr;{}", cpp_type(*one.type), name_of(one), comment));
-    } else if (one.is_constant) {
+    } else if (one.is_constant && one.section == Section::Local) {
       out.line("static inline const " + declaration(one) + comment);
     } else if (one.declared->is_static) {
       out.line("static inline " + declaration(one) + comment);

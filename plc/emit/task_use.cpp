@@ -10,10 +10,6 @@
 namespace indurop::plc {
 namespace {
 
-bool has_block(const Type& type) noexcept {
-  return type.kind == Type::Kind::Block || (type.kind == Type::Kind::Array && has_block(*type.element));
-}
-
 // Made by the translation of a drawn program.
 bool is_hidden(const Variable& variable) {
   return variable.name.starts_with('_');
@@ -23,7 +19,7 @@ bool is_shown(const Variable& variable, bool show_locals) {
   const bool kept = variable.section == ast::Section::Local || variable.section == ast::Section::Input ||
                     variable.section == ast::Section::Output;
   return kept && variable.global == nullptr && !variable.is_constant &&
-         (variable.retain || (show_locals && !is_hidden(variable))) && !has_block(*variable.type);
+         (variable.retain || (show_locals && !is_hidden(variable))) && !is_private(*variable.type);
 }
 
 }  // namespace

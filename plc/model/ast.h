@@ -69,6 +69,7 @@ struct Expression {
     Member,  // operands[0].name; also Enum#Value, namespace.variable, instance.output, step.X
     Bit,     // operands[0].bit, w.3; also w.%B1, the `width` bits from `bit` on
     Index,   // operands[0][operands[1], operands[2], ...]
+    Deref,   // operands[0]^
     Call,    // operands[0](arguments): a function, or in a statement an instance of a function block
     Unary,   // op operands[0]
     Binary,  // operands[0] op operands[1]
@@ -143,6 +144,7 @@ struct Statement {
   std::vector<Branch> branches;
   Body body;
   std::string label;
+  bool binds = false;  // Assign: target REF= value
 };
 
 struct Initial;
@@ -177,6 +179,10 @@ struct EnumValue {
   std::optional<Expression> value;
 };
 
+// POINTER TO (of CODESYS) goes into each other, REF_TO (of the standard) does not; a REFERENCE TO is followed by
+// itself.
+enum class PointerKind : std::uint8_t { PointerTo, RefTo, ReferenceTo };
+
 struct TypeSpec {
   enum class Kind : std::uint8_t {
     Elementary,
@@ -185,6 +191,7 @@ struct TypeSpec {
     Array,     // dimensions, element
     Subrange,  // elementary (range.low..range.high)
     Struct,    // fields
+    Pointer,   // POINTER TO element, or as `pointer` says
     Enum,      // values; of type `elementary` where one is given, else INT
     Inferred,  // VAR_TEMP of translated networks: that of the first value assigned in the text of the body; also what
                // a declaration with an error declares
@@ -196,6 +203,7 @@ struct TypeSpec {
   std::optional<Expression> length;
   std::vector<Dimension> dimensions;
   std::shared_ptr<TypeSpec> element;
+  PointerKind pointer = PointerKind::PointerTo;
   std::optional<Dimension> range;
   std::vector<Variable> fields;
   std::vector<EnumValue> values;

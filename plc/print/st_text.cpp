@@ -104,6 +104,8 @@ std::string text_of(const Expression& expression, int around) {
       return fmt::format("{}.{}", text_of(expression.operands.front()), expression.bit);
     case Expression::Kind::Index:
       return index_text(expression);
+    case Expression::Kind::Deref:
+      return text_of(expression.operands.front()) + "^";
     case Expression::Kind::Call:
       return call_text(expression);
     case Expression::Kind::Unary:

@@ -131,7 +131,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
                                            : ast::Edge::None;
   std::optional<ast::Initial> initial;
   if (in_.accept(":=")) {
-    initial = expressions_.initial();
+    initial = expressions_.initial(spec->kind == ast::TypeSpec::Kind::Array);
     if (!initial) {
       return broken(found, to);
     }
@@ -225,8 +225,8 @@ std::optional<ast::TypeSpec> DeclarationParser::type() {
     ok = enumeration(out);
   } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
     in_.error(token, fmt::format("{} is not supported, use STRING", token.text));
-  } else if (in_.next_is({"POINTER", "REF_TO", "REFERENCE"})) {
-    in_.error(token, "there are no pointers here, use VAR_IN_OUT or an array");
+  } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
+    ok = pointer(out);
   } else if (in_.expect_name("a type")) {
     ok = named(out);
   }
@@ -288,6 +288,21 @@ bool DeclarationParser::dimension(ast::Dimension& out) {
   }
   out.low = std::move(*low);
   out.high = std::move(*high);
+  return true;
+}
+
+bool DeclarationParser::pointer(ast::TypeSpec& out) {
+  out.kind = ast::TypeSpec::Kind::Pointer;
+  const Token& word = in_.take();
+  out.pointer = word.is("POINTER")  ? ast::PointerKind::PointerTo
+                : word.is("REF_TO") ? ast::PointerKind::RefTo
+                                    : ast::PointerKind::ReferenceTo;
+  in_.accept("TO");
+  auto element = type();
+  if (!element) {
+    return false;
+  }
+  out.element = std::make_shared<ast::TypeSpec>(std::move(*element));
   return true;
 }
 

@@ -35,6 +35,7 @@ class DeclarationParser {
   [[nodiscard]] bool address(ast::Variable& out);
   static bool broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to);
   [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
+  [[nodiscard]] bool pointer(ast::TypeSpec& out);
   [[nodiscard]] bool array(ast::TypeSpec& out);
   [[nodiscard]] bool structure(ast::TypeSpec& out);
   [[nodiscard]] bool enumeration(ast::TypeSpec& out);

@@ -217,8 +217,8 @@ std::optional<Expression> ExpressionParser::postfix(Expression base) {
     } else if (token.is("(")) {
       ok = call(base);
     } else if (token.is("^")) {
-      in_.error(token, "there are no pointers here, use VAR_IN_OUT or an array");
-      return std::nullopt;
+      in_.take();
+      base = wrap(Expression::Kind::Deref, std::move(base));
     } else {
       return base;
     }

@@ -19,7 +19,8 @@ class ExpressionParser {
   // What can stand left of := or be called: a name with members, indices, calls.
   [[nodiscard]] std::optional<ast::Expression> designator();
   // A value, [1, 2, 3(0)] or (x := 1).
-  [[nodiscard]] std::optional<ast::Initial> initial();
+  // `is_list`: for an array, whose values may stand without brackets.
+  [[nodiscard]] std::optional<ast::Initial> initial(bool is_list = false);
 
  private:
   [[nodiscard]] std::optional<ast::Expression> binary(int level);
@@ -31,6 +32,7 @@ class ExpressionParser {
   [[nodiscard]] bool index(ast::Expression& base);
   [[nodiscard]] bool call(ast::Expression& base);
   [[nodiscard]] std::optional<ast::Argument> argument();
+  [[nodiscard]] std::optional<ast::Initial> one_initial();
   [[nodiscard]] std::optional<ast::Initial> array_initial();
   [[nodiscard]] std::optional<ast::InitialElement> array_element();
   [[nodiscard]] std::optional<ast::Initial> struct_initial();

@@ -6,7 +6,26 @@
 
 namespace indurop::plc::st {
 
-std::optional<ast::Initial> ExpressionParser::initial() {
+std::optional<ast::Initial> ExpressionParser::initial(bool is_list) {
+  auto first = one_initial();
+  if (!first || !is_list || first->kind == ast::Initial::Kind::Array) {
+    return first;
+  }
+  ast::Initial list;  // 1, 2, 3 without brackets, as CODESYS 2.3 has it
+  list.kind = ast::Initial::Kind::Array;
+  list.at = first->at;
+  list.elements.push_back({"", std::nullopt, std::move(*first)});
+  while (in_.accept(",")) {
+    auto one = array_element();
+    if (!one) {
+      return std::nullopt;
+    }
+    list.elements.push_back(std::move(*one));
+  }
+  return list;
+}
+
+std::optional<ast::Initial> ExpressionParser::one_initial() {
   const Nesting nesting(depth_);
   const Token& token = in_.peek();
   if (!deeper(token, kBracket)) {
@@ -49,7 +68,7 @@ std::optional<ast::InitialElement> ExpressionParser::array_element() {
       return std::nullopt;
     }
   }
-  auto value = initial();
+  auto value = initial(false);
   if (!value || (counted && !in_.expect(")", "behind the repeated value"))) {
     return std::nullopt;
   }
@@ -67,7 +86,7 @@ std::optional<ast::Initial> ExpressionParser::struct_initial() {
       return std::nullopt;
     }
     element.field = in_.take().text;
-    auto value = in_.expect(":=", "behind the field's name") ? initial() : std::nullopt;
+    auto value = in_.expect(":=", "behind the field's name") ? initial(false) : std::nullopt;
     if (!value) {
       return std::nullopt;
     }

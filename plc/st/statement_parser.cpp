@@ -152,6 +152,15 @@ bool StatementParser::simple(Statement& out) {
   if (in_.next_is({"S", "R"}) && in_.peek(1).is("=")) {
     return set_or_reset(std::move(*target), out);
   }
+  if (in_.peek().is("REF") && in_.peek(1).is("=")) {
+    in_.take();
+    in_.take();
+    out.kind = Statement::Kind::Assign;
+    out.binds = true;
+    out.target = std::move(target);
+    out.value = expressions_.expression();
+    return out.value && in_.expect_end("behind the variable");
+  }
   if (!in_.accept(":=")) {
     in_.missing("expected ':=' or '('");
     return false;

@@ -66,15 +66,21 @@ TEST(PlcFaults, Name_their_place) {
     const char* text;
   };
   for (const auto& [which, text] :
-       {Row{0, "no fault"}, Row{1, "faults.st:35:21: division by zero in Main"},
-        Row{2, "faults.st:36:21: MOD by zero in Main"}, Row{3, "faults.st:37:17: division by zero in Main"},
-        Row{4, "faults.st:38:23: division by zero in Main"}, Row{5, "faults.st:9:17: division by zero in Quotient"},
-        Row{6, "faults.st:40:13: index 5 is outside of 1..2 in Main"},
-        Row{7, "faults.st:41:29: index 0 is outside of 1..3 in Main"},
+       {Row{0, "no fault"}, Row{1, "faults.st:41:21: division by zero in Main"},
+        Row{2, "faults.st:42:21: MOD by zero in Main"}, Row{3, "faults.st:43:17: division by zero in Main"},
+        Row{4, "faults.st:44:23: division by zero in Main"}, Row{5, "faults.st:9:17: division by zero in Quotient"},
+        Row{6, "faults.st:46:13: index 5 is outside of 1..2 in Main"},
+        Row{7, "faults.st:47:29: index 0 is outside of 1..3 in Main"},
         Row{8, "faults.st:16:18: index 5 is outside of -2..2 in Picker"},
-        Row{9, "faults.st:43:22: value 105 is outside of 0..100 in Main"},
-        Row{10, "faults.st:49:17: selector K of MUX 5 is outside of 0..2 in Main"},
-        Row{11, "faults.st:48:9: value 101 is outside of 0..100 in Main"}}) {
+        Row{9, "faults.st:49:22: value 105 is outside of 0..100 in Main"},
+        Row{10, "faults.st:55:17: selector K of MUX 5 is outside of 0..2 in Main"},
+        Row{11, "faults.st:54:9: value 101 is outside of 0..100 in Main"},
+        Row{12, "faults.st:56:9: a pointer that is NULL is used in Main"},
+        Row{13, "faults.st:59:9: the byte a pointer leads to 12 is outside of 0..10 in Main"},
+        Row{14, "faults.st:63:17: the byte a pointer leads to 12 is outside of 0..10 in Main"},
+        Row{15, "faults.st:66:9: a pointer leads to a place where no value of its type can lie in Main"},
+        Row{16, "faults.st:67:9: a pointer that is NULL is used in Main"},
+        Row{17, "faults.st:68:18: a pointer that is NULL is used in Main"}}) {
     EXPECT_EQ(fault_of(which), text) << which;
   }
 }

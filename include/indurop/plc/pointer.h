@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// POINTER TO, REF_TO and REFERENCE TO: an address that knows the variable it lies in, so that one beside it is a fault
+// of the module and no other variable's value. Real-time safe, but for the faults.
+
+#pragma once
+
+#include <indurop/plc/fault.h>
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace indurop::iec {
+
+template <class T>
+struct Pointer {
+  char* base = nullptr;     // of the variable
+  std::int64_t size = 0;    // its bytes
+  std::int64_t offset = 0;  // of the value pointed at, in bytes; may lie outside until it is used
+
+  Pointer() = default;
+  Pointer(char* variable, std::int64_t bytes, std::int64_t at) noexcept : base(variable), size(bytes), offset(at) {}
+  template <class U>
+  Pointer(const Pointer<U>& other) noexcept  // NOLINT(google-explicit-constructor): as the language converts
+      : base(other.base), size(other.size), offset(other.offset) {}
+
+  [[nodiscard]] std::uintptr_t address() const noexcept {
+    return base == nullptr ? 0 : reinterpret_cast<std::uintptr_t>(base) + static_cast<std::uintptr_t>(offset);
+  }
+};
+
+template <class A, class B>
+bool operator==(const Pointer<A>& a, const Pointer<B>& b) noexcept {
+  return a.address() == b.address();
+}
+template <class A, class B>
+auto operator<=>(const Pointer<A>& a, const Pointer<B>& b) noexcept {
+  return a.address() <=> b.address();
+}
+
+// ADR(x), where x lies in the variable `whole`.
+template <class T, class Whole>
+Pointer<T> address(T& value, Whole& whole) noexcept {
+  char* const base = reinterpret_cast<char*>(&whole);
+  return {base, static_cast<std::int64_t>(sizeof(Whole)), reinterpret_cast<char*>(&value) - base};
+}
+// ADR(p^.x)
+template <class T, class Whole>
+Pointer<T> address_in(const Pointer<Whole>& pointer, T& value) noexcept {
+  return {pointer.base, pointer.size, reinterpret_cast<char*>(&value) - pointer.base};
+}
+
+// p + n: n bytes on, whatever it points at.
+template <class T>
+Pointer<T> moved(Pointer<T> pointer, std::int64_t bytes) noexcept {
+  pointer.offset =
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(pointer.offset) + static_cast<std::uint64_t>(bytes));
+  return pointer;
+}
+
+// Element `index` of what begins where the pointer points: p^[i], p[i].
+template <class Element, class T>
+Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
+  constexpr auto kBytes = static_cast<std::int64_t>(sizeof(Element));
+  if (pointer.base == nullptr) [[unlikely]] {
+    fail(place, "a pointer that is NULL is used");
+  }
+  std::int64_t begin = 0;
+  const bool far =
+      __builtin_mul_overflow(index, kBytes, &begin) || __builtin_add_overflow(begin, pointer.offset, &begin);
+  if (far || begin < 0 || begin > pointer.size - kBytes) [[unlikely]] {
+    fail_range(place, "the byte a pointer leads to", begin, 0, pointer.size - kBytes);
+  }
+  char* const at = pointer.base + begin;
+  if (reinterpret_cast<std::uintptr_t>(at) % alignof(Element) != 0) [[unlikely]] {
+    fail(place, "a pointer leads to a place where no value of its type can lie");
+  }
+  return *reinterpret_cast<Element*>(at);
+}
+
+// p^
+template <class T>
+T& deref(Place place, const Pointer<T>& pointer) {
+  return element<T>(place, pointer, 0);
+}
+
+}  // namespace indurop::iec
