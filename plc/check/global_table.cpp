@@ -132,6 +132,21 @@ bool can_show(const Type& as, const Type& of) noexcept {
                                     (bits_of(as.elementary) == bits_of(other) || as.is(Elementary::Bool)));
 }
 
+// An array at an address that this one lies in.
+const Global* covering_array(const Program& program, const ast::DirectAddress& address) {
+  ast::DirectAddress begin = address;
+  for (; !begin.numbers.empty() && begin.numbers.back() >= 0; --begin.numbers.back()) {
+    const std::string text = ast::to_string(begin);
+    const auto found = std::find_if(program.globals.begin(), program.globals.end(),
+                                    [&](const Global& one) { return one.address == text; });
+    if (found != program.globals.end() && found->type->kind == Type::Kind::Array) {
+      const auto offset = static_cast<std::uint64_t>(address.numbers.back() - begin.numbers.back());
+      return offset < parts_of(*found->type) ? &*found : nullptr;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void declare_global(Context& context, ast::Variable& variable) {
@@ -172,8 +187,9 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
 }
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
-  const bool fits = type.kind <= Type::Kind::Enum && !type.is_string() &&
-                    bits_of(type.elementary) == bits_of_size(variable.address->size);
+  const Type& one = type.kind == Type::Kind::Array ? *type.element : type;  // an array fills the places behind it
+  const bool fits = one.kind <= Type::Kind::Enum && !one.is_string() &&
+                    bits_of(one.elementary) == bits_of_size(variable.address->size);
   if (!fits) {
     context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
                                            with_article(type), ast::to_string(*variable.address)));
@@ -199,6 +215,10 @@ Global& declare_located(Context& context, ast::Variable& variable, const Type& t
 
 Global& located_global(Context& context, const ast::DirectAddress& address, const Place& at) {
   const std::string text = ast::to_string(address);
+  if (const Global* array = covering_array(context.program, address)) {
+    context.error(at,
+                  fmt::format("{} lies in the array '{}' at {}, write its element", text, array->name, array->address));
+  }
   if (Global* known = at_address(context.program, text)) {
     return *known;
   }

@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "plc/check/reach.h"
 
@@ -16,11 +20,14 @@ class TaskPlanner {
 
   void configuration(const Configuration& configuration) {
     for (const Resource& resource : configuration.resources) {
+      resource_ = &resource;
       for (const Task& task : resource.tasks) {
-        declare(task);
+        declare(task, name_of(
+                          configuration, task.name, [](const Resource& one) -> auto& { return one.tasks; }));
       }
       for (const ProgramInstance& one : resource.programs) {
-        instance(one);
+        instance(one, name_of(
+                          configuration, one.name, [](const Resource& each) -> auto& { return each.programs; }));
       }
     }
   }
@@ -53,8 +60,20 @@ class TaskPlanner {
     return made;
   }
 
-  void declare(const Task& task) {
-    if (std::any_of(tasks().begin(), tasks().end(), [&](const auto& one) { return same_name(one.name, task.name); })) {
+  // Its name, with that of the resource before it where another resource has the same one.
+  template <class List>
+  [[nodiscard]] std::string name_of(const Configuration& configuration, const std::string& name, List list) const {
+    const auto has = [&](const Resource& resource) {
+      const auto& all = list(resource);
+      return &resource != resource_ &&
+             std::any_of(all.begin(), all.end(), [&](const auto& one) { return same_name(one.name, name); });
+    };
+    const bool shared = std::any_of(configuration.resources.begin(), configuration.resources.end(), has);
+    return shared && !resource_->name.empty() ? resource_->name + "_" + name : name;
+  }
+
+  void declare(const Task& task, const std::string& name) {
+    if (std::any_of(tasks().begin(), tasks().end(), [&](const auto& one) { return same_name(one.name, name); })) {
       context_.error(task.at, fmt::format("the task '{}' is declared twice, rename one of them", task.name));
       return;
     }
@@ -69,31 +88,33 @@ class TaskPlanner {
     }
     TaskPlan& made = tasks().emplace_back();
     made.at = task.at;
-    made.name = task.name;
+    made.name = name;
+    in_resource_[{resource_, upper(task.name)}] = name;
     made.interval_ns = task.interval_ns.value_or(kDefaultIntervalNs);
     made.priority = task.priority.value_or(static_cast<std::int32_t>(tasks().size()));
   }
 
-  void instance(const ProgramInstance& one) {
+  void instance(const ProgramInstance& one, const std::string& name) {
     const auto pou = context_.program.pou_names.find(upper(one.type));
     if (pou == context_.program.pou_names.end() || pou->second->tree->kind != ast::Pou::Kind::Program) {
       context_.error(one.at, fmt::format("there is no PROGRAM '{}'", one.type));
       return;
     }
-    if (!names_.insert(upper(one.name)).second) {
+    if (!names_.insert(upper(name)).second) {
       context_.error(one.at, fmt::format("the instance '{}' is declared twice, rename one of them", one.name));
       return;
     }
     mentioned_.insert(pou->second);
+    const auto known = in_resource_.find({resource_, upper(one.task)});
     const auto task = std::find_if(tasks().begin(), tasks().end(), [&](const TaskPlan& plan) {
-      return !one.task.empty() && same_name(plan.name, one.task);
+      return known != in_resource_.end() && same_name(plan.name, known->second);
     });
     if (!one.task.empty() && task == tasks().end()) {
       context_.error(one.at, fmt::format("there is no TASK '{}'", one.task));
       return;
     }
     TaskPlan& plan = one.task.empty() ? default_task() : *task;
-    plan.programs.push_back({one.name, pou->second});
+    plan.programs.push_back({name, pou->second});
   }
 
   std::vector<TaskPlan>& tasks() { return context_.program.tasks; }
@@ -101,6 +122,8 @@ class TaskPlanner {
   Context& context_;
   std::set<const Pou*> mentioned_;
   std::set<std::string> names_;
+  const Resource* resource_ = nullptr;
+  std::map<std::pair<const Resource*, std::string>, std::string> in_resource_;  // tasks as they are called outside
 };
 
 // What cannot be a shared variable lives in one module.

@@ -103,6 +103,9 @@ class Compiler {
     }
     Project project = read_project(options_.files, {options_.watch}, read_, diagnostics_);
     project.dialect = options_.dialect.value_or(project.dialect);
+    if (project.incomplete) {
+      return;  // what is left out would be missed everywhere
+    }
     const auto program = check(std::move(project), std::move(check_options), diagnostics_);
     if (diagnostics_.failed()) {
       return;

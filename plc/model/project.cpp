@@ -18,6 +18,7 @@ void append(Project& into, Project from) {
   move_all(into.pous, from.pous);
   move_all(into.globals, from.globals);
   move_all(into.global_lists, from.global_lists);
+  into.incomplete = into.incomplete || from.incomplete;
   into.dialect = from.dialect == Dialect::Iec ? into.dialect : from.dialect;
   move_all(into.configurations, from.configurations);
 }

@@ -50,6 +50,7 @@ struct Project {
   std::vector<ast::Pou> pous;
   std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
   std::vector<Configuration> configurations;
+  bool incomplete = false;                // something that is not supported was left out, so that names may miss
   Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say
   std::vector<std::string> global_lists;  // names through which globals may be reached: Io.Blocked, as CODESYS has it
 };

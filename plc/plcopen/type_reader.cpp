@@ -92,6 +92,9 @@ class Reader {
     if (node.name == "struct") {
       return structure(node, out);
     }
+    if (node.name == "pointer") {
+      return pointer(node, out);
+    }
     if (const auto known = elementary_named(node.name)) {
       elementary(*known, out);
       return true;
@@ -100,10 +103,18 @@ class Reader {
     return false;
   }
 
+  bool pointer(const Node& node, TypeSpec& out) {
+    out.kind = TypeSpec::Kind::Pointer;
+    const Node* base = node.child("baseType");
+    auto element = type(base != nullptr ? *base : node);
+    if (element) {
+      out.element = std::make_shared<TypeSpec>(std::move(*element));
+    }
+    return element.has_value();
+  }
+
   void refuse(const Node& node) {
-    if (node.name == "pointer") {
-      error(node, "there are no pointers here, use VAR_IN_OUT or an array");
-    } else if (node.name == "wstring") {
+    if (node.name == "wstring") {
       error(node, "WSTRING is not supported; use STRING, which holds UTF-8");
     } else {
       error(node, fmt::format("<{}> is not a data type this compiler knows; use an elementary type, an array, a "

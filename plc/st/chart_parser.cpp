@@ -29,6 +29,38 @@ WrittenBody ChartParser::instruction_list(std::string_view end) {
   return std::move(out_);
 }
 
+// Statements with ACTIONs before or behind them.
+WrittenBody ChartParser::statements(std::string_view end) {
+  while (in_.accept("ACTION")) {
+    take_action();
+  }
+  out_.code.body = code_until(end, Body::Language::St, "ACTION");
+  WrittenBody made = std::move(out_);
+  actions(made);
+  if (!in_.at_end() && !in_.peek().is(end)) {
+    in_.error(in_.peek(), "statements stand before and behind an ACTION, put them together");
+    while (!in_.at_end() && !in_.peek().is(end)) {
+      in_.take();
+    }
+  }
+  return made;
+}
+
+void ChartParser::actions(WrittenBody& to) {
+  out_ = std::move(to);
+  while (in_.accept("ACTION")) {
+    take_action();
+  }
+  to = std::move(out_);
+}
+
+void ChartParser::take_action() {
+  if (!action()) {
+    in_.skip_behind("END_ACTION");
+  }
+  in_.accept(";");
+}
+
 WrittenBody ChartParser::chart(std::string_view end) {
   out_.code.body.language = Body::Language::Sfc;
   out_.code.body.at = in_.here();
@@ -124,9 +156,7 @@ bool ChartParser::action() {
   network::NamedBody made;
   made.at = in_.here();
   made.name = in_.take().text;
-  if (!in_.expect(":", "behind the name of the action")) {
-    return false;
-  }
+  in_.accept(":");  // TwinCAT has none
   made.body = code_until("END_ACTION", at_instruction_list() ? Body::Language::Il : Body::Language::St);
   out_.code.actions.push_back(std::move(made));
   return in_.expect("END_ACTION", "to close the ACTION");
@@ -171,15 +201,15 @@ bool ChartParser::steps(std::vector<const Token*>& into) {
   return !several || in_.expect(")", "behind the steps");
 }
 
-// The text from here to before the word.
-network::Body ChartParser::code_until(std::string_view end, Body::Language language) {
+// The text from here to before the word, or the other one.
+network::Body ChartParser::code_until(std::string_view end, Body::Language language, std::string_view other) {
   Body body;
   body.language = language;
   body.at = in_.here();
   body.text_at = body.at;
   const char* first = in_.peek().text.data();
   const char* last = first;
-  while (!in_.at_end() && !in_.peek().is(end)) {
+  while (!in_.at_end() && !in_.peek().is(end) && (other.empty() || !in_.peek().is(other))) {
     const std::string_view text = in_.take().text;
     last = text.data() + text.size();
   }

@@ -30,6 +30,9 @@ class ChartParser {
   // Up to `end`, which is not taken. After errors what was understood.
   [[nodiscard]] WrittenBody chart(std::string_view end);
   [[nodiscard]] WrittenBody instruction_list(std::string_view end);
+  [[nodiscard]] WrittenBody statements(std::string_view end);
+  // ACTIONs that stand here, for this body.
+  void actions(WrittenBody& to);
 
  private:
   using Element = network::Element;
@@ -47,7 +50,9 @@ class ChartParser {
   bool action();
   bool transition();
   bool steps(std::vector<const Token*>& into);
-  [[nodiscard]] network::Body code_until(std::string_view end, network::Body::Language language);
+  void take_action();
+  [[nodiscard]] network::Body code_until(std::string_view end, network::Body::Language language,
+                                         std::string_view other = {});
   void connect(const Transition& transition);
   [[nodiscard]] Element* step_named(const Token& name);
   Element& add(Element::Kind kind, const Place& at);

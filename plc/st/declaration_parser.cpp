@@ -223,6 +223,9 @@ std::optional<ast::TypeSpec> DeclarationParser::type() {
     ok = structure(out);
   } else if (token.is("(")) {
     ok = enumeration(out);
+  } else if (in_.peek().is("UNION") && in_.peek(1).kind == TokenKind::Word) {
+    in_.unsupported(token, "UNION is not supported, use parts of bit strings (w.%B1) or a pointer to the other type");
+    in_.skip_behind("END_UNION");
   } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
     in_.error(token, fmt::format("{} is not supported, use STRING", token.text));
   } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
@@ -312,6 +315,10 @@ bool DeclarationParser::array(ast::TypeSpec& out) {
     return false;
   }
   do {
+    if (in_.peek().is("*")) {
+      in_.unsupported(in_.peek(), "ARRAY[*] is not supported, use a pointer to an array, and its SIZEOF()");
+      return false;
+    }
     if (!dimension(out.dimensions.emplace_back())) {
       return false;
     }

@@ -35,7 +35,7 @@ Project ProjectParser::project() {
       pou(ast::Pou::Kind::Program, out.pous);
     } else if (in_.accept("FUNCTION")) {
       pou(ast::Pou::Kind::Function, out.pous);
-    } else if (in_.accept("FUNCTION_BLOCK")) {
+    } else if (in_.accept("FUNCTION_BLOCK") || in_.accept("FUNCTIONBLOCK")) {  // CODESYS 2.3 has both
       pou(ast::Pou::Kind::FunctionBlock, out.pous);
     } else if (in_.accept("TYPE")) {
       declarations_.types(out.types);
@@ -43,6 +43,9 @@ Project ProjectParser::project() {
       declarations_.variables(out.globals);
     } else if (in_.accept("CONFIGURATION")) {
       configuration(out.configurations);
+    } else if (in_.next_is({"CLASS", "INTERFACE", "NAMESPACE"}) ||
+               (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word)) {
+      leave_out();
     } else {
       const Token& token = in_.take();
       known = token.is(";");
@@ -54,7 +57,72 @@ Project ProjectParser::project() {
     }
     complained = !known;
   }
+  out.incomplete = in_.left_out();
   return out;
+}
+
+// One message for the whole of it.
+void ProjectParser::leave_out() {
+  const Token& word = in_.take();
+  in_.unsupported(word,
+                  fmt::format("{} is not supported, use function blocks with inputs and outputs and names of their "
+                              "own",
+                              upper(word.text)));
+  in_.skip_behind(word.is("USING") ? std::string(";") : "END_" + upper(word.text));
+}
+
+// Who may use it, and how it may be extended, changes nothing where nothing extends it.
+void ProjectParser::access() {
+  while (in_.next_is({"ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"}) &&
+         in_.peek(1).kind == TokenKind::Word && !is_keyword(in_.peek(1).text) && !in_.peek(1).is("EXTENDS") &&
+         !in_.peek(1).is("IMPLEMENTS")) {
+    in_.take();
+  }
+}
+
+void ProjectParser::inheritance() {
+  const Token& word = in_.peek();
+  if (!in_.next_is({"EXTENDS", "IMPLEMENTS"}) || in_.peek(1).kind != TokenKind::Word) {
+    return;
+  }
+  in_.unsupported(word, fmt::format("{} is not supported, use instances of function blocks inside of each other",
+                                    upper(word.text)));
+  while (in_.next_is({"EXTENDS", "IMPLEMENTS", ",", "."})) {
+    in_.take();
+    in_.take();
+  }
+}
+
+bool ProjectParser::at_method() const {
+  return in_.peek().is("METHOD") || (in_.peek().is("PROPERTY") && in_.peek(1).kind == TokenKind::Word);
+}
+
+// METHOD ... END_METHOD, PROPERTY ... END_PROPERTY; the first of a POU is named.
+void ProjectParser::methods(bool& said) {
+  while (at_method()) {
+    const Token& word = in_.take();
+    if (!said) {
+      in_.unsupported(word,
+                      fmt::format("{} is not supported, use a function block with inputs and outputs, or an ACTION",
+                                  upper(word.text)));
+    }
+    said = true;
+    in_.skip_behind("END_" + upper(word.text));
+    in_.accept(";");
+  }
+}
+
+// Whether ACTIONs stand in this POU or behind it.
+bool ProjectParser::has_actions(std::string_view end) const {
+  for (std::size_t ahead = 0; in_.peek(ahead).kind != TokenKind::End; ++ahead) {
+    if (in_.peek(ahead).is("ACTION")) {
+      return true;
+    }
+    if (in_.peek(ahead).is(end)) {
+      return in_.peek(ahead + 1).is("ACTION") || (in_.peek(ahead + 1).is(";") && in_.peek(ahead + 2).is("ACTION"));
+    }
+  }
+  return false;
 }
 
 bool ProjectParser::name(std::string& to, std::string_view what) {
@@ -72,7 +140,9 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   out.kind = kind;
   out.at = in_.here();
   out.comment = word.comment;
+  access();
   bool ok = name(out.name, kind == ast::Pou::Kind::Program ? "the program" : "a function or function block");
+  inheritance();
   if (ok && kind == ast::Pou::Kind::Function && in_.accept(":")) {
     out.result = declarations_.type();
     ok = out.result.has_value();
@@ -86,18 +156,30 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   while (declarations_.at_variables()) {
     declarations_.variables(out.variables);
   }
+  bool said = false;
+  methods(said);
   ChartParser chart(in_);
-  if (chart.at_chart() || chart.at_instruction_list()) {
-    WrittenBody written = chart.at_chart() ? chart.chart(end) : chart.instruction_list(end);
-    written.pou = to.size();
-    if (ok) {
-      written_.push_back(std::move(written));
-    }
+  std::optional<WrittenBody> written;
+  if (chart.at_chart()) {
+    written = chart.chart(end);
+  } else if (chart.at_instruction_list()) {
+    written = chart.instruction_list(end);
+  } else if (has_actions(end)) {
+    written = chart.statements(end);
   } else {
     out.body = body(end);
   }
+  methods(said);
   if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
     in_.accept(";");
+  }
+  if (written) {
+    chart.actions(*written);
+    written->pou = to.size();
+  }
+  methods(said);
+  if (written && ok) {
+    written_.push_back(std::move(*written));
   }
   if (ok && !refuses_c_code(out)) {
     to.push_back(std::move(out));
@@ -129,8 +211,8 @@ ast::Body ProjectParser::whole_body() {
 }
 
 ast::Body ProjectParser::body(std::string_view end) {
-  ast::Body out = statements_.list({end});
-  while (!in_.at_end() && !in_.peek().is(end)) {
+  ast::Body out = statements_.list({end, "METHOD"});
+  while (!in_.at_end() && !in_.peek().is(end) && !in_.peek().is("METHOD")) {
     const Token& stray = in_.peek();
     if (stray.is("END_PROGRAM") || stray.is("END_FUNCTION") || stray.is("END_FUNCTION_BLOCK")) {
       break;

@@ -25,6 +25,12 @@ class ProjectParser {
  private:
   [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
+  void leave_out();
+  void access();
+  void inheritance();
+  void methods(bool& said);
+  [[nodiscard]] bool at_method() const;
+  [[nodiscard]] bool has_actions(std::string_view end) const;
   void configuration(std::vector<Configuration>& to);
   void resource(std::vector<Resource>& to);
   [[nodiscard]] bool resource_item(Resource& out);

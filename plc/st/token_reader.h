@@ -86,6 +86,18 @@ class TokenReader {
   void error(const Token& at, std::string text) { diagnostics_.error(place(at), std::move(text)); }
   void error(const Place& at, std::string text) { diagnostics_.error(at, std::move(text)); }
 
+  // For what the language has and we have not: said once, and the project is not looked at any further.
+  void unsupported(const Token& at, std::string text) {
+    left_out_ = true;
+    error(at, std::move(text));
+  }
+  [[nodiscard]] bool left_out() const noexcept { return left_out_; }
+  // Behind the word, or at the end of the text.
+  void skip_behind(std::string_view word) noexcept {
+    while (!at_end() && !take().is(word)) {
+    }
+  }
+
   void warning(const Place& at, std::string text) { diagnostics_.warning(at, std::move(text)); }
 
   [[nodiscard]] static std::string spelled(const Token& token) {
@@ -104,6 +116,7 @@ class TokenReader {
   const Place& origin_;
   Diagnostics& diagnostics_;
   std::size_t at_ = 0;
+  bool left_out_ = false;
 };
 
 }  // namespace indurop::plc::st

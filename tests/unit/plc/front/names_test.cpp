@@ -8,7 +8,9 @@
 namespace indurop::plc {
 namespace {
 
+using testing::compiled;
 using ::testing::HasSubstr;
+using testing::messages;
 using ::testing::Not;
 using testing::wrong;
 
@@ -105,6 +107,18 @@ TEST(PlcNames, The_name_of_a_file_ends_with_its_line) {
       testing::compiled("PROGRAM Main VAR a : INT; END_VAR a := 1; END_PROGRAM", "in\n#error\n.st");
   ASSERT_TRUE(program.ok) << testing::messages(program);
   EXPECT_THAT(testing::written(program), Not(HasSubstr("\n#error")));
+}
+
+TEST(PlcNames, Two_resources_may_have_a_task_and_an_instance_of_the_same_name) {
+  const std::string resource =
+      " ON pc TASK t (INTERVAL := T#1ms, PRIORITY := 1); PROGRAM p WITH t : Main; END_RESOURCE ";
+  const Compiled sut =
+      compiled("PROGRAM Main VAR a : INT; END_VAR a := a + 1; END_PROGRAM CONFIGURATION c RESOURCE one" + resource +
+               "RESOURCE two" + resource + "END_CONFIGURATION");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  ASSERT_EQ(sut.modules.size(), 2U);
+  EXPECT_EQ(sut.modules[0].name, "sut_one_t");
+  EXPECT_EQ(sut.modules[1].name, "sut_two_t");
 }
 
 }  // namespace

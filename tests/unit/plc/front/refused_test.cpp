@@ -194,5 +194,44 @@ TEST(PlcRefused, A_REAL_that_is_too_large_is_no_constant) {
   }
 }
 
+// What the language has and we have not: one message that names it, and nothing about what it would have declared.
+TEST(PlcRefused, What_is_not_supported_is_said_once) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  const std::string main =
+      "PROGRAM Main VAR m : Motor; i : INT; END_VAR i := m.Speed; i := m.Go(x := 3); Space.F(i); END_PROGRAM\n";
+  for (const auto& [text, message] :
+       {Row{"INTERFACE Motor METHOD Go : INT VAR_INPUT x : INT; END_VAR END_METHOD END_INTERFACE", "INTERFACE is not"},
+        Row{"CLASS Motor VAR n : INT; END_VAR METHOD PUBLIC Go n := n + 1; END_METHOD END_CLASS", "CLASS is not"},
+        Row{"FUNCTION_BLOCK ABSTRACT Motor EXTENDS Drive, Brake VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK",
+            "EXTENDS is not"},
+        Row{"FUNCTION_BLOCK Motor METHOD Go : INT VAR_INPUT x : INT; END_VAR Go := x; END_METHOD METHOD Stop ; "
+            "END_METHOD END_FUNCTION_BLOCK",
+            "METHOD is not"},
+        Row{"FUNCTION_BLOCK Motor VAR n : INT; END_VAR n := 3; END_FUNCTION_BLOCK METHOD Go n := 1; END_METHOD",
+            "METHOD is not"},
+        Row{"FUNCTION_BLOCK Motor VAR n : INT; END_VAR PROPERTY Speed : INT GET Speed := n; END_GET END_PROPERTY n := "
+            "3; END_FUNCTION_BLOCK",
+            "PROPERTY is not"},
+        Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",
+            "NAMESPACE is not"},
+        Row{"TYPE Motor : UNION w : WORD; b : ARRAY[0..1] OF BYTE; END_UNION END_TYPE", "UNION is not"},
+        Row{"FUNCTION F : INT VAR_IN_OUT a : ARRAY[*] OF INT; END_VAR F := a[1]; END_FUNCTION", "ARRAY[*] is not"}}) {
+    const Compiled sut = compiled(main + text + "\n");
+    EXPECT_FALSE(sut.ok) << text;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+}
+
+TEST(PlcRefused, A_place_inside_of_an_array_is_not_a_second_variable) {
+  const std::string head = "PROGRAM Main VAR list AT %MW10 : ARRAY[1..3] OF WORD; w : WORD; END_VAR ";
+  EXPECT_THAT(messages(compiled(head + "w := list[1]; w := %MW12; END_PROGRAM")),
+              HasSubstr("%MW12 lies in the array 'list' at %MW10, write its element"));
+  EXPECT_TRUE(compiled(head + "w := list[1]; w := %MW13; END_PROGRAM").ok);
+}
+
 }  // namespace
 }  // namespace indurop::plc
