@@ -16,7 +16,7 @@ constexpr std::int64_t kStepDown = 4;
 }  // namespace
 
 Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
-    : clock_(clock), mode_(settings.mode), limit_(period_ns / 2), quantile_(kFirstGuess) {
+    : clock_(clock), mode_(settings.mode), limit_(std::min(period_ns / 2, kMostSpinNs)), quantile_(kFirstGuess) {
   if (mode_ == SpinMode::Auto) {
     margin_ = std::min(kFirstGuess, limit_);
   } else if (mode_ == SpinMode::Fixed) {

@@ -19,7 +19,9 @@ struct SpinSettings {
 
 class Spinner {
  public:
-  // Auto never spins longer than half the period: the kernel stops real-time threads that use all of a core.
+  // Auto never spins longer than half the period, for the kernel stops real-time threads that use all of a core, nor
+  // longer than kMostSpinNs: a machine whose wake-ups are later than that is not made exact by any price.
+  static constexpr std::int64_t kMostSpinNs = 150'000;
   Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept;
 
   // Returns the time at which the wait ended, at or after the deadline. Real-time safe.

@@ -47,6 +47,16 @@ TEST(Spinner, Never_spins_more_than_half_the_period) {
   EXPECT_LE(sut.margin_ns(), 50'000);
 }
 
+TEST(Spinner, A_machine_that_is_late_by_milliseconds_is_not_waited_for) {
+  LateClock clock;
+  clock.late = 3'000'000;
+  Spinner sut(clock, {}, 10'000'000);
+  for (std::int64_t n = 1; n <= 20'000; ++n) {
+    sut.wait_until(rt::mono_time(n * 10'000'000));
+  }
+  EXPECT_EQ(sut.margin_ns(), Spinner::kMostSpinNs);
+}
+
 TEST(Spinner, Off_only_sleeps) {
   LateClock clock;
   clock.late = 7'000;
