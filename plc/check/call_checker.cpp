@@ -94,6 +94,9 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     // Any whole number, says the standard: the one that is wanted, else DINT.
     overloads = find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
   }
+  if (context_.codesys() && overloads.size() == 1 && overloads.front()->cpp == "iec::to_literal") {
+    overloads = find_functions("TO_STRING");  // '42'
+  }
   if (!overloads.empty()) {
     return library_function(call, overloads, wanted);
   }

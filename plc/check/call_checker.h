@@ -32,7 +32,7 @@ class CallChecker {
 
   std::optional<Inputs> positions(ast::Expression& call, const LibraryFunction& first);
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
-  const Type* library_function(ast::Expression& call, const std::vector<const LibraryFunction*>& overloads,
+  const Type* library_function(ast::Expression& call, std::vector<const LibraryFunction*> overloads,
                                const Type* wanted);
   bool address_call(ast::Expression& call, const Type*& type);
   const Type* size_of(ast::Expression& call, ast::Expression& of);

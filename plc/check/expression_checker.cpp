@@ -225,10 +225,33 @@ const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
   return context_.elementary(type);
 }
 
+// s[0] is the first character for CODESYS, a BYTE.
+const Type* ExpressionChecker::character(Expression& expression, const Type& text) {
+  const bool reading = std::exchange(reading_, true);
+  Expression& index = expression.operands[1];
+  const Type* type = value(index);
+  reading_ = reading;
+  if (type == nullptr || !is_whole(*type)) {
+    if (type != nullptr) {
+      context_.error(index.at, fmt::format("an index is a whole number, not {}", with_article(*type)));
+    }
+    return nullptr;
+  }
+  const Constant* known = constant_of(index);
+  if (known != nullptr && (std::get<Integer>(*known) < 0 || std::get<Integer>(*known) > Integer{text.length})) {
+    context_.error(index.at, fmt::format("index {} is outside of 0..{}, correct it", to_string(*known), text.length));
+    return nullptr;
+  }
+  return context_.elementary(Elementary::Byte);
+}
+
 const Type* ExpressionChecker::index(Expression& expression) {
   const Type* base = value(expression.operands[0]);
   if (base != nullptr && base->kind == Type::Kind::Pointer && expression.operands.size() == 2) {
     return pointer_index(expression, *base);
+  }
+  if (base != nullptr && base->is_string() && context_.codesys() && expression.operands.size() == 2) {
+    return character(expression, *base);
   }
   const bool reading = std::exchange(reading_, true);
   bool fine = base != nullptr;

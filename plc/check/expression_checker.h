@@ -66,6 +66,7 @@ class ExpressionChecker {
   const Type* binary(ast::Expression& expression, const Type* wanted);
   // The value as another type: an enumeration is a number, and a number one of an enumeration.
   const Type* deref(ast::Expression& expression);
+  const Type* character(ast::Expression& expression, const Type& text);
   const Type* pointer_index(ast::Expression& expression, const Type& pointer);
   const Type* follow(ast::Expression& expression, const Type& reference);
   const Type* pointer_operation(ast::Expression& expression);

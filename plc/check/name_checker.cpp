@@ -261,6 +261,13 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
+    const bool inside = found != nullptr && found->section == ast::Section::Local && found->global == nullptr &&
+                        !found->is_constant && found->type != nullptr;
+    if (inside && context_.codesys()) {
+      resolved(expression).is_output = true;  // read, not written
+      expression.name = found->name;
+      return found->type;
+    }
     if (found != nullptr && found->section == ast::Section::InOut && reading_ && context_.pou != nullptr) {
       // It is the variable that the call above was given.
       const auto given = context_.pou->given.find(upper(expression.operands[0].name + "." + expression.name));

@@ -32,6 +32,10 @@ std::string_view function_of(Operator op) noexcept {
   }
 }
 
+bool is_bits(const Type& type) noexcept {
+  return type.kind == Type::Kind::Elementary && is_bit(type.elementary) && !type.is(Elementary::Bool);
+}
+
 bool untyped(const Expression& expression) noexcept {
   return expression.resolved->untyped;
 }
@@ -145,7 +149,7 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
   return fine;
 }
 
-const Type* CallChecker::library_function(Expression& call, const std::vector<const LibraryFunction*>& overloads,
+const Type* CallChecker::library_function(Expression& call, std::vector<const LibraryFunction*> overloads,
                                           const Type* wanted) {
   const auto found = positions(call, *overloads.front());
   if (!found || !input_values(*found, overloads, wanted)) {
@@ -158,6 +162,9 @@ const Type* CallChecker::library_function(Expression& call, const std::vector<co
     if (counts && inputs[i]->type->kind == Type::Kind::Enum && first.input(i).type != LibraryType(Generic::Any)) {
       expressions_.cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
     }
+  }
+  if (first.name == "TO_STRING" && !context_.codesys() && inputs.size() == 1 && is_bits(*inputs[0]->type)) {
+    overloads = find_functions(fmt::format("{}_TO_STRING", name_of(inputs[0]->type->elementary)));  // '16#2a'
   }
   const Type* result = choose(call, overloads, inputs, wanted);
   if (result == nullptr) {

@@ -203,6 +203,10 @@ std::string ExpressionEmitter::index_through_pointer(const Expression& expressio
 
 std::string ExpressionEmitter::index(const Expression& expression) const {
   const Type& array = *expression.operands[0].type;
+  if (array.is_string()) {
+    return fmt::format("iec::character({}, {}, static_cast<std::int64_t>({}))", place(expression.at),
+                       raw(expression.operands[0]), value(expression.operands[1]));
+  }
   const bool one = expression.operands.size() == 2;
   if (array.kind == Type::Kind::Pointer || (one && expression.operands[0].kind == Expression::Kind::Deref)) {
     return index_through_pointer(expression);

@@ -55,7 +55,9 @@ void append_conversions_from(std::vector<LibraryFunction>& all, Elementary from)
     const Elementary to = type_at(i);
     const bool useful = is_time(from) && is_time(to) ? is_useful_between_times(from, to) : from != to;
     if (useful) {
-      append(all, string(name_of(from)) + "_TO_" + string(name_of(to)), name_of(from), name_of(to), conversion_to(to));
+      const bool literal = is_bit(from) && from != Elementary::Bool && to == Elementary::String;
+      append(all, string(name_of(from)) + "_TO_" + string(name_of(to)), name_of(from), name_of(to),
+             literal ? "to_literal" : conversion_to(to));
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -62,6 +63,7 @@ class Reader {
         diagnostics_.error(transition.element->at, "this transition leads to no step; draw a line to one, or a jump");
       }
     }
+    begins_once();
     if (diagnostics_.errors() == before_) {
       warn_about_reach(chart_, diagnostics_);
     }
@@ -69,6 +71,29 @@ class Reader {
   }
 
  private:
+  // A body may hold several charts, which run beside each other; each begins in one step.
+  void begins_once() {
+    std::vector<std::size_t> chart_of(chart_.steps.size());
+    std::iota(chart_of.begin(), chart_of.end(), std::size_t{0});
+    const auto join = [&](std::size_t a, std::size_t b) {
+      std::replace(chart_of.begin(), chart_of.end(), std::size_t{chart_of[b]}, std::size_t{chart_of[a]});
+    };
+    for (const Transition& transition : chart_.transitions) {
+      for (const auto* steps : {&transition.from, &transition.to}) {
+        for (const std::size_t step : *steps) {
+          join(transition.from.empty() ? step : transition.from.front(), step);
+        }
+      }
+    }
+    std::unordered_map<std::size_t, std::size_t> begins;  // of each chart
+    for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
+      if (chart_.steps[i].initial && ++begins[chart_of[i]] == 2) {
+        diagnostics_.error(chart_.steps[i].element->at,
+                           "this chart has two initial steps; it begins in one, unless they are charts of their own");
+      }
+    }
+  }
+
   void collect() {
     std::vector<const Element*> transitions;
     for (const Element& element : diagram_.elements) {
@@ -87,12 +112,9 @@ class Reader {
       numbers_.emplace(element, chart_.transitions.size());
       chart_.transitions.push_back({element, {}, {}});
     }
-    const auto initial =
-        std::count_if(chart_.steps.begin(), chart_.steps.end(), [](const Step& s) { return s.initial; });
-    if (initial != 1 && !chart_.steps.empty()) {
-      diagnostics_.error(chart_.steps.front().element->at,
-                         initial == 0 ? "this chart has no initial step; mark one as initial"
-                                      : fmt::format("this chart has {} initial steps; it begins in one", initial));
+    const auto is_initial = [](const Step& step) { return step.initial; };
+    if (!chart_.steps.empty() && std::none_of(chart_.steps.begin(), chart_.steps.end(), is_initial)) {
+      diagnostics_.error(chart_.steps.front().element->at, "this chart has no initial step; mark one as initial");
     }
     if (chart_.steps.empty()) {
       diagnostics_.error(diagram_.elements.empty() ? Place{} : diagram_.elements.front().at, "this chart has no step");

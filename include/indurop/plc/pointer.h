@@ -78,6 +78,16 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   return *reinterpret_cast<Element*>(at);
 }
 
+// s[0], the first byte of a text. The one behind the longest text stays its end.
+template <class Text>
+unsigned char& character(Place place, Text& text, std::int64_t index) {
+  constexpr auto kMost = static_cast<std::int64_t>(sizeof(Text)) - 1;
+  if (index < 0 || index > kMost) [[unlikely]] {
+    fail_range(place, "index", index, 0, kMost);
+  }
+  return reinterpret_cast<unsigned char&>(text.data[index]);
+}
+
 // p^
 template <class T>
 T& deref(Place place, const Pointer<T>& pointer) {

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <system_error>
 
@@ -117,6 +118,21 @@ String<20> to_string(T value) noexcept {
   detail::Writer<20> out;
   out.number(value);
   return out.text();
+}
+
+// A bit string as its literal: '16#2a'.
+template <BitString T>
+String<20> to_literal(T value) noexcept {
+  constexpr const char* kDigits = "0123456789abcdef";
+  char text[20] = "16#";
+  std::size_t size = 3;
+  for (int shift = std::numeric_limits<T>::digits - 4; shift >= 0; shift -= 4) {
+    const auto digit = (std::uint64_t{value} >> shift) & 0xFU;
+    if (digit != 0 || size > 3 || shift == 0) {
+      text[size++] = kDigits[digit];
+    }
+  }
+  return std::string_view(text, size);
 }
 
 template <Real T>

@@ -52,7 +52,7 @@ def text_of(source, value):
         return "TOD#" + calendar_rules.clock_text(value)
     if source.kind == "dt":
         return "DT#" + calendar_rules.date_text(value) + "-" + calendar_rules.clock_text(value)
-    return str(value)
+    return f"16#{value:x}" if source.kind == "bits" else str(value)
 
 
 def shortest(type_, size):

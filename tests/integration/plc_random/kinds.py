@@ -37,6 +37,7 @@ class Type:
 
 BOOL = Type("BOOL", "bool", 1)
 BITS = [Type(n, "bits", b) for n, b in (("BYTE", 8), ("WORD", 16), ("DWORD", 32), ("LWORD", 64))]
+PART_LETTERS = {8: "B", 16: "W", 32: "D"}  # of w.%B1
 SIGNED = [Type(n, "int", b, True) for n, b in (("SINT", 8), ("INT", 16), ("DINT", 32), ("LINT", 64))]
 UNSIGNED = [Type(n, "int", b, False) for n, b in (("USINT", 8), ("UINT", 16), ("UDINT", 32), ("ULINT", 64))]
 INTS = SIGNED + UNSIGNED

@@ -148,6 +148,18 @@ def one_bit(make, _type, depth):
     return Expr(shown, BOOL, lambda f: bool(a.run(f) >> number & 1))
 
 
+def part(make, type_, depth):
+    """w.%B1"""
+    found = make.paths(lambda t: t.kind == "bits" and t.low is None and t.bits > type_.bits)
+    if not found or type_.bits > 32:
+        return None
+    a = make.rng.choice(found)
+    number = make.rng.randrange(a.type.bits // type_.bits)
+    mask = (1 << type_.bits) - 1
+    return Expr(f"{a.text}.%{kinds.PART_LETTERS[type_.bits]}{number}", type_,
+                lambda f: a.run(f) >> number * type_.bits & mask)
+
+
 def valid(make, _type, depth):
     a = make.value(make.rng.choice(REALS), depth)
     return None if a.bare else Expr(call("IS_VALID", [a]), BOOL, lambda f: abs(a.run(f)) < float("inf"))
@@ -214,7 +226,7 @@ def text_of(make, _type, depth):
 CALLS = {
     "int": [extreme, extreme, moved, absolute, arithmetic, truncation, text_number, day_of_week, decimals],
     "real": [extreme, extreme, moved, absolute, arithmetic, mathematics, angle],
-    "bits": [extreme, shift, shift, bit_function, moved, to_decimals, ticks],
+    "bits": [extreme, part, shift, shift, bit_function, moved, to_decimals, ticks],
     "bool": [extreme, bit_function, compared, compared, one_bit, valid, moved],
     "time": [extreme, moved, now],
     "tod": [extreme, moved],

@@ -5,7 +5,7 @@ import functions as do
 import literals
 import tree
 from expressions import Maker
-from kinds import BOOL, INT, INTS, clone, wrap
+from kinds import BITS, BOOL, INT, INTS, PART_LETTERS, clone, wrap
 from tree import Continue, Exit, Jump, Return, Stmt, indent, sequence, text_of
 from units import root
 
@@ -56,7 +56,7 @@ class Writer:
 
     def statement(self, depth):
         rng = self.rng
-        options = [self.assign] * 10 + [self.call] * 3 + [self.set_bit]
+        options = [self.assign] * 10 + [self.call] * 3 + [self.set_bit, self.set_part, self.set_or_reset, self.chain]
         if depth > 0:
             options += [self.branch] * 3 + [self.case, self.for_loop, self.for_loop, self.guarded_loop]
         if self.loops and depth < 2:
@@ -105,6 +105,57 @@ class Writer:
             container[key] = wrap(target.type, new)
 
         return Stmt([f"{target.text}.{number} := {value.text};"], run)
+
+    def set_part(self, _depth):
+        found = self.make.paths(lambda t: t.kind == "bits" and t.low is None and t.bits > 8, writable=True)
+        if not found:
+            return None
+        target = self.rng.choice(found)
+        part = self.rng.choice([one for one in BITS if one.bits < target.type.bits])
+        number = self.rng.randrange(target.type.bits // part.bits)
+        value = self.make.value(part, 2)
+        mask = ((1 << part.bits) - 1) << number * part.bits
+
+        def run(f):
+            new = value.run(f) << number * part.bits
+            container, key = target.slot(f)
+            container[key] = container[key] & ~mask | new
+
+        return Stmt([f"{target.text}.%{PART_LETTERS[part.bits]}{number} := {value.text};"], run)
+
+    def set_or_reset(self, _depth):
+        found = self.make.paths(lambda t: t is BOOL, writable=True)
+        if not found:
+            return None
+        target, value, on = self.rng.choice(found), self.make.value(BOOL, 2), self.rng.random() < 0.5
+
+        def run(f):
+            if value.run(f):
+                container, key = target.slot(f)
+                container[key] = on
+
+        return Stmt([f"{target.text} {'S' if on else 'R'}= {value.text};"], run)
+
+    def chain(self, _depth):
+        """a := b := value; of one type, so that nothing is converted on the way."""
+        found = [one for one in self.make.paths(lambda t: t.kind not in ("array", "struct"), writable=True)
+                 if "[" not in one.text]
+        if not found:
+            return None
+        last = self.rng.choice(found)
+        same = [one for one in found if one.type is last.type]
+        targets = [self.rng.choice(same) for _ in range(self.rng.randint(1, 2))] + [last]
+        value = self.make.into(last.type)
+        if value is None:
+            return None
+
+        def run(f):
+            result = clone(value.run(f))
+            for one in reversed(targets):
+                container, key = one.slot(f)
+                container[key] = clone(result)
+
+        return Stmt([f"{' := '.join(one.text for one in targets)} := {value.text};"], run)
 
     def call(self, _depth):
         instances = self.scope.instances()
