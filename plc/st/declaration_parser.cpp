@@ -46,7 +46,7 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   const auto* known =
       std::find_if(kSections.begin(), kSections.end(), [&](const SectionWord& s) { return word.is(s.word); });
   if (known == kSections.end()) {
-    in_.error(word, fmt::format("{} is not supported, use VAR_GLOBAL and VAR_EXTERNAL", word.text));
+    in_.unsupported(word, fmt::format("{} is not supported, use VAR_GLOBAL and VAR_EXTERNAL", word.text));
     return std::nullopt;
   }
   Block out;
@@ -227,7 +227,7 @@ std::optional<ast::TypeSpec> DeclarationParser::type() {
     in_.unsupported(token, "UNION is not supported, use parts of bit strings (w.%B1) or a pointer to the other type");
     in_.skip_behind("END_UNION");
   } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
-    in_.error(token, fmt::format("{} is not supported, use STRING", token.text));
+    in_.unsupported(token, fmt::format("{} is not supported, use STRING", token.text));
   } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
     ok = pointer(out);
   } else if (in_.expect_name("a type")) {

@@ -215,6 +215,9 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
         Row{"FUNCTION_BLOCK Motor VAR n : INT; END_VAR PROPERTY Speed : INT GET Speed := n; END_GET END_PROPERTY n := "
             "3; END_FUNCTION_BLOCK",
             "PROPERTY is not"},
+        Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
+            "WSTRING is not"},
+        Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION", "VAR_ACCESS is not"},
         Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",
             "NAMESPACE is not"},
         Row{"TYPE Motor : UNION w : WORD; b : ARRAY[0..1] OF BYTE; END_UNION END_TYPE", "UNION is not"},
