@@ -103,15 +103,16 @@ function(indurop_add_module name)
   target_link_libraries(${name} PRIVATE indurop::indurop ${arg_GLB} ${arg_LIBRARIES})
 endfunction()
 
-# indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])
+# indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...]
+#   [SHOW_LOCALS] [WATCH])
 # A PLC program (IEC 61131-3) as thread module <name>.so. A program with several tasks names them: each becomes a module
 # <name>_<task>.so. GLB: the indurop_add_glb target whose variables the program uses. Other modules get those and the
 # program's own variables from the target <name>_variables.
 function(indurop_add_plc name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH" "GLB;NAMESPACE" "SOURCES;TASKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH" "GLB;NAMESPACE;DIALECT" "SOURCES;TASKS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "indurop_add_plc(${name}): usage: indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] "
-      "[NAMESPACE <name>] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])")
+      "[NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])")
   endif()
   if(arg_GLB AND NOT TARGET ${arg_GLB})
     message(FATAL_ERROR "indurop_add_plc(${name}): '${arg_GLB}' is no target; call indurop_add_glb(${arg_GLB} FILES ...) first")
@@ -120,6 +121,9 @@ function(indurop_add_plc name)
   set(options --only-sources -q -o ${folder} --name ${name})
   if(arg_NAMESPACE)
     list(APPEND options --namespace ${arg_NAMESPACE})
+  endif()
+  if(arg_DIALECT)
+    list(APPEND options --dialect ${arg_DIALECT})
   endif()
   if(arg_SHOW_LOCALS)
     list(APPEND options --show-locals)
