@@ -359,6 +359,19 @@ class TypeOrder {
 
 }  // namespace
 
+namespace {
+
+// TYPE P : POINTER TO P; such a type has no end.
+bool leads_to_itself(const Type& pointer) noexcept {
+  const Type* at = pointer.element;
+  while (at != nullptr && at != &pointer && (at->kind == Type::Kind::Pointer || at->kind == Type::Kind::Array)) {
+    at = at->element;
+  }
+  return at == &pointer;
+}
+
+}  // namespace
+
 void declare_types(Context& context) {
   for (Pou& pou : context.program.pous) {
     if (pou.tree->kind != ast::Pou::Kind::FunctionBlock) {
@@ -375,6 +388,12 @@ void declare_types(Context& context) {
   context.program.types_known = true;
   for (const auto& [pointer, spec] : context.program.open_pointers) {
     pointer->element = build_type(context, *spec);
+    if (leads_to_itself(*pointer)) {
+      context.error(spec->at, fmt::format("a pointer to '{}' leads to itself, put a STRUCT between", spec->name));
+    }
+    if (pointer->element == nullptr || leads_to_itself(*pointer)) {
+      pointer->element = context.elementary(Elementary::Int);
+    }
   }
 }
 

@@ -236,5 +236,13 @@ TEST(PlcRefused, A_place_inside_of_an_array_is_not_a_second_variable) {
   EXPECT_TRUE(compiled(head + "w := list[1]; w := %MW13; END_PROGRAM").ok);
 }
 
+TEST(PlcRefused, A_pointer_that_leads_to_itself) {
+  const std::string main = "PROGRAM Main VAR x : P; b : BOOL; END_VAR b := NOT b; END_PROGRAM\n";
+  for (const char* type : {"POINTER TO P", "ARRAY[0..1] OF POINTER TO P"}) {
+    EXPECT_THAT(messages(compiled("TYPE P : " + std::string(type) + "; END_TYPE\n" + main)),
+                HasSubstr("a pointer to 'P' leads to itself, put a STRUCT between"));
+  }
+}
+
 }  // namespace
 }  // namespace indurop::plc
