@@ -357,10 +357,6 @@ class TypeOrder {
   std::vector<const ast::TypeDeclaration*> open_;
 };
 
-}  // namespace
-
-namespace {
-
 // TYPE P : POINTER TO P; such a type has no end.
 bool leads_to_itself(const Type& pointer) noexcept {
   const Type* at = pointer.element;
