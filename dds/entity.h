@@ -43,6 +43,8 @@ class Entity {
   [[nodiscard]] Handle get() const noexcept { return handle_; }
   [[nodiscard]] bool ok() const noexcept { return handle_ > 0; }
   [[nodiscard]] std::string why() const { return dds_strretcode(-handle_); }
+  // The keys of this participant do not permit it.
+  [[nodiscard]] bool forbidden() const noexcept { return handle_ == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY; }
 
  private:
   Handle handle_ = 0;

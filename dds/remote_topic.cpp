@@ -76,6 +76,7 @@ void RemoteTopic::read(Handle participant, const dds_builtintopic_endpoint_t& pu
   const Listener listener = wake_listener(wake);
   const Qos qos = reader_qos(publication);
   reader_ = topic_.ok() ? Entity(dds_create_reader(participant, topic_.get(), qos.get(), listener.get())) : Entity();
+  may_not_read_ = topic_.forbidden() || reader_.forbidden();
   if (!reader_.ok()) {
     close();
   }
@@ -109,8 +110,9 @@ bool RemoteTopic::send(Handle participant, const Guid& to, std::span<const std::
   if (!writer_.ok()) {
     const Qos qos = make_qos({.for_late_ones = false});
     writer_ = Entity(dds_create_writer(participant, topic_.get(), qos.get(), nullptr));
+    may_not_send_ = writer_.forbidden();
   }
-  if (!is_read_by(writer_.get(), to)) {
+  if (!writer_.ok() || !is_read_by(writer_.get(), to)) {
     return false;
   }
   std::vector<std::uint64_t> sample((size_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));

@@ -34,6 +34,9 @@ class RemoteTopic {
                const Publication& publication, rt::SignalWord& wake);
   [[nodiscard]] bool is_open() const noexcept { return reader_.ok(); }
   void close() noexcept;
+  // The keys of this participant do not permit to read it, or to send to it. As far as that was tried.
+  [[nodiscard]] bool may_not_read() const noexcept { return may_not_read_; }
+  [[nodiscard]] bool may_not_send() const noexcept { return may_not_send_; }
 
   // Values that have come, with the participant they are from.
   void take(const std::function<void(const Guid& from, std::span<const std::uint8_t> value)>& use);
@@ -50,6 +53,8 @@ class RemoteTopic {
   Entity topic_;
   Entity reader_;
   Entity writer_;
+  bool may_not_read_ = false;
+  bool may_not_send_ = false;
   std::map<InstanceHandle, Guid> senders_;  // participants by publication
 };
 

@@ -100,16 +100,19 @@ bool set_serial(X509* certificate) {
          ::ASN1_INTEGER_set_uint64(::X509_get_serialNumber(certificate), (serial >> 1U) | 1U) == 1;
 }
 
+bool name_it(X509_NAME* name, const Identity& identity) {
+  return add_entry(name, "O", identity.organisation) && add_entry(name, "OU", identity.unit) &&
+         add_entry(name, "CN", identity.common_name);
+}
+
 bool fill(X509* certificate, EVP_PKEY* key, const Identity& identity, const Validity& validity) {
   constexpr long kVersion3 = 2;
-  X509_NAME* name = ::X509_get_subject_name(certificate);
   const Time from = to_time(validity.from);
   const Time until = to_time(validity.until);
   return from != nullptr && until != nullptr && ::X509_set_version(certificate, kVersion3) == 1 &&
          set_serial(certificate) && ::X509_set1_notBefore(certificate, from.get()) == 1 &&
          ::X509_set1_notAfter(certificate, until.get()) == 1 && ::X509_set_pubkey(certificate, key) == 1 &&
-         add_entry(name, "O", identity.organisation) && add_entry(name, "OU", identity.unit) &&
-         add_entry(name, "CN", identity.common_name);
+         name_it(::X509_get_subject_name(certificate), identity);
 }
 
 std::string pem_of(X509* certificate) {
@@ -185,6 +188,15 @@ std::string public_half(const std::string& key) {
   const Key both = read_key(key);
   const Bio out = writing();
   return both != nullptr && ::PEM_write_bio_PUBKEY(out.get(), both.get()) == 1 ? content(out) : std::string{};
+}
+
+std::string subject_digest(const Identity& identity) {
+  const std::unique_ptr<X509_NAME, void (*)(X509_NAME*)> name(::X509_NAME_new(), &::X509_NAME_free);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  const bool ok = name != nullptr && name_it(name.get(), identity) &&
+                  ::X509_NAME_digest(name.get(), ::EVP_sha256(), digest.data(), &size) == 1;
+  return ok ? hex(digest.data(), size) : std::string{};
 }
 
 std::string make_authority(const std::string& key, const Identity& identity, const Validity& validity) {

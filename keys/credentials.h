@@ -55,6 +55,10 @@ std::string make_revocation_list(const Authority& authority, const std::string& 
 // S/MIME with the text readable in it, as DDS Security wants it.
 std::string sign_document(const Authority& authority, const std::string& text);
 
+// SHA-256 of the subject a certificate of this identity has, hexadecimal. Participants of DDS Security are numbered by
+// it.
+std::string subject_digest(const Identity& identity);
+
 std::optional<CertificateFacts> read_certificate(const std::string& certificate);
 bool issued_by(const std::string& certificate, const std::string& authority);
 bool belongs_to(const std::string& certificate, const std::string& key);

@@ -18,19 +18,34 @@ struct Topics {
   std::vector<std::string> subscribe;
 };
 
-Topics topics_of(Role role, const std::string& plant, const std::string& name) {
-  const std::string own = schema::plant_topics(plant);
+// What somebody may do, in two steps: the platform's own topics, and of all others those of variables.
+struct Rights {
+  Topics own;
+  Topics variables;
+};
+
+Rights rights_of(const Holder& holder) {
+  const std::string plant = schema::plant_topics(holder.plant);
   const std::string deploy = schema::deploy_topics();
-  switch (role) {
+  const std::string directory = schema::directory_topic();
+  const std::string wish = schema::wish_topic();
+  switch (holder.role) {
     case Role::Board:
-      // A board that was taken over can lie about its own variables, not about those of others.
-      return {{schema::board_topics(plant, name) + "*", own + "catalogue", own + "beacon", deploy + "board",
-               deploy + "request", deploy + "blob/*"},
-              {own + "*", deploy + "*"}};
+      // A board that was taken over can lie about its own variables, not about those of others: frames between boards
+      // carry its name. Which variables it shows to tools is for the manifest to say, not for its keys.
+      return {{{schema::board_topics(holder.plant, holder.name) + "*", plant + "catalogue", plant + "beacon",
+                deploy + "board", deploy + "request", deploy + "blob/*", deploy + "reply", directory},
+               {plant + "*", deploy + "*", wish}},
+              {{"*"}, {"*"}}};
     case Role::Viewer:
-      return {{}, {own + "*", deploy + "board"}};
+      return {{{deploy + "request", wish}, {plant + "*", deploy + "board", deploy + "blob/*", directory}}, {{}, {"*"}}};
     case Role::Deployer:
-      return {{deploy + "*"}, {own + "*", deploy + "*"}};
+      return {{{deploy + "*"}, {plant + "*", deploy + "*"}}, {}};
+    case Role::Tool: {
+      Topics variables{variable_topics(holder.variables.write), variable_topics(holder.variables.read)};
+      variables.subscribe.insert(variables.subscribe.end(), variables.publish.begin(), variables.publish.end());
+      return {{{wish}, {directory}}, std::move(variables)};
+    }
   }
   return {};
 }
@@ -44,6 +59,21 @@ std::string section(const char* element, const std::vector<std::string>& topics)
     text += fmt::format("          <topic>{}</topic>\n", topic);
   }
   return fmt::format("        <{0}><topics>\n{1}        </topics></{0}>\n", element, text);
+}
+
+std::string rule(const char* kind, const Topics& topics) {
+  const std::string sections = section("publish", topics.publish) + section("subscribe", topics.subscribe);
+  return sections.empty() ? std::string{}
+                          : fmt::format("      <{0}>\n        {1}\n{2}      </{0}>\n", kind, kDomains, sections);
+}
+
+// The first rule that knows a topic counts: patterns of variables never reach topics of the platform.
+std::string rules_of(const Holder& holder) {
+  const Rights rights = rights_of(holder);
+  const std::string variables = rule("allow_rule", rights.variables);
+  const std::string platform = "indurop/[0-9]*";
+  return rule("allow_rule", rights.own) +
+         (variables.empty() ? variables : rule("deny_rule", {{platform}, {platform}}) + variables);
 }
 
 }  // namespace
@@ -77,9 +107,7 @@ std::string governance_document() {
                      kDomains);
 }
 
-std::string permissions_document(Role role, const std::string& plant, const std::string& name,
-                                 const std::string& subject, const Validity& validity) {
-  const Topics topics = topics_of(role, plant, name);
+std::string permissions_document(const Holder& holder, const std::string& subject, const Validity& validity) {
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds>
   <permissions>
@@ -89,16 +117,12 @@ std::string permissions_document(Role role, const std::string& plant, const std:
         <not_before>{1}</not_before>
         <not_after>{2}</not_after>
       </validity>
-      <allow_rule>
-        {3}
-{4}{5}      </allow_rule>
-      <default>DENY</default>
+{3}      <default>DENY</default>
     </grant>
   </permissions>
 </dds>
 )",
-                     subject, utc_text(validity.from), utc_text(validity.until), kDomains,
-                     section("publish", topics.publish), section("subscribe", topics.subscribe));
+                     subject, utc_text(validity.from), utc_text(validity.until), rules_of(holder));
 }
 
 }  // namespace indurop::keys

@@ -7,20 +7,28 @@
 #include <string>
 
 #include "keys/credentials.h"
+#include "keys/variable_rights.h"
 
 namespace indurop::keys {
 
 // What somebody who has a certificate of the plant may do.
 enum class Role {
   Board,     // publishes its own variables, reads all, reports to the deployer
-  Viewer,    // reads all, publishes nothing
+  Viewer,    // reads all, publishes no value
   Deployer,  // commands agents of boards
+  Tool,      // reads and sets the variables of its lists on the external plane, nothing else
+};
+
+struct Holder {
+  Role role = Role::Board;
+  std::string plant;
+  std::string name;
+  VariableRights variables = {};  // of a tool
 };
 
 // Nobody without a certificate; everything said is encrypted or at least signed, discovery included.
 std::string governance_document();
-// `subject` as in CertificateFacts. `name` is the board's, for Role::Board.
-std::string permissions_document(Role role, const std::string& plant, const std::string& name,
-                                 const std::string& subject, const Validity& validity);
+// `subject` as in CertificateFacts.
+std::string permissions_document(const Holder& holder, const std::string& subject, const Validity& validity);
 
 }  // namespace indurop::keys

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "base/read_file.h"
@@ -25,6 +26,7 @@ constexpr const char* kDeployPublic = "deploy.pub";
 constexpr const char* kIdentityKey = "identity.key";
 constexpr const char* kIdentity = "identity.pem";
 constexpr const char* kPermissions = "permissions.p7s";
+constexpr const char* kVariables = "variables.txt";  // of a tool
 constexpr mode_t kSecret = 0600;
 constexpr mode_t kPublic = 0644;
 
@@ -75,11 +77,36 @@ Done in_turn(const Steps&... steps) {
 }
 
 const char* unit_of(Role role) {
-  return role == Role::Viewer ? "viewer" : role == Role::Deployer ? "deployer" : "";
+  switch (role) {
+    case Role::Board:
+      return "";  // so that no board can be named like one of the others
+    case Role::Viewer:
+      return "viewer";
+    case Role::Deployer:
+      return "deployer";
+    case Role::Tool:
+      return "tool";
+  }
+  return "";
 }
 
 Authority read_authority(const fs::path& folder) {
   return {read_text(folder / kAuthority), read_text(folder / kAuthorityKey)};
+}
+
+// Who has the smaller number begins to shake hands, and Cyclone DDS, so a board, does not understand what Fast DDS 2.9
+// begins with. So tools get a unit that makes their number greater than nearly every board's, always the same.
+Identity identity_of(const Holder& holder) {
+  constexpr int kMostTries = 1'000'000;
+  constexpr const char* kHigh = "fff";  // one in 4096
+  Identity identity{holder.plant, unit_of(holder.role), holder.name};
+  for (int i = 0; holder.role == Role::Tool && i < kMostTries; ++i) {
+    identity.unit = fmt::format("{} {}", unit_of(holder.role), i);
+    if (subject_digest(identity).starts_with(kHigh)) {
+      break;
+    }
+  }
+  return identity;
 }
 
 // What `key` shows: its certificate, and permissions for exactly that name.
@@ -87,14 +114,12 @@ struct Papers {
   std::string certificate;
   std::string permissions;
 };
-Papers make_papers(const Authority& authority, const std::string& plant, Role role, const std::string& name,
-                   const std::string& key, Instant until) {
+Papers make_papers(const Authority& authority, const Holder& holder, const std::string& key, Instant until) {
   const Validity validity{valid_from(), until};
   Papers papers;
-  // Boards have no unit, so that none can be named like one of the others.
-  papers.certificate = make_certificate(authority, key, {plant, unit_of(role), name}, validity);
+  papers.certificate = make_certificate(authority, key, identity_of(holder), validity);
   if (const auto facts = read_certificate(papers.certificate)) {
-    papers.permissions = sign_document(authority, permissions_document(role, plant, name, facts->subject, validity));
+    papers.permissions = sign_document(authority, permissions_document(holder, facts->subject, validity));
   }
   return papers;
 }
@@ -118,20 +143,22 @@ std::vector<std::string> issued_to(const fs::path& keys, const std::string& whos
 }
 
 std::string folder_of(Role role, const std::string& name) {
-  return role == Role::Board ? "boards/" + name : unit_of(role);
+  return role == Role::Board ? "boards/" + name : role == Role::Tool ? "tools/" + name : unit_of(role);
 }
 
 // One participant's folder, with copies of what all have.
-Done make_participant(const fs::path& keys, const fs::path& folder, const std::string& plant, Role role,
-                      const std::string& name, Instant until) {
+Done make_participant(const fs::path& keys, const fs::path& folder, const Holder& holder, Instant until) {
   const Authority authority = read_authority(keys);
   const std::string key = make_key(KeyKind::P256);
-  const Papers papers = make_papers(authority, plant, role, name, key, until);
+  const Papers papers = make_papers(authority, holder, key, until);
   Done done =
       in_turn([&] { return make_folder(folder); }, [&] { return write_new(folder / kIdentityKey, key, kSecret); },
               [&] { return write_new(folder / kIdentity, papers.certificate, kPublic); },
               [&] { return write_new(folder / kPermissions, papers.permissions, kPublic); },
-              [&] { return note_issued(keys, folder_of(role, name), papers.certificate); });
+              [&] { return note_issued(keys, folder_of(holder.role, holder.name), papers.certificate); });
+  if (done && holder.role == Role::Tool) {
+    done = write_new(folder / kVariables, rights_text(holder.variables), kPublic);
+  }
   for (const char* common : {kAuthority, kGovernance, kRevoked, kDeployPublic}) {
     if (done) {
       done = write_new(folder / common, read_text(keys / common), kPublic);
@@ -179,50 +206,50 @@ fs::path aside(const fs::path& folder) {
   return folder.parent_path() / fmt::format(".{}.{}.new", folder.filename().string(), ::getpid());
 }
 
-std::string missing_file(const ParticipantKeys& keys) {
-  for (const fs::path& file :
-       {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) {
-      return fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "it is not a file");
-    }
-    if (::access(file.c_str(), R_OK) != 0) {
-      return fmt::format("cannot read {}: {}", file.string(), std::strerror(errno));
-    }
-  }
-  return {};
-}
-
 KeyListing listing_of(Role role, const fs::path& folder, const std::string& authority, const std::string& revoked,
                       Instant now) {
-  KeyListing listing{role, folder.filename().string(), folder, {}, false, {}};
+  KeyListing listing{role, folder.filename().string(), folder, {}, false, {}, {}};
   const ParticipantKeys keys(folder);
   const std::string certificate = read_text(keys.certificate);
-  if (const auto facts = read_certificate(certificate)) {
-    listing.validity = facts->validity;
-    listing.revoked = is_revoked(certificate, revoked);
-    const KeyCheck check = check_board_keys(folder, facts->organisation, facts->common_name, now);
-    listing.problem = listing.revoked                      ? "revoked"
-                      : !issued_by(certificate, authority) ? "issued by another authority"
-                      : facts->common_name != listing.name ? "the certificate is that of " + facts->common_name
-                                                           : check.problem;
-  } else {
+  const auto facts = read_certificate(certificate);
+  if (!facts) {
     listing.problem = fmt::format("{} is not a certificate", keys.certificate.string());
+    return listing;
   }
+  if (role == Role::Tool) {
+    auto rights = read_rights(folder / kVariables);
+    if (!rights) {
+      listing.problem = std::move(rights).error().text;
+      return listing;
+    }
+    listing.variables = std::move(rights).value();
+  }
+  listing.validity = facts->validity;
+  listing.revoked = is_revoked(certificate, revoked);
+  const KeyCheck check = check_keys(folder, {role, facts->organisation, facts->common_name, listing.variables}, now);
+  listing.problem = listing.revoked                      ? "revoked"
+                    : !issued_by(certificate, authority) ? "issued by another authority"
+                    : facts->common_name != listing.name ? "the certificate is that of " + facts->common_name
+                    : check.fault == KeyFault::Outdated  ? check.problem + "; indurop keys renew " + listing.name
+                                                         : check.problem;
   return listing;
 }
 
-}  // namespace
+std::vector<KeyListing> listings_in(Role role, const fs::path& folder, const fs::path& keys, Instant now) {
+  const std::string authority = read_text(keys / kAuthority);
+  const std::string revoked = read_text(keys / kRevoked);
+  std::vector<KeyListing> all;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.path().filename().string().starts_with(".")) {
+      all.push_back(listing_of(role, entry.path(), authority, revoked, now));
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const KeyListing& a, const KeyListing& b) { return a.name < b.name; });
+  return all;
+}
 
-ParticipantKeys::ParticipantKeys(const fs::path& in)
-    : folder(in),
-      authority(in / kAuthority),
-      certificate(in / kIdentity),
-      key(in / kIdentityKey),
-      governance(in / kGovernance),
-      permissions(in / kPermissions),
-      revoked(in / kRevoked),
-      deploy_key(in / kDeployPublic) {}
+}  // namespace
 
 Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& boards, Instant until) const {
   std::error_code error;
@@ -232,31 +259,55 @@ Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& b
   const fs::path target = fs::absolute(folder_, error).lexically_normal();
   const fs::path fresh = aside(target.has_filename() ? target : target.parent_path());
   const PlantKeys made(fresh);
-  Done done =
-      in_turn([&] { return make_top(fresh, plant, until); },
-              [&] { return make_participant(fresh, made.viewer(), plant, Role::Viewer, "viewer", until); },
-              [&] { return make_participant(fresh, made.deployer(), plant, Role::Deployer, "deployer", until); });
+  Done done = in_turn([&] { return make_top(fresh, plant, until); },
+                      [&] {
+                        return make_participant(fresh, made.viewer(), {Role::Viewer, plant, "viewer"}, until);
+                      },
+                      [&] {
+                        return make_participant(fresh, made.deployer(), {Role::Deployer, plant, "deployer"}, until);
+                      });
   for (const std::string& board : boards) {
     if (done) {
-      done = make_participant(fresh, made.board(board), plant, Role::Board, board, until);
+      done = make_participant(fresh, made.board(board), {Role::Board, plant, board}, until);
     }
   }
   return put_in_place(std::move(done), fresh, target);
 }
 
-Done PlantKeys::add(const std::string& board, Instant until) const {
-  std::error_code error;
-  if (fs::exists(this->board(board), error)) {
+Done PlantKeys::add(const Holder& holder, Instant until) const {
+  const auto all = list(instant_now());
+  const auto same =
+      std::find_if(all.begin(), all.end(), [&](const KeyListing& each) { return each.name == holder.name; });
+  if (same != all.end()) {
     return base::Problem{fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}",
-                                     board, this->board(board).string(), board)};
+                                     holder.name, same->folder.string(), holder.name)};
   }
-  const fs::path fresh = aside(this->board(board));
-  return put_in_place(make_participant(folder_, fresh, plant(), Role::Board, board, until), fresh, this->board(board));
+  const fs::path folder = folder_ / folder_of(holder.role, holder.name);
+  const fs::path fresh = aside(folder);
+  return put_in_place(in_turn([&] { return make_folder(folder.parent_path()); },
+                              [&] { return make_participant(folder_, fresh, holder, until); }),
+                      fresh, folder);
+}
+
+Done PlantKeys::add(const std::string& board, Instant until) const {
+  return add({Role::Board, plant(), board}, until);
+}
+
+Done PlantKeys::add_tool(const std::string& name, const VariableRights& rights, Instant until) const {
+  return add({Role::Tool, plant(), name, rights}, until);
 }
 
 Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
-  const Papers papers = make_papers(read_authority(folder_), plant(), whose.role, whose.name,
-                                    read_text(ParticipantKeys(whose.folder).key), until);
+  Holder holder{whose.role, plant(), whose.name};
+  if (whose.role == Role::Tool) {
+    auto rights = read_rights(whose.folder / kVariables);
+    if (!rights) {
+      return std::move(rights).error();
+    }
+    holder.variables = std::move(rights).value();
+  }
+  const Papers papers =
+      make_papers(read_authority(folder_), holder, read_text(ParticipantKeys(whose.folder).key), until);
   if (papers.certificate.empty() || papers.permissions.empty()) {
     return crypto_failed();
   }
@@ -296,70 +347,16 @@ std::string PlantKeys::plant() const {
 std::vector<KeyListing> PlantKeys::list(Instant now) const {
   const std::string authority = read_text(folder_ / kAuthority);
   const std::string revoked = read_text(folder_ / kRevoked);
-  std::vector<KeyListing> all;
+  std::vector<KeyListing> all = listings_in(Role::Board, folder_ / "boards", folder_, now);
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_ / "boards", error)) {
-    if (!entry.path().filename().string().starts_with(".")) {
-      all.push_back(listing_of(Role::Board, entry.path(), authority, revoked, now));
-    }
-  }
-  std::sort(all.begin(), all.end(), [](const KeyListing& a, const KeyListing& b) { return a.name < b.name; });
   for (const auto& [role, folder] : {std::pair(Role::Viewer, viewer()), std::pair(Role::Deployer, deployer())}) {
     if (fs::exists(folder, error)) {
       all.push_back(listing_of(role, folder, authority, revoked, now));
     }
   }
+  std::vector<KeyListing> tools = listings_in(Role::Tool, folder_ / "tools", folder_, now);
+  std::move(tools.begin(), tools.end(), std::back_inserter(all));
   return all;
-}
-
-KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, const std::string& board, Instant now) {
-  const ParticipantKeys keys(folder);
-  if (std::string missing = missing_file(keys); !missing.empty()) {
-    return {KeyFault::Missing, std::move(missing), {}, {}};
-  }
-  const std::string certificate = read_text(keys.certificate);
-  const std::string authority = read_text(keys.authority);
-  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority}; };
-  const auto facts = read_certificate(certificate);
-  if (!facts) {
-    return wrong(keys.certificate.string() + " is not a certificate");
-  }
-  if (facts->organisation != plant || facts->common_name != board) {
-    return wrong(fmt::format("{} is the certificate of {} of plant {}", keys.certificate.string(), facts->common_name,
-                             facts->organisation));
-  }
-  if (!issued_by(certificate, authority)) {
-    return wrong(fmt::format("{} was not issued by {}", keys.certificate.string(), keys.authority.string()));
-  }
-  if (!belongs_to(certificate, read_text(keys.key))) {
-    return wrong(fmt::format("{} is not the key of {}", keys.key.string(), keys.certificate.string()));
-  }
-  for (const fs::path& document : {keys.governance, keys.permissions}) {
-    if (signed_text(read_text(document), authority).empty()) {
-      return wrong(fmt::format("{} is not signed by {}", document.string(), keys.authority.string()));
-    }
-  }
-  if (signed_text(read_text(keys.permissions), authority).find(">" + facts->subject + "<") == std::string::npos) {
-    return wrong(fmt::format("{} is not for {}", keys.permissions.string(), facts->subject));
-  }
-  KeyCheck check{KeyFault::None, {}, facts->validity, authority};
-  if (is_revoked(certificate, read_text(keys.revoked))) {
-    check.fault = KeyFault::Wrong;
-    check.problem = fmt::format("{} was revoked", keys.certificate.string());
-  } else if (now < facts->validity.from || now > facts->validity.until) {
-    check.fault = KeyFault::NotNow;
-    check.problem = fmt::format("{} is valid from {} to {}, and now is {}", keys.certificate.string(),
-                                utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now));
-  }
-  return check;
-}
-
-Instant valid_from() {
-  return std::chrono::sys_days(std::chrono::year(2020) / 1 / 1);
-}
-
-Instant instant_now() {
-  return std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
 }
 
 }  // namespace indurop::keys

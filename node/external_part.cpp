@@ -45,6 +45,9 @@ void ExternalPart::configure(const config::Plant& plant, const config::PlantChec
   settings_.network = network_settings(plant, board);
   settings_.network.domain = *plant.external_domain;
   settings_.network.one_host = one_host;
+  if (plant.external_secure) {
+    settings_.network.security = board_security(plant, plant.boards[board].name);
+  }
   if (const std::string& own = plant.boards[board].address; !own.empty()) {
     settings_.network.peers.push_back(own);  // tools on this board
   }
@@ -134,8 +137,8 @@ void ExternalPart::start(const std::string& node, vars::Store& store, const mirr
   external_ = std::move(started).value();
   const auto settable = std::count_if(settings_.variables.begin(), settings_.variables.end(),
                                       [](const mirror::Exported& exported) { return exported.writable; });
-  console.info("{} variables for other tools in DDS domain {}, {} of them can be set", settings_.variables.size(),
-               settings_.network.domain, settable);
+  console.info("{} variables for other tools {}in DDS domain {}, {} of them can be set", settings_.variables.size(),
+               settings_.network.security.on() ? "with keys " : "", settings_.network.domain, settable);
 }
 
 }  // namespace indurop::node

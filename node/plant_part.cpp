@@ -3,22 +3,13 @@
 
 #include <algorithm>
 
-#include "keys/plant_keys.h"
+#include "keys/participant_keys.h"
 
 namespace indurop::node {
 
 namespace {
 
 constexpr std::int64_t kPatienceNs = 1'000'000'000;
-
-dds::Security security_of(const std::filesystem::path& folder) {
-  if (folder.empty()) {
-    return {};
-  }
-  const keys::ParticipantKeys keys(folder);
-  return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
-          keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
-}
 
 const scheduler::Band* band_of(const std::string& module, const config::Config& config,
                                const scheduler::Engine& engine) {
@@ -44,6 +35,16 @@ const scheduler::Band* writer_of(const std::string& variable, const config::Conf
 
 }  // namespace
 
+dds::Security board_security(const config::Plant& plant, const std::string& board) {
+  const std::filesystem::path folder = config::keys_folder(plant, board);
+  if (folder.empty()) {
+    return {};
+  }
+  const keys::ParticipantKeys keys(folder);
+  return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
+          keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+}
+
 dds::NetworkSettings network_settings(const config::Plant& plant, std::size_t board) {
   const config::Board& own = plant.boards[board];
   dds::NetworkSettings settings;
@@ -65,7 +66,7 @@ mirror::Settings mirror_settings(const config::Plant& plant, const config::Plant
   settings.plant = plant.name;
   settings.network = network_settings(plant, board);
   settings.network.domain = plant.domain;
-  settings.network.security = security_of(config::keys_folder(plant, own.name));
+  settings.network.security = board_security(plant, own.name);
   settings.network.lease_ns = plant.lease.count();
   for (const config::Board& other : plant.boards) {
     if (&other != &own) {

@@ -11,6 +11,8 @@
 
 namespace indurop::node {
 
+// The keys of a board; off in a plant without.
+dds::Security board_security(const config::Plant& plant, const std::string& board);
 // How board number `board` finds the others of its plant, on whichever plane: domain, keys and lease are the plane's.
 dds::NetworkSettings network_settings(const config::Plant& plant, std::size_t board);
 

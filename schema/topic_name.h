@@ -41,6 +41,13 @@ inline std::string board_topics(std::string_view plant, std::string_view board) 
 inline std::string deploy_topics() {
   return topic_root() + "deploy/";
 }
+// Of the external plane, for InduRoP's own tools: what a board shows, and what a tool wants to see.
+inline std::string directory_topic() {
+  return topic_root() + "external/directory";
+}
+inline std::string wish_topic() {
+  return topic_root() + "external/wish";
+}
 
 // Whose a topic is, of whatever release; empty if it is none of InduRoP's.
 struct TopicSpeaker {

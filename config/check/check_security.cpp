@@ -41,6 +41,11 @@ std::string check_board(const Plant& plant, const std::string& board, bool runs_
         report.error(plant.security_place, whose + "; indurop keys renew " + board);
       }
       break;
+    case keys::KeyFault::Outdated:
+      // What boards say to each other is permitted by older ones, too.
+      report.warning(plant.security_place, whose + ", so agents and other tools may be refused; indurop keys renew " +
+                                               board + ", then copy permissions.p7s and identity.pem to the board");
+      break;
   }
   return check.authority;
 }

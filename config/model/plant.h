@@ -27,6 +27,7 @@ struct Plant : TypeFiles {
   std::string name;
   int domain = kDefaultDomain;                        // DDS domain between the boards, 0..230
   std::optional<int> external_domain = 0;             // typed topics for other tools; empty: none
+  bool external_secure = false;                       // only holders of keys take part in it
   bool external_ros2 = false;                         // its topics have the names and types of ROS 2
   bool multicast = true;                              // false: boards find each other by <board address="">
   std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to anyone

@@ -70,12 +70,12 @@ std::string optional_attribute(const base::Element& element, const char* name,
   return found->value;
 }
 
-bool has_ros2_names(const base::Element& element, base::Diagnostics& report) {
-  const auto problem = [](const std::string& text) {
+bool is_on(const base::Element& element, const char* name, base::Diagnostics& report) {
+  const auto problem = [name](const std::string& text) {
     return text == "on" || text == "off" ? std::string{}
-                                         : base::in_quotes(text) + " is not a value of ros2; write on or off";
+                                         : base::in_quotes(text) + " is not a value of " + name + "; write on or off";
   };
-  return optional_attribute(element, "ros2", problem, report) == "on";
+  return optional_attribute(element, name, problem, report) == "on";
 }
 
 void read_type_file(const base::Element& element, const std::filesystem::path& folder, TypeFiles& named,
@@ -155,7 +155,7 @@ bool ExternalReader::read(const base::Element& element) {
 
 void ExternalReader::read_external(const base::Element& element) {
   check_attributes(element, {"interface", "ros2"}, report_);
-  plane_.ros2 = has_ros2_names(element, report_);
+  plane_.ros2 = is_on(element, "ros2", report_);
   plane_.interface_name = optional_attribute(
       element, "interface", [](const std::string& text) { return interface_problem(text); }, report_);
   if (!is_leaf(element, report_)) {

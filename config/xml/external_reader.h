@@ -23,8 +23,8 @@ std::optional<int> domain_of(const base::Element& element, const std::string& te
 std::string optional_attribute(const base::Element& element, const char* name,
                                const std::function<std::string(const std::string&)>& problem,
                                base::Diagnostics& report);
-// What ros2="on" or "off" of an <external> says.
-bool has_ros2_names(const base::Element& element, base::Diagnostics& report);
+// Whether this attribute, which may be "on", "off" or missing, is "on".
+bool is_on(const base::Element& element, const char* name, base::Diagnostics& report);
 // One <types>.
 void read_type_file(const base::Element& element, const std::filesystem::path& folder, TypeFiles& named,
                     base::Diagnostics& report);

@@ -61,15 +61,26 @@ class PlantReader {
  private:
   // Who keeps strangers out of the plant does not let them in here by leaving something out.
   void keep_secured() {
-    if (plant_.security.empty() || !plant_.external_domain) {
+    if (!plant_.external_domain) {
+      return;
+    }
+    if (plant_.security.empty()) {
+      if (plant_.external_secure) {
+        report_.error(
+            places_.external,
+            "secure=\"on\" needs keys of the plant; make them with indurop keys init, then say where they are "
+            "with <security>keys</security>");
+      }
       return;
     }
     if (places_.external.line == 0) {
       plant_.external_domain.reset();
-    } else if (!plant_.types.empty()) {
-      report_.warning(places_.external,
-                      "the boards are secured, this domain is not: anyone in the network reads the variables in it and "
-                      "sets those with external=\"write\"; write off, or keep it on a network of its own");
+    } else if (!plant_.types.empty() && !plant_.external_secure) {
+      report_.warning(
+          places_.external,
+          "the boards are secured, this domain is not: anyone in the network reads the variables in it and "
+          "sets those with external=\"write\"; write <external secure=\"on\">, or off, or keep it on a network of its "
+          "own");
     }
   }
 
@@ -124,8 +135,9 @@ class PlantReader {
   }
 
   void read_external(const base::Element& e) {
-    check_attributes(e, {"ros2"}, report_);
-    plant_.external_ros2 = has_ros2_names(e, report_);
+    check_attributes(e, {"ros2", "secure"}, report_);
+    plant_.external_ros2 = is_on(e, "ros2", report_);
+    plant_.external_secure = is_on(e, "secure", report_);
     if (!is_leaf(e, report_)) {
       return;
     }

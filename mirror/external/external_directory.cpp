@@ -30,21 +30,14 @@ void lend(Sequence& sequence, std::vector<char*>& pointers) {
 
 }  // namespace
 
-std::string directory_topic() {
-  return schema::topic_root() + "external/directory";
-}
-
-std::string wish_topic() {
-  return schema::topic_root() + "external/wish";
-}
-
 Result<void, base::Problem> ExternalDirectory::open(dds::Handle participant, const Content& content, bool asked) {
-  writer_ = dds::make_writer(participant, indurop_wire_Directory_desc, directory_topic(), dds::make_qos({}));
+  writer_ = dds::make_writer(participant, indurop_wire_Directory_desc, schema::directory_topic(), dds::make_qos({}));
   if (!writer_.ok()) {
     return base::Problem{"cannot tell which variables there are: " + writer_.why()};
   }
   if (asked) {
-    wishes_ = dds::make_reader(participant, indurop_wire_Wish_desc, wish_topic(), dds::make_qos({.depth = kWishes}));
+    wishes_ =
+        dds::make_reader(participant, indurop_wire_Wish_desc, schema::wish_topic(), dds::make_qos({.depth = kWishes}));
     if (!wishes_.ok()) {
       return base::Problem{"cannot hear which variables are wanted: " + wishes_.why()};
     }

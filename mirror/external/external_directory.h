@@ -42,7 +42,4 @@ class ExternalDirectory {
   dds::Endpoint wishes_;
 };
 
-std::string directory_topic();
-std::string wish_topic();
-
 }  // namespace indurop::mirror

@@ -13,11 +13,11 @@
 #include "dds/publications.h"
 #include "dds/remote_topic.h"
 #include "dds/setup.h"
-#include "mirror/external/external_directory.h"
 #include "mirror/external/external_type.h"
 #include "mirror/remote/remote_sources.h"
 #include "rt/signal_word.h"
 #include "schema/ros_name.h"
+#include "schema/topic_name.h"
 
 namespace indurop::mirror {
 namespace {
@@ -88,9 +88,9 @@ Result<std::string, base::Problem> RemotePlane::Impl::open(const dds::NetworkSet
   }
   participant = std::move(joined->participant);
   const auto looks = publications.open(participant.get(), wake);
-  directories = dds::make_reader(participant.get(), indurop_wire_Directory_desc, directory_topic(), dds::make_qos({}),
-                                 dds::wake_listener(wake));
-  wishes = dds::make_writer(participant.get(), indurop_wire_Wish_desc, wish_topic(), dds::make_qos({}));
+  directories = dds::make_reader(participant.get(), indurop_wire_Directory_desc, schema::directory_topic(),
+                                 dds::make_qos({}), dds::wake_listener(wake));
+  wishes = dds::make_writer(participant.get(), indurop_wire_Wish_desc, schema::wish_topic(), dds::make_qos({}));
   if (!looks || !directories.ok() || !wishes.ok()) {
     return base::Problem{"cannot look at what boards show: " +
                          (looks ? (directories.ok() ? wishes.why() : directories.why()) : looks.error().text)};
@@ -157,7 +157,7 @@ void RemotePlane::Impl::make_topic(const std::string& variable, dds::RemoteTopic
 void RemotePlane::Impl::make_topics() {
   Topics topics;
   for (const auto& [variable, topic] : followed) {
-    if (!topic->is_open()) {
+    if (!topic->is_open() && !topic->may_not_read()) {
       if (topics.empty()) {
         for (const auto& [endpoint, publication] : published) {
           topics.emplace(publication.topic, &publication);
@@ -278,6 +278,16 @@ void RemotePlane::follow(const std::string& variable, const std::string& board) 
       impl_->wished.push_back(variable);
     }
   }
+}
+
+bool RemotePlane::may_not_read(const std::string& variable) const {
+  const auto topic = impl_->followed.find(variable);
+  return topic != impl_->followed.end() && topic->second->may_not_read();
+}
+
+bool RemotePlane::may_not_set(const std::string& variable) const {
+  const auto topic = impl_->followed.find(variable);
+  return topic != impl_->followed.end() && (topic->second->may_not_read() || topic->second->may_not_send());
 }
 
 void RemotePlane::reopen(const std::string& variable) {

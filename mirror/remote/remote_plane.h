@@ -61,6 +61,9 @@ class RemotePlane {
 
   // Reads this variable from now on; again and again without harm. An empty board: of a program that is none.
   void follow(const std::string& variable, const std::string& board);
+  // Whether the keys of this participant forbid to read or to set what is followed, as far as that was tried.
+  [[nodiscard]] bool may_not_read(const std::string& variable) const;
+  [[nodiscard]] bool may_not_set(const std::string& variable) const;
   // What is followed has another type now.
   void reopen(const std::string& variable);
   // Hands over the values that have come since.

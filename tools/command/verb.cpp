@@ -3,6 +3,7 @@
 
 #include "base/duration.h"
 #include "dds/network_options.h"
+#include "deploy/link/link_keys.h"
 
 namespace indurop::tools {
 namespace {
@@ -33,6 +34,9 @@ void add_far_options(base::Options& app, Context& context) {
   FarOptions& far = context.far;
   app.flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
   dds::add_network_options(app, far.network, "the variables that boards show", &far.wanted, "--remote");
+  deploy::add_keys_option(app, far.network.security, keys::Role::Viewer,
+                          "Keys of a tool or of a plant, for boards with <external secure=\"on\">; implies --remote")
+      .implies(far.wanted);
   app.add("--peer", "ADDRESS", far.network.peers,
           "Address of a board, for networks without multicast; implies --remote")
       .one_at_a_time()

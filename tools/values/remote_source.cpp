@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "dds/log.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
@@ -124,10 +125,14 @@ Result<void, Failure> RemoteSource::gather(int domain, const std::vector<std::st
     return Failure{interrupt_code(), {}};
   }
   if (variables_.empty()) {
-    return Failure{kUnreachable,
-                   fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
-                               "names <types>; other networks: --domain, --interface, --peer",
-                               domain, human_age(wait_ns_))};
+    // Who has keys does not answer who has none, so that only the case of wrong keys is known.
+    const std::string refusal = dds::last_refusal();
+    return Failure{
+        kUnreachable,
+        fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
+                    "names <types>; other networks: --domain, --interface, --peer; <external secure=\"on\">: --keys{}",
+                    domain, human_age(wait_ns_),
+                    refusal.empty() ? refusal : ". Others there do not accept these keys: " + refusal)};
   }
   return {};
 }
@@ -153,6 +158,12 @@ void RemoteSource::update() {
     if (known != variables_.end()) {
       plane_->follow(variable, known->second.owner);
     }
+    if (plane_->may_not_read(variable)) {
+      forbidden_.insert(variable);
+    }
+  }
+  if (order_) {
+    order_->forbidden = plane_->may_not_set(order_->variable);
   }
   // The board may come to know this writer after the writer knew the board: what was sent between is lost.
   if (order_ && order_->repeats < kMostRepeats && order_->answer != order_->value && rt::now_ns() >= order_->next_ns &&
@@ -297,8 +308,14 @@ std::vector<std::string> RemoteSource::follow(const std::set<std::string>& varia
     missing.clear();
     std::set_difference(variables.begin(), variables.end(), arrived_.begin(), arrived_.end(),
                         std::back_inserter(missing));
+    std::erase_if(missing, [this](const std::string& variable) { return forbidden_.contains(variable); });
   } while (!missing.empty() && !interrupted() && rt::now_ns() < end && (news_.wait_for(lock, kPoll), true));
   return missing;
+}
+
+bool RemoteSource::forbidden(const std::string& variable) const {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  return forbidden_.contains(variable);
 }
 
 Result<void, Failure> RemoteSource::set(vars::Store& store, const std::string& name, const vars::DirectoryEntry& entry,
@@ -328,11 +345,15 @@ Result<void, Failure> RemoteSource::set_whole(const std::string& variable, std::
   order_->value.assign(value.begin(), value.end());
   const std::int64_t end = rt::now_ns() + kSetNs;
   const auto taken = [&] { return order_->shown && order_->answer == order_->value; };
-  while (!taken() && !interrupted() && rt::now_ns() < end) {
+  while (!taken() && !order_->forbidden && !interrupted() && rt::now_ns() < end) {
     news_.wait_for(lock, kPoll);
   }
   const RemoteOrder order = std::move(*order_);
   order_.reset();
+  if (order.forbidden) {
+    return Failure{kFailed,
+                   "the keys given by --keys do not let it be set (indurop keys list -o json shows their lists)"};
+  }
   if (!order.shown) {
     return Failure{kUnreachable,
                    fmt::format("board {} did not answer within {}", known->second.owner, human_age(kSetNs))};

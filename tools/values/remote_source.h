@@ -31,6 +31,7 @@ struct RemoteOrder {
   int repeats = 0;
   std::int64_t next_ns = 0;  // to be sent then
   bool shown = false;        // the board has said something since
+  bool forbidden = false;    // by the keys that were given
   std::vector<std::uint8_t> answer;
 };
 
@@ -58,6 +59,7 @@ class RemoteSource final : public ValueSource {
   [[nodiscard]] std::string owner(const std::string& variable) const override;
   [[nodiscard]] std::string silent_owner(const std::string& name) const override;
   std::vector<std::string> follow(const std::set<std::string>& variables) override;
+  [[nodiscard]] bool forbidden(const std::string& variable) const override;
 
  private:
   struct Known {
@@ -91,6 +93,7 @@ class RemoteSource final : public ValueSource {
   std::vector<std::string> hidden_;
   std::set<std::string> followed_;
   std::set<std::string> arrived_;
+  std::set<std::string> forbidden_;
   std::optional<RemoteOrder> order_;
   std::optional<vars::Store> store_;  // filled
   std::optional<vars::Store> view_;   // not handed out yet

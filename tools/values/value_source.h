@@ -49,6 +49,8 @@ class ValueSource {
   [[nodiscard]] virtual std::string silent_owner(const std::string& name) const = 0;
   // Waits until each of these has a value, at most so long as it may. Returns those without.
   virtual std::vector<std::string> follow(const std::set<std::string>& variables) = 0;
+  // The keys that were given do not let this variable be read; known once it is followed.
+  [[nodiscard]] virtual bool forbidden(const std::string& /*variable*/) const { return false; }
 };
 
 }  // namespace indurop::tools

@@ -77,6 +77,23 @@ int take_board(Context& context, const vars::Store& store, std::string& name, st
   return problem.empty() ? kOk : unknown(context, name, problem);
 }
 
+// Leaves out what the keys do not let be read. False if that were all.
+bool drop_forbidden(Context& context, std::vector<Item>& items) {
+  std::set<std::string> forbidden;
+  std::erase_if(items, [&](const Item& item) {
+    const std::string& variable = item.place.variable->name;
+    return context.values->forbidden(variable) && (forbidden.insert(variable), true);
+  });
+  if (forbidden.empty()) {
+    return true;
+  }
+  const std::string text =
+      fmt::format("the keys given by --keys do not let {} be read (indurop keys list -o json shows their lists)",
+                  fmt::join(forbidden, ", "));
+  items.empty() ? context.out.error(text) : context.out.note(text);
+  return !items.empty();
+}
+
 }  // namespace
 
 bool is_glob(std::string_view text) {
@@ -136,6 +153,7 @@ int select_items(Context& context, const vars::Store& store, const std::vector<s
       context.out.note(
           fmt::format("no value heard of {} within {}", fmt::join(missing, ", "), human_age(context.far.wait_ns)));
     }
+    code = drop_forbidden(context, items) ? kOk : kFailed;
   }
   return code;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop keys: who may take part in a plant.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +26,9 @@ struct Request {
   std::string folder;               // --dir
   std::string plant = "plant.xml";  // of init
   std::vector<std::string> boards;  // of add, renew, revoke
+  std::string tool;                 // of add
+  std::vector<std::string> read;    // patterns of variables
+  std::vector<std::string> write;
   int days = kDefaultDays;
 };
 
@@ -54,6 +58,8 @@ const char* to_text(keys::Role role) {
       return "viewer";
     case keys::Role::Deployer:
       return "deployer";
+    case keys::Role::Tool:
+      return "tool";
   }
   return "";
 }
@@ -81,12 +87,16 @@ int list(Context& context, const Request& request) {
                {"VALID UNTIL", "valid_until"},
                {"DAYS", "days_left", Align::Right},
                {"PROBLEM", "problem", Align::Left, 1},
-               {"FOLDER", "folder", Align::Left, 2}});
+               {"FOLDER", "folder", Align::Left, 2},
+               {"READS", "reads", Align::Left, 3},
+               {"SETS", "sets", Align::Left, 3}});
   bool ok = true;
   for (const keys::KeyListing& each : keys.list(now)) {
     const auto days = std::chrono::floor<std::chrono::days>(each.validity.until - now).count();
     table.add({Cell(to_text(each.role)), Cell(each.name), Cell(keys::utc_text(each.validity.until)),
-               Cell(std::to_string(days), JsonValue(days)), Cell(each.problem), Cell(each.folder.string())});
+               Cell(std::to_string(days), JsonValue(days)), Cell(each.problem), Cell(each.folder.string()),
+               Cell(fmt::format("{}", fmt::join(each.variables.read, " ")), each.variables.read),
+               Cell(fmt::format("{}", fmt::join(each.variables.write, " ")), each.variables.write)});
     ok = ok && (each.problem.empty() || each.revoked);
   }
   print_table(context, table, {{"plant", keys.plant()}, {"folder", keys.folder().string()}}, "keys");
@@ -144,15 +154,51 @@ int init(Context& context, const Request& request) {
   return kOk;
 }
 
+bool is_name(Context& context, const char* what, const std::string& name) {
+  if (!config::is_node_name(name)) {
+    context.out.error(
+        fmt::format("'{}' is not a valid {} name: use up to 40 letters, digits, '_' and '-'", name, what));
+    return false;
+  }
+  return true;
+}
+
+int add_tool(Context& context, const Request& request, const keys::PlantKeys& keys) {
+  if (!request.boards.empty() || (request.read.empty() && request.write.empty())) {
+    context.out.error(
+        "say what the tool may do, and no board: indurop keys add --tool NAME --read 'cell::*' --write cell::target");
+    return kUsage;
+  }
+  if (!is_name(context, "tool", request.tool)) {
+    return kUsage;
+  }
+  if (const auto done = keys.add_tool(request.tool, {request.read, request.write}, until(request)); !done) {
+    context.out.error(done.error().text);
+    return kFailed;
+  }
+  context.out.line(fmt::format("made {}", keys.tool(request.tool).string()));
+  context.out.note(
+      fmt::format("copy it to where the tool runs, for its user alone. Other lists: change variables.txt in it, then "
+                  "indurop keys renew {}, and copy permissions.p7s and identity.pem",
+                  request.tool));
+  return kOk;
+}
+
 int add(Context& context, const Request& request) {
   const keys::PlantKeys keys = keys_of(request);
   if (!usable(context, keys)) {
     return kFailed;
   }
+  if (!request.tool.empty()) {
+    return add_tool(context, request, keys);
+  }
+  if (request.boards.empty() || !request.read.empty() || !request.write.empty()) {
+    context.out.error(request.boards.empty() ? "name a board: indurop keys add BOARD, or a tool: --tool NAME"
+                                             : "--read and --write are for tools: --tool NAME");
+    return kUsage;
+  }
   for (const std::string& board : request.boards) {
-    if (!config::is_node_name(board)) {
-      context.out.error(
-          fmt::format("'{}' is not a valid board name: use up to 40 letters, digits, '_' and '-'", board));
+    if (!is_name(context, "board", board)) {
       return kUsage;
     }
   }
@@ -238,6 +284,18 @@ void add_days(base::Options& verb, Request& request) {
       .range(1, kMostDays);
 }
 
+void add_patterns(base::Options& verb, const char* name, std::vector<std::string>& to, const char* help) {
+  const auto take = [&to](const std::string& text) {
+    std::string wrong;
+    for (std::string& pattern : keys::pattern_list(text)) {
+      wrong = wrong.empty() ? keys::pattern_problem(pattern) : wrong;
+      to.push_back(std::move(pattern));
+    }
+    return wrong;
+  };
+  verb.add(name, "PATTERNS", take, help);
+}
+
 Action declare(base::Options& app, Context& context) {
   auto request = std::make_shared<Request>();
   auto chosen_action = std::make_shared<Action>();
@@ -252,8 +310,12 @@ Action declare(base::Options& app, Context& context) {
       verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init);
   made->add("plant", "PLANT", request->plant, "Manifest of the plant (default: plant.xml)");
   add_days(*made, *request);
-  made = verb("add", "Make the keys of a further board", &add);
-  made->add("boards", "BOARD", request->boards, "Names of the boards").required();
+  made = verb("add", "Make the keys of a further board, or of a tool", &add);
+  made->add("boards", "BOARD", request->boards, "Names of the boards");
+  made->add("--tool", "NAME", request->tool,
+            "A program that takes part in <external secure=\"on\">, instead of boards");
+  add_patterns(*made, "--read", request->read, "Variables it may read: names and patterns, with commas between them");
+  add_patterns(*made, "--write", request->write, "Variables it may set, and read");
   add_days(*made, *request);
   add_format_option(*verb("list", "Show who has keys, and until when they are valid", &list), context,
                     {Format::Table, Format::Json, Format::Csv});
@@ -273,7 +335,8 @@ const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plan
                      "Private keys are readable by their owner alone and never replaced.\n"
                      "Examples:\n"
                      "  indurop keys init plant.xml --dir keys\n"
-                     "  indurop keys list --dir keys\n",
+                     "  indurop keys list --dir keys\n"
+                     "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n",
                      &declare};
 
 }  // namespace indurop::tools

@@ -102,6 +102,11 @@ TEST(External, Of_a_secured_plant_is_off_unless_it_is_asked_for) {
   const ReadPlant sut = read_board(secured + "<external>0</external>");
   EXPECT_EQ(sut.plant.external_domain, 0);
   EXPECT_THAT(said(sut), ElementsAre(HasSubstr("the boards are secured, this domain is not")));
+  const ReadPlant closed = read_board(secured + "<external secure=\"on\">0</external>");
+  EXPECT_TRUE(closed.plant.external_secure);
+  EXPECT_THAT(said(closed), IsEmpty());
+  EXPECT_THAT(said(read_board("<external secure=\"on\">0</external>")),
+              ElementsAre(HasSubstr("secure=\"on\" needs keys of the plant")));
 }
 
 TEST(External, Arrays_of_texts_are_named_because_Debians_fastddsgen_misreads_them) {

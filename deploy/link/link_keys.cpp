@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/link/link_keys.h"
+
+namespace indurop::deploy {
+
+dds::Security security_of(const keys::ParticipantKeys& keys) {
+  return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
+          keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
+}
+
+base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help) {
+  const auto take = [&security, role](const std::string& text) {
+    const auto keys = keys::keys_meant(text, role);
+    if (!keys) {
+      return keys.error().text;
+    }
+    security = security_of(*keys);
+    return std::string();
+  };
+  return line.add("--keys", "DIR", take, help).completes(base::Completion::Folder);
+}
+
+}  // namespace indurop::deploy

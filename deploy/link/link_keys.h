@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The option --keys of verbs that speak to boards: by whose keys they are known there.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/options.h"
+#include "base/problem.h"
+#include "dds/network_settings.h"
+#include "keys/participant_keys.h"
+
+namespace indurop::deploy {
+
+dds::Security security_of(const keys::ParticipantKeys& keys);
+
+// Adds --keys DIR, which sets `security` to the keys there (keys::keys_meant); a folder without is a wrong command
+// line.
+base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "keys/participant_keys.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/read_file.h"
+#include "base/text.h"
+
+namespace indurop::keys {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  auto text = base::read_file(file);
+  return text ? std::move(*text) : std::string{};
+}
+
+std::string missing_file(const ParticipantKeys& keys) {
+  for (const fs::path& file :
+       {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) {
+      return fmt::format("cannot read {}: {}", file.string(), error ? error.message() : "it is not a file");
+    }
+    if (::access(file.c_str(), R_OK) != 0) {
+      return fmt::format("cannot read {}: {}", file.string(), std::strerror(errno));
+    }
+  }
+  return {};
+}
+
+// `text` of the permissions as this release makes them for the holder?
+bool is_current(const std::string& text, const Holder& holder, const CertificateFacts& facts) {
+  std::string plain = text;
+  std::erase(plain, '\r');
+  return base::trimmed(plain) == base::trimmed(permissions_document(holder, facts.subject, facts.validity));
+}
+
+}  // namespace
+
+ParticipantKeys::ParticipantKeys(const fs::path& in)
+    : folder(in),
+      authority(in / "ca.pem"),
+      certificate(in / "identity.pem"),
+      key(in / "identity.key"),
+      governance(in / "governance.p7s"),
+      permissions(in / "permissions.p7s"),
+      revoked(in / "revoked.pem"),
+      deploy_key(in / "deploy.pub") {}
+
+Result<ParticipantKeys, base::Problem> keys_meant(const fs::path& folder, Role role) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(folder, error).lexically_normal();
+  const char* const inside = role == Role::Deployer ? "deployer" : "viewer";
+  for (const fs::path& place : {absolute, absolute / inside}) {
+    const ParticipantKeys keys(place);
+    if (fs::exists(keys.certificate, error)) {
+      if (std::string missing = missing_file(keys); !missing.empty()) {
+        return base::Problem{std::move(missing)};
+      }
+      return keys;
+    }
+  }
+  return base::Problem{
+      fmt::format("there are no keys in {}: it has neither identity.pem nor the folder {} (indurop keys "
+                  "init and indurop keys add make them)",
+                  folder.string(), inside)};
+}
+
+KeyCheck check_keys(const fs::path& folder, const Holder& holder, Instant now) {
+  const ParticipantKeys keys(folder);
+  if (std::string missing = missing_file(keys); !missing.empty()) {
+    return {KeyFault::Missing, std::move(missing), {}, {}};
+  }
+  const std::string certificate = read_text(keys.certificate);
+  const std::string authority = read_text(keys.authority);
+  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority}; };
+  const auto facts = read_certificate(certificate);
+  if (!facts) {
+    return wrong(keys.certificate.string() + " is not a certificate");
+  }
+  if (facts->organisation != holder.plant || facts->common_name != holder.name) {
+    return wrong(fmt::format("{} is the certificate of {} of plant {}", keys.certificate.string(), facts->common_name,
+                             facts->organisation));
+  }
+  if (!issued_by(certificate, authority)) {
+    return wrong(fmt::format("{} was not issued by {}", keys.certificate.string(), keys.authority.string()));
+  }
+  if (!belongs_to(certificate, read_text(keys.key))) {
+    return wrong(fmt::format("{} is not the key of {}", keys.key.string(), keys.certificate.string()));
+  }
+  for (const fs::path& document : {keys.governance, keys.permissions}) {
+    if (signed_text(read_text(document), authority).empty()) {
+      return wrong(fmt::format("{} is not signed by {}", document.string(), keys.authority.string()));
+    }
+  }
+  const std::string permissions = signed_text(read_text(keys.permissions), authority);
+  if (permissions.find(">" + facts->subject + "<") == std::string::npos) {
+    return wrong(fmt::format("{} is not for {}", keys.permissions.string(), facts->subject));
+  }
+  KeyCheck check{KeyFault::None, {}, facts->validity, authority};
+  if (is_revoked(certificate, read_text(keys.revoked))) {
+    check.fault = KeyFault::Wrong;
+    check.problem = fmt::format("{} was revoked", keys.certificate.string());
+  } else if (now < facts->validity.from || now > facts->validity.until) {
+    check.fault = KeyFault::NotNow;
+    check.problem = fmt::format("{} is valid from {} to {}, and now is {}", keys.certificate.string(),
+                                utc_text(facts->validity.from), utc_text(facts->validity.until), utc_text(now));
+  } else if (!is_current(permissions, holder, *facts)) {
+    check.fault = KeyFault::Outdated;
+    check.problem = fmt::format("{} is not what this release{} makes of it", keys.permissions.string(),
+                                holder.role == Role::Tool ? " and variables.txt" : "");
+  }
+  return check;
+}
+
+KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, const std::string& board, Instant now) {
+  return check_keys(folder, {Role::Board, plant, board}, now);
+}
+
+Instant valid_from() {
+  return std::chrono::sys_days(std::chrono::year(2020) / 1 / 1);
+}
+
+Instant instant_now() {
+  return std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
+}  // namespace indurop::keys
