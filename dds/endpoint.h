@@ -63,6 +63,8 @@ class Endpoint {
   [[nodiscard]] Handle get() const noexcept { return end_.get(); }
   [[nodiscard]] bool ok() const noexcept { return end_.ok(); }
   [[nodiscard]] std::string why() const { return topic_.ok() ? end_.why() : topic_.why(); }
+  // The keys of this participant do not permit it.
+  [[nodiscard]] bool forbidden() const noexcept { return topic_.forbidden() || end_.forbidden(); }
   // Waits for a listener that is running.
   void reset() noexcept {
     end_.reset();

@@ -11,6 +11,7 @@
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_commands.h"
 #include "deploy/agent/board_deployment.h"
+#include "deploy/agent/board_link.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
@@ -31,7 +32,6 @@ constexpr std::chrono::milliseconds kLook{20};
 constexpr std::chrono::milliseconds kTell{500};  // at least
 constexpr std::chrono::milliseconds kTellFast{50};
 constexpr std::size_t kOthersTold = 32;  // then it may be somebody who invents them
-constexpr std::chrono::seconds kNetworkRetry{1};
 
 std::vector<std::string> node_arguments(const AgentOptions& options) {
   std::vector<std::string> words;
@@ -55,6 +55,13 @@ std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
 
+LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
+  LinkSettings settings = options.link;
+  settings.self = self;
+  settings.network.board = options.board;
+  return settings;
+}
+
 class Agent {
  public:
   Agent(const AgentOptions& options, const base::Log& log, AgentState& state)
@@ -68,10 +75,8 @@ class Agent {
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
         board_commands_(options.board, self_, keys_, process_, log),
-        server_(self_, [this](const std::string& name) { return find(name); }) {
-    link_settings_ = options.link;
-    link_settings_.self = self_;
-    link_settings_.network.board = options.board;
+        server_(self_, [this](const std::string& name) { return find(name); }),
+        net_(link_settings(options, self_), keys_, log) {
     host_ = host_name();
   }
 
@@ -94,8 +99,7 @@ class Agent {
     }
     log_.info("stopping: signal {}", signals.received());
     service_manager_.stopping();
-    commands_.reset();
-    link_.reset();  // the others see at once that this board leaves
+    net_.leave();  // the others see at once that this board leaves
     process_.end();
     return signals.received() == SIGINT ? kInterrupted : kOk;
   }
@@ -135,30 +139,13 @@ class Agent {
   }
 
   void connect(rt::MonoTime now) {
-    if (link_ != nullptr || now < connect_at_) {
-      return;
+    const bool idle = transaction_.phase() == Phase::Steady && !fetcher_.active() && !busy_;
+    if (net_.keep(now, state_.committed().plant, idle)) {
+      others_.clear();
+      tell_now_ = true;
     }
-    connect_at_ = now + kNetworkRetry;
-    const std::string told = join();
-    if (!told.empty() && told != told_of_network_) {
-      log_.warning("{}", told);
-    }
-    told_of_network_ = told;
-  }
-
-  // Sets link and commands, both or none; what people should know of it.
-  std::string join() {
-    auto opened = DeployLink::open(link_settings_);
-    if (!opened) {
-      return opened.error().text;
-    }
-    auto commands = CommandLink::open(*opened->link, CommandSide::Agent);
-    if (!commands) {
-      return commands.error().text;
-    }
-    link_ = std::move(opened->link);
-    commands_ = std::move(commands).value();
-    return opened->note;
+    link_ = net_.link();
+    commands_ = net_.commands();
   }
 
   void listen(rt::MonoTime now) {
@@ -360,12 +347,10 @@ class Agent {
   std::string held_before_;  // the trial
   BoardCommands board_commands_;
   BlobServer server_;
-  LinkSettings link_settings_;
   ServiceManager service_manager_;
-  std::unique_ptr<deploy::DeployLink> link_;
-  std::unique_ptr<deploy::CommandLink> commands_;
-  rt::MonoTime connect_at_;
-  std::string told_of_network_;
+  BoardLink net_;
+  DeployLink* link_ = nullptr;  // of net_, as commands_
+  CommandLink* commands_ = nullptr;
   std::map<std::pair<std::string, std::uint64_t>, BoardReport> others_;
   std::set<std::string> told_others_;  // agents of other releases
   std::uint64_t refused_ = 0;

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 #include "base/read_file.h"
+#include "base/text.h"
 #include "keys/credentials.h"
 #include "keys/plant_keys.h"
 #include "vars/shm_file.h"
@@ -32,6 +35,46 @@ bool DeployKeys::any(std::error_code& error) const {
     error.clear();
   }
   return false;
+}
+
+OwnKeys DeployKeys::own(const std::string& plant) const {
+  std::vector<std::string> plants;
+  std::error_code error;
+  fs::directory_iterator entry(folder_, error);
+  for (const fs::directory_iterator end; !error && entry != end; entry.increment(error)) {
+    if (fs::exists(keys::ParticipantKeys(entry->path() / board_).certificate, error)) {
+      plants.push_back(entry->path().filename().string());
+    }
+  }
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory) {
+    return {{},
+            {},
+            {},
+            fmt::format("not in the network of agents: the keys of this board in {} cannot be read: {}",
+                        folder_.string(), error.message())};
+  }
+  if (plants.empty()) {
+    return {};
+  }
+  std::sort(plants.begin(), plants.end());
+  const bool runs = std::find(plants.begin(), plants.end(), plant) != plants.end();
+  if (!runs && plants.size() > 1) {
+    return {{},
+            {},
+            {},
+            fmt::format("not in the network of agents: this board has keys of {} in {} and runs none of "
+                        "these plants; leave those of one there",
+                        base::enumerate(plants), folder_.string())};
+  }
+  OwnKeys own{runs ? plant : plants.front(), {}, {}, {}};
+  own.folder = folder_ / own.plant / board_;
+  const keys::ParticipantKeys keys(own.folder);
+  for (const fs::path& file :
+       {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
+    std::error_code ignored;
+    own.state += fmt::format("{} ", fs::last_write_time(file, ignored).time_since_epoch().count());
+  }
+  return own;
 }
 
 std::string DeployKeys::refusal(const std::string& plant, const std::string& text, const std::string& signature) const {

@@ -9,6 +9,15 @@
 
 namespace indurop::deploy {
 
+// By whose keys a board is known to the others.
+struct OwnKeys {
+  std::string plant;
+  std::filesystem::path folder;  // empty: it has none
+  std::string state;             // other than before: the files have changed
+  std::string problem;           // why that cannot be said; empty: it can
+  bool operator==(const OwnKeys&) const = default;
+};
+
 class DeployKeys {
  public:
   // Looks in $INDUROP_KEYS_DIR, normally /etc/indurop/keys, for PLANT/BOARD/deploy.pub.
@@ -18,6 +27,9 @@ class DeployKeys {
   // whose keys cannot be read nothing. Reads the keys each time: they may be brought while the agent runs.
   [[nodiscard]] std::string refusal(const std::string& plant, const std::string& text,
                                     const std::string& signature) const;
+
+  // The keys of this board in `plant`, what it runs, else in the only plant it has keys of.
+  [[nodiscard]] OwnKeys own(const std::string& plant) const;
 
  private:
   // With an error it is not known.

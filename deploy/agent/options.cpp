@@ -24,7 +24,7 @@ Result<AgentOptions, int> parse_options(int argc, char** argv) {
                      "Make this host a board of a plant: run what indurop deploy brought last, take new deployments");
   line.version(INDUROP_VERSION);
   line.add("--board", "NAME", options.board, "Name of the board").required().check(check_board);
-  add_link_options(line, options.link);
+  add_agent_options(line, options.link);
   line.add("--core", "N", options.core, "Core of all modules that name none");
   line.flag("--require-rt", options.require_rt, "The node ends unless real-time rights were obtained");
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");

@@ -35,7 +35,8 @@ Result<std::unique_ptr<CommandLink>, base::Problem> CommandLink::open(DeployLink
                               listener);
   impl->out =
       dds::make_writer(link.participant(), out_type, schema::deploy_topics() + (agent ? "reply" : "command"), qos);
-  if (!impl->in.ok() || !impl->out.ok()) {
+  const auto usable = [](const dds::Endpoint& end) { return end.ok() || end.forbidden(); };  // as in DeployLink
+  if (!usable(impl->in) || !usable(impl->out)) {
     return base::Problem{"topics for commands cannot be made: " + (impl->in.ok() ? impl->out.why() : impl->in.why())};
   }
   return std::unique_ptr<CommandLink>(new CommandLink(std::move(impl)));

@@ -14,6 +14,7 @@
 #include "dds/network_options.h"
 #include "dds/other_releases.h"
 #include "dds/setup.h"
+#include "deploy/link/link_keys.h"
 #include "deploy/link/wire_words.h"
 #include "rt/clock.h"
 #include "rt/machine.h"
@@ -26,6 +27,7 @@ namespace {
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
 constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
+constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMostRoom = 2U << 20U;
 
 std::string topic_name(const std::string& what) {
@@ -83,15 +85,27 @@ Result<void, base::Problem> DeployLink::Impl::make() {
   requests_out = writer(indurop_deploy_Request_desc, topic_name("request"), false);
   for (const dds::Endpoint* end :
        {&boards_in, &orders_in, &requests_in, &blobs_in, &boards_out, &orders_out, &requests_out}) {
-    if (!end->ok()) {
+    // Nobody's keys permit all of it: a board gives no orders, a viewer does not report.
+    if (!end->ok() && !end->forbidden()) {
       return base::Problem{"deployment topics cannot be made: " + end->why()};
     }
   }
   return others.open(participant.get());
 }
 
-void add_link_options(base::Options& line, LinkSettings& settings) {
+void add_agent_options(base::Options& line, LinkSettings& settings) {
   dds::add_network_options(line, settings.network, "the agents");
+}
+
+void add_link_options(base::Options& line, LinkSettings& settings) {
+  add_agent_options(line, settings);
+  const auto take = [&settings](const std::string& text) {
+    settings.keys = text;
+    const auto done = use_keys(settings);
+    return done ? std::string() : done.error().text;
+  };
+  line.add("--keys", "DIR", take, "Folder of the plant's keys, or of its deployer or viewer, if its boards have some")
+      .completes(base::Completion::Folder);
 }
 
 std::uint64_t new_session() {
@@ -120,11 +134,14 @@ Result<DeployLink::Opened, base::Problem> DeployLink::open(const LinkSettings& s
   if (auto made = impl->make(); !made) {
     return std::move(made).error();
   }
-  return Opened{std::unique_ptr<DeployLink>(new DeployLink(std::move(impl))), std::move(joined->note)};
+  return Opened{std::unique_ptr<DeployLink>(new DeployLink(std::move(impl), network.security.on())),
+                std::move(joined->note)};
 }
 
-DeployLink::DeployLink(std::unique_ptr<Impl> impl)
-    : impl_(std::move(impl)), room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMostRoom)) {}
+DeployLink::DeployLink(std::unique_ptr<Impl> impl, bool secured)
+    : impl_(std::move(impl)),
+      letting_in_ns_(secured ? kLettingInNs : 0),
+      room_(std::clamp(rt::largest_receive_buffer() / 2, 2 * kChunk, kMostRoom)) {}
 DeployLink::~DeployLink() = default;
 
 void DeployLink::publish(const BoardReport& report) {

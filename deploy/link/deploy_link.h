@@ -7,6 +7,7 @@
 #include <indurop/result.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,10 +29,13 @@ struct LinkSettings {
   static constexpr int kDefaultDomain = 76;
   LinkSettings() { network.domain = kDefaultDomain; }
   dds::NetworkSettings network;
-  std::uint64_t self = 0;  // session of this agent or deployer
+  std::filesystem::path keys;  // folder network.security is from; empty: none
+  std::uint64_t self = 0;      // session of this agent or deployer
 };
 
-// --domain, --interface and --one-host of who speaks to agents, and of agents.
+// --domain, --interface and --one-host of agents, and of who speaks to them.
+void add_agent_options(base::Options& line, LinkSettings& settings);
+// These and --keys, of who speaks to them.
 void add_link_options(base::Options& line, LinkSettings& settings);
 
 // A session number that no other run has.
@@ -78,6 +82,9 @@ class DeployLink {
   // Bytes of files that may be on their way to here, so that what comes at once finds room and is not lost.
   [[nodiscard]] std::uint64_t room() const noexcept { return room_; }
 
+  // How much longer it takes to hear the others than on an open network: they let each other in first.
+  [[nodiscard]] std::int64_t letting_in_ns() const noexcept { return letting_in_ns_; }
+
   // Agents in the network whose protocol is another one, as far as they are known by now.
   std::vector<deploy::OtherAgent> other_agents();
 
@@ -90,8 +97,9 @@ class DeployLink {
 
  private:
   struct Impl;
-  explicit DeployLink(std::unique_ptr<Impl> impl);
+  DeployLink(std::unique_ptr<Impl> impl, bool secured);
   std::unique_ptr<Impl> impl_;
+  std::int64_t letting_in_ns_;
   std::uint64_t room_;
 };
 

@@ -8,6 +8,16 @@ dds::Security security_of(const keys::ParticipantKeys& keys) {
           keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
 }
 
+Result<void, base::Problem> use_keys(LinkSettings& settings) {
+  const auto keys = keys::keys_meant(settings.keys, keys::Role::Deployer);
+  if (!keys) {
+    return keys.error();
+  }
+  settings.network.security = security_of(*keys);
+  settings.keys = keys->folder;
+  return {};
+}
+
 base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help) {
   const auto take = [&security, role](const std::string& text) {
     const auto keys = keys::keys_meant(text, role);

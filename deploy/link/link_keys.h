@@ -11,11 +11,15 @@
 #include "base/options.h"
 #include "base/problem.h"
 #include "dds/network_settings.h"
+#include "deploy/link/deploy_link.h"
 #include "keys/participant_keys.h"
 
 namespace indurop::deploy {
 
 dds::Security security_of(const keys::ParticipantKeys& keys);
+
+// Speaks by the keys in settings.keys from now on: those of the deployer, if it is the folder of a plant.
+Result<void, base::Problem> use_keys(LinkSettings& settings);
 
 // Adds --keys DIR, which sets `security` to the keys there (keys::keys_meant); a folder without is a wrong command
 // line.

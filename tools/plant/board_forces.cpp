@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
 
 int command(Context& context, BoardForces& options, deploy::Action action, const std::string& target) {
-  auto commander = BoardCommander::make(context, options.keys);
+  auto commander = BoardCommander::make(context, options.board.link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
@@ -39,7 +39,6 @@ int command(Context& context, BoardForces& options, deploy::Action action, const
 
 void add_board_force_options(base::Options& app, BoardForces& options) {
   add_board_options(app, options.board);
-  app.add("--keys", "DIR", options.keys, "Folder of the plant's keys, if its boards have some");
 }
 
 int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns) {

@@ -14,9 +14,8 @@ namespace indurop::tools {
 
 struct BoardForces {
   BoardChoice board;
-  std::filesystem::path keys;
 };
-// Those of add_board_options, and --keys.
+// Those of add_board_options.
 void add_board_force_options(base::Options& app, BoardForces& options);
 
 // The board holds all of `assignments` (NAME=VALUE) for `for_ns` (0: until unforced), or none. Returns the exit code.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dds/log.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 
@@ -28,6 +29,22 @@ std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSett
   return std::move(opened->link);
 }
 
+std::string keys_hint(const deploy::LinkSettings& settings) {
+  if (!settings.network.security.on()) {
+    return "; boards that have keys speak only to who has keys of their plant: --keys DIR";
+  }
+  const std::string refusal = dds::last_refusal();
+  return refusal.empty() ? "; boards without keys are not heard with --keys"
+                         : "; others there do not accept these keys: " + refusal;
+}
+
+Failure with_keys_hint(Failure failure, const deploy::LinkSettings& settings) {
+  if (failure.code == kUnreachable && !failure.text.empty()) {
+    failure.text += keys_hint(settings);
+  }
+  return failure;
+}
+
 void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vector<Gone>* gone) {
   for (auto& news : link.take_boards()) {
     const auto key = std::pair(news.report.board, news.report.agent);
@@ -45,7 +62,7 @@ void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vec
 }
 
 void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {
-  const std::int64_t deadline = rt::now_ns() + time_ns;
+  const std::int64_t deadline = rt::now_ns() + time_ns + link.letting_in_ns();
   while (!interrupted() && rt::now_ns() < deadline) {
     link.wait(rt::mono_time(std::min(deadline, rt::now_ns() + kLookNs)));
     listen(link, rt::now_ns());

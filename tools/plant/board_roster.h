@@ -18,6 +18,11 @@ namespace indurop::tools {
 // Null after an error message.
 std::unique_ptr<deploy::DeployLink> open_link(Context& context, deploy::LinkSettings& settings);
 
+// What keys may have to do with boards that were not heard: "; boards that have keys ...".
+std::string keys_hint(const deploy::LinkSettings& settings);
+// The same behind a failure to hear boards.
+Failure with_keys_hint(Failure failure, const deploy::LinkSettings& settings);
+
 class BoardRoster {
  public:
   struct Entry {

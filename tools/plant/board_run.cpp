@@ -127,7 +127,7 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
   }
   const BoardRoster::Entry* board = chosen(choice);
   if (board == nullptr) {
-    return not_heard(choice);
+    return with_keys_hint(not_heard(choice), choice.link);
   }
   if (const std::string hosts = choice.roster.twins(board->report.board, rt::now_ns()); !hosts.empty()) {
     return Failure{kFailed,

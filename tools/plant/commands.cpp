@@ -21,7 +21,6 @@ void add_command_options(base::Options& app, Context& context, CommandOptions& o
   add_node_option(app, context);
   add_time_option(app, "--timeout", options.timeout_ns, "How long to wait (default 10 s)");
   deploy::add_link_options(app, options.link);
-  app.add("--keys", "DIR", options.keys, "Folder of the plant's keys, if its boards have some");
 }
 
 Action declare_command(base::Options& app, Context& context, ModuleCommand command, const char* nobody) {

@@ -19,7 +19,6 @@ struct CommandOptions {
   std::vector<std::string> targets;  // MODULE, MODULE@BOARD, @BOARD
   std::int64_t timeout_ns = 10'000'000'000;
   deploy::LinkSettings link;
-  std::filesystem::path keys;
 };
 
 struct CommandTarget {

@@ -57,8 +57,8 @@ int conclude(Context& context, ModuleCommand what, const CommandTarget& target, 
 }
 
 // Names the boards that are not there, or are there twice; fails then.
-Result<void, Failure> all_there(Context& context, const BoardRoster& roster,
-                                const std::vector<CommandTarget>& targets) {
+Result<void, Failure> all_there(Context& context, const BoardRoster& roster, const std::vector<CommandTarget>& targets,
+                                const std::string& keys) {
   std::vector<std::string> heard;
   for (const auto& [key, entry] : roster.all()) {
     heard.push_back(key.first);
@@ -67,9 +67,9 @@ Result<void, Failure> all_there(Context& context, const BoardRoster& roster,
   for (const CommandTarget& target : targets) {
     if (roster.find(target.board) == nullptr) {
       context.out.error(fmt::format(
-          "board {} was not heard within {}.{} Boards heard: {}; a node of this machine is meant with --node",
+          "board {} was not heard within {}.{} Boards heard: {}; a node of this machine is meant with --node{}",
           target.board, human_age(kHearNs), did_you_mean(target.board, heard),
-          heard.empty() ? "none" : fmt::format("{}", fmt::join(heard, ", "))));
+          heard.empty() ? "none" : fmt::format("{}", fmt::join(heard, ", ")), heard.empty() ? keys : ""));
       code = kUnreachable;
     } else if (const std::string hosts = roster.twins(target.board, rt::now_ns()); !hosts.empty()) {
       context.out.error(fmt::format("two agents call themselves {}, on {}; stop one of them", target.board, hosts));
@@ -86,7 +86,7 @@ Result<void, Failure> all_there(Context& context, const BoardRoster& roster,
 
 int command_remote(Context& context, ModuleCommand what, const std::vector<CommandTarget>& targets,
                    CommandOptions& options) {
-  auto commander = BoardCommander::make(context, options.keys);
+  auto commander = BoardCommander::make(context, options.link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
@@ -102,7 +102,7 @@ int command_remote(Context& context, ModuleCommand what, const std::vector<Comma
   if (interrupted()) {
     return interrupt_code();
   }
-  if (const auto there = all_there(context, roster, targets); !there) {
+  if (const auto there = all_there(context, roster, targets, keys_hint(options.link)); !there) {
     return report(context.out, there.error());
   }
   for (const CommandTarget& target : targets) {

@@ -67,8 +67,8 @@ int PlantStatus::show(Context& context) {
   if (table.empty()) {
     context.out.error(
         fmt::format("no board was heard on domain {} within {}; agents are started with indurop-agent "
-                    "--board NAME",
-                    link.network.domain, human_age(kHearNs)));
+                    "--board NAME{}",
+                    link.network.domain, human_age(kHearNs), keys_hint(link)));
   } else if (!missing.empty()) {
     context.out.error(fmt::format("not heard: {}", fmt::join(missing, ", ")));
   }

@@ -239,7 +239,10 @@ Result<std::string, base::Problem> read_deploy_key(Context& context, const std::
     context.out.note("open: no keys. Anybody on this network may deploy to these boards");
     return std::string{};
   }
-  const std::filesystem::path file = keys::PlantKeys(folder).deployer() / "deploy.key";
+  std::error_code ignored;
+  const std::filesystem::path own = folder / "deploy.key";  // of the deployer's folder
+  const std::filesystem::path file =
+      std::filesystem::exists(own, ignored) ? own : keys::PlantKeys(folder).deployer() / "deploy.key";
   const auto text = base::read_file(file);
   const std::string key = text ? *text : std::string{};
   if (!key.empty() && !keys::signature_of("probe", key).empty()) {

@@ -34,8 +34,8 @@ int show(Context& context, Options& options) {
   if (table.empty()) {
     context.out.note(
         fmt::format("no board was heard on domain {} within {}; agents are started with indurop-agent "
-                    "--board NAME",
-                    options.link.network.domain, human_age(options.wait_ns)));
+                    "--board NAME{}",
+                    options.link.network.domain, human_age(options.wait_ns), keys_hint(options.link)));
   }
   note_others(context, options.roster);
   print_table(context, table,

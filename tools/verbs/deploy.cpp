@@ -6,6 +6,7 @@
 #include <set>
 
 #include "config/xml/plant_reader.h"
+#include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
 #include "rt/clock.h"
 #include "tools/command/config_file.h"
@@ -22,7 +23,6 @@ struct Options {
   std::int64_t timeout_ns = 5'000'000'000;
   std::int64_t health_ns = 3'000'000'000;
   bool allow_missing = false;
-  std::filesystem::path keys;
 };
 
 std::vector<std::string> addresses(const config::Plant& plant) {
@@ -96,6 +96,18 @@ void tell_size(Context& context, const Deployment& deployment, const deploy::Pac
   }
 }
 
+// By the keys of --keys, else those that the manifest names.
+Result<std::string, base::Problem> deploy_key(Context& context, const config::Plant& plant,
+                                              deploy::LinkSettings& link) {
+  if (link.keys.empty() && !plant.security.empty()) {
+    link.keys = plant.security;
+    if (auto used = deploy::use_keys(link); !used) {
+      return std::move(used).error();
+    }
+  }
+  return read_deploy_key(context, link.keys);
+}
+
 int deploy_plant(Context& context, Options& options) {
   if (!config::is_plant_file(options.file)) {
     context.out.error(
@@ -117,21 +129,21 @@ int deploy_plant(Context& context, Options& options) {
   }
   options.link.network.multicast = checked.plant.multicast;
   options.link.network.peers = addresses(checked.plant);
+  auto key = deploy_key(context, checked.plant, options.link);
+  if (!key) {
+    context.out.error(key.error().text);
+    return kFailed;
+  }
   auto link = open_link(context, options.link);
   if (link == nullptr) {
     return kUnreachable;
   }
   BoardRoster roster;
   Deployment deployment;
-  auto key = read_deploy_key(context, options.keys.empty() ? checked.plant.security : options.keys);
-  if (!key) {
-    context.out.error(key.error().text);
-    return kFailed;
-  }
   auto present =
       present_boards(context, *link, roster, packed->package.boards, options.allow_missing, options.timeout_ns);
   if (!present) {
-    return report(context.out, present.error());
+    return report(context.out, with_keys_hint(present.error(), options.link));
   }
   deployment.key = std::move(key).value();
   deployment.order.boards = std::move(present).value();
@@ -162,7 +174,6 @@ Action declare(base::Options& app, Context& context) {
                   "How long to watch the new deployment before it is committed (default: 3s)");
   app.flag("--allow-missing", options->allow_missing,
            "Deploy to the boards that are heard; the others take it over when they appear");
-  app.add("--keys", "DIR", options->keys, "Folder of the plant's keys (default: <security> of the manifest)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return deploy_plant(c, *options); };
 }
@@ -175,7 +186,8 @@ const Verb kDeployVerb{
     "one instant, watches them for a while and commits. If anything goes wrong on any board, all of them go back.\n"
     "Every board needs a running agent: indurop-agent --board NAME.\n"
     "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it), 4 the\n"
-    "check found errors, 5 rolled back, 6 boards are missing.\n"
+    "check found errors, 5 rolled back, 6 boards are missing. Keys are those of --keys, else <security> of the "
+    "manifest.\n"
     "Examples:\n"
     "  indurop deploy plant.xml\n"
     "  indurop deploy plant.xml --keys keys --health 5s\n",

@@ -74,8 +74,9 @@ int history(Context& context, Options& options) {
     }
   }
   if (!heard) {
-    context.out.error(options.board.empty() ? "no board was heard"
-                                            : fmt::format("board {} was not heard", options.board));
+    context.out.error(
+        (options.board.empty() ? "no board was heard" : fmt::format("board {} was not heard", options.board)) +
+        keys_hint(options.link));
     return kUnreachable;
   }
   std::stable_sort(rows.begin(), rows.end(),

@@ -20,7 +20,6 @@ struct Options {
   std::int64_t timeout_ns = 5'000'000'000;
   std::int64_t health_ns = 3'000'000'000;
   bool allow_missing = false;
-  std::filesystem::path keys;
 };
 
 constexpr std::int64_t kHearNs = 1'000'000'000;
@@ -107,14 +106,14 @@ int roll_back(Context& context, Options& options) {
   }
   const std::vector<std::string> members = newest->members;
   Deployment deployment;
-  auto key = read_deploy_key(context, options.keys);
+  auto key = read_deploy_key(context, options.link.keys);
   if (!key) {
     context.out.error(key.error().text);
     return kFailed;
   }
   auto present = present_boards(context, *link, roster, members, options.allow_missing, options.timeout_ns);
   if (!present) {
-    return report(context.out, present.error());
+    return report(context.out, with_keys_hint(present.error(), options.link));
   }
   deployment.key = std::move(key).value();
   deployment.order.boards = std::move(present).value();
@@ -150,7 +149,6 @@ Action declare(base::Options& app, Context& context) {
                   "How long to watch the deployment before it is committed (default: 3s)");
   app.flag("--allow-missing", options->allow_missing,
            "Roll back the boards that are heard; the others follow when they appear");
-  app.add("--keys", "DIR", options->keys, "Folder of the plant's keys, if it has some");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return roll_back(c, *options); };
 }

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -33,6 +35,7 @@ class AgentsTest : public PlantTest {
     for (const auto& [board, agent] : agents_) {
       agent->kill();
     }
+    ::unsetenv("INDUROP_KEYS_DIR");
   }
 
   // A plant of boards and their modules; `more`: elements of the first board besides.
@@ -78,6 +81,9 @@ class AgentsTest : public PlantTest {
     std::vector<std::string> words = before;
     words.emplace_back(INDUROP_PROGRAM);
     words.insert(words.end(), arguments.begin(), arguments.end());
+    if (!keys_.empty() && std::find(words.begin(), words.end(), "--keys") == words.end()) {
+      words.insert(words.end(), {"--keys", keys_});
+    }
     return start(with_link(words, !before.empty()));
   }
   Outcome indurop(const std::vector<std::string>& arguments, const std::vector<std::string>& before = {}) {
@@ -111,6 +117,22 @@ class AgentsTest : public PlantTest {
     return one.is_object() && one["state"] == "running" && one["deployment"] == deployment && one["phase"] == "steady";
   }
 
+  // Of tools that are not told otherwise.
+  void speak_with_keys(const std::string& folder) { keys_ = folder; }
+  // Keys of a manifest's plant in `keys`, and its boards' where their agents find them from now on.
+  void bring_keys(const std::string& file, const std::vector<std::string>& boards) {
+    if (!std::filesystem::exists(folder() / "keys")) {
+      EXPECT_EQ(indurop_here({"keys", "init", file, "--dir", path("keys")}).code, 0);
+    }
+    const auto plant = folder() / "etc" / ("p" + std::to_string(::getpid()));
+    std::filesystem::create_directories(plant);
+    for (const std::string& name : boards) {
+      std::filesystem::copy(folder() / "keys/boards" / board(name), plant / board(name),
+                            std::filesystem::copy_options::recursive);
+    }
+    ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  }
+
   // Of agents and who speaks to them.
   static int link_domain() { return dds_domain(1); }
 
@@ -124,6 +146,7 @@ class AgentsTest : public PlantTest {
   }
 
   std::string agent_program_ = AGENT_PROGRAM;
+  std::string keys_;
   std::map<std::string, Program*> agents_;
 };
 

@@ -118,21 +118,23 @@ TEST_F(Commands, Unknown_boards_and_modules_are_named) {
 
 TEST_F(Commands, A_board_with_a_key_takes_signed_commands_only) {
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
-  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("keys")}).code, 0);
-  const std::string plant = "p" + std::to_string(::getpid());
-  std::filesystem::create_directories(folder() / "etc");
-  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / plant, std::filesystem::copy_options::recursive);
-  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  bring_keys(file, {"a", "b"});
+  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("strange")}).code, 0);
+  const auto thief = folder() / "thief";
+  std::filesystem::copy(folder() / "keys/deployer", thief);
+  std::filesystem::copy_file(folder() / "strange/deployer/deploy.key", thief / "deploy.key",
+                             std::filesystem::copy_options::overwrite_existing);
   start_agent("a");
   start_agent("b");
-  ::unsetenv("INDUROP_KEYS_DIR");
-  const Outcome done = deploy(file, {"--keys", path("keys")});
+  const std::string plant = "p" + std::to_string(::getpid());
+  speak_with_keys(path("keys"));
+  const Outcome done = deploy(file);
   ASSERT_EQ(done.code, 0) << done.err;
-  const Outcome refused = indurop({"stop", "steady@" + board("a")});
+  const Outcome refused = indurop({"stop", "steady@" + board("a"), "--keys", thief.string()});
   EXPECT_EQ(refused.code, 1) << refused.err;
-  EXPECT_THAT(refused.err, HasSubstr("it is not signed, and this board has a key of plant " + plant));
+  EXPECT_THAT(refused.err, HasSubstr("it is not signed with the key of plant " + plant));
   EXPECT_EQ(module_state("a"), "running");
-  const Outcome good = indurop({"stop", "steady@" + board("a"), "--keys", path("keys")});
+  const Outcome good = indurop({"stop", "steady@" + board("a")});
   EXPECT_EQ(good.code, 0) << good.err;
   EXPECT_EQ(module_state("a"), "stopped");
 }

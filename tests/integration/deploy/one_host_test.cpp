@@ -137,30 +137,26 @@ TEST_F(Deploying, Two_agents_of_one_name_are_refused) {
   adopt_agent("a", known);
 }
 
+// Of two who are let into the network of agents: the key that signs deployments is the deployer's alone.
 TEST_F(Deploying, A_board_with_a_key_takes_signed_deployments_only) {
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
-  const auto make_keys = [&](const std::string& folder) {
-    const std::string command = std::string(INDUROP_PROGRAM) + " -q keys init " + file + " --dir " + path(folder);
-    return std::system(command.c_str()) == 0;
-  };
-  ASSERT_TRUE(make_keys("keys") && make_keys("strange"));
-  const std::string plant = "p" + std::to_string(::getpid());
-  std::filesystem::create_directories(folder() / "etc");
-  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / plant, std::filesystem::copy_options::recursive);
-  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  bring_keys(file, {"a", "b"});
+  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("strange")}).code, 0);
+  const auto thief = folder() / "thief";
+  std::filesystem::copy(folder() / "keys/deployer", thief);
+  std::filesystem::copy_file(folder() / "strange/deployer/deploy.key", thief / "deploy.key",
+                             std::filesystem::copy_options::overwrite_existing);
   start_both();
-  const Outcome unsigned_one = deploy(file);
-  EXPECT_EQ(unsigned_one.code, 1);
-  EXPECT_THAT(unsigned_one.err, HasSubstr("not signed, and this board has a key of plant " + plant));
-  const Outcome strange = deploy(file, {"--keys", path("strange")});
+  const std::string plant = "p" + std::to_string(::getpid());
+  const Outcome strange = deploy(file, {"--keys", thief.string()});
   EXPECT_EQ(strange.code, 1);
   EXPECT_THAT(strange.err, HasSubstr("not signed with the key of plant " + plant));
+  speak_with_keys(path("keys"));
   EXPECT_EQ(report("a")["state"], "empty");
-  const Outcome done = deploy(file, {"--keys", path("keys")});
+  const Outcome done = deploy(file);
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.json()["signed"], true);
   EXPECT_TRUE(runs("a", done.json()["deployment"]) && runs("b", done.json()["deployment"]));
-  ::unsetenv("INDUROP_KEYS_DIR");
 }
 
 TEST_F(Deploying, An_agent_needs_a_board_and_a_place) {

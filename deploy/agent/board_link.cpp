@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_link.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "deploy/link/link_keys.h"
+#include "keys/participant_keys.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::chrono::milliseconds kRetry{500};
+constexpr std::chrono::seconds kLookForKeys{1};
+
+}  // namespace
+
+bool BoardLink::keep(rt::MonoTime now, const std::string& plant, bool idle) {
+  if (now >= look_at_ && (link_ == nullptr || idle)) {
+    look_at_ = now + kLookForKeys;
+    OwnKeys present = keys_.own(plant);
+    if (present != own_ && link_ != nullptr) {
+      log_.info("the keys of this board have changed: joining the network of agents again");
+      leave();
+    }
+    own_ = std::move(present);
+  }
+  if (link_ != nullptr || now < join_at_) {
+    return false;
+  }
+  join_at_ = now + kRetry;
+  tell(join());
+  return link_ != nullptr;
+}
+
+void BoardLink::tell(const std::string& told) {
+  if (!told.empty() && told != told_) {
+    log_.warning("{}", told);
+  }
+  told_ = told;
+}
+
+std::string BoardLink::join() {
+  if (!own_.problem.empty()) {
+    return own_.problem;
+  }
+  std::string note;
+  settings_.network.security = {};
+  if (!own_.folder.empty()) {
+    const keys::KeyCheck check =
+        keys::check_board_keys(own_.folder, own_.plant, settings_.network.board, keys::instant_now());
+    if (check.fault == keys::KeyFault::Missing || check.fault == keys::KeyFault::Wrong) {
+      return fmt::format("not in the network of agents: keys of plant {}: {}", own_.plant, check.problem);
+    }
+    if (check.fault != keys::KeyFault::None) {
+      note = fmt::format("keys of plant {}: {}; indurop keys renew {}, and copy permissions.p7s and identity.pem here",
+                         own_.plant, check.problem, settings_.network.board);
+    }
+    settings_.network.security = security_of(keys::ParticipantKeys(own_.folder));
+  }
+  auto opened = DeployLink::open(settings_);
+  if (!opened) {
+    return opened.error().text;
+  }
+  auto commands = CommandLink::open(*opened->link, CommandSide::Agent);
+  if (!commands) {
+    return commands.error().text;
+  }
+  link_ = std::move(opened->link);
+  commands_ = std::move(commands).value();
+  if (own_.folder.empty()) {
+    log_.info("open: this board has no keys, so anybody on this network may speak with its agent");
+  } else {
+    log_.info("speaking with holders of keys of plant {} only", own_.plant);
+  }
+  return note.empty() ? opened->note : note;
+}
+
+void BoardLink::leave() noexcept {
+  commands_.reset();
+  link_.reset();
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// How an agent is in the network: tried until it succeeds, by the keys of its board if it has some, and again when
+// other keys are there.
+
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/log.h"
+#include "deploy/agent/deploy_keys.h"
+#include "deploy/link/command_link.h"
+#include "deploy/link/deploy_link.h"
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+
+class BoardLink {
+ public:
+  BoardLink(LinkSettings settings, const DeployKeys& keys, const base::Log& log)
+      : settings_(std::move(settings)), keys_(keys), log_(log) {}
+
+  // Joins if it is time; and leaves before that if the keys have changed and the agent is `idle`. `plant`: what is
+  // committed. True if it has joined just now.
+  bool keep(rt::MonoTime now, const std::string& plant, bool idle);
+  void leave() noexcept;
+  // Null while it is not in the network; both or none.
+  [[nodiscard]] DeployLink* link() const noexcept { return link_.get(); }
+  [[nodiscard]] CommandLink* commands() const noexcept { return commands_.get(); }
+
+ private:
+  // What people should know of it.
+  std::string join();
+  void tell(const std::string& told);
+
+  LinkSettings settings_;
+  const DeployKeys& keys_;
+  const base::Log& log_;
+  std::unique_ptr<DeployLink> link_;
+  std::unique_ptr<CommandLink> commands_;  // ends first
+  OwnKeys own_;
+  rt::MonoTime join_at_;
+  rt::MonoTime look_at_;
+  std::string told_;
+};
+
+}  // namespace indurop::deploy

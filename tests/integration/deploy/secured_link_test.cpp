@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Agents with keys, and who speaks with them by the right keys, by wrong ones and without any.
+
+#include "agents_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SecuredLink : public AgentsTest {
+ protected:
+  SecuredLink() : file_(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}})) {}
+  void start_with_keys() {
+    bring_keys(file_, {"a", "b"});
+    start_agent("a");
+    start_agent("b");
+    speak_with_keys(path("keys"));
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
+};
+
+TEST_F(SecuredLink, A_plant_is_deployed_looked_at_and_commanded_with_keys) {
+  start_with_keys();
+  const Outcome done = deploy(file());
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(done.json()["signed"], true);
+  EXPECT_TRUE(runs("a", done.json()["deployment"]) && runs("b", done.json()["deployment"]));
+  EXPECT_EQ(indurop({"history", "-o", "json"}).json()["deployments"].size(), 1U);
+  EXPECT_EQ(indurop({"stop", "steady@" + board("a")}).code, 0);
+  const Outcome status = indurop({"status", "--plant"});
+  EXPECT_EQ(status.code, 0) << status.err;
+  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}})).code, 0);
+  const Outcome back = indurop({"rollback", "--health", "500ms"});
+  EXPECT_EQ(back.code, 0) << back.err;
+}
+
+TEST_F(SecuredLink, Who_has_no_keys_hears_nothing_and_is_told_what_to_do) {
+  start_with_keys();
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  speak_with_keys("");
+  const Outcome boards = indurop({"boards", "-o", "json"});
+  EXPECT_EQ(boards.code, 6);
+  EXPECT_TRUE(boards.json()["boards"].empty());
+  EXPECT_THAT(boards.err, HasSubstr("boards that have keys speak only to who has keys of their plant: --keys DIR"));
+  const Outcome deployed = deploy(file(), {"--timeout", "1s"});
+  EXPECT_EQ(deployed.code, 6);
+  EXPECT_THAT(deployed.err, HasSubstr("--keys DIR"));
+  EXPECT_EQ(indurop({"stop", "@" + board("a"), "--timeout", "1s"}).code, 6);
+  EXPECT_EQ(indurop({"boards", "--keys", path("nowhere")}).code, 2);
+}
+
+TEST_F(SecuredLink, Keys_of_another_authority_are_not_accepted) {
+  start_with_keys();
+  ASSERT_EQ(indurop_here({"keys", "init", file(), "--dir", path("strange")}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  const Outcome boards = indurop({"boards", "--keys", path("strange"), "--wait", "2s"});
+  EXPECT_EQ(boards.code, 6);
+  EXPECT_THAT(boards.err, HasSubstr("others there do not accept these keys"));
+  EXPECT_EQ(deploy(file(), {"--keys", path("strange"), "--timeout", "1s"}).code, 6);
+}
+
+TEST_F(SecuredLink, A_board_without_keys_is_open_and_not_heard_by_those_with_keys) {
+  bring_keys(file(), {"a"});
+  start_agent("a");
+  start_agent("b");
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  EXPECT_FALSE(report("a").is_object());
+  const Outcome done = deploy(file(), {"--keys", path("keys"), "--timeout", "2s"});
+  EXPECT_EQ(done.code, 6);
+  EXPECT_THAT(done.err, HasSubstr("missing: " + board("b")));
+  EXPECT_THAT(done.err, HasSubstr("boards without keys are not heard with --keys"));
+}
+
+TEST_F(SecuredLink, Keys_that_are_brought_to_a_running_agent_count) {
+  std::filesystem::create_directories(folder() / "etc");
+  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  start_agent("a");
+  ASSERT_TRUE(wait_until([&] { return report("a").is_object(); }));
+  bring_keys(file(), {"a"});
+  ASSERT_TRUE(wait_until([&] { return !report("a").is_object(); }));
+  speak_with_keys(path("keys"));
+  EXPECT_TRUE(wait_until([&] { return report("a").is_object(); }));
+}
+
+TEST_F(SecuredLink, A_viewer_looks_and_commands_nothing) {
+  start_with_keys();
+  ASSERT_EQ(deploy(file()).code, 0);
+  speak_with_keys(path("keys/viewer"));
+  EXPECT_TRUE(report("a").is_object());
+  EXPECT_EQ(indurop({"history", "-o", "json"}).json()["deployments"].size(), 1U);
+  const Outcome stop = indurop({"stop", "steady@" + board("a")});
+  EXPECT_EQ(stop.code, 1);
+  EXPECT_THAT(stop.err, HasSubstr("deploy.key is missing"));
+}
+
+}  // namespace
+}  // namespace indurop::test
