@@ -33,9 +33,9 @@ std::string keys_hint(const deploy::LinkSettings& settings) {
   if (!settings.network.security.on()) {
     return "; boards that have keys speak only to who has keys of their plant: --keys DIR";
   }
+  // Whose side refuses, and says why, is decided by chance.
   const std::string refusal = dds::last_refusal();
-  return refusal.empty() ? "; boards without keys are not heard with --keys"
-                         : "; others there do not accept these keys: " + refusal;
+  return "; only boards with keys of the same plant are heard with --keys" + (refusal.empty() ? "" : ": " + refusal);
 }
 
 Failure with_keys_hint(Failure failure, const deploy::LinkSettings& settings) {

@@ -50,6 +50,16 @@ bool means(const std::string& text, const std::string& variable) {
   }
 }
 
+// What keys may have to do with it that nobody was heard: who has some does not answer who has none, or others.
+std::string keys_hint(const dds::NetworkSettings& network) {
+  if (!network.security.on()) {
+    return "<external secure=\"on\">: --keys";
+  }
+  const std::string refusal = dds::last_refusal();
+  return "with --keys, only boards of the same plant with <external secure=\"on\"> answer" +
+         (refusal.empty() ? "" : ": " + refusal);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RemoteSource>, Failure> RemoteSource::open(const dds::NetworkSettings& network,
@@ -64,7 +74,7 @@ Result<std::unique_ptr<RemoteSource>, Failure> RemoteSource::open(const dds::Net
     notes.push_back(opened->note);
   }
   std::unique_ptr<RemoteSource> made(new RemoteSource(std::move(opened->plane), wait_ns));
-  if (auto gathered = made->gather(network.domain, names, notes); !gathered.ok()) {
+  if (auto gathered = made->gather(network, names, notes); !gathered.ok()) {
     return std::move(gathered).error();
   }
   made->thread_ = std::thread([&self = *made] { self.feed(); });
@@ -90,7 +100,7 @@ bool RemoteSource::knows(const std::vector<std::string>& names) const {
 }
 
 // Until nothing new has come for a while and nobody is missing, or the time is over.
-Result<void, Failure> RemoteSource::gather(int domain, const std::vector<std::string>& names,
+Result<void, Failure> RemoteSource::gather(const dds::NetworkSettings& network, const std::vector<std::string>& names,
                                            std::vector<std::string>& notes) {
   const std::int64_t end = rt::now_ns() + wait_ns_;
   std::int64_t changed_ns = rt::now_ns();
@@ -107,7 +117,7 @@ Result<void, Failure> RemoteSource::gather(int domain, const std::vector<std::st
   }
   update();
   silent_ = plane_->silent_variables();
-  title_ = fmt::format("DDS domain {}", domain);
+  title_ = fmt::format("DDS domain {}", network.domain);
   std::set<std::string> plants;
   for (const mirror::RemoteBoard& board : boards_) {
     plants.insert(board.plant);
@@ -125,14 +135,10 @@ Result<void, Failure> RemoteSource::gather(int domain, const std::vector<std::st
     return Failure{interrupt_code(), {}};
   }
   if (variables_.empty()) {
-    // Who has keys does not answer who has none, so that only the case of wrong keys is known.
-    const std::string refusal = dds::last_refusal();
-    return Failure{
-        kUnreachable,
-        fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
-                    "names <types>; other networks: --domain, --interface, --peer; <external secure=\"on\">: --keys{}",
-                    domain, human_age(wait_ns_),
-                    refusal.empty() ? refusal : ". Others there do not accept these keys: " + refusal)};
+    return Failure{kUnreachable,
+                   fmt::format("nobody shows variables in DDS domain {} (heard for {}). Boards do if their manifest "
+                               "names <types>; other networks: --domain, --interface, --peer; {}",
+                               network.domain, human_age(wait_ns_), keys_hint(network))};
   }
   return {};
 }

@@ -70,7 +70,8 @@ class RemoteSource final : public ValueSource {
   };
   RemoteSource(std::unique_ptr<mirror::RemotePlane> plane, std::int64_t wait_ns)
       : plane_(std::move(plane)), wait_ns_(wait_ns) {}
-  Result<void, Failure> gather(int domain, const std::vector<std::string>& names, std::vector<std::string>& notes);
+  Result<void, Failure> gather(const dds::NetworkSettings& network, const std::vector<std::string>& names,
+                               std::vector<std::string>& notes);
   [[nodiscard]] bool knows(const std::vector<std::string>& names) const;
   Result<void, Failure> set_whole(const std::string& variable, std::span<const std::uint8_t> value);
   void feed();

@@ -90,17 +90,14 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
 }
 
 TEST_F(RemoteLook, Boards_with_keys_are_forced_by_who_has_them) {
-  const std::string file = manifest("v1.xml", {{"a", "table"}, {"b", "steady"}});
-  ASSERT_EQ(indurop_here({"keys", "init", file, "--dir", path("keys")}).code, 0);
-  std::filesystem::create_directories(folder() / "etc");
-  std::filesystem::copy(folder() / "keys/boards", folder() / "etc" / ("p" + std::to_string(::getpid())),
-                        std::filesystem::copy_options::recursive);
-  ::setenv("INDUROP_KEYS_DIR", path("etc").c_str(), 1);
+  bring_keys(manifest("v1.xml", {{"a", "table"}, {"b", "steady"}}), {"a", "b"});
   start_boards({"--keys", path("keys")});
-  ::unsetenv("INDUROP_KEYS_DIR");
-  const Outcome refused = at_a({"force", "echo=7"});
+  const Outcome unheard = at_a({"force", "echo=7"});
+  EXPECT_EQ(unheard.code, 6);
+  EXPECT_THAT(unheard.err, HasSubstr("--keys DIR"));
+  const Outcome refused = at_a({"force", "echo=7", "--keys", path("keys/viewer")});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("it is not signed"));
+  EXPECT_THAT(refused.err, HasSubstr("deploy.key is missing"));
   EXPECT_EQ(here({"forces"})["forces"], Json::array());
   EXPECT_EQ(at_a({"force", "echo=7", "--keys", path("keys")}).code, 0);
   EXPECT_EQ(here({"forces"})["forces"].size(), 1U);

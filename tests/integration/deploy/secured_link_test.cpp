@@ -1,12 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
 // Agents with keys, and who speaks with them by the right keys, by wrong ones and without any.
 
+#include <arpa/inet.h>
+#include <linux/if_ether.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <thread>
+
 #include "agents_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using ::testing::HasSubstr;
+
+// Keeps every packet of this machine from its making until heard().
+class Eavesdropper {
+ public:
+  Eavesdropper() : socket_(::socket(AF_PACKET, SOCK_DGRAM, htons(ETH_P_ALL))) {
+    const int room = 32 << 20;
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUFFORCE, &room, sizeof room);
+    if (able()) {
+      thread_ = std::thread([this] { listen(); });
+    }
+  }
+  ~Eavesdropper() {
+    (void)heard();
+    ::close(socket_);
+  }
+  Eavesdropper(const Eavesdropper&) = delete;
+  Eavesdropper& operator=(const Eavesdropper&) = delete;
+
+  // False without the right to listen.
+  [[nodiscard]] bool able() const { return socket_ >= 0; }
+  const std::string& heard() {
+    stop_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+    return heard_;
+  }
+
+ private:
+  void listen() {
+    std::array<char, 65536> packet{};
+    pollfd ready{socket_, POLLIN, 0};
+    while (!stop_) {
+      if (::poll(&ready, 1, 20) == 1) {
+        const ssize_t size = ::recv(socket_, packet.data(), packet.size(), 0);
+        heard_.append(packet.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+      }
+    }
+  }
+
+  int socket_;
+  std::atomic<bool> stop_{false};
+  std::string heard_;
+  std::thread thread_;
+};
 
 class SecuredLink : public AgentsTest {
  protected:
@@ -18,6 +73,23 @@ class SecuredLink : public AgentsTest {
     speak_with_keys(path("keys"));
   }
   const std::string& file() const { return file_; }
+
+  // Deploys while somebody listens to the wire: which of the deployment's name and a text in a module's file it reads.
+  // Null if nobody may listen here.
+  std::optional<std::pair<bool, bool>> overheard() {
+    const std::string text = "a secret of " + std::to_string(::getpid());
+    std::ofstream(folder() / "steady.so", std::ios::app) << text;
+    Eavesdropper listener;
+    if (!listener.able()) {
+      return std::nullopt;
+    }
+    const Outcome done = deploy(file());
+    EXPECT_EQ(done.code, 0) << done.err;
+    const std::string name = done.json()["deployment"];
+    const std::string& heard = listener.heard();
+    EXPECT_FALSE(heard.empty());
+    return std::pair(heard.find(name) != std::string::npos, heard.find(text) != std::string::npos);
+  }
 
  private:
   std::string file_;
@@ -36,6 +108,25 @@ TEST_F(SecuredLink, A_plant_is_deployed_looked_at_and_commanded_with_keys) {
   EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}})).code, 0);
   const Outcome back = indurop({"rollback", "--health", "500ms"});
   EXPECT_EQ(back.code, 0) << back.err;
+}
+
+TEST_F(SecuredLink, On_the_wire_a_deployment_is_open_without_keys) {
+  start_agent("a");
+  start_agent("b");
+  const auto found = overheard();
+  if (!found) {
+    GTEST_SKIP() << "no right to listen to packets";
+  }
+  EXPECT_EQ(*found, std::pair(true, true));
+}
+
+TEST_F(SecuredLink, On_the_wire_a_deployment_is_secret_with_keys) {
+  start_with_keys();
+  const auto found = overheard();
+  if (!found) {
+    GTEST_SKIP() << "no right to listen to packets";
+  }
+  EXPECT_EQ(*found, std::pair(false, false));
 }
 
 TEST_F(SecuredLink, Who_has_no_keys_hears_nothing_and_is_told_what_to_do) {
@@ -59,7 +150,7 @@ TEST_F(SecuredLink, Keys_of_another_authority_are_not_accepted) {
   ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
   const Outcome boards = indurop({"boards", "--keys", path("strange"), "--wait", "2s"});
   EXPECT_EQ(boards.code, 6);
-  EXPECT_THAT(boards.err, HasSubstr("others there do not accept these keys"));
+  EXPECT_THAT(boards.err, HasSubstr("only boards with keys of the same plant are heard with --keys"));
   EXPECT_EQ(deploy(file(), {"--keys", path("strange"), "--timeout", "1s"}).code, 6);
 }
 
@@ -72,7 +163,7 @@ TEST_F(SecuredLink, A_board_without_keys_is_open_and_not_heard_by_those_with_key
   const Outcome done = deploy(file(), {"--keys", path("keys"), "--timeout", "2s"});
   EXPECT_EQ(done.code, 6);
   EXPECT_THAT(done.err, HasSubstr("missing: " + board("b")));
-  EXPECT_THAT(done.err, HasSubstr("boards without keys are not heard with --keys"));
+  EXPECT_THAT(done.err, HasSubstr("only boards with keys of the same plant are heard with --keys"));
 }
 
 TEST_F(SecuredLink, Keys_that_are_brought_to_a_running_agent_count) {

@@ -160,7 +160,7 @@ TEST_F(Secured, Who_has_no_keys_or_wrong_ones_is_told_what_to_do) {
   make({"init", file(), "--dir", (folder() / "foreign").string()});
   const Outcome foreign = remote({"get", "station::state", "--wait", "2s"}, (folder() / "foreign").string());
   EXPECT_EQ(foreign.code, 6);
-  EXPECT_CONTAINS(foreign.err, "do not accept these keys");
+  EXPECT_CONTAINS(foreign.err, "only boards of the same plant");
   EXPECT_EQ(remote({"get", "station::state"}, "/nowhere").code, 2);
   fs::copy_file(keys("tools/panel/permissions.p7s"), keys("tools/blind/permissions.p7s"),
                 fs::copy_options::overwrite_existing);
