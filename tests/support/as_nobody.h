@@ -23,7 +23,7 @@ inline bool become_nobody() {
 // What happens during its life happens without root's rights. For tests with one thread.
 class WithoutRoot {
  public:
-  WithoutRoot() : root_(::geteuid() == 0) { held_ = !root_ || ::seteuid(kNobody) == 0; }
+  WithoutRoot() : root_(::geteuid() == 0), held_(!root_ || ::seteuid(kNobody) == 0) {}
   WithoutRoot(const WithoutRoot&) = delete;
   WithoutRoot& operator=(const WithoutRoot&) = delete;
   ~WithoutRoot() {
