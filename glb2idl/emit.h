@@ -20,11 +20,14 @@ struct Output {
 // <stem>.idl: OMG IDL for idlc and other vendors' compilers.
 [[nodiscard]] std::string emit_idl(const Program& program, const GlbFile& unit);
 
-// <stem>.glb.h: the variables as C++ shapes. The header of an included file is included.
-// `hidden` holds the names of the namespaces for generated details, one per unit.
-[[nodiscard]] std::string emit_cpp(const Program& program, std::size_t unit, const std::vector<std::string>& hidden);
-// Made from what the headers contain: two modules built from different texts share no symbol by accident.
-[[nodiscard]] std::vector<std::string> hidden_names(const Program& program);
+// <stem>.glb.h of each unit: the variables as C++ shapes. The header of an included file is included.
+struct Header {
+  // Namespace of generated details. Made from what the header contains: two modules built from different texts share
+  // no symbol by accident.
+  std::string hidden;
+  std::string text;
+};
+[[nodiscard]] std::vector<Header> emit_cpp(const Program& program);
 
 // <stem>.layout.txt: sizes and offsets, for people.
 [[nodiscard]] std::string emit_layout(const Program& program, const GlbFile& unit);

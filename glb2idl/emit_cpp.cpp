@@ -14,6 +14,17 @@ namespace {
 
 constexpr std::size_t kLine = 100;  // bytes of schema text in one line
 
+// Names that end with a hash of the text they stand in; it is set when the text is complete.
+constexpr std::string_view kHidden = "indurop_generated_";
+constexpr std::string_view kHiddenSchema = "indurop_schema_";
+constexpr std::string_view kNoHash = "0000000000000000";
+
+void set_hash(std::string& text, const std::string& name, const std::string& hash) {
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + name.size())) {
+    text.replace(at + name.size() - hash.size(), hash.size(), hash);
+  }
+}
+
 std::string hex(std::uint64_t value) {
   return fmt::format("0x{:016x}", value);
 }
@@ -75,8 +86,7 @@ class CppWriter {
   void schema_text() {
     const std::string json = schema::to_json(schema_of(unit_));
     out_.line("");
-    out_.line("asm(R\"indurop(.pushsection .indurop.schema,\"G\",%progbits,indurop_schema_{},comdat",
-              hidden_.substr(hidden_.rfind('_') + 1));
+    out_.line("asm(R\"indurop(.pushsection .indurop.schema,\"G\",%progbits,{}{},comdat", kHiddenSchema, kNoHash);
     for (std::size_t at = 0; at < json.size(); at += kLine) {
       out_.line(".ascii \"{}\"", escape(std::string_view(json).substr(at, kLine)));
     }
@@ -252,18 +262,20 @@ class CppWriter {
 
 }  // namespace
 
-std::vector<std::string> hidden_names(const Program& program) {
+std::vector<Header> emit_cpp(const Program& program) {
+  std::vector<Header> headers;
   std::vector<std::string> names(program.units.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
-    names[i] = "indurop_generated_0";
-    const std::string text = program.units[i].stem + CppWriter(program, i, names).run();
-    names[i] = fmt::format("indurop_generated_{:016x}", abi::fnv1a64(text.data(), text.size()));
+    names[i] = std::string(kHidden).append(kNoHash);
+    std::string text = CppWriter(program, i, names).run();
+    const std::string hash = fmt::format("{:016x}", abi::fnv1a64(text.data(), text.size()));
+    for (const std::string_view name : {kHidden, kHiddenSchema}) {
+      set_hash(text, std::string(name).append(kNoHash), hash);
+    }
+    names[i] = std::string(kHidden).append(hash);
+    headers.push_back({names[i], std::move(text)});
   }
-  return names;
-}
-
-std::string emit_cpp(const Program& program, std::size_t unit, const std::vector<std::string>& hidden) {
-  return CppWriter(program, unit, hidden).run();
+  return headers;
 }
 
 }  // namespace indurop::glb2idl

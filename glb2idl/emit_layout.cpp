@@ -133,12 +133,12 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
 
 std::vector<Output> emit_all(const Program& program) {
   std::vector<Output> out;
-  const std::vector<std::string> hidden = hidden_names(program);
+  std::vector<Header> headers = emit_cpp(program);
   std::string all = "// All shared variables, written by glb2idl. Do not edit.\n#pragma once\n\n";
   for (std::size_t i = 0; i < program.units.size(); ++i) {
     const GlbFile& unit = program.units[i];
     out.push_back({unit.stem + ".idl", emit_idl(program, unit)});
-    out.push_back({unit.stem + ".glb.h", emit_cpp(program, i, hidden)});
+    out.push_back({unit.stem + ".glb.h", std::move(headers[i].text)});
     out.push_back({unit.stem + ".layout.txt", emit_layout(program, unit)});
     all += fmt::format("#include \"../{}.glb.h\"\n", unit.stem);
   }

@@ -50,7 +50,7 @@ TEST_P(Golden, Output_is_as_expected) {
     ASSERT_FALSE(sut.program.units.empty());
     const std::size_t last = sut.program.units.size() - 1;
     idl = emit_idl(sut.program, sut.program.units[last]);
-    header = emit_cpp(sut.program, last, hidden_names(sut.program));
+    header = emit_cpp(sut.program)[last].text;
     layout = emit_layout(sut.program, sut.program.units[last]);
   }
   expect_file(folder / "expected.idl", idl);

@@ -245,8 +245,10 @@ TEST(Functions, Arguments_are_a_struct) {
 TEST(Emit, The_hidden_namespace_changes_with_the_content) {
   const Compilation one = compile_text("int x;");
   const Compilation two = compile_text("int x = 1;");
-  EXPECT_NE(hidden_names(one.program), hidden_names(two.program));
-  EXPECT_EQ(hidden_names(one.program), hidden_names(compile_text("int x;").program));
+  const auto hidden = [](const Compilation& of) { return emit_cpp(of.program)[0].hidden; };
+  EXPECT_NE(hidden(one), hidden(two));
+  EXPECT_EQ(hidden(one), hidden(compile_text("int x;")));
+  EXPECT_NE(emit_cpp(one.program)[0].text.find("namespace " + hidden(one) + " "), std::string::npos);
 }
 
 }  // namespace

@@ -8,5 +8,5 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace indurop_generated_90b39ab7ad8a7a88 __attribute__((visibility("hidden"))) {
-}  // namespace indurop_generated_90b39ab7ad8a7a88
+namespace indurop_generated_6341eecd73d2a987 __attribute__((visibility("hidden"))) {
+}  // namespace indurop_generated_6341eecd73d2a987
