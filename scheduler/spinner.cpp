@@ -12,11 +12,18 @@ constexpr std::int64_t kFirstGuess = 20'000;
 // Steps up and down in the ratio 100 : 1, so the estimate settles where 1 % of the wake-ups are later.
 constexpr std::int64_t kStepUp = 400;
 constexpr std::int64_t kStepDown = 4;
+// Ticks within which what was spun beyond the budget is saved again.
+constexpr std::int64_t kSettle = 64;
 
 }  // namespace
 
 Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period_ns) noexcept
-    : clock_(clock), mode_(settings.mode), limit_(std::min(period_ns / 2, kMostSpinNs)), quantile_(kFirstGuess) {
+    : clock_(clock),
+      mode_(settings.mode),
+      limit_(std::min(period_ns / 2, kMostSpinNs)),
+      budget_(std::min(period_ns / kMostMeanShare, kMostMeanNs)),
+      credit_(kFirstGuess * kSettle),
+      quantile_(kFirstGuess) {
   if (mode_ == SpinMode::Auto) {
     margin_ = std::min(kFirstGuess, limit_);
   } else if (mode_ == SpinMode::Fixed) {
@@ -24,9 +31,12 @@ Spinner::Spinner(Clock& clock, const SpinSettings& settings, std::int64_t period
   }
 }
 
-void Spinner::learn(std::int64_t wake_cost) noexcept {
+void Spinner::learn(std::int64_t wake_cost, std::int64_t spin) noexcept {
   quantile_ += wake_cost > quantile_ ? kStepUp : -kStepDown;
-  margin_ = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
+  const std::int64_t wanted = std::min(quantile_ + quantile_ * 15 / 100 + 1000, limit_);
+  // Not more is saved up than is wanted soon: a machine that becomes slow must not spend it all at once.
+  credit_ = std::clamp<std::int64_t>(credit_ + budget_ - spin, 0, 2 * wanted * kSettle);
+  margin_ = std::min(wanted, credit_ / kSettle);
 }
 
 rt::MonoTime Spinner::wait_until(rt::MonoTime deadline) noexcept {
@@ -36,7 +46,7 @@ rt::MonoTime Spinner::wait_until(rt::MonoTime deadline) noexcept {
     clock_.sleep_until(wake_at);
     now = clock_.now();
     if (mode_ == SpinMode::Auto) {
-      learn((now - wake_at).count());
+      learn((now - wake_at).count(), std::max<std::int64_t>((deadline - now).count(), 0));
     }
   }
   while (now < deadline) {
