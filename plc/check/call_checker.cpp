@@ -33,6 +33,16 @@ bool is_parameter(const Variable& variable, bool output) noexcept {
                 : variable.section == ast::Section::Input || variable.section == ast::Section::InOut;
 }
 
+bool has_body(const Pou& pou) noexcept {
+  return !pou.tree->body.empty() || (pou.base != nullptr && has_body(*pou.base));
+}
+
+// Of a method only its own: it sees the variables of its instance, but is not called with them.
+const Variable* parameter_of(const Pou& pou, const std::string& name) {
+  const Variable* found = pou.find(upper(name));
+  return found != nullptr && pou.owner != nullptr && found->owner != &pou ? nullptr : found;
+}
+
 }  // namespace
 
 // Notes EN and ENO; false with an error if they cannot stand here.
@@ -65,8 +75,26 @@ bool CallChecker::take_enable(Expression& call, bool allowed) {
   return fine;
 }
 
+// The functions of the library that the name may mean.
+std::vector<const LibraryFunction*> CallChecker::overloads_of(const std::string& name, const Type* wanted) const {
+  if (same_name(name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
+    // Any whole number, says the standard: the one that is wanted, else DINT.
+    return find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
+  }
+  const auto out = find_functions(name);
+  const bool literal = context_.codesys() && out.size() == 1 && out.front()->cpp == "iec::to_literal";
+  return literal ? find_functions("TO_STRING") : out;  // '42'
+}
+
 const Type* CallChecker::function(Expression& call, const Type* wanted, bool whole_side) {
   Expression& callee = call.operands[0];
+  bool said = false;
+  if (const Pou* found = method_of(callee, said)) {
+    return take_enable(call, whole_side) ? method(call, *found) : nullptr;
+  }
+  if (said) {
+    return nullptr;
+  }
   if (callee.kind != Expression::Kind::Name) {
     context_.error(call.at,
                    "a function block gives its results in its outputs: call it first, then use instance.output");
@@ -89,14 +117,7 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   if (const Type* type = nullptr; enumeration_call(call, type)) {
     return type;
   }
-  auto overloads = find_functions(callee.name);
-  if (same_name(callee.name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
-    // Any whole number, says the standard: the one that is wanted, else DINT.
-    overloads = find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
-  }
-  if (context_.codesys() && overloads.size() == 1 && overloads.front()->cpp == "iec::to_literal") {
-    overloads = find_functions("TO_STRING");  // '42'
-  }
+  auto overloads = overloads_of(callee.name, wanted);
   if (!overloads.empty()) {
     return library_function(call, overloads, wanted);
   }
@@ -122,8 +143,17 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
 
 void CallChecker::statement(Expression& call) {
   Expression& callee = call.operands[0];
+  bool said = false;
+  if (const Pou* found = method_of(callee, said)) {
+    call.type = take_enable(call, true) ? method(call, *found) : nullptr;
+    return;
+  }
+  if (said) {
+    return;
+  }
   const bool is_instance = callee.kind != Expression::Kind::Name ||
                            (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) ||
+                           same_name(callee.name, "SUPER") || same_name(callee.name, "THIS") ||
                            context_.program.global_names.contains(upper(callee.name));
   if (!is_instance) {
     call.type = function(call, nullptr, true);
@@ -143,9 +173,25 @@ void CallChecker::statement(Expression& call) {
     return;
   }
   call.type = type;
+  if (context_.pou != nullptr) {
+    context_.pou->calls_blocks = true;
+    if (type->pou != nullptr) {
+      context_.pou->uses.insert(type->pou);
+      context_.pou->calls.insert(type->pou);
+    }
+  }
+  if (type->pou != nullptr && type->pou->tree->kind == ast::Pou::Kind::Class) {
+    context_.error(call.at, fmt::format("{} is a CLASS and has no body, call one of its methods", type->name));
+    return;
+  }
   if (type->block != nullptr) {
     library_block(call, *type->block);
   } else {
+    if (type->pou->base != nullptr && type->pou->tree->body.empty() && has_body(*type->pou->base)) {
+      context_.warning(call.at, fmt::format("{} has no statements, so this call runs none; to run those of {}, write "
+                                            "SUPER^(); in {}",
+                                            type->name, type->pou->base->name, type->name));
+    }
     user_block(call, *type->pou);
   }
 }
@@ -214,7 +260,8 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
     context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
   }
   const Type& wanted = *parameter.type;
-  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type))) {
+  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type)) &&
+      !(type->kind == Type::Kind::Block && stands_for(*type, wanted))) {
     context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,
                                          to_string(wanted), with_article(*type)));
   }
@@ -224,12 +271,12 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;
-  for (const Variable& one : pou.variables) {
-    if (is_parameter(one, false)) {
-      inputs.push_back(&one);
+  for (const Variable* one : all_variables(pou)) {
+    if (is_parameter(*one, false)) {
+      inputs.push_back(one);
     }
-    if (is_parameter(one, false) || is_parameter(one, true)) {
-      all.push_back(&one);
+    if (is_parameter(*one, false) || is_parameter(*one, true)) {
+      all.push_back(one);
     }
   }
   const auto unnamed =
@@ -248,14 +295,14 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
       continue;
     }
     const Variable* parameter = argument.name.empty() ? (position < inputs.size() ? inputs[position++] : nullptr)
-                                                      : pou.find(upper(argument.name));
+                                                      : parameter_of(pou, argument.name);
     argument.output =
         argument.output || (argument.name.empty() && parameter != nullptr && is_parameter(*parameter, true));
     if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {
       std::vector<std::string> known;
-      for (const Variable& one : pou.variables) {
-        if (is_parameter(one, argument.output)) {
-          known.push_back(one.name);
+      for (const Variable* one : all_variables(pou)) {
+        if (is_parameter(*one, argument.output)) {
+          known.push_back(one->name);
         }
       }
       context_.error(argument.at,
@@ -295,6 +342,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
 const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
   if (context_.pou != nullptr) {
     context_.pou->uses.insert(&pou);
+    context_.pou->calls.insert(&pou);
   }
   const std::size_t before = context_.diagnostics.errors();
   user_block(call, pou);

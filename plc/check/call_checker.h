@@ -18,6 +18,8 @@ class CallChecker {
   const Type* function(ast::Expression& call, const Type* wanted, bool whole_side);
   // A call as a statement: a function, or an instance of a function block.
   void statement(ast::Expression& call);
+  // A call of a method, or of what a property is read or written by.
+  const Type* method(ast::Expression& call, const Pou& pou);
   // + - * / MOD **: the library's function of the same meaning.
   const Type* operation(ast::Expression& expression, const Type* wanted);
 
@@ -30,6 +32,7 @@ class CallChecker {
   };
   using Inputs = std::vector<ast::Expression*>;
 
+  [[nodiscard]] std::vector<const LibraryFunction*> overloads_of(const std::string& name, const Type* wanted) const;
   std::optional<Inputs> positions(ast::Expression& call, const LibraryFunction& first);
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* library_function(ast::Expression& call, std::vector<const LibraryFunction*> overloads,
@@ -37,6 +40,7 @@ class CallChecker {
   bool address_call(ast::Expression& call, const Type*& type);
   const Type* size_of(ast::Expression& call, ast::Expression& of);
   bool enumeration_call(ast::Expression& call, const Type*& type);
+  const Pou* method_of(ast::Expression& callee, bool& said);
   const Type* user_function(ast::Expression& call, const Pou& pou);
   void library_block(ast::Expression& call, const LibraryBlock& block);
   void in_out(const ast::Expression& call, ast::Expression& given, const Variable& parameter);

@@ -6,6 +6,7 @@
 #include "plc/check/constant_order.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
+#include "plc/check/object_checker.h"
 #include "plc/check/pou_checker.h"
 #include "plc/check/shared_names.h"
 #include "plc/check/task_checker.h"
@@ -44,11 +45,13 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   Context context{*program, diagnostics};
   check_identifiers(context);
   declare_pous(context);
+  declare_objects(context);
   order_constants(context.program.project);
   declare_globals(context, true);
   declare_types(context);
   declare_globals(context, false);
   declare_variables(context);
+  check_objects(context);
   name_types(context);
   check_bodies(context);
   order_pous(context);

@@ -36,7 +36,7 @@ struct Context {
  private:
   // Errors of texts name the POU too.
   [[nodiscard]] std::string located(std::string text) const {
-    return pou != nullptr ? pou->name + ": " + text : std::move(text);
+    return pou != nullptr ? pou->title() + ": " + text : std::move(text);
   }
 };
 

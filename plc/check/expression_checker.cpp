@@ -111,7 +111,8 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
       type = binary(expression, wanted);
       break;
   }
-  if (type != nullptr && type->is_reference() && following_ && expression.kind != Expression::Kind::Call) {
+  const bool made = expression.kind == Expression::Kind::Call && expression.resolved->pou == nullptr;  // REF()
+  if (type != nullptr && type->is_reference() && following_ && !made) {
     return follow(expression, *type);
   }
   if (type != nullptr && reading_ && counts_as_truth(expression, *type)) {
@@ -126,6 +127,9 @@ const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted)
 bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
   if (to.is_reference()) {
     return bind(expression, to);
+  }
+  if (to.kind == Type::Kind::Interface) {
+    return assigned_interface(expression, to);
   }
   const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
   if (type == nullptr) {
@@ -164,6 +168,9 @@ const Type* ExpressionChecker::top_call(Expression& expression, const Type* want
   if (!resolved(expression).cast) {
     const Type* type = CallChecker(*this).function(expression, wanted, true);
     expression.type = type;  // the call may have become another expression
+    if (type != nullptr && type->is_reference() && expression.resolved->pou != nullptr) {
+      return follow(expression, *type);
+    }
   }
   return expression.type;
 }

@@ -40,6 +40,8 @@ class ExpressionChecker {
   bool bind(ast::Expression& expression, const Type& to);
   // Assigns the result of a call that may have EN and ENO.
   const Type* top_call(ast::Expression& expression, const Type* wanted);
+  // x.Speed := value, where Speed is a PROPERTY, becomes a call. False: it is none, and nothing was done.
+  bool write_property(ast::Statement& statement);
   // A whole number known now.
   std::optional<std::int64_t> constant(ast::Expression& expression, std::string_view what);
   // An initial value; false after an error.
@@ -64,6 +66,14 @@ class ExpressionChecker {
   const Type* named_bit(ast::Expression& expression, const Type& base);
   const Type* unary(ast::Expression& expression, const Type* wanted);
   const Type* binary(ast::Expression& expression, const Type* wanted);
+  const Type* this_or_super(ast::Expression& expression);
+  bool variable_of_this(ast::Expression& expression);
+  bool can_see(const Variable& variable, const Place& at);
+  bool may_call(const Pou& method, const Place& at);
+  const Type* object(ast::Expression& expression);
+  const Pou* accessor(const Pou& pou, const ast::Expression& expression, ast::Accessor which);
+  const Type* read_property(ast::Expression& expression, const Pou& getter);
+  bool assigned_interface(ast::Expression& expression, const Type& to);
   // The value as another type: an enumeration is a number, and a number one of an enumeration.
   const Type* deref(ast::Expression& expression);
   const Type* character(ast::Expression& expression, const Type& text);

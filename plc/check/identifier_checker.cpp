@@ -16,12 +16,7 @@ class Walk {
       type(one.type);
     }
     for (const ast::Pou& one : project.pous) {
-      name(one.name, one.at);
-      variables(one.variables);
-      body(one.body);
-      if (one.result) {
-        type(*one.result);
-      }
+      pou(one);
     }
     variables(project.globals);
     for (const Configuration& one : project.configurations) {
@@ -37,6 +32,18 @@ class Walk {
   void name(const std::string& text, const Place& at) {
     if (std::string why = why_no_name(text); !why.empty()) {
       context_.error(at, std::move(why));
+    }
+  }
+
+  void pou(const ast::Pou& one) {
+    name(one.name, one.at);
+    variables(one.variables);
+    body(one.body);
+    if (one.result) {
+      type(*one.result);
+    }
+    for (const ast::Pou& method : one.methods) {
+      pou(method);
     }
   }
 

@@ -20,6 +20,10 @@ bool is_global_list(const Program& program, std::string_view name) {
   return std::any_of(lists.begin(), lists.end(), [&](const std::string& list) { return same_name(list, name); });
 }
 
+const Pou* innermost_pou(const Type& type) noexcept {
+  return type.element != nullptr ? innermost_pou(*type.element) : type.pou;
+}
+
 }  // namespace
 
 const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) {
@@ -34,8 +38,12 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
     }
     return enum_value(expression, *type->second, expression.name);
   }
-  if (Variable* variable = context_.pou != nullptr ? context_.pou->find(capitals) : nullptr) {
+  const Pou* from = context_.pou == nullptr || !expression.of_this ? context_.pou : context_.pou->self();
+  if (Variable* variable = from != nullptr ? from->find(capitals) : nullptr) {
     variable->used = true;
+    if (!can_see(*variable, expression.at)) {
+      return nullptr;
+    }
     if (variable->global != nullptr) {
       return global(expression, *program.global_names.at(upper(variable->global->name)));
     }
@@ -47,6 +55,18 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   if (context_.pou != nullptr && context_.pou->result != nullptr && same_name(context_.pou->name, expression.name)) {
     out.meaning = Meaning::FunctionResult;
     return context_.pou->result;
+  }
+  if (same_name(expression.name, "THIS") || same_name(expression.name, "SUPER")) {
+    return this_or_super(expression);
+  }
+  if (from != nullptr && from->self() != nullptr && context_.program.has_objects) {
+    const std::size_t before = context_.diagnostics.errors();
+    if (const Pou* getter = accessor(*from->self(), expression, ast::Accessor::Get)) {
+      return read_property(expression, *getter);
+    }
+    if (context_.diagnostics.errors() != before) {
+      return nullptr;
+    }
   }
   if (const auto found = program.global_names.find(capitals); found != program.global_names.end()) {
     return global(expression, *found->second);
@@ -176,6 +196,9 @@ const Type* ExpressionChecker::global(Expression& expression, Global& global) {
   if (context_.pou != nullptr && reading_) {
     context_.pou->globals[&global].read = true;
   }
+  if (const Pou* instance = context_.pou != nullptr && global.type != nullptr ? innermost_pou(*global.type) : nullptr) {
+    context_.pou->uses.insert(instance);
+  }
   return global.type;
 }
 
@@ -199,6 +222,21 @@ const Type* ExpressionChecker::member(Expression& expression) {
       return enum_value(expression, *base.type, expression.name);
     }
     return nullptr;
+  }
+  if (variable_of_this(expression)) {
+    return typed(expression, nullptr);
+  }
+  if (type->pou != nullptr && (type->kind == Type::Kind::Block || type->kind == Type::Kind::Interface)) {
+    const std::size_t before = context_.diagnostics.errors();
+    const Pou* getter = type->pou->find(upper(expression.name)) == nullptr
+                            ? accessor(*type->pou, expression, ast::Accessor::Get)
+                            : nullptr;
+    if (getter != nullptr) {
+      return read_property(expression, *getter);
+    }
+    if (context_.diagnostics.errors() != before) {
+      return nullptr;
+    }
   }
   if (type->kind == Type::Kind::Block) {
     return block_member(expression, *type);
@@ -261,6 +299,10 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
+    if (found != nullptr && found->section == ast::Section::Local && found->declared->access == ast::Access::Public) {
+      expression.name = found->name;
+      return found->type;
+    }
     const bool inside = found != nullptr && found->section == ast::Section::Local && found->global == nullptr &&
                         !found->is_constant && found->type != nullptr;
     if (inside && context_.codesys()) {
@@ -283,9 +325,9 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
                                  found->name, to_string(block)));
       return nullptr;
     }
-    for (const Variable& one : block.pou->variables) {
-      if (one.section == ast::Section::Output) {
-        known.push_back(one.name);
+    for (const Variable* one : all_variables(*block.pou)) {
+      if (one->section == ast::Section::Output) {
+        known.push_back(one->name);
       }
     }
   }

@@ -93,8 +93,10 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
     return nullptr;
   }
   count_enumerations(expression);
-  if (expression.operands[0].type->kind == Type::Kind::Pointer ||
-      expression.operands[1].type->kind == Type::Kind::Pointer) {
+  const auto leads = [](const Expression& one) {
+    return one.type->kind == Type::Kind::Pointer || one.type->kind == Type::Kind::Interface;
+  };
+  if (leads(expression.operands[0]) || leads(expression.operands[1])) {
     return compares ? pointer_comparison(expression) : pointer_operation(expression);
   }
   if (!expression.operands[0].resolved->untyped || !expression.operands[1].resolved->untyped) {

@@ -77,11 +77,15 @@ std::optional<Extent> extent_of(const Type& type) {
 const Type* ExpressionChecker::deref(Expression& expression) {
   const bool following = std::exchange(following_, false);
   const bool reading = std::exchange(reading_, true);
-  const Type* base = value(expression.operands[0]);
+  const Type* base = typed(expression.operands[0], nullptr);
   following_ = following;
   reading_ = reading;
   if (base == nullptr) {
     return nullptr;
+  }
+  const Meaning meaning = expression.operands[0].resolved->meaning;
+  if (meaning == Meaning::This || meaning == Meaning::Super) {
+    return base;
   }
   if (base->kind != Type::Kind::Pointer) {
     context_.error(expression.at, fmt::format("{} is no pointer, remove the ^", with_article(*base)));
@@ -118,7 +122,7 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
   if (type == nullptr) {
     return false;
   }
-  if (to.element == nullptr || !same_type(*type, *to.element)) {
+  if (to.element == nullptr || !stands_for(*type, *to.element)) {
     context_.error(expression.at, fmt::format("{} is not what a {} refers to, use a variable of that type",
                                               with_article(*type), to_string(to)));
     return false;
@@ -139,6 +143,29 @@ bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to)
   context_.error(expression.at, fmt::format("{} is not {}, use ADR(), REF() or NULL", with_article(*expression.type),
                                             with_article(to)));
   return false;
+}
+
+// An instance that has what the interface asks for, or another variable of it.
+bool ExpressionChecker::assigned_interface(Expression& expression, const Type& to) {
+  const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : typed(expression, nullptr);
+  if (type == nullptr) {
+    return false;
+  }
+  if (is_zero(expression)) {
+    return true;
+  }
+  if (!stands_for(*type, to)) {
+    context_.error(expression.at, type->kind == Type::Kind::Block
+                                      ? fmt::format("{} does not implement {}, write IMPLEMENTS {} in its declaration",
+                                                    to_string(*type), to.name, to.name)
+                                      : fmt::format("{} is not {}, use an instance that implements it, or NULL",
+                                                    with_article(*type), with_article(to)));
+    return false;
+  }
+  if (type->kind == Type::Kind::Block) {
+    note_call(expression);
+  }
+  return true;
 }
 
 // p[3]: what lies as many values behind p^.
@@ -177,13 +204,14 @@ const Type* ExpressionChecker::pointer_operation(Expression& expression) {
 const Type* ExpressionChecker::pointer_comparison(Expression& expression) {
   const Expression& a = expression.operands[0];
   const Expression& b = expression.operands[1];
-  const auto fits = [](const Expression& one) { return one.type->kind == Type::Kind::Pointer || is_zero(one); };
+  const Type::Kind kind = is_zero(a) ? b.type->kind : a.type->kind;
+  const auto fits = [&](const Expression& one) { return one.type->kind == kind || is_zero(one); };
   if (!fits(a) || !fits(b)) {
     context_.error(expression.at, fmt::format("{} and {} cannot be compared, use ADR(), REF() or NULL",
                                               with_article(*a.type), with_article(*b.type)));
     return nullptr;
   }
-  resolved(expression).operand = a.type->kind == Type::Kind::Pointer ? a.type : b.type;
+  resolved(expression).operand = a.type->kind == kind ? a.type : b.type;
   return context_.elementary(Elementary::Bool);
 }
 

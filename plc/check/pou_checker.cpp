@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "plc/check/global_table.h"
+#include "plc/check/object_checker.h"
 #include "plc/check/statement_checker.h"
 #include "plc/check/type_builder.h"
 #include "plc/check/usage_checker.h"
@@ -19,6 +20,11 @@ using ast::Section;
 const Type& innermost(const Type& type) noexcept {
   const bool inside = type.kind == Type::Kind::Array || (type.kind == Type::Kind::Pointer && type.element != nullptr);
   return inside ? innermost(*type.element) : type;
+}
+
+// Whose variables lie in one of the type.
+const Pou* held(const Type& type) noexcept {
+  return type.kind == Type::Kind::Array ? held(*type.element) : type.kind == Type::Kind::Block ? type.pou : nullptr;
 }
 
 bool is_instance(const Type& type) noexcept {
@@ -55,17 +61,41 @@ class VariableDeclarer {
                declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
       remember_constant(*made, declared);
     }
-    if (innermost(*type).pou != nullptr) {
-      pou_.uses.insert(innermost(*type).pou);
+    use_types(*type);
+  }
+
+  // Of a variable, or the result.
+  void use_types(const Type& type) {
+    if (const Pou* used = innermost(type).pou) {
+      pou_.uses.insert(used);
+    }
+    if (const Pou* one = held(type)) {
+      pou_.holds.insert(one);
     }
   }
 
  private:
+  void check_instance(const ast::Variable& declared, const Type& type) {
+    const Pou* held_one = held(type);
+    if (held_one != nullptr && held_one->tree->is_abstract && declared.section != Section::InOut &&
+        declared.section != Section::External) {
+      context_.error(declared.at, abstract_instance(*held_one));
+    }
+    const bool has_memory = !pou_.is_callable() || declared.is_static || declared.of_instance;
+    if (!has_memory && declared.section != Section::InOut && declared.section != Section::External) {
+      context_.error(declared.at, pou_.owner != nullptr
+                                      ? "a METHOD has no memory for function blocks, declare the instance as VAR_INST"
+                                      : "a FUNCTION has no memory for function blocks, make it a FUNCTION_BLOCK");
+    }
+  }
+
   void check_kind(const ast::Variable& declared, const Type& type) {
     const bool is_block = is_instance(type);
-    if (is_block && pou_.tree->kind == ast::Pou::Kind::Function && declared.section != Section::InOut &&
-        !declared.is_static) {
-      context_.error(declared.at, "a FUNCTION has no memory for function blocks, make it a FUNCTION_BLOCK");
+    if (is_block) {
+      check_instance(declared, type);
+    }
+    if (declared.of_instance && pou_.owner == nullptr) {
+      context_.error(declared.at, "VAR_INST is for methods, use VAR");
     }
     if (is_block && declared.constant) {
       context_.error(declared.at, "an instance of a function block cannot be CONSTANT");
@@ -75,8 +105,8 @@ class VariableDeclarer {
     } else if (declared.retain && pou_.tree->kind != ast::Pou::Kind::Program) {
       context_.warning(declared.at, "RETAIN has no effect here, only in programs and in VAR_GLOBAL");
     }
-    if (declared.edge != ast::Edge::None && (!type.is(Elementary::Bool) || declared.section != Section::Input ||
-                                             pou_.tree->kind == ast::Pou::Kind::Function)) {
+    if (declared.edge != ast::Edge::None &&
+        (!type.is(Elementary::Bool) || declared.section != Section::Input || pou_.is_callable())) {
       context_.error(declared.at, "R_EDGE and F_EDGE are for BOOL inputs of function blocks and programs");
     }
     if (declared.section == Section::InOut && declared.initial) {
@@ -95,12 +125,13 @@ class VariableDeclarer {
     if (declared.name.empty()) {
       return nullptr;
     }
-    if (const Variable* other = pou_.find(capitals)) {
+    const auto known = pou_.names.find(capitals);
+    if (const Variable* other = known != pou_.names.end() ? known->second : nullptr) {
       context_.error(declared.at, fmt::format("'{}' is already declared at {}, rename one of them", declared.name,
                                               to_string(other->declared->at)));
       return nullptr;
     }
-    if (same_name(declared.name, pou_.name)) {
+    if (same_name(declared.name, pou_.name) && pou_.tree->accessor != ast::Accessor::Set) {
       context_.error(declared.at, fmt::format("'{}' is the name of the POU itself, use another one", declared.name));
     }
     Variable& made = pou_.variables.emplace_back();
@@ -110,6 +141,7 @@ class VariableDeclarer {
     made.type = type;
     made.is_constant = declared.constant;
     made.retain = declared.retain;
+    made.owner = &pou_;
     pou_.names.emplace(capitals, &made);
     return &made;
   }
@@ -134,10 +166,10 @@ class PouOrder {
     if (std::find(open_.begin(), open_.end(), &pou) != open_.end()) {
       std::string way;
       for (auto i = std::find(open_.begin(), open_.end(), &pou); i != open_.end(); ++i) {
-        way += (*i)->name + " -> ";
+        way += (*i)->title() + " -> ";
       }
       context_.error(pou.tree->at,
-                     fmt::format("recursion is not possible: {}{}, remove one of the calls", way, pou.name));
+                     fmt::format("recursion is not possible: {}{}, remove one of the calls", way, pou.title()));
       return;
     }
     if (!done_.insert(&pou).second) {
@@ -145,7 +177,7 @@ class PouOrder {
     }
     open_.push_back(&pou);
     for (const Pou& other : context_.program.pous) {  // in the order of the text
-      if (pou.uses.contains(&other)) {
+      if (pou.holds.contains(&other) || pou.calls.contains(&other)) {
         visit(other);
       }
     }
@@ -158,6 +190,23 @@ class PouOrder {
   std::set<const Pou*> done_;
   std::vector<const Pou*> open_;
 };
+
+Pou& add(Context& context, ast::Pou& tree) {
+  Pou& pou = context.program.pous.emplace_back();
+  pou.tree = &tree;
+  pou.name = tree.name;
+  return pou;
+}
+
+void declare_methods(Context& context, Pou& pou) {
+  for (ast::Pou& tree : pou.tree->methods) {
+    Pou& method = add(context, tree);
+    method.owner = &pou;
+    pou.methods.push_back(&method);
+    pou.uses.insert(&method);
+    context.program.has_objects = true;
+  }
+}
 
 }  // namespace
 
@@ -175,20 +224,33 @@ void declare_pous(Context& context) {
                                          to_string(known->second->tree->at)));
       continue;
     }
-    Pou& pou = context.program.pous.emplace_back();
-    pou.tree = &tree;
-    pou.name = tree.name;
+    Pou& pou = add(context, tree);
     context.program.pou_names.emplace(upper(tree.name), &pou);
+    declare_methods(context, pou);
   }
 }
+
+namespace {
+
+void check_result(Context& context, const Pou& pou) {
+  if (pou.result != nullptr && is_instance(*pou.result)) {
+    context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
+  }
+}
+
+}  // namespace
 
 void declare_variables(Context& context) {
   for (Pou& pou : context.program.pous) {
     context.pou = &pou;
+    VariableDeclarer declarer(context, pou);
     if (pou.tree->result) {
       pou.result = build_type(context, *pou.tree->result);
+      check_result(context, pou);
+      if (pou.result != nullptr) {
+        declarer.use_types(*pou.result);
+      }
     }
-    VariableDeclarer declarer(context, pou);
     for (ast::Variable& one : pou.tree->variables) {
       declarer.declare(one);
     }
@@ -197,18 +259,29 @@ void declare_variables(Context& context) {
 }
 
 void check_bodies(Context& context) {
+  const auto has_body = [](const Pou& pou) {
+    return pou.owner == nullptr ? pou.tree->kind != ast::Pou::Kind::Interface
+                                : !pou.tree->is_abstract && pou.owner->tree->kind != ast::Pou::Kind::Interface;
+  };
+  std::vector<Pou*> fine;
   for (Pou& pou : context.program.pous) {
+    if (!has_body(pou)) {
+      continue;
+    }
     context.pou = &pou;
     const std::size_t before = context.diagnostics.errors();
     StatementChecker(context).body(pou.tree->body);
-    if (context.diagnostics.errors() != before) {
-      continue;
+    if (context.diagnostics.errors() == before) {
+      fine.push_back(&pou);
     }
-    if (pou.result != nullptr && !pou.result_assigned) {
-      context.warning(pou.tree->at,
-                      fmt::format("the function never gives its result, assign it: {} := ...;", pou.name));
+  }
+  for (Pou* pou : fine) {  // methods use variables of their instances, too
+    context.pou = pou;
+    if (pou->result != nullptr && !pou->result_assigned) {
+      context.warning(pou->tree->at, fmt::format("the {} never gives its result, assign it: {} := ...;",
+                                                 pou->owner != nullptr ? "method" : "function", pou->name));
     }
-    warn_about_usage(context, pou);
+    warn_about_usage(context, *pou);
   }
   context.pou = nullptr;
 }

@@ -44,6 +44,8 @@ struct Global {
   std::string comment;
 };
 
+struct Pou;
+
 // A variable of a POU. Externals stand for their global.
 struct Variable {
   const ast::Variable* declared = nullptr;
@@ -57,6 +59,7 @@ struct Variable {
   bool used = false;
   bool written = false;
   bool called = false;  // an instance, or passed as VAR_IN_OUT
+  const Pou* owner = nullptr;
 };
 
 // Which parts of a global a POU touches: "" is the whole, ".eOpCode" a field.
@@ -69,26 +72,55 @@ struct Pou {
   ast::Pou* tree = nullptr;
   std::string name;
   const Type* result = nullptr;  // of a function that has one
-  const Type* type = nullptr;    // of a function block, the type of its instances
+  const Type* type = nullptr;    // of a function block, class or interface, the type of its instances
   std::deque<Variable> variables;
   std::map<std::string, Variable*> names;  // in capitals
-  std::set<const Pou*> uses;
+  std::set<const Pou*> uses;               // all that has to be written with it
+  std::set<const Pou*> holds;              // of them those whose variables lie in it
+  std::set<const Pou*> calls;              // of them those it runs
   std::map<const Global*, GlobalUse> globals;
   std::set<std::string> labels;
   bool result_assigned = false;
+  bool calls_blocks = false;                     // which need to know the scan
   std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
-  [[nodiscard]] Variable* find(const std::string& capitals) const {
-    const auto found = names.find(capitals);
-    return found == names.end() ? nullptr : found->second;
+  // Object orientation
+  Pou* owner = nullptr;                // of a method: whose instances it works on
+  const Pou* base = nullptr;           // EXTENDS of a function block or class
+  std::vector<const Pou*> interfaces;  // IMPLEMENTS; of an interface: EXTENDS
+  std::vector<Pou*> methods;           // and accessors of properties, its own
+  bool is_object = false;              // has methods, or something to do with such ones
+  const Pou* replaces = nullptr;       // of a method: the inherited one it overrides
+  bool called_unseen = false;          // of a method: a call may not say that it is this one
+
+  // A variable of it, else of the instance it works on, else an inherited one.
+  [[nodiscard]] Variable* find(const std::string& capitals) const;
+  // Whose THIS^ is: itself, or of a method its owner; null: there are no instances.
+  [[nodiscard]] const Pou* self() const noexcept;
+  // "Motor.Start"
+  [[nodiscard]] std::string title() const;
+  [[nodiscard]] bool is_callable() const noexcept {  // with values that are gone when it returns
+    return tree->kind == ast::Pou::Kind::Function || tree->kind == ast::Pou::Kind::Method;
+  }
+  [[nodiscard]] bool is_block() const noexcept {
+    return tree->kind == ast::Pou::Kind::FunctionBlock || tree->kind == ast::Pou::Kind::Class;
   }
 };
 
+// Inherited ones first.
+[[nodiscard]] std::vector<const Variable*> all_variables(const Pou& pou);
+// What a call of an instance means: its own method, else the inherited one; of interfaces and abstract function blocks
+// also one that has no body. Null: there is none.
+[[nodiscard]] const Pou* find_method(const Pou& pou, std::string_view name,
+                                     ast::Accessor accessor = ast::Accessor::None);
+// Whether it is the other one, extends it, or implements it.
+[[nodiscard]] bool is_a(const Pou& pou, const Pou& other) noexcept;
+
 // What the checker found out about an expression.
 struct Resolved {
-  enum class Meaning : std::uint8_t { Value, Variable, Global, FunctionResult, Type, Namespace };
+  enum class Meaning : std::uint8_t { Value, Variable, Global, FunctionResult, Type, Namespace, This, Super };
   Meaning meaning = Meaning::Value;
-  const Variable* variable = nullptr;
+  Variable* variable = nullptr;
   const Global* global = nullptr;
   std::string path;                  // Namespace: "knu::Robot"
   std::optional<Constant> constant;  // the value is known
@@ -102,6 +134,7 @@ struct Resolved {
   bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
   const Pou* pou = nullptr;
+  bool by_super = false;  // of a method: exactly that one, whatever extends it
   struct Actual {
     const ast::Argument* argument = nullptr;  // null: not given
     const Type* type = nullptr;               // of the parameter
@@ -138,6 +171,7 @@ struct Program {
   std::deque<Pou> pous;
   std::map<std::string, Pou*> pou_names;
   bool types_known = false;
+  bool has_objects = false;                                     // classes, interfaces, methods
   std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later
   std::vector<const Pou*> order;                                // each behind those it uses
   std::vector<TaskPlan> tasks;

@@ -121,6 +121,8 @@ void StatementChecker::bind(Statement& one) {
     context_.error(one.at, fmt::format("REF= sets a REFERENCE TO, not {}", with_article(*to)));
   } else if (to != nullptr) {
     expressions_.assigned(*one.value, *to);
+    const bool result = one.target->resolved->meaning == Resolved::Meaning::FunctionResult;
+    context_.pou->result_assigned = context_.pou->result_assigned || result;
   }
 }
 
@@ -130,6 +132,9 @@ void StatementChecker::assign(Statement& one) {
     return;
   }
   if (!infer(one)) {
+    return;
+  }
+  if (expressions_.write_property(one)) {
     return;
   }
   const Type* to = expressions_.target(*one.target);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "plc/check/program.h"
+
 namespace indurop::plc {
 namespace {
 
@@ -60,6 +62,7 @@ bool same_type(const Type& a, const Type& b) noexcept {
     case Type::Kind::Array:
       return same_bounds(a, b) && same_type(*a.element, *b.element);
     case Type::Kind::Block:
+    case Type::Kind::Interface:
       return a.pou == b.pou && a.block == b.block;
     case Type::Kind::Pointer:
       return a.element != nullptr && b.element != nullptr && same_type(*a.element, *b.element);
@@ -70,6 +73,11 @@ bool same_type(const Type& a, const Type& b) noexcept {
   return false;
 }
 
+bool stands_for(const Type& from, const Type& to) noexcept {
+  const bool known = from.pou != nullptr && to.pou != nullptr && from.kind != Type::Kind::Pointer;
+  return same_type(from, to) || (known && is_a(*from.pou, *to.pou));
+}
+
 bool in_range_of(const Type& from, const Type& to) noexcept {
   if (from.kind == Type::Kind::Array && to.kind == Type::Kind::Array) {
     return in_range_of(*from.element, *to.element);
@@ -78,6 +86,9 @@ bool in_range_of(const Type& from, const Type& to) noexcept {
 }
 
 bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
+  if (to.kind == Type::Kind::Interface) {
+    return stands_for(from, to);
+  }
   if (from.kind == Type::Kind::Block) {
     return false;
   }
@@ -88,6 +99,10 @@ bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
   if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer && to.pointer == ast::PointerKind::PointerTo) {
     return true;
   }
+  const bool pointers = from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer;
+  if (pointers && from.element != nullptr && to.element != nullptr && stands_for(*from.element, *to.element)) {
+    return true;
+  }
   return same_type(from, to) && in_range_of(from, to);
 }
 
@@ -95,7 +110,7 @@ bool is_private(const Type& type) noexcept {
   if (type.kind == Type::Kind::Array) {
     return is_private(*type.element);
   }
-  return type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer ||
+  return type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface ||
          std::any_of(type.fields.begin(), type.fields.end(),
                      [](const Field& field) { return is_private(*field.type); });
 }
@@ -124,6 +139,7 @@ std::uint64_t parts_of(const Type& type) noexcept {
     case Type::Kind::Enum:
     case Type::Kind::Block:
     case Type::Kind::Pointer:
+    case Type::Kind::Interface:
       return 1;
     case Type::Kind::Struct:
       for (const Field& field : type.fields) {

@@ -45,10 +45,10 @@ struct Bounds {
 };
 
 struct Type {
-  enum class Kind : std::uint8_t { Elementary, Enum, Struct, Array, Block, Pointer };
+  enum class Kind : std::uint8_t { Elementary, Enum, Struct, Array, Block, Pointer, Interface };
   Kind kind = Kind::Elementary;
   Elementary elementary = Elementary::Int;  // Elementary; Enum: what it is stored in
-  std::string name;                         // Enum, Struct, Block and subranges: as declared
+  std::string name;                         // Enum, Struct, Block, Interface and subranges: as declared
   std::size_t length = 0;                   // STRING: most characters
   std::optional<Bounds> range;              // subrange
   std::vector<Field> fields;                // Struct
@@ -56,7 +56,7 @@ struct Type {
   std::vector<Bounds> dimensions;           // Array
   const Type* element = nullptr;            // Array, Pointer
   ast::PointerKind pointer = ast::PointerKind::PointerTo;
-  const Pou* pou = nullptr;               // Block of the user
+  const Pou* pou = nullptr;               // Block of the user, Interface
   const LibraryBlock* block = nullptr;    // Block of the library
   const ast::Initial* initial = nullptr;  // of the declaration; null: zero, or the first value of an enumeration
   std::string shared_name;                // Struct, Enum of a .glb file: "knu::Robot::Point"
@@ -75,13 +75,15 @@ struct Type {
 [[nodiscard]] std::string with_article(const Type& type);
 // The same type, for VAR_IN_OUT and whole arrays; a subrange is the same as its base.
 [[nodiscard]] bool same_type(const Type& a, const Type& b) noexcept;
+// Whether a variable of `from` can be used as one of `to`: a function block that extends the other, or implements it.
+[[nodiscard]] bool stands_for(const Type& from, const Type& to) noexcept;
 // Whether every value of `from` is one of `to`, as far as subranges say: also those in arrays.
 [[nodiscard]] bool in_range_of(const Type& from, const Type& to) noexcept;
 // Whether a value of `from` can be assigned to a `to` without a conversion function.
 [[nodiscard]] bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept;
 // The one of both that the other widens to; null if there is none. Texts: the longer one.
 [[nodiscard]] const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept;
-// Whether function blocks or pointers are in it, which no other module can share.
+// Whether function blocks, interfaces or pointers are in it, which no other module can share.
 [[nodiscard]] bool is_private(const Type& type) noexcept;
 // Number of elementary values, those of arrays counted; saturates.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;

@@ -3,13 +3,15 @@
 
 #pragma once
 
+#include <string>
+
 #include "plc/check/context.h"
 
 namespace indurop::plc {
 
 // Declares all types of the project, in any order of the text, and the function blocks as types.
 void declare_types(Context& context);
-// The type of a declaration; null after an error.
-const Type* build_type(Context& context, ast::TypeSpec& spec);
+// The type of a declaration, with the name it gets; null after an error.
+const Type* build_type(Context& context, ast::TypeSpec& spec, const std::string& name = "");
 
 }  // namespace indurop::plc

@@ -38,7 +38,8 @@ void warn_about_usage(Context& context, const Pou& pou) {
   }
   const bool empty = std::all_of(pou.tree->body.begin(), pou.tree->body.end(),
                                  [](const ast::Statement& one) { return one.kind == ast::Statement::Kind::Empty; });
-  if (empty && pou.result == nullptr && context.diagnostics.errors() == 0) {  // after an error it may only seem so
+  if (empty && pou.result == nullptr && !pou.is_object && pou.owner == nullptr &&
+      context.diagnostics.errors() == 0) {  // after an error it may only seem so
     context.warning(pou.tree->at, "the body is empty");
   }
 }

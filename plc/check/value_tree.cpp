@@ -114,6 +114,7 @@ ValueTree initial_value(const Type& type, const ast::Initial* initial) {
     }
     case Type::Kind::Block:
     case Type::Kind::Pointer:
+    case Type::Kind::Interface:
       return zero();
   }
   return zero();

@@ -22,8 +22,9 @@ bool is_designator(const Expression& expression) noexcept {
     case Expression::Kind::Member:
     case Expression::Kind::Bit:
     case Expression::Kind::Index:
-    case Expression::Kind::Deref:
       return is_designator(expression.operands[0]);
+    case Expression::Kind::Deref:  // also of a call that gives a reference
+      return expression.operands[0].kind == Expression::Kind::Call || is_designator(expression.operands[0]);
     case Expression::Kind::Literal:
     case Expression::Kind::Call:
     case Expression::Kind::Unary:
@@ -87,7 +88,7 @@ bool ExpressionChecker::writable(const Expression& expression) {
   const Meaning meaning = !is_designator(expression) ? Meaning::Value
                           : root.resolved            ? root.resolved->meaning
                                                      : Meaning::Value;
-  if (meaning == Meaning::FunctionResult) {
+  if (meaning == Meaning::FunctionResult || meaning == Meaning::This || meaning == Meaning::Super) {
     return true;
   }
   if (meaning != Meaning::Variable && meaning != Meaning::Global) {
@@ -121,7 +122,9 @@ bool ExpressionChecker::writable(const Expression& expression) {
 const Expression* ExpressionChecker::through_pointer(const Expression& expression) noexcept {
   for (const Expression* at = &expression; !at->operands.empty(); at = &at->operands[0]) {
     const Type* base = at->operands[0].type;
-    const bool follows = at->kind == Expression::Kind::Deref ||
+    const Resolved* of = at->operands[0].resolved.get();
+    const bool own = of != nullptr && (of->meaning == Meaning::This || of->meaning == Meaning::Super);
+    const bool follows = (at->kind == Expression::Kind::Deref && !own) ||
                          (at->kind == Expression::Kind::Index && base != nullptr && base->kind == Type::Kind::Pointer);
     if (follows) {
       return &at->operands[0];

@@ -41,8 +41,9 @@ bool is_generated(std::string_view name) noexcept {
   const bool numbered = letters.size() < name.size();
   const auto is = [&](std::string_view one) { return numbered && letters == one; };
   return is("case_") || is("loop_") || is("counter_") || is("end_") || is("begin_") || is("enabled_") ||
-         name == "result" || name.starts_with("out_") || name.ends_with("_result") || name.ends_with("_edge") ||
-         name.ends_with("_before");
+         name == "result" || name == "guard_call" || name == "calls_inside" || name.starts_with("method_") ||
+         name.starts_with("getter_") || name.starts_with("setter_") || name.starts_with("kept_") ||
+         name.starts_with("out_") || name.ends_with("_result") || name.ends_with("_edge") || name.ends_with("_before");
 }
 
 std::string number(Integer value, const Type& type) {
@@ -158,6 +159,8 @@ std::string cpp_type(const Type& type) {
       return type.shared_name.empty() ? "plc::" + cpp_name(std::string_view(type.name)) : "::" + type.shared_name;
     case Type::Kind::Block:
       return type.block != nullptr ? type.block->cpp : "plc::" + cpp_name(std::string_view(type.pou->name));
+    case Type::Kind::Interface:
+      return fmt::format("iec::Interface<plc::{}>", cpp_name(std::string_view(type.pou->name)));
     case Type::Kind::Pointer:
       return fmt::format("iec::Pointer<{}>", cpp_type(*type.element));
     case Type::Kind::Array: {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/check/expression_checker.h"
+#include "plc/emit/object_emitter.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -58,6 +59,10 @@ bool is_named(const Expression& expression) noexcept {
   return expression.kind == Expression::Kind::Name && expression.resolved->meaning != Meaning::Value;
 }
 
+bool is_this(const Expression& expression) noexcept {
+  return expression.resolved->meaning == Meaning::This || expression.resolved->meaning == Meaning::Super;
+}
+
 std::string converted(const std::string& text, const Expression& expression, const Type& to) {
   const Type& from = *expression.type;
   if (to.is_string()) {
@@ -66,12 +71,6 @@ std::string converted(const std::string& text, const Expression& expression, con
   }
   const bool same = to.kind != Type::Kind::Elementary || from.elementary == to.elementary;
   return same ? text : fmt::format("static_cast<{}>({})", cpp_type(to), text);
-}
-
-// Of an input that is not given.
-std::string default_value(const Type& type, const ast::Initial* initial) {
-  const std::string value = cpp_initial(type, initial);
-  return value == "{}" ? cpp_type(type) + value : fmt::format("{}({})", cpp_type(type), value);
 }
 
 }  // namespace
@@ -84,6 +83,11 @@ std::string ExpressionEmitter::value(const Expression& expression, const Type& t
   const Constant* known = constant_of(expression);
   if (to.kind == Type::Kind::Pointer) {
     return known != nullptr ? cpp_type(to) + "{}" : raw(expression);
+  }
+  if (to.kind == Type::Kind::Interface) {
+    return known != nullptr                             ? cpp_type(to) + "{}"
+           : expression.type->kind == Type::Kind::Block ? fmt::format("{}({})", cpp_type(to), raw(expression))
+                                                        : raw(expression);
   }
   const bool scalar = to.kind == Type::Kind::Elementary || to.kind == Type::Kind::Enum;
   if (known != nullptr && scalar && !is_named(expression)) {
@@ -119,6 +123,9 @@ std::string ExpressionEmitter::raw(const Expression& expression) const {
     case Expression::Kind::Index:
       return index(expression);
     case Expression::Kind::Deref:
+      if (is_this(expression.operands[0])) {
+        return name(expression.operands[0]);
+      }
       return fmt::format("iec::deref({}, {})", place(expression.at), raw(expression.operands[0]));
     case Expression::Kind::Call:
       if (expression.resolved->intrinsic != Resolved::Intrinsic::None) {
@@ -145,12 +152,18 @@ std::string ExpressionEmitter::name(const Expression& expression) const {
   if (resolved.meaning == Meaning::Global) {
     return global(*resolved.global);
   }
+  if (is_this(expression)) {
+    return resolved.meaning == Meaning::This ? "(*this)"
+                                             : fmt::format("static_cast<{}&>(*this)", cpp_type(*expression.type));
+  }
   if (resolved.variable == nullptr) {
     return cpp_constant(*constant_of(expression), *expression.type, true);
   }
   const Variable& variable = *resolved.variable;
-  const std::string text = cpp_name(std::string_view(variable.name));
-  if (variable.section == ast::Section::InOut && pou_.tree->kind != ast::Pou::Kind::Function) {
+  const std::string text = variable.declared->of_instance
+                               ? kept_name(variable)
+                               : (expression.of_this ? "this->" : "") + cpp_name(std::string_view(variable.name));
+  if (variable.section == ast::Section::InOut && !variable.owner->is_callable()) {
     return "(*" + text + ")";
   }
   return variable.declared->edge == ast::Edge::None ? text : text + "_edge";
@@ -310,50 +323,6 @@ std::string ExpressionEmitter::logic(const Expression& expression) const {
     default:
       return flags ? fmt::format("{} != {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_xor({}, {})", a, b);
   }
-}
-
-std::string ExpressionEmitter::library_call(const Expression& expression) const {
-  const Resolved& resolved = *expression.resolved;
-  std::string arguments = resolved.function->faults ? place(expression.at) : "";
-  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
-    const Resolved::Actual& one = resolved.actuals[i];
-    const Expression& input = one.argument != nullptr ? *one.argument->value : expression.operands[i];
-    arguments += (arguments.empty() ? "" : ", ") + value(input, *one.type, true);
-  }
-  return fmt::format("{}({})", resolved.function->cpp, arguments);
-}
-
-std::string ExpressionEmitter::user_call(const Expression& expression) const {
-  std::string arguments;
-  std::string before;
-  std::string after;
-  for (const Resolved::Actual& one : expression.resolved->actuals) {
-    const bool given = one.argument != nullptr && one.argument->value;
-    std::string text;
-    if (one.parameter->section == ast::Section::Input) {
-      const auto& initial = one.parameter->declared->initial;
-      text = given ? value(*one.argument->value, *one.type) : default_value(*one.type, initial ? &*initial : nullptr);
-    } else if (one.parameter->section == ast::Section::InOut && given) {
-      text = raw(*one.argument->value);
-    } else if (!given) {
-      text = fmt::format("iec::scratch<{}>()", cpp_type(*one.type));
-    } else {
-      const std::string local = fmt::format("out_{}", one.parameter->name);
-      before += fmt::format("{} {}{{}}; ", cpp_type(*one.type), local);
-      after += assign_output(*one.argument, local, *one.type) + "; ";
-      text = local;
-    }
-    arguments += (arguments.empty() ? "" : ", ") + text;
-  }
-  const std::string call =
-      fmt::format("plc::{}({})", cpp_name(std::string_view(expression.resolved->pou->name)), arguments);
-  if (before.empty()) {
-    return call;
-  }
-  if (expression.resolved->pou->result == nullptr) {
-    return fmt::format("[&] {{ {}{}; {}}}()", before, call, after);
-  }
-  return fmt::format("[&] {{ {}auto result = {}; {}return result; }}()", before, call, after);
 }
 
 std::string ExpressionEmitter::assign_output(const ast::Argument& argument, const std::string& text,

@@ -22,6 +22,8 @@ class ExpressionEmitter {
   }
   // A variable that can be assigned or referred to.
   [[nodiscard]] std::string variable(const ast::Expression& expression) const { return raw(expression); }
+  // The body of an instance, whose text is `instance`: that of SUPER^ is exactly that.
+  [[nodiscard]] std::string run(const ast::Expression& callee, const std::string& instance) const;
   // "x = value" for an output of a call, converted; `text` is the output.
   [[nodiscard]] std::string assign_output(const ast::Argument& argument, const std::string& text,
                                           const Type& from) const;
@@ -33,7 +35,7 @@ class ExpressionEmitter {
   void leave_loop(const Variable& variable) { loops_.erase(&variable); }
 
   [[nodiscard]] static std::string result_name(const Pou& pou);
-  [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.name); }
+  [[nodiscard]] std::string place(const Place& at) const { return cpp_place(at, pou_.title()); }
 
  private:
   // Faults at the place of `at` if the value is none of the subrange.
@@ -42,6 +44,7 @@ class ExpressionEmitter {
   [[nodiscard]] std::string name(const ast::Expression& expression) const;
   [[nodiscard]] std::string global(const Global& global) const;
   [[nodiscard]] std::string member(const ast::Expression& expression) const;
+  [[nodiscard]] std::string callee(const ast::Expression& call) const;
   [[nodiscard]] std::string intrinsic(const ast::Expression& expression) const;
   [[nodiscard]] std::string index_through_pointer(const ast::Expression& expression) const;
   [[nodiscard]] std::string index(const ast::Expression& expression) const;

@@ -24,6 +24,12 @@ bool gives_away(const ast::Expression& expression, const Variable& variable) {
   if (address && writes(*expression.arguments[0].value, variable)) {
     return true;
   }
+  // What is called may call a method of the same instance.
+  const bool calls = expression.kind == ast::Expression::Kind::Call && expression.resolved &&
+                     (expression.resolved->pou != nullptr || expression.resolved->by_super);
+  if (calls && variable.owner != nullptr && variable.owner->is_object) {
+    return true;
+  }
   for (const ast::Argument& one : expression.arguments) {
     if (one.value && ((one.output && writes(*one.value, variable)) || gives_away(*one.value, variable))) {
       return true;

@@ -52,10 +52,16 @@ class ModuleEmitter {
     types();
     image();
     out_.line("namespace plc {");
-    private_globals();
+    private_globals(Global::Kind::Fixed);
     for (const Pou* pou : use_.pous) {
-      out_.line();
-      emit_pou(*pou, out_);
+      declare_pou(*pou, out_);
+    }
+    private_globals(Global::Kind::Private);
+    if (std::any_of(use_.pous.begin(), use_.pous.end(), [](const Pou* one) { return one->called_unseen; })) {
+      out_.line("int calls_inside = 0;  // of methods, where a call may lead to itself");
+    }
+    for (const Pou* pou : use_.pous) {
+      define_pou(*pou, out_);
     }
     out_.line("}  // namespace plc");
     out_.line();
@@ -75,16 +81,16 @@ class ModuleEmitter {
         out_.line(fmt::format("struct {};", cpp_name(std::string_view(type->name))));
       }
     }
-    for (const Pou* pou : use_.pous) {
-      if (pou->tree->kind == ast::Pou::Kind::FunctionBlock) {
-        out_.line(fmt::format("struct {};", cpp_name(std::string_view(pou->name))));
+    for (const Pou& pou : program_.pous) {
+      if (pou.type != nullptr) {
+        out_.line(fmt::format("struct {};", cpp_name(std::string_view(pou.name))));
       }
     }
   }
 
   void types() {
     out_.line("namespace plc {");
-    if (program_.types.has_pointers()) {
+    if (program_.types.has_pointers() || program_.has_objects) {
       announce();
     }
     for (const Type* type : program_.named_types) {
@@ -140,9 +146,9 @@ class ModuleEmitter {
     }
   }
 
-  void private_globals() {
+  void private_globals(Global::Kind kind) {
     for (const Global* global : globals_) {
-      if (!in_image(*global)) {
+      if (global->kind == kind) {
         out_.line(fmt::format("{}{} {} = {};", global->kind == Global::Kind::Fixed ? "[[maybe_unused]] const " : "",
                               cpp_type(*global->type), cpp_name(*global), cpp_initial(*global->type, global->initial)));
       }

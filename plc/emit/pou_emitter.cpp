@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/emit/cpp_text.h"
+#include "plc/emit/object_emitter.h"
 #include "plc/emit/statement_emitter.h"
 
 namespace indurop::plc {
@@ -68,28 +69,42 @@ void locals(const Pou& pou, TextWriter& out) {
   }
 }
 
-void emit_block(const Pou& pou, TextWriter& out) {
-  out.open(fmt::format("struct {}", cpp_name(std::string_view(pou.name))));
+std::string cpp_name_of(const Pou& pou) {
+  return cpp_name(std::string_view(pou.name));
+}
+
+void declare_block(const Pou& pou, TextWriter& out) {
+  out.open("struct " + cpp_name_of(pou) + extends(pou));
   members(pou, out);
-  out.line();
-  out.open("void operator()([[maybe_unused]] const iec::Scan& scan)");
-  locals(pou, out);
-  StatementEmitter(pou, out).list(pou.tree->body);
-  out.close();
+  declare_methods(pou, out);
+  if (pou.tree->kind != ast::Pou::Kind::Class) {
+    out.line(fmt::format("void operator()(const iec::Scan& scan){};", pou.is_object ? " override" : ""));
+  }
   out.close(";");
 }
 
-void emit_function(const Pou& pou, TextWriter& out) {
-  std::string parameters;
-  for (const Variable& one : pou.variables) {
-    const bool by_value = one.section == Section::Input;
-    if (by_value || one.section == Section::InOut || one.section == Section::Output) {
-      parameters += fmt::format("{}[[maybe_unused]] {}{} {}", parameters.empty() ? "" : ", ", cpp_type(*one.type),
-                                by_value ? "" : "&", name_of(one));
-    }
+void define_block(const Pou& pou, TextWriter& out) {
+  out.open(fmt::format("inline void {}::operator()([[maybe_unused]] const iec::Scan& scan)", cpp_name_of(pou)));
+  locals(pou, out);
+  StatementEmitter(pou, out).list(pou.tree->body);
+  out.close();
+}
+
+// "plc::Color Motor::method_PAINT(std::int16_t x)"
+std::string head(const Pou& pou) {
+  const std::string name = pou.owner == nullptr ? cpp_name_of(pou) : cpp_name_of(*pou.owner) + "::" + method_name(pou);
+  return fmt::format("{} {}({})", pou.result != nullptr ? cpp_type(*pou.result) : "void", name, parameters(pou));
+}
+
+// Functions and methods: their variables are those of the call.
+void define_callable(const Pou& pou, TextWriter& out) {
+  out.open((pou.owner != nullptr ? "inline " : "") + head(pou));
+  if (pou.called_unseen) {
+    out.line(fmt::format("const iec::Call guard_call(calls_inside, {});", cpp_place(pou.tree->at, pou.title())));
   }
-  out.open(fmt::format("[[maybe_unused]] {} {}({})", pou.result != nullptr ? cpp_type(*pou.result) : "void",
-                       cpp_name(std::string_view(pou.name)), parameters));
+  if (pou.calls_blocks) {
+    out.line("const iec::Scan scan{irp::release_ns()};");
+  }
   if (pou.result != nullptr) {
     const std::string value = cpp_initial(*pou.result, nullptr);
     out.line(fmt::format("{} {}{};", cpp_type(*pou.result), ExpressionEmitter::result_name(pou),
@@ -97,8 +112,10 @@ void emit_function(const Pou& pou, TextWriter& out) {
   }
   for (const Variable& one : pou.variables) {
     if (one.section == Section::Output) {
-      out.line(fmt::format("{} = {};", name_of(one), cpp_initial(*one.type, initial_of(one))));
-    } else if (is_own(one) && (one.section == Section::Local || one.section == Section::Temp)) {
+      const std::string value = cpp_initial(*one.type, initial_of(one));
+      out.line(fmt::format("{} = {};", name_of(one), value));
+    } else if (is_own(one) && !one.declared->of_instance &&
+               (one.section == Section::Local || one.section == Section::Temp)) {
       out.line(std::string("[[maybe_unused]] ") + (one.declared->is_static ? "static " : "") +
                (one.is_constant ? "const " : "") + declaration(one));
     }
@@ -112,11 +129,26 @@ void emit_function(const Pou& pou, TextWriter& out) {
 
 }  // namespace
 
-void emit_pou(const Pou& pou, TextWriter& out) {
+void declare_pou(const Pou& pou, TextWriter& out) {
   if (pou.tree->kind == ast::Pou::Kind::Function) {
-    emit_function(pou, out);
-  } else {
-    emit_block(pou, out);
+    out.line(fmt::format("[[maybe_unused]] {};", head(pou)));
+  } else if (pou.tree->kind == ast::Pou::Kind::Interface) {
+    emit_interface(pou, out);
+  } else if (!pou.is_callable()) {
+    declare_block(pou, out);
+  }
+}
+
+void define_pou(const Pou& pou, TextWriter& out) {
+  const bool has_body = !pou.tree->is_abstract && (pou.owner == nullptr || pou.owner->is_block());
+  if (pou.is_callable()) {
+    if (has_body) {
+      out.line();
+      define_callable(pou, out);
+    }
+  } else if (pou.tree->kind != ast::Pou::Kind::Interface && pou.tree->kind != ast::Pou::Kind::Class) {
+    out.line();
+    define_block(pou, out);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A POU in C++: a struct with a call operator for programs and function blocks, a function for functions.
+// A POU in C++: a struct with a call operator for programs and function blocks, a function for functions, a member
+// function for methods. All are declared before the first one has a body.
 
 #pragma once
 
@@ -8,6 +9,7 @@
 
 namespace indurop::plc {
 
-void emit_pou(const Pou& pou, TextWriter& out);
+void declare_pou(const Pou& pou, TextWriter& out);
+void define_pou(const Pou& pou, TextWriter& out);
 
 }  // namespace indurop::plc

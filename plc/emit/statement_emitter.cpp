@@ -162,7 +162,7 @@ void StatementEmitter::block_call(const Expression& call) {
                   ? fmt::format("{}.{} = &{};", instance, member, expressions_.variable(*one.argument->value))
                   : fmt::format("{}.{} = {};", instance, member, expressions_.value(*one.argument->value, *one.type)));
   }
-  out_.line(fmt::format("{}(scan);", instance));
+  out_.line(expressions_.run(call.operands[0], instance) + "(scan);");
   for (const Resolved::Actual& one : call.resolved->actuals) {
     if (one.argument->output) {
       const std::string member = one.parameter != nullptr ? cpp_name(std::string_view(one.member)) : one.member;

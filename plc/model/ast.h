@@ -69,7 +69,7 @@ struct Expression {
     Member,  // operands[0].name; also Enum#Value, namespace.variable, instance.output, step.X
     Bit,     // operands[0].bit, w.3; also w.%B1, the `width` bits from `bit` on
     Index,   // operands[0][operands[1], operands[2], ...]
-    Deref,   // operands[0]^
+    Deref,   // operands[0]^, THIS^ and SUPER^ too
     Call,    // operands[0](arguments): a function, or in a statement an instance of a function block
     Unary,   // op operands[0]
     Binary,  // operands[0] op operands[1]
@@ -81,6 +81,7 @@ struct Expression {
   LiteralValue value;                    // Literal
   std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
   std::string value_enum;                // Name: the type in Color#Red
+  bool of_this = false;                  // Name: THIS^.x was written, a variable of the instance
   bool as_truth = false;                 // at a contact or coil: a number of a .glb is a BOOL, 0 is FALSE
   unsigned bit = 0;
   unsigned width = 1;
@@ -211,6 +212,7 @@ struct TypeSpec {
 
 enum class Section : std::uint8_t { Local, Input, Output, InOut, Temp, Global, External };
 enum class Edge : std::uint8_t { None, Rising, Falling };  // BOOL R_EDGE, BOOL F_EDGE
+enum class Access : std::uint8_t { Public, Internal, Protected, Private };
 
 struct Variable {
   Section section = Section::Local;
@@ -221,7 +223,9 @@ struct Variable {
   std::optional<DirectAddress> address;  // AT %IX0.0; then the name may be empty
   bool constant = false;
   bool retain = false;
-  bool is_static = false;  // VAR_STAT: one for all instances, or of a function: kept from call to call
+  bool is_static = false;        // VAR_STAT: one for all instances, or of a function: kept from call to call
+  bool of_instance = false;      // VAR_INST of a method: kept in the instance
+  std::optional<Access> access;  // VAR PUBLIC
   Edge edge = Edge::None;
   std::string comment;
 };
@@ -235,15 +239,34 @@ struct TypeDeclaration {
   std::string comment;
 };
 
+// The name of another declaration, where it is needed.
+struct NameAt {
+  Place at;
+  std::string name;
+};
+
+// What a PROPERTY is read and written by; both are methods with its name.
+enum class Accessor : std::uint8_t { None, Get, Set };
+
 struct Pou {
-  enum class Kind : std::uint8_t { Program, Function, FunctionBlock };
+  enum class Kind : std::uint8_t { Program, Function, FunctionBlock, Class, Interface, Method };
   Kind kind = Kind::Program;
   Place at;
   std::string name;
   std::string comment;
-  std::optional<TypeSpec> result;  // Function
+  std::optional<TypeSpec> result;  // Function, Method
   std::vector<Variable> variables;
   Body body;
+
+  // FunctionBlock, Class, Interface, Method
+  bool is_abstract = false;
+  bool is_final = false;
+  bool overrides = false;  // METHOD OVERRIDE
+  Access access = Access::Public;
+  Accessor accessor = Accessor::None;
+  std::vector<NameAt> bases;       // EXTENDS; several of an interface
+  std::vector<NameAt> interfaces;  // IMPLEMENTS
+  std::vector<Pou> methods;
 };
 
 }  // namespace indurop::plc::ast

@@ -20,7 +20,7 @@ bool is_letter(char c) noexcept {
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
   // Type and function names are not in it: they are ordinary names with a meaning.
-  static constexpr std::array<std::string_view, 77> kWords{"ACTION",
+  static constexpr std::array<std::string_view, 86> kWords{"ACTION",
                                                            "AND",
                                                            "ARRAY",
                                                            "AT",
@@ -96,7 +96,16 @@ bool is_keyword(std::string_view word) noexcept {
                                                            "CLASS",
                                                            "METHOD",
                                                            "INTERFACE",
-                                                           "NAMESPACE"};
+                                                           "NAMESPACE",
+                                                           "END_CLASS",
+                                                           "END_GET",
+                                                           "END_INTERFACE",
+                                                           "END_METHOD",
+                                                           "END_NAMESPACE",
+                                                           "END_PROPERTY",
+                                                           "END_SET",
+                                                           "END_UNION",
+                                                           "VAR_INST"};
   return std::any_of(kWords.begin(), kWords.end(), [&](std::string_view one) { return same_name(one, word); });
 }
 

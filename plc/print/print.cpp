@@ -42,6 +42,12 @@ const char* word_of(ast::Pou::Kind kind) {
       return "function";
     case ast::Pou::Kind::FunctionBlock:
       return "function block";
+    case ast::Pou::Kind::Class:
+      return "class";
+    case ast::Pou::Kind::Interface:
+      return "interface";
+    case ast::Pou::Kind::Method:
+      return "method";
   }
   return "";
 }

@@ -8,20 +8,31 @@
 namespace indurop::plc::st {
 namespace {
 
-constexpr int kMaxTypeDepth = 16;
-
 struct SectionWord {
   std::string_view word;
   ast::Section section;
 };
-constexpr std::array<SectionWord, 8> kSections{{{"VAR", ast::Section::Local},
+constexpr std::array<SectionWord, 9> kSections{{{"VAR", ast::Section::Local},
                                                 {"VAR_INPUT", ast::Section::Input},
                                                 {"VAR_OUTPUT", ast::Section::Output},
                                                 {"VAR_IN_OUT", ast::Section::InOut},
                                                 {"VAR_TEMP", ast::Section::Temp},
                                                 {"VAR_GLOBAL", ast::Section::Global},
                                                 {"VAR_EXTERNAL", ast::Section::External},
-                                                {"VAR_STAT", ast::Section::Local}}};
+                                                {"VAR_STAT", ast::Section::Local},
+                                                {"VAR_INST", ast::Section::Local}}};
+
+// VAR PUBLIC; the words are names of variables where no other name follows.
+std::optional<ast::Access> access_word(const Token& word, const Token& next) {
+  if (next.kind != TokenKind::Word) {
+    return std::nullopt;
+  }
+  return word.is("PUBLIC")      ? std::optional(ast::Access::Public)
+         : word.is("PRIVATE")   ? std::optional(ast::Access::Private)
+         : word.is("PROTECTED") ? std::optional(ast::Access::Protected)
+         : word.is("INTERNAL")  ? std::optional(ast::Access::Internal)
+                                : std::nullopt;
+}
 
 }  // namespace
 
@@ -52,7 +63,13 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   Block out;
   out.section = known->section;
   out.is_static = word.is("VAR_STAT");
+  out.of_instance = word.is("VAR_INST");
   while (true) {
+    if (const auto access = access_word(in_.peek(), in_.peek(1))) {
+      out.access = access;
+      in_.take();
+      continue;
+    }
     if (in_.accept("CONSTANT")) {
       out.constant = true;
     } else if (in_.accept("RETAIN") || in_.accept("PERSISTENT")) {
@@ -107,6 +124,8 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     one.constant = block.constant;
     one.retain = block.retain;
     one.is_static = block.is_static;
+    one.of_instance = block.of_instance;
+    one.access = block.access;
     one.at = in_.here();
     if (!in_.peek().is("AT")) {
       if (!in_.expect_name("a variable")) {
@@ -205,177 +224,6 @@ bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
   out.comment = comment(first, before);
   to.push_back(std::move(out));
   return closed;
-}
-
-std::optional<ast::TypeSpec> DeclarationParser::type() {
-  ast::TypeSpec out;
-  const Token& token = in_.peek();
-  out.at = in_.here();
-  if (depth_ >= kMaxTypeDepth) {
-    in_.error(token, fmt::format("types more than {} levels deep, give the inner ones names", kMaxTypeDepth));
-    return std::nullopt;
-  }
-  ++depth_;
-  bool ok = false;
-  if (in_.accept("ARRAY")) {
-    ok = array(out);
-  } else if (in_.accept("STRUCT")) {
-    ok = structure(out);
-  } else if (token.is("(")) {
-    ok = enumeration(out);
-  } else if (in_.peek().is("UNION") && in_.peek(1).kind == TokenKind::Word) {
-    in_.unsupported(token, "UNION is not supported, use parts of bit strings (w.%B1) or a pointer to the other type");
-    in_.skip_behind("END_UNION");
-  } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
-    in_.unsupported(token, fmt::format("{} is not supported, use STRING", token.text));
-  } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
-    ok = pointer(out);
-  } else if (in_.expect_name("a type")) {
-    ok = named(out);
-  }
-  --depth_;
-  return ok ? std::optional(std::move(out)) : std::nullopt;
-}
-
-// INT, INT (0..5), INT (A, B), STRING[20], Motor
-bool DeclarationParser::named(ast::TypeSpec& out) {
-  const std::string_view word = in_.take().text;
-  const auto elementary = elementary_named(word);
-  if (!elementary) {
-    out.kind = ast::TypeSpec::Kind::Named;
-    out.name = word;
-    while (in_.accept(".")) {
-      if (!in_.expect_name("a type")) {
-        return false;
-      }
-      out.name += "." + std::string(in_.take().text);
-    }
-    return true;
-  }
-  out.elementary = *elementary;
-  if (*elementary == Elementary::String) {
-    return string_length(out);
-  }
-  if (!in_.peek().is("(")) {
-    return true;
-  }
-  const Token& behind = in_.peek(2);
-  if (in_.peek(1).kind == TokenKind::Word && (behind.is(",") || behind.is(")") || behind.is(":="))) {
-    return enumeration(out);
-  }
-  in_.take();
-  out.kind = ast::TypeSpec::Kind::Subrange;
-  out.range.emplace();
-  return dimension(*out.range) && in_.expect(")", "behind the range");
-}
-
-bool DeclarationParser::string_length(ast::TypeSpec& out) {
-  out.kind = ast::TypeSpec::Kind::String;
-  const bool square = in_.peek().is("[");
-  if (!square && !in_.peek().is("(")) {
-    return true;
-  }
-  in_.take();
-  out.length = expressions_.expression();
-  return out.length && in_.expect(square ? "]" : ")", "behind the length");
-}
-
-bool DeclarationParser::dimension(ast::Dimension& out) {
-  auto low = expressions_.expression();
-  if (!low || !in_.expect("..", "between the bounds")) {
-    return false;
-  }
-  auto high = expressions_.expression();
-  if (!high) {
-    return false;
-  }
-  out.low = std::move(*low);
-  out.high = std::move(*high);
-  return true;
-}
-
-bool DeclarationParser::pointer(ast::TypeSpec& out) {
-  out.kind = ast::TypeSpec::Kind::Pointer;
-  const Token& word = in_.take();
-  out.pointer = word.is("POINTER")  ? ast::PointerKind::PointerTo
-                : word.is("REF_TO") ? ast::PointerKind::RefTo
-                                    : ast::PointerKind::ReferenceTo;
-  in_.accept("TO");
-  auto element = type();
-  if (!element) {
-    return false;
-  }
-  out.element = std::make_shared<ast::TypeSpec>(std::move(*element));
-  return true;
-}
-
-bool DeclarationParser::array(ast::TypeSpec& out) {
-  out.kind = ast::TypeSpec::Kind::Array;
-  if (!in_.expect("[", "behind ARRAY")) {
-    return false;
-  }
-  do {
-    if (in_.peek().is("*")) {
-      in_.unsupported(in_.peek(), "ARRAY[*] is not supported, use a pointer to an array, and its SIZEOF()");
-      return false;
-    }
-    if (!dimension(out.dimensions.emplace_back())) {
-      return false;
-    }
-  } while (in_.accept(","));
-  if (!in_.expect("]", "behind the bounds") || !in_.expect("OF", "before the type of the elements")) {
-    return false;
-  }
-  auto element = type();
-  if (!element) {
-    return false;
-  }
-  out.element = std::make_shared<ast::TypeSpec>(std::move(*element));
-  return true;
-}
-
-bool DeclarationParser::structure(ast::TypeSpec& out) {
-  out.kind = ast::TypeSpec::Kind::Struct;
-  while (!in_.at_end() && !in_.peek().is("END_STRUCT")) {
-    const std::size_t from = in_.position();
-    if (!declaration({}, out.fields)) {
-      recover("END_STRUCT");
-    }
-    if (in_.position() == from) {
-      break;
-    }
-  }
-  return in_.expect("END_STRUCT", fmt::format("to close the STRUCT of line {}", out.at.line));
-}
-
-bool DeclarationParser::enumeration(ast::TypeSpec& out) {
-  out.kind = ast::TypeSpec::Kind::Enum;
-  in_.take();
-  do {
-    ast::EnumValue one;
-    one.at = in_.here();
-    if (!in_.expect_name("an enumeration's value")) {
-      return false;
-    }
-    one.name = in_.take().text;
-    if (in_.accept(":=")) {
-      one.value = expressions_.expression();
-      if (!one.value) {
-        return false;
-      }
-    }
-    out.values.push_back(std::move(one));
-  } while (in_.accept(","));
-  if (!in_.expect(")", "behind the last value")) {
-    return false;
-  }
-  // (A, B) INT, as some editors write it
-  const auto base = in_.peek().kind == TokenKind::Word ? elementary_named(in_.peek().text) : std::nullopt;
-  if (base) {
-    out.elementary = *base;
-    in_.take();
-  }
-  return true;
 }
 
 }  // namespace indurop::plc::st

@@ -29,6 +29,8 @@ class DeclarationParser {
     bool constant = false;
     bool retain = false;
     bool is_static = false;
+    bool of_instance = false;
+    std::optional<ast::Access> access;
   };
   [[nodiscard]] std::optional<Block> block();
   [[nodiscard]] bool declaration(const Block& block, std::vector<ast::Variable>& to);

@@ -16,6 +16,10 @@ std::string_view word_of(ast::Pou::Kind kind) noexcept {
       return "FUNCTION";
     case ast::Pou::Kind::FunctionBlock:
       return "FUNCTION_BLOCK";
+    case ast::Pou::Kind::Class:
+    case ast::Pou::Kind::Interface:
+    case ast::Pou::Kind::Method:
+      break;
   }
   return "";
 }
@@ -43,8 +47,11 @@ Project ProjectParser::project() {
       declarations_.variables(out.globals);
     } else if (in_.accept("CONFIGURATION")) {
       configuration(out.configurations);
-    } else if (in_.next_is({"CLASS", "INTERFACE", "NAMESPACE"}) ||
-               (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word)) {
+    } else if (in_.accept("CLASS")) {
+      object(ast::Pou::Kind::Class, out.pous);
+    } else if (in_.accept("INTERFACE")) {
+      object(ast::Pou::Kind::Interface, out.pous);
+    } else if (in_.next_is({"NAMESPACE"}) || (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word)) {
       leave_out();
     } else {
       const Token& token = in_.take();
@@ -69,47 +76,6 @@ void ProjectParser::leave_out() {
                               "own",
                               upper(word.text)));
   in_.skip_behind(word.is("USING") ? std::string(";") : "END_" + upper(word.text));
-}
-
-// Who may use it, and how it may be extended, changes nothing where nothing extends it.
-void ProjectParser::access() {
-  while (in_.next_is({"ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"}) &&
-         in_.peek(1).kind == TokenKind::Word && !is_keyword(in_.peek(1).text) && !in_.peek(1).is("EXTENDS") &&
-         !in_.peek(1).is("IMPLEMENTS")) {
-    in_.take();
-  }
-}
-
-void ProjectParser::inheritance() {
-  const Token& word = in_.peek();
-  if (!in_.next_is({"EXTENDS", "IMPLEMENTS"}) || in_.peek(1).kind != TokenKind::Word) {
-    return;
-  }
-  in_.unsupported(word, fmt::format("{} is not supported, use instances of function blocks inside of each other",
-                                    upper(word.text)));
-  while (in_.next_is({"EXTENDS", "IMPLEMENTS", ",", "."})) {
-    in_.take();
-    in_.take();
-  }
-}
-
-bool ProjectParser::at_method() const {
-  return in_.peek().is("METHOD") || (in_.peek().is("PROPERTY") && in_.peek(1).kind == TokenKind::Word);
-}
-
-// METHOD ... END_METHOD, PROPERTY ... END_PROPERTY; the first of a POU is named.
-void ProjectParser::methods(bool& said) {
-  while (at_method()) {
-    const Token& word = in_.take();
-    if (!said) {
-      in_.unsupported(word,
-                      fmt::format("{} is not supported, use a function block with inputs and outputs, or an ACTION",
-                                  upper(word.text)));
-    }
-    said = true;
-    in_.skip_behind("END_" + upper(word.text));
-    in_.accept(";");
-  }
 }
 
 // Whether ACTIONs stand in this POU or behind it.
@@ -138,11 +104,11 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   const std::string end = fmt::format("END_{}", word_of(kind));
   ast::Pou out;
   out.kind = kind;
-  out.at = in_.here();
   out.comment = word.comment;
-  access();
+  modifiers(out);
+  out.at = in_.here();
   bool ok = name(out.name, kind == ast::Pou::Kind::Program ? "the program" : "a function or function block");
-  inheritance();
+  inheritance(out);
   if (ok && kind == ast::Pou::Kind::Function && in_.accept(":")) {
     out.result = declarations_.type();
     ok = out.result.has_value();
@@ -156,8 +122,7 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   while (declarations_.at_variables()) {
     declarations_.variables(out.variables);
   }
-  bool said = false;
-  methods(said);
+  methods(out);
   ChartParser chart(in_);
   std::optional<WrittenBody> written;
   if (chart.at_chart()) {
@@ -169,7 +134,7 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   } else {
     out.body = body(end);
   }
-  methods(said);
+  methods(out);
   if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
     in_.accept(";");
   }
@@ -177,7 +142,7 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
     chart.actions(*written);
     written->pou = to.size();
   }
-  methods(said);
+  methods(out);
   if (written && ok) {
     written_.push_back(std::move(*written));
   }
@@ -212,7 +177,7 @@ ast::Body ProjectParser::whole_body() {
 
 ast::Body ProjectParser::body(std::string_view end) {
   ast::Body out = statements_.list({end, "METHOD"});
-  while (!in_.at_end() && !in_.peek().is(end) && !in_.peek().is("METHOD")) {
+  while (!in_.at_end() && !in_.peek().is(end) && !at_method()) {
     const Token& stray = in_.peek();
     if (stray.is("END_PROGRAM") || stray.is("END_FUNCTION") || stray.is("END_FUNCTION_BLOCK")) {
       break;

@@ -26,10 +26,18 @@ class ProjectParser {
   [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
   void leave_out();
-  void access();
-  void inheritance();
-  void methods(bool& said);
+  // object_parser.cpp
+  void modifiers(ast::Pou& out);
+  void inheritance(ast::Pou& out);
   [[nodiscard]] bool at_method() const;
+  void methods(ast::Pou& to);
+  void method(ast::Pou& to);
+  void property(ast::Pou& to);
+  void accessor(const ast::Pou& property, bool known, ast::Pou& to);
+  static ast::Pou accessor_of(const ast::Pou& property, ast::Accessor which);
+  void code(ast::Pou& out, std::string_view end);
+  void object(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
+
   [[nodiscard]] bool has_actions(std::string_view end) const;
   void configuration(std::vector<Configuration>& to);
   void resource(std::vector<Resource>& to);

@@ -14,6 +14,7 @@
 #include <indurop/plc/counters.h>
 #include <indurop/plc/fault.h>
 #include <indurop/plc/math.h>
+#include <indurop/plc/object.h>
 #include <indurop/plc/pointer.h>
 #include <indurop/plc/scan.h>
 #include <indurop/plc/select.h>

@@ -42,70 +42,71 @@ Image before;
 
 namespace plc {
 [[maybe_unused]] const std::int16_t N = std::int16_t{10};
-
-[[maybe_unused]] std::int32_t square([[maybe_unused]] std::int32_t x) {
-  std::int32_t square_result{};
-  square_result = iec::mul(x, x);
-  return square_result;
-}
-
+[[maybe_unused]] std::int32_t square([[maybe_unused]] std::int32_t x);
 struct Ramp_up {
   bool enable{};
   std::int16_t step = std::int16_t{2};
   std::int16_t value{};
   std::uint32_t count{};
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    if (enable) {
-      value = iec::add(value, step);
-      count = iec::add(count, std::uint32_t{1});
-    } else {
-      value = 0;
-    }
-  }
+  void operator()(const iec::Scan& scan);
 };
-
 struct MAIN {
   iec::Ton delay{};
   plc::Ramp_up ramp{};
   std::int16_t i{};
   std::int32_t sum{};
   float r{};
+  void operator()(const iec::Scan& scan);
+};
 
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    delay.in = shared.start;
-    delay.pt = iec::Time{100000000};
-    delay(scan);
-    shared.motor = delay.q && !shared.IX0_3;
-    ramp.enable = shared.motor;
-    ramp(scan);
-    shared.speed = ramp.value;
-    sum = 0;
-     {
-      std::int64_t counter_1 = 1;
-      const std::int64_t end_1 = plc::N;
-      for (; counter_1 <= end_1; ++counter_1) {
-        const auto i = static_cast<std::int16_t>(counter_1);
-        // the sum of all squares
-        shared.list[i - 1] = plc::square(static_cast<std::int32_t>(i));
-        sum = iec::add(sum, shared.list[i - 1]);
-      }
-      i = static_cast<std::int16_t>(counter_1);
+std::int32_t square([[maybe_unused]] std::int32_t x) {
+  std::int32_t square_result{};
+  square_result = iec::mul(x, x);
+  return square_result;
+}
+
+inline void Ramp_up::operator()([[maybe_unused]] const iec::Scan& scan) {
+  if (enable) {
+    value = iec::add(value, step);
+    count = iec::add(count, std::uint32_t{1});
+  } else {
+    value = 0;
+  }
+}
+
+inline void MAIN::operator()([[maybe_unused]] const iec::Scan& scan) {
+  delay.in = shared.start;
+  delay.pt = iec::Time{100000000};
+  delay(scan);
+  shared.motor = delay.q && !shared.IX0_3;
+  ramp.enable = shared.motor;
+  ramp(scan);
+  shared.speed = ramp.value;
+  sum = 0;
+   {
+    std::int64_t counter_1 = 1;
+    const std::int64_t end_1 = plc::N;
+    for (; counter_1 <= end_1; ++counter_1) {
+      const auto i = static_cast<std::int16_t>(counter_1);
+      // the sum of all squares
+      shared.list[i - 1] = plc::square(static_cast<std::int32_t>(i));
+      sum = iec::add(sum, shared.list[i - 1]);
     }
-    r = iec::div({"in.st:55:26", "MAIN"}, iec::to<float>(sum), 2.0F) + iec::sqrt(2.0F);
-    shared.place.x = r;
-     {
-      const std::int16_t case_2 = shared.speed;
-      if (case_2 == 0) {
-        shared.mode = plc::Mode::Off;
-      } else if ((case_2 >= 1 && case_2 <= 5) || case_2 == 7) {
-        shared.mode = plc::Mode::Auto;
-      } else {
-        shared.mode = plc::Mode::Manual;
-      }
+    i = static_cast<std::int16_t>(counter_1);
+  }
+  r = iec::div({"in.st:55:26", "MAIN"}, iec::to<float>(sum), 2.0F) + iec::sqrt(2.0F);
+  shared.place.x = r;
+   {
+    const std::int16_t case_2 = shared.speed;
+    if (case_2 == 0) {
+      shared.mode = plc::Mode::Off;
+    } else if ((case_2 >= 1 && case_2 <= 5) || case_2 == 7) {
+      shared.mode = plc::Mode::Auto;
+    } else {
+      shared.mode = plc::Mode::Manual;
     }
   }
-};
+}
 }  // namespace plc
 
 plc::MAIN instance_MAIN;

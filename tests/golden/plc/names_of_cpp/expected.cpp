@@ -24,14 +24,14 @@ Image shared;
 Image before;
 
 namespace plc {
-
 struct main_ {
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    shared.fine = 1;
-    shared.lock = shared.virtual_;
-  }
+  void operator()(const iec::Scan& scan);
 };
+
+inline void main_::operator()([[maybe_unused]] const iec::Scan& scan) {
+  shared.fine = 1;
+  shared.lock = shared.virtual_;
+}
 }  // namespace plc
 
 plc::main_ instance_main;

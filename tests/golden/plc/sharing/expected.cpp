@@ -27,19 +27,19 @@ Image shared;
 Image before;
 
 namespace plc {
-
 struct Fast {
   std::int32_t starts{};
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    shared.O0 = shared.I0 && (shared.PLC_ROBOT_I1 != 0);
-    if (shared.PLC_ROBOT_ROBOT_MODULE_STATE.eState == ::PLC_ROBOT::State::STANDBY) {
-      shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode = iec::mul(shared.PLC_ROBOT_ROBOT_MODULE_STATE.dCurJoint[2], 2);
-    }
-    starts = iec::add(starts, 1);
-    shared.handed = iec::add(shared.handed, std::int16_t{1});
-  }
+  void operator()(const iec::Scan& scan);
 };
+
+inline void Fast::operator()([[maybe_unused]] const iec::Scan& scan) {
+  shared.O0 = shared.I0 && (shared.PLC_ROBOT_I1 != 0);
+  if (shared.PLC_ROBOT_ROBOT_MODULE_STATE.eState == ::PLC_ROBOT::State::STANDBY) {
+    shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode = iec::mul(shared.PLC_ROBOT_ROBOT_MODULE_STATE.dCurJoint[2], 2);
+  }
+  starts = iec::add(starts, 1);
+  shared.handed = iec::add(shared.handed, std::int16_t{1});
+}
 }  // namespace plc
 
 plc::Fast instance_first;
@@ -102,14 +102,14 @@ Image shared;
 Image before;
 
 namespace plc {
-
 struct Slow {
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    shared.hours = iec::add(shared.hours, static_cast<std::int32_t>(shared.handed));
-    shared.speed = shared.speed * 2.0;
-  }
+  void operator()(const iec::Scan& scan);
 };
+
+inline void Slow::operator()([[maybe_unused]] const iec::Scan& scan) {
+  shared.hours = iec::add(shared.hours, static_cast<std::int32_t>(shared.handed));
+  shared.speed = shared.speed * 2.0;
+}
 }  // namespace plc
 
 plc::Slow instance_second;

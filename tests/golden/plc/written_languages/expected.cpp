@@ -22,7 +22,6 @@ template <class To> void copy_fields(To& to, const SFC_STEP& from) { iec::copy_v
 }  // namespace plc
 
 namespace plc {
-
 struct press {
   bool go{};
   bool down{};
@@ -47,107 +46,108 @@ struct press {
   iec::Ton _at2{};
   bool _aq2{};
   bool _aq3{};
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    [[maybe_unused]] bool _f0{};
-    [[maybe_unused]] bool _f1{};
-    [[maybe_unused]] bool _f2{};
-    [[maybe_unused]] bool _f3{};
-    [[maybe_unused]] bool _al1{};
-    [[maybe_unused]] bool _al2{};
-    [[maybe_unused]] bool _al3{};
-    _f0 = (_running && Ready.X) && fault;
-    _f1 = ((_running && Ready.X) && !_f0) && (go && !fault);
-    _f2 = ((_running && Lower.X) && Clamp.X) && (down && clamped);
-    _f3 = (_running && Alarm.X) && !fault;
-    if (_f0) {
-      Ready.X = false;
-    }
-    if (_f1) {
-      Ready.X = false;
-    }
-    if (_f2) {
-      Lower.X = false;
-      Clamp.X = false;
-    }
-    if (_f3) {
-      Alarm.X = false;
-    }
-    if (_f0) {
-      Alarm.X = true;
-    }
-    if (_f1) {
-      Lower.X = true;
-      Clamp.X = true;
-    }
-    if (_f2) {
-      Ready.X = true;
-    }
-    if (_f3) {
-      Ready.X = true;
-    }
-    _st0.in = Ready.X;
-    _st0.pt = iec::Time{3153600000000000000};
-    _st0(scan);
-    if (Ready.X) {
-      Ready.T = _st0.et;
-    }
-    _st1.in = Lower.X;
-    _st1.pt = iec::Time{3153600000000000000};
-    _st1(scan);
-    if (Lower.X) {
-      Lower.T = _st1.et;
-    }
-    _st2.in = Clamp.X;
-    _st2.pt = iec::Time{3153600000000000000};
-    _st2(scan);
-    if (Clamp.X) {
-      Clamp.T = _st2.et;
-    }
-    _st3.in = Alarm.X;
-    _st3.pt = iec::Time{3153600000000000000};
-    _st3(scan);
-    if (Alarm.X) {
-      Alarm.T = _st3.et;
-    }
-    if (Lower.X && !_sx1) {
-      count = iec::add(count, std::int16_t{1});
-    }
-    _al1 = Lower.X;
-    if (_al1 || _aq1) {
-      down = _al1;
-    }
-    _aq1 = _al1;
-    _at2.in = Clamp.X;
-    _at2.pt = iec::Time{500000000};
-    _at2(scan);
-    _al2 = _at2.q;
-    if (_al2 || _aq2) {
-      clamped = _al2;
-    }
-    _aq2 = _al2;
-    _al3 = Alarm.X;
-    if (_al3 || _aq3) {
-      horn = fault;
-    }
-    _aq3 = _al3;
-    _sx0 = Ready.X;
-    _sx1 = Lower.X;
-    _sx2 = Clamp.X;
-    _sx3 = Alarm.X;
-    _running = true;
-  }
+  void operator()(const iec::Scan& scan);
 };
-
 struct list {
   bool a{};
   bool b{};
   bool c{};
-
-  void operator()([[maybe_unused]] const iec::Scan& scan) {
-    c = a && !b;
-  }
+  void operator()(const iec::Scan& scan);
 };
+
+inline void press::operator()([[maybe_unused]] const iec::Scan& scan) {
+  [[maybe_unused]] bool _f0{};
+  [[maybe_unused]] bool _f1{};
+  [[maybe_unused]] bool _f2{};
+  [[maybe_unused]] bool _f3{};
+  [[maybe_unused]] bool _al1{};
+  [[maybe_unused]] bool _al2{};
+  [[maybe_unused]] bool _al3{};
+  _f0 = (_running && Ready.X) && fault;
+  _f1 = ((_running && Ready.X) && !_f0) && (go && !fault);
+  _f2 = ((_running && Lower.X) && Clamp.X) && (down && clamped);
+  _f3 = (_running && Alarm.X) && !fault;
+  if (_f0) {
+    Ready.X = false;
+  }
+  if (_f1) {
+    Ready.X = false;
+  }
+  if (_f2) {
+    Lower.X = false;
+    Clamp.X = false;
+  }
+  if (_f3) {
+    Alarm.X = false;
+  }
+  if (_f0) {
+    Alarm.X = true;
+  }
+  if (_f1) {
+    Lower.X = true;
+    Clamp.X = true;
+  }
+  if (_f2) {
+    Ready.X = true;
+  }
+  if (_f3) {
+    Ready.X = true;
+  }
+  _st0.in = Ready.X;
+  _st0.pt = iec::Time{3153600000000000000};
+  _st0(scan);
+  if (Ready.X) {
+    Ready.T = _st0.et;
+  }
+  _st1.in = Lower.X;
+  _st1.pt = iec::Time{3153600000000000000};
+  _st1(scan);
+  if (Lower.X) {
+    Lower.T = _st1.et;
+  }
+  _st2.in = Clamp.X;
+  _st2.pt = iec::Time{3153600000000000000};
+  _st2(scan);
+  if (Clamp.X) {
+    Clamp.T = _st2.et;
+  }
+  _st3.in = Alarm.X;
+  _st3.pt = iec::Time{3153600000000000000};
+  _st3(scan);
+  if (Alarm.X) {
+    Alarm.T = _st3.et;
+  }
+  if (Lower.X && !_sx1) {
+    count = iec::add(count, std::int16_t{1});
+  }
+  _al1 = Lower.X;
+  if (_al1 || _aq1) {
+    down = _al1;
+  }
+  _aq1 = _al1;
+  _at2.in = Clamp.X;
+  _at2.pt = iec::Time{500000000};
+  _at2(scan);
+  _al2 = _at2.q;
+  if (_al2 || _aq2) {
+    clamped = _al2;
+  }
+  _aq2 = _al2;
+  _al3 = Alarm.X;
+  if (_al3 || _aq3) {
+    horn = fault;
+  }
+  _aq3 = _al3;
+  _sx0 = Ready.X;
+  _sx1 = Lower.X;
+  _sx2 = Clamp.X;
+  _sx3 = Alarm.X;
+  _running = true;
+}
+
+inline void list::operator()([[maybe_unused]] const iec::Scan& scan) {
+  c = a && !b;
+}
 }  // namespace plc
 
 plc::press instance_press;

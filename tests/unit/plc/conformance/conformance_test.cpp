@@ -66,9 +66,12 @@ TEST(PlcFaults, Name_their_place) {
     const char* text;
   };
   for (const auto& [which, text] :
-       {Row{0, "no fault"}, Row{1, "faults.st:41:21: division by zero in Main"},
-        Row{2, "faults.st:42:21: MOD by zero in Main"}, Row{3, "faults.st:43:17: division by zero in Main"},
-        Row{4, "faults.st:44:23: division by zero in Main"}, Row{5, "faults.st:9:17: division by zero in Quotient"},
+       {Row{0, "no fault"},
+        Row{1, "faults.st:41:21: division by zero in Main"},
+        Row{2, "faults.st:42:21: MOD by zero in Main"},
+        Row{3, "faults.st:43:17: division by zero in Main"},
+        Row{4, "faults.st:44:23: division by zero in Main"},
+        Row{5, "faults.st:9:17: division by zero in Quotient"},
         Row{6, "faults.st:46:13: index 5 is outside of 1..2 in Main"},
         Row{7, "faults.st:47:29: index 0 is outside of 1..3 in Main"},
         Row{8, "faults.st:16:18: index 5 is outside of -2..2 in Picker"},
@@ -80,7 +83,9 @@ TEST(PlcFaults, Name_their_place) {
         Row{14, "faults.st:63:17: the byte a pointer leads to 12 is outside of 0..10 in Main"},
         Row{15, "faults.st:66:9: a pointer leads to a place where no value of its type can lie in Main"},
         Row{16, "faults.st:67:9: a pointer that is NULL is used in Main"},
-        Row{17, "faults.st:68:18: a pointer that is NULL is used in Main"}}) {
+        Row{17, "faults.st:68:18: a pointer that is NULL is used in Main"},
+        Row{18, "faults.st:69:9: a method of an interface variable that is NULL is called in Main"},
+        Row{19, "faults.st:81:8: more than 100 calls of methods inside each other (recursion) in Ring.Step"}}) {
     EXPECT_EQ(fault_of(which), text) << which;
   }
 }

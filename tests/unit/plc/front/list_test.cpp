@@ -46,7 +46,7 @@ TEST(PlcList, Each_input_operator_is_a_call_with_that_input) {
     const std::string code = std::string("LD a\n") + one.word + " fb\n";
     const Compiled sut = compiled(list(one.block, one.type, code));
     ASSERT_TRUE(sut.ok) << messages(sut);
-    EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr(std::string("fb.") + one.member + " = a;\n    fb(scan);")) << code;
+    EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr(std::string("fb.") + one.member + " = a;\n  fb(scan);")) << code;
   }
 }
 

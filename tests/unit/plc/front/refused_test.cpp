@@ -203,19 +203,7 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
   const std::string main =
       "PROGRAM Main VAR m : Motor; i : INT; END_VAR i := m.Speed; i := m.Go(x := 3); Space.F(i); END_PROGRAM\n";
   for (const auto& [text, message] :
-       {Row{"INTERFACE Motor METHOD Go : INT VAR_INPUT x : INT; END_VAR END_METHOD END_INTERFACE", "INTERFACE is not"},
-        Row{"CLASS Motor VAR n : INT; END_VAR METHOD PUBLIC Go n := n + 1; END_METHOD END_CLASS", "CLASS is not"},
-        Row{"FUNCTION_BLOCK ABSTRACT Motor EXTENDS Drive, Brake VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK",
-            "EXTENDS is not"},
-        Row{"FUNCTION_BLOCK Motor METHOD Go : INT VAR_INPUT x : INT; END_VAR Go := x; END_METHOD METHOD Stop ; "
-            "END_METHOD END_FUNCTION_BLOCK",
-            "METHOD is not"},
-        Row{"FUNCTION_BLOCK Motor VAR n : INT; END_VAR n := 3; END_FUNCTION_BLOCK METHOD Go n := 1; END_METHOD",
-            "METHOD is not"},
-        Row{"FUNCTION_BLOCK Motor VAR n : INT; END_VAR PROPERTY Speed : INT GET Speed := n; END_GET END_PROPERTY n := "
-            "3; END_FUNCTION_BLOCK",
-            "PROPERTY is not"},
-        Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
+       {Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
             "WSTRING is not"},
         Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION", "VAR_ACCESS is not"},
         Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",

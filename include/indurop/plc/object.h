@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Object orientation of the third edition: what function blocks with methods begin with, variables of an INTERFACE, and
+// calls that nobody can see before they happen. Real-time safe, but for the faults.
+
+#pragma once
+
+#include <indurop/plc/fault.h>
+#include <indurop/plc/scan.h>
+
+namespace indurop::iec {
+
+// What all function blocks with methods have in common. It comes first, so that one which extends another begins with
+// the variables of that.
+struct Instance {
+  Instance() = default;
+  Instance(const Instance&) = default;
+  Instance& operator=(const Instance&) = default;
+  virtual ~Instance() = default;
+  virtual void operator()(const Scan& /*scan*/) {}  // a CLASS has no body
+};
+
+// A variable of an INTERFACE: NULL, or an instance that has its methods.
+template <class T>
+struct Interface {
+  T* object = nullptr;
+
+  Interface() = default;
+  Interface(T& instance) noexcept
+      : object(&instance) {}  // NOLINT(google-explicit-constructor): as the language converts
+  template <class U>
+  Interface(const Interface<U>& other) noexcept  // NOLINT(google-explicit-constructor): as the language converts
+      : object(other.object) {}
+};
+
+// Whether both are one instance, seen through whatever interfaces.
+template <class A, class B>
+bool operator==(const Interface<A>& a, const Interface<B>& b) noexcept {
+  const void* const one = a.object == nullptr ? nullptr : dynamic_cast<const void*>(a.object);
+  const void* const other = b.object == nullptr ? nullptr : dynamic_cast<const void*>(b.object);
+  return one == other;
+}
+
+// The instance whose method is called.
+template <class T>
+T& called(Place place, const Interface<T>& variable) {
+  if (variable.object == nullptr) [[unlikely]] {
+    fail(place, "a method of an interface variable that is NULL is called");
+  }
+  return *variable.object;
+}
+
+// A call of a method that the text does not name: through an interface, or of a function block that extends another.
+// Such ones may lead to themselves.
+class Call {
+ public:
+  Call(int& inside, Place place) : inside_(inside) {
+    constexpr int kMost = 100;
+    if (inside_ >= kMost) [[unlikely]] {
+      fail(place, "more than 100 calls of methods inside each other (recursion)");
+    }
+    ++inside_;
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+  ~Call() { --inside_; }
+
+ private:
+  int& inside_;
+};
+
+}  // namespace indurop::iec

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The types of a project, each after those it contains, wherever they stand in the text.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "plc/check/expression_checker.h"
+#include "plc/check/type_builder.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+// Names of the project's types that the declaration needs to be known before.
+void collect_names(const ast::TypeSpec& spec, std::vector<std::string>& to) {
+  if (spec.kind == ast::TypeSpec::Kind::Named) {
+    to.push_back(upper(spec.name));
+  }
+  if (spec.element && spec.kind != ast::TypeSpec::Kind::Pointer) {
+    collect_names(*spec.element, to);
+  }
+  for (const ast::Variable& field : spec.fields) {
+    collect_names(field.type, to);
+  }
+}
+
+class TypeOrder {
+ public:
+  explicit TypeOrder(Context& context) : context_(context) {
+    for (ast::TypeDeclaration& one : context.program.project.types) {
+      const auto [known, is_new] = declared_.emplace(upper(one.name), &one);
+      if (!is_new) {
+        context.error(one.at, fmt::format("the type '{}' is already declared at {}, rename one of them", one.name,
+                                          to_string(known->second->at)));
+      } else if (elementary_named(one.name) || find_block(one.name) != nullptr) {
+        context.error(one.at, fmt::format("'{}' is a type of the standard, use another name", one.name));
+        done_.insert(&one);
+      }
+    }
+  }
+
+  void run() {
+    for (ast::TypeDeclaration& one : context_.program.project.types) {
+      declare(one);
+    }
+  }
+
+ private:
+  void declare(ast::TypeDeclaration& one) {
+    if (!done_.insert(&one).second) {
+      return;
+    }
+    open_.push_back(&one);
+    std::vector<std::string> needed;
+    collect_names(one.type, needed);
+    for (const std::string& name : needed) {
+      const auto found = declared_.find(name);
+      if (found == declared_.end()) {
+        continue;
+      }
+      if (std::find(open_.begin(), open_.end(), found->second) != open_.end()) {
+        context_.error(one.at,
+                       fmt::format("the type '{}' contains itself, use an array with indices instead", one.name));
+        open_.pop_back();
+        return;
+      }
+      declare(*found->second);
+    }
+    open_.pop_back();
+    const Type* type = build_named(one);
+    if (type != nullptr) {
+      context_.program.type_names.emplace(upper(one.name), type);
+    }
+  }
+
+  const Type* build_named(ast::TypeDeclaration& one) {
+    const Type* type = build_type(context_, one.type, one.name);
+    if (type == nullptr || !one.initial || !ExpressionChecker(context_).initial(*one.initial, *type)) {
+      return type;
+    }
+    // TYPE Speed : INT := 5; is a type of its own, because INT begins with 0.
+    auto& named = context_.program.named_types;
+    const auto found = std::find(named.begin(), named.end(), type);
+    Type* own = found != named.end() && type->name == one.name ? *found : context_.program.types.add(*type);
+    own->initial = &*one.initial;
+    return own;
+  }
+
+  Context& context_;
+  std::map<std::string, ast::TypeDeclaration*> declared_;
+  std::set<const ast::TypeDeclaration*> done_;
+  std::vector<const ast::TypeDeclaration*> open_;
+};
+
+// TYPE P : POINTER TO P; such a type has no end.
+bool leads_to_itself(const Type& pointer) noexcept {
+  const Type* at = pointer.element;
+  while (at != nullptr && at != &pointer && (at->kind == Type::Kind::Pointer || at->kind == Type::Kind::Array)) {
+    at = at->element;
+  }
+  return at == &pointer;
+}
+
+}  // namespace
+
+void declare_types(Context& context) {
+  for (Pou& pou : context.program.pous) {
+    const bool is_interface = pou.tree->kind == ast::Pou::Kind::Interface;
+    if (!pou.is_block() && !is_interface) {
+      continue;
+    }
+    Type type;
+    type.kind = is_interface ? Type::Kind::Interface : Type::Kind::Block;
+    type.name = pou.name;
+    type.pou = &pou;
+    pou.type = context.program.types.add(std::move(type));
+    context.program.type_names.emplace(upper(pou.name), pou.type);
+  }
+  TypeOrder(context).run();
+  context.program.types_known = true;
+  for (const auto& [pointer, spec] : context.program.open_pointers) {
+    pointer->element = build_type(context, *spec, "");
+    if (leads_to_itself(*pointer)) {
+      context.error(spec->at, fmt::format("a pointer to '{}' leads to itself, put a STRUCT between", spec->name));
+    }
+    if (pointer->element == nullptr || leads_to_itself(*pointer)) {
+      pointer->element = context.elementary(Elementary::Int);
+    }
+  }
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls of functions and methods in C++.
+
+#include <fmt/format.h>
+
+#include "plc/emit/expression_emitter.h"
+#include "plc/emit/object_emitter.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Expression;
+using Meaning = Resolved::Meaning;
+
+// Of an input that is not given.
+std::string default_value(const Type& type, const ast::Initial* initial) {
+  const std::string value = cpp_initial(type, initial);
+  return value == "{}" ? cpp_type(type) + value : fmt::format("{}({})", cpp_type(type), value);
+}
+
+}  // namespace
+
+std::string ExpressionEmitter::library_call(const Expression& expression) const {
+  const Resolved& resolved = *expression.resolved;
+  std::string arguments = resolved.function->faults ? place(expression.at) : "";
+  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
+    const Resolved::Actual& one = resolved.actuals[i];
+    const Expression& input = one.argument != nullptr ? *one.argument->value : expression.operands[i];
+    arguments += (arguments.empty() ? "" : ", ") + value(input, *one.type, true);
+  }
+  return fmt::format("{}({})", resolved.function->cpp, arguments);
+}
+
+// What is called: a function of the user, or a method of an instance.
+std::string ExpressionEmitter::callee(const Expression& call) const {
+  const Pou& pou = *call.resolved->pou;
+  if (pou.owner == nullptr) {
+    return "plc::" + cpp_name(std::string_view(pou.name));
+  }
+  const Expression& called = call.operands[0];
+  if (called.kind == Expression::Kind::Name) {
+    return "this->" + method_name(pou);
+  }
+  const Expression& instance = called.operands[0];
+  if (call.resolved->by_super) {
+    return cpp_type(*instance.type) + "::" + method_name(pou);
+  }
+  return (instance.type->kind == Type::Kind::Interface
+              ? fmt::format("iec::called({}, {})", place(called.at), raw(instance))
+              : raw(instance)) +
+         "." + method_name(pou);
+}
+
+std::string ExpressionEmitter::run(const Expression& callee, const std::string& instance) const {
+  const Expression& base = callee.kind == Expression::Kind::Deref ? callee.operands[0] : callee;
+  const bool super = base.resolved && base.resolved->meaning == Meaning::Super;
+  return super ? cpp_type(*callee.type) + "::operator()" : instance;
+}
+
+std::string ExpressionEmitter::user_call(const Expression& expression) const {
+  std::string arguments;
+  std::string before;
+  std::string after;
+  for (const Resolved::Actual& one : expression.resolved->actuals) {
+    const bool given = one.argument != nullptr && one.argument->value;
+    std::string text;
+    if (one.parameter->section == ast::Section::Input) {
+      const auto& initial = one.parameter->declared->initial;
+      text = given ? value(*one.argument->value, *one.type) : default_value(*one.type, initial ? &*initial : nullptr);
+    } else if (one.parameter->section == ast::Section::InOut && given) {
+      text = raw(*one.argument->value);
+    } else if (!given) {
+      text = fmt::format("iec::scratch<{}>()", cpp_type(*one.type));
+    } else {
+      const std::string local = fmt::format("out_{}", one.parameter->name);
+      before += fmt::format("{} {}{{}}; ", cpp_type(*one.type), local);
+      after += assign_output(*one.argument, local, *one.type) + "; ";
+      text = local;
+    }
+    arguments += (arguments.empty() ? "" : ", ") + text;
+  }
+  const std::string call = fmt::format("{}({})", callee(expression), arguments);
+  if (before.empty()) {
+    return call;
+  }
+  if (expression.resolved->pou->result == nullptr) {
+    return fmt::format("[&] {{ {}{}; {}}}()", before, call, after);
+  }
+  return fmt::format("[&] {{ {}auto result = {}; {}return result; }}()", before, call, after);
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Object orientation of the third edition: METHOD, PROPERTY (of CODESYS), CLASS, INTERFACE, and the words in the first
+// line of a POU.
+
+#include "plc/st/project_parser.h"
+
+namespace indurop::plc::st {
+namespace {
+
+// What stands between METHOD and END_METHOD, and so on.
+std::string end_of(const Token& word) {
+  return "END_" + upper(word.text);
+}
+
+std::optional<ast::Access> access_named(const Token& word) noexcept {
+  return word.is("PUBLIC")      ? std::optional(ast::Access::Public)
+         : word.is("PRIVATE")   ? std::optional(ast::Access::Private)
+         : word.is("PROTECTED") ? std::optional(ast::Access::Protected)
+         : word.is("INTERNAL")  ? std::optional(ast::Access::Internal)
+                                : std::nullopt;
+}
+
+}  // namespace
+
+// FUNCTION_BLOCK ABSTRACT Name, METHOD PUBLIC FINAL OVERRIDE Name. These words are names where no other follows.
+void ProjectParser::modifiers(ast::Pou& out) {
+  while (in_.next_is({"ABSTRACT", "FINAL", "OVERRIDE", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL"}) &&
+         in_.peek(1).kind == TokenKind::Word && !is_keyword(in_.peek(1).text) && !in_.peek(1).is("EXTENDS") &&
+         !in_.peek(1).is("IMPLEMENTS")) {
+    const Token& word = in_.take();
+    out.access = access_named(word).value_or(out.access);
+    out.is_abstract = out.is_abstract || word.is("ABSTRACT");
+    out.is_final = out.is_final || word.is("FINAL");
+    out.overrides = out.overrides || word.is("OVERRIDE");
+  }
+}
+
+// EXTENDS Base IMPLEMENTS First, Second
+void ProjectParser::inheritance(ast::Pou& out) {
+  while (in_.next_is({"EXTENDS", "IMPLEMENTS"}) && in_.peek(1).kind == TokenKind::Word) {
+    std::vector<ast::NameAt>& to = in_.take().is("EXTENDS") ? out.bases : out.interfaces;
+    do {
+      ast::NameAt one;
+      one.at = in_.here();
+      if (!name(one.name, "a function block, class or interface")) {
+        return;
+      }
+      while (in_.accept(".")) {
+        one.name += "." + std::string(in_.take().text);
+      }
+      to.push_back(std::move(one));
+    } while (in_.accept(","));
+  }
+}
+
+bool ProjectParser::at_method() const {
+  return in_.peek().is("METHOD") || (in_.peek().is("PROPERTY") && in_.peek(1).kind == TokenKind::Word);
+}
+
+void ProjectParser::methods(ast::Pou& to) {
+  while (at_method()) {
+    if (in_.peek().is("METHOD")) {
+      method(to);
+    } else {
+      property(to);
+    }
+  }
+}
+
+// METHOD PUBLIC Name : INT VAR_INPUT ... END_VAR ... END_METHOD
+void ProjectParser::method(ast::Pou& to) {
+  const Token& word = in_.take();
+  ast::Pou out;
+  out.kind = ast::Pou::Kind::Method;
+  out.comment = word.comment;
+  modifiers(out);
+  out.at = in_.here();
+  bool ok = name(out.name, "a method");
+  if (ok && in_.accept(":")) {
+    out.result = declarations_.type();
+    ok = out.result.has_value();
+  }
+  in_.accept(";");
+  code(out, "END_METHOD");
+  if (in_.expect("END_METHOD", fmt::format("to close the METHOD of line {}", word.line))) {
+    in_.accept(";");
+  }
+  if (ok) {
+    to.methods.push_back(std::move(out));
+  }
+}
+
+// Variables and statements up to `end`, which is not taken.
+void ProjectParser::code(ast::Pou& out, std::string_view end) {
+  while (declarations_.at_variables()) {
+    declarations_.variables(out.variables);
+  }
+  out.body = body(end);
+  if (const auto at = statements_.take_c_code()) {
+    in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
+  }
+}
+
+// PROPERTY Name : INT GET ... END_GET SET ... END_SET END_PROPERTY
+void ProjectParser::property(ast::Pou& to) {
+  const Token& word = in_.take();
+  ast::Pou one;
+  one.kind = ast::Pou::Kind::Method;
+  one.comment = word.comment;
+  modifiers(one);
+  one.at = in_.here();
+  bool ok = name(one.name, "a property") && in_.expect(":", "behind the name, before the type of the property");
+  if (ok) {
+    one.result = declarations_.type();
+    ok = one.result.has_value();
+  }
+  in_.accept(";");
+  const std::size_t before = to.methods.size();
+  while (in_.next_is({"GET", "SET"})) {
+    accessor(one, ok, to);
+  }
+  if (ok && to.methods.size() == before) {  // of an interface, or ABSTRACT
+    to.methods.push_back(accessor_of(one, ast::Accessor::Get));
+    to.methods.push_back(accessor_of(one, ast::Accessor::Set));
+  }
+  if (in_.expect("END_PROPERTY", fmt::format("to close the PROPERTY of line {}", word.line))) {
+    in_.accept(";");
+  }
+}
+
+// What a property is set to has its name in SET.
+ast::Pou ProjectParser::accessor_of(const ast::Pou& property, ast::Accessor which) {
+  ast::Pou out = property;
+  out.accessor = which;
+  if (which == ast::Accessor::Set) {
+    ast::Variable value;
+    value.section = ast::Section::Input;
+    value.at = out.at;
+    value.name = out.name;
+    value.type = *out.result;
+    out.variables.push_back(std::move(value));
+    out.result.reset();
+  }
+  return out;
+}
+
+void ProjectParser::accessor(const ast::Pou& property, bool known, ast::Pou& to) {
+  const Token& word = in_.take();
+  const ast::Accessor which = word.is("GET") ? ast::Accessor::Get : ast::Accessor::Set;
+  ast::Pou out;
+  if (known) {
+    out = accessor_of(property, which);
+  }
+  const ast::Access access = out.access;
+  while (const auto own = access_named(in_.peek())) {  // GET PRIVATE
+    out.access = *own;
+    in_.take();
+  }
+  out.access = std::max(out.access, access);
+  code(out, end_of(word));
+  if (in_.expect(end_of(word), fmt::format("to close the {} of line {}", upper(word.text), word.line))) {
+    in_.accept(";");
+  }
+  if (known) {
+    to.methods.push_back(std::move(out));
+  }
+}
+
+// CLASS and INTERFACE have no body of their own.
+void ProjectParser::object(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
+  const Token& word = in_.previous();
+  const std::string end = end_of(word);
+  ast::Pou out;
+  out.kind = kind;
+  out.comment = word.comment;
+  modifiers(out);
+  out.at = in_.here();
+  const bool ok = name(out.name, kind == ast::Pou::Kind::Class ? "a class" : "an interface");
+  inheritance(out);
+  in_.accept(";");
+  while (!in_.at_end() && !in_.peek().is(end)) {
+    if (kind == ast::Pou::Kind::Class && declarations_.at_variables()) {
+      declarations_.variables(out.variables);
+    } else if (at_method()) {
+      methods(out);
+    } else {
+      const Token& stray = in_.peek();
+      in_.error(stray, fmt::format("{} has {}methods and properties, not {}", upper(word.text),
+                                   kind == ast::Pou::Kind::Class ? "variables, " : "", TokenReader::spelled(stray)));
+      while (!in_.at_end() && !in_.peek().is(end) && !at_method()) {
+        in_.take();
+      }
+    }
+  }
+  if (in_.expect(end, fmt::format("to close the {} of line {}", upper(word.text), word.line))) {
+    in_.accept(";");
+  }
+  if (ok) {
+    to.push_back(std::move(out));
+  }
+}
+
+}  // namespace indurop::plc::st
