@@ -22,6 +22,7 @@ void Follower::reset(const Joints& q) noexcept {
   in_blend_ = false;
   mode_ = mode_ == Mode::Hold ? Mode::Hold : Mode::Run;
   state_ = {};
+  speed_ = acceleration_ = 0;
   q_ = q;
   past_.joints.fill(q);
   past_.moved = {};
@@ -31,7 +32,7 @@ void Follower::add(const Segment& segment) noexcept {
   segments_[static_cast<std::size_t>(count_++)] = segment;
   if (count_ == 1) {
     state_ = {};
-    replan();
+    begin_piece();
   } else if (count_ == 2) {
     try_blend();
   }
@@ -75,6 +76,9 @@ void Follower::stop_hard(double hardness) noexcept {
     return;
   }
   mode_ = Mode::HardStop;
+  if (!idle() && segment(0).timed) {
+    leave_timing();
+  }
   brake_.begin(hardness);
   if (at_rest()) {
     reset(q_);
@@ -95,18 +99,18 @@ const LineLimits& Follower::piece_limits() const noexcept {
 
 LineLimits Follower::stop_limits() const noexcept {
   const LineLimits& here = piece_limits();
-  // A stop that does not end on this piece keeps the limits of those it goes through.
-  if (count_ < 2 || state_.position + ramp(state_, 0, here).distance <= piece_end()) {
+  // Without a blend this piece ends at rest. A stop that does not end on it keeps the limits of those it goes through.
+  if (blend_.zone <= 0 || state_.position + ramp(state_, 0, here).distance <= piece_end()) {
     return here;
   }
   const LineLimits& next = segment(1).limits;
-  return lower(here, blend_.zone > 0 ? lower(blend_.limits, next) : next);
+  return lower(here, lower(blend_.limits, next));
 }
 
 // Whether the first two segments go over into each other is decided once, before the first one is so near its end that
 // it could not be at the blend's speed any more.
 void Follower::try_blend() noexcept {
-  if (in_blend_ || blend_.zone > 0 || stopping()) {
+  if (in_blend_ || blend_.zone > 0 || stopping() || segment(0).timed) {
     return;
   }
   Blend wanted = planner_.blend(segment(0), segment(1));
@@ -128,6 +132,37 @@ void Follower::try_blend() noexcept {
   }
 }
 
+// Whether a path is followed by its timing is decided where it begins: from rest, with no way into the next one. There
+// it is followed at once, since it begins at rest itself.
+void Follower::begin_piece() noexcept {
+  Segment& first = segments_[0];
+  if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && first.timing.known()) {
+    first.take_timing();
+    passed_.fill(0);
+    state_ = {0, mode_ == Mode::Run && override_ >= kStill ? override_ : 0, 0};
+  }
+  replan();
+}
+
+// Where the place itself is braked, not its timing.
+void Follower::leave_timing() noexcept {
+  state_.position = segments_[0].leave_timing(state_.position);
+  past_.moved = {passed_[0] - passed_[1], passed_[1] - passed_[2]};
+}
+
+// After a period.
+void Follower::note_place(double seconds) noexcept {
+  if (!segment(0).timed) {
+    speed_ = state_.velocity;
+    acceleration_ = state_.acceleration;
+    return;
+  }
+  passed_ = {segment(0).timing.at(state_.position).place, passed_[0], passed_[1]};
+  const double speed = (passed_[0] - passed_[1]) / seconds;
+  acceleration_ = (speed - speed_) / seconds;
+  speed_ = speed;
+}
+
 void Follower::replan() noexcept {
   time_ = 0;
   if (mode_ != Mode::Run || override_ < kStill) {
@@ -136,7 +171,8 @@ void Follower::replan() noexcept {
   }
   LineLimits limits = piece_limits();
   limits.velocity *= override_;
-  const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
+  // A timing ends at rest by itself.
+  const double exit = segment(0).timed ? limits.velocity : in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
   profile_ = Profile::to_position(state_, piece_end(), exit, limits);
 }
 
@@ -151,6 +187,9 @@ double Follower::crossing(double from, double to) const noexcept {
 }
 
 void Follower::next_piece() noexcept {
+  if (segment(0).timed) {
+    state_ = {};
+  }
   if (in_blend_ || blend_.zone <= 0) {
     // On to the next segment, behind the blend if there was one.
     state_.position = in_blend_ ? blend_.zone : 0;
@@ -166,7 +205,7 @@ void Follower::next_piece() noexcept {
     in_blend_ = true;
   }
   if (count_ > 0 && mode_ != Mode::HardStop) {
-    replan();
+    begin_piece();
   }
 }
 
@@ -256,6 +295,8 @@ Fault Follower::brake(double seconds) noexcept {
   go(distance);
   state_.velocity = distance / seconds;
   state_.acceleration = (state_.velocity - before) / seconds;
+  speed_ = state_.velocity;
+  acceleration_ = state_.acceleration;
   q_ = q;
   note(distance);
   if (distance <= 0) {
@@ -298,6 +339,7 @@ Fault Follower::step(double seconds) noexcept {
   }
   const Fault fault = place(seconds);
   note(moved);
+  note_place(seconds);
   if (mode_ == Mode::Stop && state_.velocity <= 0) {
     reset(q_);
   }

@@ -43,8 +43,8 @@ class Follower final : private PathAhead {
   // No motion at this moment, because of a hold or an override of 0, or because it is idle.
   [[nodiscard]] bool at_rest() const noexcept { return idle() || state_.velocity <= 0; }
   // Part of full speed.
-  [[nodiscard]] double speed() const noexcept { return idle() ? 0 : state_.velocity; }
-  [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : state_.acceleration; }
+  [[nodiscard]] double speed() const noexcept { return idle() ? 0 : speed_; }
+  [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : acceleration_; }
   // s until the end of the present path, as things are.
   [[nodiscard]] double to_go() const noexcept;
   // MoveCommand::source of the present path; 0: none.
@@ -58,6 +58,9 @@ class Follower final : private PathAhead {
   [[nodiscard]] double piece_end() const noexcept;
   [[nodiscard]] const LineLimits& piece_limits() const noexcept;
   [[nodiscard]] LineLimits stop_limits() const noexcept;
+  void begin_piece() noexcept;
+  void leave_timing() noexcept;
+  void note_place(double seconds) noexcept;
   void try_blend() noexcept;
   void replan() noexcept;
   double advance(double seconds) noexcept;  // how far
@@ -84,6 +87,10 @@ class Follower final : private PathAhead {
   Profile profile_;
   double time_ = 0;  // in the profile
   LineState state_;  // position: place on the present piece
+  // What it is in seconds at full speed, whether the piece has a timing or not, and where it was on a piece with one.
+  double speed_ = 0;
+  double acceleration_ = 0;
+  std::array<double, 3> passed_{};
   Joints q_ = Joints::Zero();
 };
 

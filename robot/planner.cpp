@@ -8,9 +8,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kSpacing = 0.01;  // m between places that are looked at
-constexpr int kFewest = 24;        // places
-constexpr int kBlendPlaces = 16;
+constexpr double kSpacing = 0.01;      // m between places that are looked at
+constexpr int kFewest = 24;            // places
 constexpr double kSlowest = 0.02;      // part of full speed below which a path counts as singular
 constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to turn over
 
@@ -30,89 +29,21 @@ bool finite(const Target& target) noexcept {
   return target.joints.allFinite() && target.pose.position.allFinite() && target.pose.orientation.coeffs().allFinite();
 }
 
-// Whether a sharp corner is not so slow to go round that stopping there would be faster.
-bool faster(const Segment& first, const Blend& blend, const Segment& second) noexcept {
-  const double speed = blend.limits.velocity;
-  if (!(speed > 0)) {
-    return false;
-  }
-  const double to = Profile::to_position({}, first.length - blend.zone, speed, first.limits).duration();
-  const double from = Profile::to_position({0, speed, 0}, second.length - blend.zone, 0, second.limits).duration();
-  return to + blend.length() / speed + from < Profile::to_position({}, first.length, 0, first.limits).duration() +
-                                                  Profile::to_position({}, second.length, 0, second.limits).duration();
-}
-
-double shared(double limit, double part) noexcept {
-  return part > 1e-12 ? limit / part : HUGE_VAL;
-}
-
 }  // namespace
 
-namespace {
-
-// How fast joint angles change along a path: absolute derivatives by the place on it.
-Rates rates_at(const Joints* places, int count, int i, double spacing) noexcept {
-  const int k = std::clamp(i, 1, count - 1);
-  const int m = std::clamp(i, 1, count - 2);
-  const Joints bend = places[m + 2] - 3 * places[m + 1] + 3 * places[m] - places[m - 1];
-  return {(places[i + 1] - places[i]).cwiseAbs() / spacing,
-          (places[k + 1] - 2 * places[k] + places[k - 1]).cwiseAbs() / (spacing * spacing),
-          bend.cwiseAbs() / (spacing * spacing * spacing)};
-}
-
-// Shares of a joint's acceleration and jerk that go into keeping to a bent path; the rest is for changes of speed.
-constexpr double kBending = 1 - Planner::kShareOfBraking;
-constexpr double kBendingJerk = 0.6;
-constexpr double kMixedJerk = 0.2;
-constexpr double kSpeed = 0.98;  // the fastest place lies between two that were looked at
-
-double velocity_for(const Rates& rates, const JointLimits& joints, double most) noexcept {
-  for (int a = 0; a < kAxes; ++a) {
-    most = std::min({most, shared(kSpeed * joints.velocity[a], rates.first[a]),
-                     std::sqrt(shared(kBending * joints.acceleration[a], rates.second[a])),
-                     std::cbrt(shared(kBendingJerk * joints.jerk[a], rates.third[a]))});
+Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool)
+    : places_(places), joints_(joints), tool_(tool), search_(places_, joints_), rehearsal_(places_, joints_) {
+  // Somewhere, evenly spread (additive recurrence).
+  constexpr double kStride[] = {0.8567, 0.7339, 0.6287, 0.5386, 0.4614, 0.3953};
+  for (int i = 1; i <= 256; ++i) {
+    Joints q;
+    for (int a = 0; a < kAxes; ++a) {
+      const Axis& axis = places.arm().axis(a);
+      const double part = std::fmod(i * kStride[a], 1.0);
+      q[a] = axis.endless ? 2 * kPi * part : axis.lower + part * (axis.upper - axis.lower);
+    }
+    usual_volume_ = std::max(usual_volume_, std::abs(volume(q)));
   }
-  return most;
-}
-
-// `limits.velocity` is what the path is followed with.
-void leave_for_changes(const Rates& rates, const JointLimits& joints, LineLimits& limits) noexcept {
-  const double v = limits.velocity;
-  for (int a = 0; a < kAxes; ++a) {
-    const double left = joints.acceleration[a] - rates.second[a] * v * v;
-    limits.acceleration = std::min({limits.acceleration, shared(left, rates.first[a]),
-                                    shared(kMixedJerk / 3 * joints.jerk[a], rates.second[a] * v)});
-    limits.jerk = std::min(limits.jerk, shared((1 - kBendingJerk - kMixedJerk) * joints.jerk[a], rates.first[a]));
-  }
-}
-
-// Whether a singular position, where `volume` is 0, may lie between places i and i + 1: if it goes on as before and
-// behind them, it comes down to a third.
-bool may_be_singular(const double* volume, int count, int i) noexcept {
-  const double here = std::abs(volume[i]);
-  const double next = std::abs(volume[i + 1]);
-  const double before = std::abs(volume[std::max(i - 1, 0)]);
-  const double behind = std::abs(volume[std::min(i + 2, count)]);
-  const double fall = std::max({before - here, behind - next, std::abs(next - here)});
-  return volume[i] * volume[i + 1] <= 0 || here + next - fall < 2.0 / 3 * std::min(here, next);
-}
-
-double pace(const Rates& rates, const JointLimits& joints) noexcept {
-  return rates.first.cwiseQuotient(joints.velocity).maxCoeff();
-}
-
-}  // namespace
-
-LineLimits limits_along(const Joints* places, int count, double spacing, const JointLimits& joints,
-                        const LineLimits& most) noexcept {
-  LineLimits result = most;
-  for (int i = 0; i < count; ++i) {
-    result.velocity = velocity_for(rates_at(places, count, i, spacing), joints, result.velocity);
-  }
-  for (int i = 0; i < count; ++i) {
-    leave_for_changes(rates_at(places, count, i, spacing), joints, result);
-  }
-  return result;
 }
 
 Fault Planner::resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept {
@@ -140,7 +71,8 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   segment_.source = command.source;
   count_ = 0;
   next_ = 1;
-  windows_ = noted_ = 0;
+  windows_ = noted_ = rehearsals_ = 0;
+  stage_ = Stage::Done;
   const bool sane = command.speed > 0 && command.speed <= 1 && command.tool_speed >= 0 && command.zone >= 0;
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
@@ -227,10 +159,15 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   }
   s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool_.turn_acceleration, turning));
   s.limits.jerk = std::min(shared(tool_.jerk, pace), shared(tool_.turn_jerk, turning));
+  s.most = s.limits;
+  bounds_.speed.fill(s.most.velocity);
+  bounds_.acceleration.fill(s.most.acceleration);
   const double finest = std::max(s.way, 0.3 * angle) / kSpacing;
   count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, kMost);
   samples_[0] = s.from;
   volumes_[0] = volume(s.from);
+  least_volume_ = std::abs(volumes_[0]);
+  stage_ = Stage::Look;
   wanted_ = s.limits.velocity;
 }
 
@@ -244,6 +181,7 @@ Fault Planner::check_next() noexcept {
   }
   here = found.q;
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
+  least_volume_ = std::min(least_volume_, std::abs(volume(here)));
   Eigen::Index axis = 0;
   if ((here - before).cwiseAbs().maxCoeff(&axis) > kJump) {
     return {ErrorCode::Singular, static_cast<int>(axis) + 1};
@@ -292,6 +230,7 @@ Fault Planner::look_closer() noexcept {
       return {code_of(reach)};
     }
     volumes[k] = volume(places[k]);
+    least_volume_ = std::min(least_volume_, std::abs(volumes[k]));
   }
   Eigen::Index axis = 0;
   if ((places[kParts] - window.end).cwiseAbs().maxCoeff(&axis) > 1e-6) {
@@ -301,12 +240,28 @@ Fault Planner::look_closer() noexcept {
   for (int i = 0; i < kParts; ++i) {
     const Rates rates = rates_at(places.data(), kParts, i, spacing);
     most = {most.first.cwiseMax(rates.first), most.second.cwiseMax(rates.second), most.third.cwiseMax(rates.third)};
+    bound(rates, window.from + spacing * i, spacing);
   }
   note(most);
   if (window.depth < kDeepest) {
     choose_windows(places.data(), volumes.data(), kParts, window.from, spacing, window.depth + 1);
   }
   return {};
+}
+
+// Of the speed in a part of the path, and how it may change there.
+void Planner::bound(const Rates& rates, double from, double length) noexcept {
+  constexpr double kChanging = 0.7;  // of a joint's acceleration
+  const double part = segment_.length / PathBounds::kParts;
+  const int first = std::clamp(static_cast<int>(from / part + 0.001), 0, PathBounds::kParts - 1);
+  const int last = std::clamp(static_cast<int>((from + length) / part - 0.001), first, PathBounds::kParts - 1);
+  const double speed = velocity_for(rates, joints_, HUGE_VAL);
+  const double acceleration = kChanging / rates.first.cwiseQuotient(joints_.acceleration).maxCoeff();
+  for (int i = first; i <= last; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    bounds_.speed[k] = std::min(bounds_.speed[k], speed);
+    bounds_.acceleration[k] = std::min(bounds_.acceleration[k], acceleration);
+  }
 }
 
 // More than fit are summed up in the last one, which can only make the path slower.
@@ -320,7 +275,7 @@ void Planner::note(const Rates& rates) noexcept {
   last = {last.first.cwiseMax(rates.first), last.second.cwiseMax(rates.second), last.third.cwiseMax(rates.third)};
 }
 
-Fault Planner::check(int places) noexcept {
+Fault Planner::look(int& places) noexcept {
   for (; places > 0 && next_ <= count_; --places, ++next_) {
     if (const Fault fault = check_next(); !fault.ok()) {
       return fault;
@@ -328,7 +283,9 @@ Fault Planner::check(int places) noexcept {
     if (next_ == count_) {
       const double spacing = segment_.length / count_;
       for (int i = 0; i < count_; ++i) {
-        note(rates_at(samples_.data(), count_, i, spacing));
+        const Rates rates = rates_at(samples_.data(), count_, i, spacing);
+        note(rates);
+        bound(rates, spacing * i, spacing);
       }
       choose_windows(samples_.data(), volumes_.data(), count_, 0, spacing, 0);
     }
@@ -338,14 +295,50 @@ Fault Planner::check(int places) noexcept {
       return fault;
     }
   }
-  if (!done() || count_ == 0) {
-    return {};
-  }
+  return next_ > count_ && windows_ == 0 ? looked() : Fault{};
+}
+
+Fault Planner::looked() noexcept {
   segment_.to = samples_[static_cast<std::size_t>(count_)];
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
-  return {segment_.limits.velocity < std::min(kSlowest, wanted_) ? ErrorCode::Singular : ErrorCode::Ok};
+  if (segment_.limits.velocity < std::min(kSlowest, wanted_)) {
+    return {ErrorCode::Singular};
+  }
+  // What may be blended has one speed for all of it.
+  if (segment_.zone <= 0) {
+    search_.begin(segment_, bounds_);
+    stage_ = Stage::Search;
+  } else {
+    rehearse_profile();
+  }
+  return {};
+}
+
+Fault Planner::check(int places) noexcept {
+  while (places > 0 && stage_ != Stage::Done) {
+    switch (stage_) {
+      case Stage::Look:
+        if (const Fault fault = look(places); !fault.ok()) {
+          stage_ = Stage::Done;
+          return fault;
+        }
+        break;
+      case Stage::Search:
+        places -= search_.work();
+        search();
+        break;
+      case Stage::RehearseTiming:
+      case Stage::RehearseProfile:
+        --places;
+        rehearse();
+        break;
+      case Stage::Done:
+        break;
+    }
+  }
+  return {};
 }
 
 Fault Planner::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
@@ -359,42 +352,6 @@ Fault Planner::allowed(const Joints& from, const Joints& to, double seconds) con
     }
   }
   return {};
-}
-
-Blend Planner::blend(const Segment& first, const Segment& second) const noexcept {
-  Blend result;
-  if (first.zone <= 0 || first.length <= 0 || second.length <= 0) {
-    return result;
-  }
-  // How fast the tool is at the corner, at full speed, says how long the zone is.
-  const Jacobian j = places_.arm().jacobian(first.to);
-  const auto pace = [&](const Segment& s) {
-    return s.move == Move::Joint ? (j.topRows<3>() * ((s.to - s.from) / s.length)).norm() : s.pace();
-  };
-  const double fastest = std::max(pace(first), pace(second));
-  const double half = std::min(first.length, second.length) / 2;
-  result.zone = std::min(half, shared(first.zone, fastest));
-  std::array<Joints, kBlendPlaces + 1> places;
-  const double spacing = result.length() / kBlendPlaces;
-  Joints near = first.to;
-  for (int i = 0; i <= kBlendPlaces; ++i) {
-    if (places_.on(first, result, second, spacing * i, near, near) != Reach::Ok ||
-        places_.arm().beyond_limits(near) >= 0) {
-      return {};
-    }
-    places[static_cast<std::size_t>(i)] = near;
-  }
-  LineLimits most{std::min(first.limits.velocity, second.limits.velocity),
-                  std::min(first.limits.acceleration, second.limits.acceleration),
-                  std::min(first.limits.jerk, second.limits.jerk)};
-  if (first.move != Move::Joint && second.move != Move::Joint) {
-    // The direction of the tool changes by at most this in one second at full speed.
-    const double change = first.pace() + second.pace();
-    const double bend = 1.5 * change / result.length();
-    most.velocity = std::min(most.velocity, std::sqrt(shared(tool_.acceleration / 2, bend)));
-  }
-  result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints_, most);
-  return faster(first, result, second) ? result : Blend{};
 }
 
 }  // namespace indurop::robot

@@ -7,24 +7,16 @@
 #include <array>
 
 #include "robot/errors.h"
+#include "robot/path_rates.h"
+#include "robot/rehearsal.h"
 #include "robot/segment.h"
+#include "robot/timing_search.h"
 
 namespace indurop::robot {
 
-// How fast joint angles change along a path, in rad per s at full speed: absolute first, second and third derivatives.
-struct Rates {
-  Joints first = Joints::Zero();
-  Joints second = Joints::Zero();
-  Joints third = Joints::Zero();
-};
-
 class Planner {
  public:
-  // Of a joint's acceleration, at least, in a blend; the rest goes into keeping to the bend.
-  static constexpr double kShareOfBraking = 0.25;
-
-  Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool) noexcept
-      : places_(places), joints_(joints), tool_(tool) {}
+  Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
   // Begins with a motion that starts at `from`. Real-time safe, as all here. Errors: Value, Unreachable,
   // JointLimit, Circle.
@@ -32,7 +24,7 @@ class Planner {
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
   // Singular.
   Fault check(int places) noexcept;
-  [[nodiscard]] bool done() const noexcept { return next_ > count_ && windows_ == 0; }
+  [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
   [[nodiscard]] const Segment& segment() const noexcept { return segment_; }
 
@@ -47,6 +39,17 @@ class Planner {
   static constexpr int kMost = 128;
   using Samples = std::array<Joints, kMost + 1>;
 
+  // Looking for reach, limits and singular positions; then for a timing; then going through what came out.
+  enum class Stage { Look, Search, RehearseTiming, RehearseProfile, Done };
+
+  Fault look(int& places) noexcept;
+  Fault looked() noexcept;
+  void search() noexcept;
+  void rehearse() noexcept;
+  void rehearse_timing() noexcept;
+  void rehearse_profile() noexcept;
+  void end_rehearsal() noexcept;
+  [[nodiscard]] bool nearly_singular() const noexcept;
   Fault resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
   Fault look_closer() noexcept;
@@ -54,6 +57,7 @@ class Planner {
   void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
                       int depth) noexcept;
   void note(const Rates& rates) noexcept;
+  void bound(const Rates& rates, double from, double length) noexcept;
   Fault make_circle(const Vec3& mid) noexcept;
   void measure_joint_motion(double speed) noexcept;
   void measure_tool_motion(const MoveCommand& command) noexcept;
@@ -66,6 +70,10 @@ class Planner {
   std::array<double, kMost + 1> volumes_{};
   int count_ = 0;  // places after the first
   int next_ = 1;
+  int windows_ = 0;
+  int noted_ = 0;
+  int rehearsals_ = 0;
+  Stage stage_ = Stage::Done;
   // Stretches that are looked at closer before the path is known.
   struct Window {
     double from = 0;
@@ -76,15 +84,14 @@ class Planner {
   };
   static constexpr int kParts = 8;  // of a stretch
   std::array<Window, 256> window_{};
-  int windows_ = 0;
   std::array<Rates, std::size_t{3} * kMost> rates_{};
-  int noted_ = 0;
   double wanted_ = 1;  // part of full speed, before the joints were asked
+  PathBounds bounds_;
+  TimingSearch search_;
+  Rehearsal rehearsal_;
+  Profile profile_;
+  double usual_volume_ = 0;  // of this arm, at most
+  double least_volume_ = 0;  // on the path
 };
-
-// Limits of the speed along a path that keep the joints' limits, given the joint angles at `count` + 1 equally spaced
-// places; not above `most`. A part of acceleration and jerk is kept for changes of speed.
-LineLimits limits_along(const Joints* places, int count, double spacing, const JointLimits& joints,
-                        const LineLimits& most) noexcept;
 
 }  // namespace indurop::robot

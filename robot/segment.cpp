@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -11,8 +12,22 @@ Joints Segment::joints_at(double place) const noexcept {
   return from + part * (to - from);
 }
 
+void Segment::take_timing() noexcept {
+  stretch = length;
+  length = timing.duration();
+  std::swap(limits, timing_limits);
+  timed = true;
+}
+
+double Segment::leave_timing(double place) noexcept {
+  length = stretch;
+  std::swap(limits, timing_limits);
+  timed = false;
+  return timing.at(place).place;
+}
+
 Pose Segment::pose_at(double place) const noexcept {
-  const double part = length > 0 ? std::clamp(place / length, 0.0, 1.0) : 1;
+  const double part = length > 0 ? std::clamp(timed ? timing.at(place).place / stretch : place / length, 0.0, 1.0) : 1;
   Pose pose;
   pose.orientation = start.orientation * rotation_by(part * turn);
   if (move == Move::Circle) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "robot/inverse.h"
+#include "robot/path_timing.h"
 #include "robot/profile.h"
 
 namespace indurop::robot {
@@ -54,12 +55,23 @@ struct Segment {
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m
   int source = 0;
-  LineLimits limits;  // of the speed along it
+  LineLimits most;    // of the speed along it, as the tool and the command allow
+  LineLimits limits;  // the same as the joints allow too
+  // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places,
+  // length and limits are by seconds of the timing.
+  PathTiming timing;
+  LineLimits timing_limits;
+  bool timed = false;
+  double stretch = 0;  // what `length` is otherwise
 
   // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.
   [[nodiscard]] Joints joints_at(double place) const noexcept;
   // Of lines and circles.
   [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // From rest, at its beginning.
+  void take_timing() noexcept;
+  // Returns what `place` is then.
+  double leave_timing(double place) noexcept;
   // m per s at full speed
   [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
 };

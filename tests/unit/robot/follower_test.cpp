@@ -268,6 +268,27 @@ TEST(Follower, A_held_path_goes_on_to_its_end) {
   EXPECT_NEAR(degrees(w.sut.joints()[0]), 60, 1e-9);
 }
 
+TEST(Follower, A_hold_while_it_comes_to_rest_ends_where_the_path_does) {
+  for (int instant = 0; instant < 100; ++instant) {
+    Watched w;
+    w.add(joints({30, 12, 6, 0, 46, 0}));
+    // Its limits are lower: a stop that goes on into it would be too long for what is left of the first.
+    w.add(pose(Move::Line, {0.6, 0.3, 0.5}, 0.01));
+    w.add(pose(Move::Line, {0.5, 0.3, 0.5}));
+    while (w.sut.to_go() > 0.001 * (instant + 1)) {
+      w.step();
+    }
+    w.sut.set_hold(true);
+    for (int i = 0; i < 500; ++i) {
+      w.step();
+    }
+    EXPECT_TRUE(w.sut.at_rest());
+    w.sut.set_hold(false);
+    w.run();
+    w.expect_kept();
+  }
+}
+
 TEST(Planner, What_cannot_work_is_known_before) {
   Watched w;
   EXPECT_EQ(w.add(pose(Move::Line, {2, 0, 0.4})).code, ErrorCode::Unreachable);

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/path_timing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+// A uniform B-spline piece of this degree and its first three derivatives, by de Boor's triangle.
+template <std::size_t Degree>
+PathTiming::Value spline(const double* coefficients, double part) noexcept {
+  // Differences give the derivatives; what is left of the degree is evaluated.
+  std::array<double, Degree + 1> c{};
+  std::copy_n(coefficients, Degree + 1, c.begin());
+  std::array<double, 4> result{};
+  for (std::size_t order = 0; order <= 3; ++order) {
+    const std::size_t degree = Degree - order;
+    std::array<double, Degree + 1> d = c;
+    for (std::size_t level = 1; level <= degree; ++level) {
+      for (std::size_t i = degree; i >= level; --i) {
+        const double weight = (part + static_cast<double>(degree - i)) / static_cast<double>(degree - level + 1);
+        d[i] = (1 - weight) * d[i - 1] + weight * d[i];
+      }
+    }
+    result[order] = d[degree];
+    for (std::size_t i = 0; i < degree; ++i) {
+      c[i] = c[i + 1] - c[i];
+    }
+  }
+  return {result[0], result[1], result[2], result[3]};
+}
+
+}  // namespace
+
+PathTiming::Value PathTiming::place(int piece, double part) const noexcept {
+  return spline<5>(shape_.data() + piece, part);
+}
+
+PathTiming::Value PathTiming::square(int piece, double part) const noexcept {
+  return spline<3>(squares_.data() + piece, part);
+}
+
+// From the beginning of the piece.
+double PathTiming::seconds(int piece, double part) const noexcept {
+  constexpr double kAt[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+  constexpr double kWeight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  const double* z = squares_.data() + piece;
+  // The cubic as a polynomial of the part.
+  const double a = (z[0] + 4 * z[1] + z[2]) / 6;
+  const double b = (z[2] - z[0]) / 2;
+  const double c = (z[0] - 2 * z[1] + z[2]) / 2;
+  const double d = (z[3] - 3 * z[2] + 3 * z[1] - z[0]) / 6;
+  double sum = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double x = part * kAt[i];
+    sum += kWeight[i] / std::sqrt(a + x * (b + x * (c + x * d)));
+  }
+  return part * sum;
+}
+
+void PathTiming::set(int count, const double* shape, const double* squares) noexcept {
+  count_ = count;
+  std::copy_n(shape, count + 5, shape_.begin());
+  std::copy_n(squares, count + 3, squares_.begin());
+  times_[0] = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    times_[k + 1] = times_[k] + seconds(i, 1);
+  }
+}
+
+void PathTiming::slow_down(double factor) noexcept {
+  for (double& z : squares_) {
+    z /= factor * factor;
+  }
+  for (double& t : times_) {
+    t *= factor;
+  }
+}
+
+Timed PathTiming::at(double time) const noexcept {
+  const double* end = times_.data() + count_;
+  const double* next = std::upper_bound(times_.data() + 1, end, time);
+  const int piece = static_cast<int>(next - times_.data()) - 1;
+  const double begin = times_[static_cast<std::size_t>(piece)];
+  const double length = *next - begin;
+  const double rest = std::clamp(time - begin, 0.0, length);
+  double part = rest / length;
+  for (int i = 0; i < 4; ++i) {
+    const double off = seconds(piece, part) - rest;
+    part = std::clamp(part - off * std::sqrt(square(piece, part).value), 0.0, 1.0);
+    if (std::abs(off) < 1e-14) {
+      break;
+    }
+  }
+  const Value s = place(piece, part);
+  const Value w = square(piece, part);
+  const double u = std::sqrt(w.value);
+  return {s.value, s.first * u, s.second * w.value + s.first * w.first / 2,
+          u * (s.third * w.value + 1.5 * s.second * w.first + s.first * w.second / 2)};
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/rehearsal.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/path_rates.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSure = 0.99;  // of the limits, between two instants
+constexpr int kFewest = 96;     // instants
+constexpr int kMost = 8192;
+
+}  // namespace
+
+void Rehearsal::begin(const Joints& from, double duration, double step) noexcept {
+  count_ = static_cast<int>(std::clamp(std::ceil(duration / step), double{kFewest}, double{kMost}));
+  step_ = duration / count_;
+  next_ = 1;
+  worst_ = 0;
+  pace_ = {1, 100, 1000};
+  seen_.fill(from);
+}
+
+double Rehearsal::time() const noexcept {
+  return step_ * std::min(next_, count_);  // a few instants beyond the end, where it rests
+}
+
+bool Rehearsal::look(const Segment& segment, double place) noexcept {
+  Joints here = seen_[0];
+  if (places_.on(segment, place, seen_[0], here) != Reach::Ok) {
+    return false;
+  }
+  seen_ = {here, seen_[0], seen_[1], seen_[2]};
+  const auto& q = seen_;
+  const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
+  const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
+  const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
+  worst_ = std::max({worst_, first.cwiseQuotient(joints_.velocity).maxCoeff(),
+                     std::sqrt(second.cwiseQuotient(Shares::kBending * joints_.acceleration).maxCoeff()),
+                     std::cbrt(third.cwiseQuotient(Shares::kBendingJerk * joints_.jerk).maxCoeff())});
+  // |second| r^2 + |first| r' and |third| r^3 + 3 |second| r r' + |first| r'' are what a joint does at the pace r.
+  for (int i = 0; i < kAxes; ++i) {
+    const double a = joints_.acceleration[i];
+    const double j = joints_.jerk[i];
+    pace_.acceleration = std::min({pace_.acceleration, shared((1 - Shares::kBending) * a, first[i]),
+                                   shared(Shares::kMixedJerk / 3 * j, second[i])});
+    pace_.jerk = std::min(pace_.jerk, shared((1 - Shares::kBendingJerk - Shares::kMixedJerk) * j, first[i]));
+  }
+  ++next_;
+  return true;
+}
+
+double Rehearsal::factor() const noexcept {
+  return std::max(1.0, worst_ / kSure);
+}
+
+}  // namespace indurop::robot

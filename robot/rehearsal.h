@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motion is gone through before it begins, from one instant to the next: how far its joints go beyond their shares
+// anywhere, and what changes of its pace may take of what is left.
+
+#pragma once
+
+#include <array>
+
+#include "robot/segment.h"
+
+namespace indurop::robot {
+
+class Rehearsal {
+ public:
+  Rehearsal(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
+
+  // A motion from rest to rest. `step`: from one instant to the next, at most. Real-time safe, as all here.
+  void begin(const Joints& from, double duration, double step) noexcept;
+  [[nodiscard]] bool done() const noexcept { return next_ > count_ + 3; }
+  // The instant that is looked at next, and where the motion is then.
+  [[nodiscard]] double time() const noexcept;
+  [[nodiscard]] bool look(const Segment& segment, double place) noexcept;
+
+  // When done: how many times as long it has to take, 1 at least.
+  [[nodiscard]] double factor() const noexcept;
+  // Of the pace at which it is followed, 1 at most.
+  [[nodiscard]] const LineLimits& pace_limits() const noexcept { return pace_; }
+
+ private:
+  const Places& places_;
+  const JointLimits& joints_;
+  int count_ = 0;
+  int next_ = 0;
+  double step_ = 0;
+  double worst_ = 0;
+  LineLimits pace_;
+  std::array<Joints, 4> seen_;
+};
+
+}  // namespace indurop::robot

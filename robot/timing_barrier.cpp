@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/timing_barrier.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kMostSteps = 60;
+constexpr double kEnough = 1e-3;  // of the duration: what the barrier may still cost
+// Knots that are worked on while one place is looked at, inverse kinematics and all.
+constexpr int kDerivedPerPlace = 8;
+constexpr int kWeighedPerPlace = 16;
+constexpr std::size_t at(int i) noexcept {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+// At an even speed that keeps all limits.
+void TimingBarrier::begin(int count) noexcept {
+  count_ = count;
+  double most = 1e12;
+  for (int i = 0; i <= count_; ++i) {
+    const TimingKnot& k = knots_[at(i)];
+    most = std::min(most, k.fastest);
+    for (std::size_t r = 0; r < kRows; ++r) {
+      most = std::min(
+          {most, 1 / std::max(std::abs(k.bend[r]), 1e-12), std::pow(std::max(std::abs(k.third[r]), 1e-12), -2.0 / 3)});
+    }
+  }
+  std::fill_n(z_.begin(), count_ + 3, 0.7 * most);
+  stiff_ = 100 / std::pow(0.7 * most, 2.5);
+  weight_ = 0.02 * count_ / std::sqrt(0.7 * most) / (count_ + 1);
+  steps_ = 0;
+  begin_step();
+}
+
+TimingBarrier::Local TimingBarrier::local(const double* z, int knot) const noexcept {
+  z += knot;
+  return {(z[0] + 4 * z[1] + z[2]) / 6, (z[2] - z[0]) / 2, z[0] - 2 * z[1] + z[2]};
+}
+
+// What is made least: the duration and the barrier; infinite beyond a limit.
+double TimingBarrier::height(const double* z) const noexcept {
+  double time = 0;
+  double logs = 0;
+  for (int i = 0; i <= count_; ++i) {
+    const Local m = local(z, i);
+    const TimingKnot& k = knots_[at(i)];
+    double product = k.fastest - m.w;
+    if (!(m.w > 0) || !(product > 0)) {
+      return HUGE_VAL;
+    }
+    product /= k.fastest;
+    const double root = 1 / std::sqrt(m.w);
+    double least = 1;
+    for (std::size_t r = 0; r < kRows; ++r) {
+      const double a = k.bend[r] * m.w + k.drive[r] * m.d;
+      const double j = (k.third[r] * m.w + k.mixed[r] * m.d + k.last[r] * m.dd) / root;
+      least = std::min({least, 1 - a, 1 + a, 1 - j, 1 + j});
+      product *= (1 - a * a) * (1 - j * j);
+    }
+    if (!(least > 0)) {
+      return HUGE_VAL;
+    }
+    time += (i == 0 || i == count_ ? 0.5 : 1) * root;
+    logs += std::log(product) + 2 * kRows * std::log(root);
+  }
+  const double first = z[2] - z[0];
+  const double last = z[count_ + 2] - z[count_];
+  return time - weight_ * logs + stiff_ / 2 * (first * first + last * last);
+}
+
+// At rest no limit tells how the parameter's speed changes: it does not.
+void TimingBarrier::hold_ends() noexcept {
+  for (const int i : {0, count_}) {
+    const double change = z_[at(i + 2)] - z_[at(i)];
+    gradient_[at(i + 2)] += stiff_ * change;
+    gradient_[at(i)] -= stiff_ * change;
+    band_[at(i + 2)][0] += stiff_;
+    band_[at(i)][0] += stiff_;
+    band_[at(i + 2)][2] -= stiff_;
+  }
+}
+
+// Adds what this knot has of gradient and curvature.
+void TimingBarrier::derive(int knot, const Local& m) noexcept {
+  const TimingKnot& k = knots_[at(knot)];
+  const double root = 1 / std::sqrt(m.w);
+  const double share = knot == 0 || knot == count_ ? 0.5 : 1;
+  // In w, w' and w''.
+  double g[3] = {-0.5 * share * root / m.w, 0, 0};
+  double h00 = 0.75 * share * root / (m.w * m.w);
+  double h01 = 0;
+  double h02 = 0;
+  double h11 = 0;
+  double h12 = 0;
+  double h22 = 0;
+  const double left = weight_ / (k.fastest - m.w);
+  g[0] += left;
+  h00 += left * left / weight_;
+  const double fall = -0.5 * root / m.w;  // of the root
+  for (std::size_t r = 0; r < kRows; ++r) {
+    const double p = k.bend[r];
+    const double d = k.drive[r];
+    const double a = p * m.w + d * m.d;
+    const double up = 1 / (1 - a);
+    const double down = 1 / (1 + a);
+    const double slope = weight_ * (up - down);
+    const double curve = weight_ * (up * up + down * down);
+    g[0] += slope * p;
+    g[1] += slope * d;
+    h00 += curve * p * p;
+    h01 += curve * p * d;
+    h11 += curve * d * d;
+    const double j = k.third[r] * m.w + k.mixed[r] * m.d + k.last[r] * m.dd;
+    for (const double sign : {1.0, -1.0}) {
+      const double one = weight_ / (root - sign * j);
+      const double x = sign * k.third[r] - fall;
+      const double y = sign * k.mixed[r];
+      const double z = sign * k.last[r];
+      g[0] += one * x;
+      g[1] += one * y;
+      g[2] += one * z;
+      const double two = one * one / weight_;
+      h00 += two * x * x;
+      h01 += two * x * y;
+      h02 += two * x * z;
+      h11 += two * y * y;
+      h12 += two * y * z;
+      h22 += two * z * z;
+    }
+  }
+  // By the three coefficients.
+  constexpr double kBy[3][3] = {{1.0 / 6, -0.5, 1}, {4.0 / 6, 0, -2}, {1.0 / 6, 0.5, 1}};
+  for (int i = 0; i < 3; ++i) {
+    const double* b = kBy[i];
+    gradient_[at(knot + i)] += b[0] * g[0] + b[1] * g[1] + b[2] * g[2];
+    const double x = b[0] * h00 + b[1] * h01 + b[2] * h02;
+    const double y = b[0] * h01 + b[1] * h11 + b[2] * h12;
+    const double z = b[0] * h02 + b[1] * h12 + b[2] * h22;
+    for (int n = 0; n <= i; ++n) {
+      band_[at(knot + i)][at(i - n)] += kBy[n][0] * x + kBy[n][1] * y + kBy[n][2] * z;
+    }
+  }
+}
+
+// The banded system, by square-free Cholesky factors in place.
+bool TimingBarrier::solve() noexcept {
+  const int n = count_ + 3;
+  for (int i = 0; i < n; ++i) {
+    auto& row = band_[at(i)];
+    const double l2 = i >= 2 ? row[2] : 0;
+    double l1 = i >= 1 ? row[1] : 0;
+    if (i >= 2) {
+      l1 -= l2 * band_[at(i - 1)][1];  // l2 still with its pivot
+    }
+    const double f2 = i >= 2 ? l2 / band_[at(i - 2)][0] : 0;
+    const double f1 = i >= 1 ? l1 / band_[at(i - 1)][0] : 0;
+    row[0] -= f2 * l2 + f1 * l1;
+    row[1] = f1;
+    row[2] = f2;
+    if (!(row[0] > 0)) {
+      return false;
+    }
+    direction_[at(i)] =
+        -gradient_[at(i)] - (i >= 1 ? f1 * direction_[at(i - 1)] : 0) - (i >= 2 ? f2 * direction_[at(i - 2)] : 0);
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    double& x = direction_[at(i)];
+    x /= band_[at(i)][0];
+    x -= i + 1 < n ? band_[at(i + 1)][1] * direction_[at(i + 1)] : 0;
+    x -= i + 2 < n ? band_[at(i + 2)][2] * direction_[at(i + 2)] : 0;
+  }
+  return true;
+}
+
+void TimingBarrier::begin_step() noexcept {
+  const int n = count_ + 3;
+  std::fill_n(gradient_.begin(), n, 0.0);
+  std::fill_n(band_.begin(), n, std::array<double, 3>{});
+  next_ = 0;
+  stage_ = Stage::Derive;
+}
+
+// Which way down, and how high it is here.
+void TimingBarrier::find_direction() noexcept {
+  hold_ends();
+  here_ = height(z_.data());
+  decrement_ = 0;
+  length_ = solve() ? 1 : 0;
+  for (int i = 0; i < count_ + 3 && length_ > 0; ++i) {
+    decrement_ -= gradient_[at(i)] * direction_[at(i)];
+  }
+  stage_ = Stage::Descend;
+}
+
+void TimingBarrier::descend() noexcept {
+  if (length_ > 1e-3) {
+    for (int i = 0; i < count_ + 3; ++i) {
+      trial_[at(i)] = z_[at(i)] + length_ * direction_[at(i)];
+    }
+    if (height(trial_.data()) >= here_ - 0.1 * length_ * decrement_) {
+      length_ /= 2;
+      return;
+    }
+    z_ = trial_;
+  }
+  end_step(length_ > 1e-3);
+}
+
+void TimingBarrier::end_step(bool better) noexcept {
+  double duration = 0;
+  for (int i = 0; i <= count_; ++i) {
+    duration += 1 / std::sqrt(local(z_.data(), i).w);
+  }
+  const bool last = weight_ * (count_ + 1) * 4 < kEnough * duration;
+  if (++steps_ >= kMostSteps || (last && (!better || decrement_ < weight_))) {
+    stage_ = Stage::Done;
+    return;
+  }
+  if (!better || decrement_ < 0.3 * weight_ * (count_ + 1)) {
+    weight_ *= last ? 1 : 0.2;
+  }
+  begin_step();
+}
+
+int TimingBarrier::work() noexcept {
+  switch (stage_) {
+    case Stage::Derive: {
+      const int to = std::min(next_ + 4 * kDerivedPerPlace, count_ + 1);
+      for (; next_ < to; ++next_) {
+        derive(next_, local(z_.data(), next_));
+      }
+      stage_ = next_ > count_ ? Stage::Solve : Stage::Derive;
+      return 4;
+    }
+    case Stage::Solve:
+      find_direction();
+      return 1 + count_ / kWeighedPerPlace;
+    case Stage::Descend:
+      descend();
+      return 1 + count_ / kWeighedPerPlace;
+    case Stage::Done:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The least duration that keeps all limits at the knots of a timing. The square of the parameter's speed makes these
+// limits nearly linear, so a barrier method with a banded system finds it in a few dozen steps; each of them is a
+// timing that keeps the limits.
+
+#pragma once
+
+#include <array>
+
+#include "robot/arm.h"
+#include "robot/path_timing.h"
+
+namespace indurop::robot {
+
+// What limits the motion at one knot, by the parameter, as parts of the limits.
+struct TimingKnot {
+  static constexpr int kRows = kAxes + 1;      // the joints, and the place on the path itself for the tool
+  double fastest = 0;                          // square of the parameter's speed
+  std::array<double, kRows> bend{}, drive{};   // acceleration = bend * w + drive * w'
+  std::array<double, kRows> third{}, mixed{};  // jerk * w^-1/2 = third * w + mixed * w' + last * w''
+  std::array<double, kRows> last{};
+};
+
+class TimingBarrier {
+ public:
+  static constexpr int kMost = PathTiming::kMost;
+  // Before begin(): what limits the motion there. Real-time safe, as all here.
+  TimingKnot& knot(int i) noexcept { return knots_[static_cast<std::size_t>(i)]; }
+  // With knots 0 to `count`.
+  void begin(int count) noexcept;
+  // A part of a step; returns how much that was, in places whose inverse kinematics take as long.
+  int work() noexcept;
+  [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
+  // B-spline coefficients of the square of the parameter's speed: `count` + 3 of them.
+  [[nodiscard]] const double* squares() const noexcept { return z_.data(); }
+
+ private:
+  static constexpr int kRows = TimingKnot::kRows;
+  enum class Stage { Derive, Solve, Descend, Done };
+  struct Local {
+    double w = 0, d = 0, dd = 0;  // and its derivatives
+  };
+  using Coefficients = std::array<double, kMost + 3>;
+
+  [[nodiscard]] Local local(const double* z, int knot) const noexcept;
+  [[nodiscard]] double height(const double* z) const noexcept;
+  void derive(int knot, const Local& m) noexcept;
+  void hold_ends() noexcept;
+  bool solve() noexcept;
+  void begin_step() noexcept;
+  void find_direction() noexcept;
+  void descend() noexcept;
+  void end_step(bool better) noexcept;
+
+  Stage stage_ = Stage::Done;
+  int count_ = 0;
+  int next_ = 0;
+  int steps_ = 0;
+  double weight_ = 0;  // of the barrier
+  double stiff_ = 0;
+  double here_ = 0, decrement_ = 0, length_ = 0;  // of the present step
+  Coefficients z_{}, gradient_{}, direction_{}, trial_{};
+  std::array<std::array<double, 3>, kMost + 3> band_{};
+  std::array<TimingKnot, kMost + 1> knots_{};
+};
+
+}  // namespace indurop::robot

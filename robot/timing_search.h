@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the timing of a path that is as fast as the joints allow at each place: speed, acceleration and jerk of every
+// joint and of the tool. It chooses where the knots lie and asks what limits the motion there.
+
+#pragma once
+
+#include <array>
+
+#include "robot/path_timing.h"
+#include "robot/segment.h"
+#include "robot/timing_barrier.h"
+
+namespace indurop::robot {
+
+// What is known of a path before its timing is looked for: bounds of its speed in equal parts of its length.
+struct PathBounds {
+  static constexpr int kParts = 512;
+  std::array<double, kParts> speed{};
+  std::array<double, kParts> acceleration{};
+};
+
+class TimingSearch {
+ public:
+  TimingSearch(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
+
+  void begin(const Segment& segment, const PathBounds& bounds) noexcept;
+  // Works on a little; returns how much that was, in places whose inverse kinematics take as long. Real-time safe.
+  int work() noexcept;
+  [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
+  // When done; not known() if none was found. It keeps the limits at its knots.
+  [[nodiscard]] const PathTiming& timing() const noexcept { return timing_; }
+
+ private:
+  enum class Stage { Look, Search, Done };
+
+  bool guess(const PathBounds& bounds) noexcept;
+  void smooth_ends() noexcept;
+  bool look(int knot) noexcept;
+
+  const Places& places_;
+  const JointLimits& joints_;
+  Segment segment_;
+  PathTiming timing_;
+  TimingBarrier barrier_;
+  Stage stage_ = Stage::Done;
+  int count_ = 0;
+  int next_ = 0;
+  Joints near_ = Joints::Zero();
+  std::array<double, PathTiming::kMost + 5> shape_{};
+};
+
+}  // namespace indurop::robot

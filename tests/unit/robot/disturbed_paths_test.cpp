@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random lines and circles one after the other, with holds, overrides and stops at random instants: the set points they
+// make keep all limits before any gate has looked at them. (Emergency stops are in random_jobs_test.cpp, behind the
+// gate.) INDUROP_ROBOT_PATHS says how many, INDUROP_ROBOT_SEED from which one on.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "robot/follower.h"
+#include "robot_fixture.h"
+
+namespace indurop::robot {
+namespace {
+
+constexpr double kRounding = 1e-4;  // what the gate lets pass
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : static_cast<int>(std::strtol(text, nullptr, 10));
+}
+
+class Disturbed {
+ public:
+  explicit Disturbed(unsigned seed) : random_(seed), period_(seed % 3 == 0 ? 0.001 : seed % 3 == 1 ? 0.004 : 0.01) {}
+
+  // Empty, or what broke.
+  std::string run() {
+    Joints from = anywhere(arm_, random_, 0.3);
+    follower_.reset(from);
+    q_ = from;
+    int planned = 0;
+    for (int tries = 0; tries < 30 && planned < 2; ++tries) {
+      planned += plan(follower_.end()) ? 1 : 0;
+    }
+    const double often = in(0, 1) < 0.2 ? 0 : in(1, 12) * period_;
+    bool calm = false;
+    for (int i = 0; i < 60 / period_ && !follower_.idle(); ++i) {
+      calm = calm || i > 20 / period_;
+      if (calm) {
+        follower_.set_hold(false);
+        follower_.set_override(1);
+      } else if (in(0, 1) < often) {
+        disturb();
+      }
+      if (std::string broken = step(); !broken.empty()) {
+        return fmt::format("{}in period {} of {} ms", broken, i, period_ * 1000);
+      }
+    }
+    for (int i = 0; i < 4; ++i) {
+      if (std::string broken = step(); !broken.empty()) {
+        return broken + "at rest";
+      }
+    }
+    return follower_.idle() ? "" : "it does not end";
+  }
+
+ private:
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  Target pose_near(Joints q, double far) {
+    for (int i = 0; i < kAxes; ++i) {
+      q[i] += in(-far, far);
+    }
+    Target target;
+    target.is_pose = true;
+    target.pose = arm_.forward(q);
+    return target;
+  }
+  bool plan(const Joints& from) {
+    MoveCommand command;
+    const double far = std::exp(in(std::log(0.005), std::log(0.8)));
+    command.move = in(0, 1) < 0.6 ? Move::Line : Move::Circle;
+    command.mid = pose_near(from, far / 2);
+    command.target = pose_near(from, far);
+    command.speed = in(0, 1) < 0.5 ? 1 : in(0.05, 1);
+    Fault fault = planner_.begin(command, from);
+    while (fault.ok() && !planner_.done()) {
+      fault = planner_.check(1000);
+    }
+    if (fault.ok()) {
+      follower_.add(planner_.segment());
+    }
+    return fault.ok();
+  }
+  void disturb() {
+    const double what = in(0, 1);
+    if (what < 0.3) {
+      follower_.set_hold(in(0, 1) < 0.5);
+    } else if (what < 0.95) {
+      follower_.set_override(in(0, 1) < 0.3 ? 1 : in(0, 1));
+    } else {
+      follower_.stop();
+    }
+  }
+  std::string step() {
+    if (const Fault fault = follower_.step(period_); !fault.ok()) {
+      return fmt::format("{} of axis {} ", to_string(fault.code), fault.axis);
+    }
+    const Joints v = (follower_.joints() - q_) / period_;
+    const Joints a = (v - v_) / period_;
+    const Joints j = (a - a_) / period_;
+    q_ = follower_.joints();
+    v_ = v;
+    a_ = a;
+    std::string broken;
+    const auto judge = [&](const char* what, const Joints& value, const Joints& limit) {
+      Eigen::Index axis = 0;
+      const double part = value.cwiseAbs().cwiseQuotient(limit).maxCoeff(&axis);
+      if (!(part <= 1 + kRounding)) {
+        broken += fmt::format("axis {}: {} {:.4f} times its limit; ", axis + 1, what, part);
+      }
+    };
+    judge("speed", v, limits_.velocity);
+    judge("acceleration", a, limits_.acceleration);
+    judge("jerk", j, limits_.jerk);
+    return broken;
+  }
+
+  std::mt19937 random_;
+  double period_;
+  Arm arm_ = cell_arm();
+  Inverse inverse_{arm_};
+  Places places_{arm_, inverse_};
+  JointLimits limits_ = cell_limits();
+  Planner planner_{places_, limits_, ToolLimits{1, 4, 40, kPi, 4 * kPi, 40 * kPi}};
+  Follower follower_{places_, planner_};
+  Joints q_, v_ = Joints::Zero(), a_ = Joints::Zero();
+};
+
+TEST(Disturbed_paths, Keep_all_limits_before_any_gate) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1);
+  const int many = setting("INDUROP_ROBOT_PATHS", 400);
+  int bad = 0;
+  for (int i = 0; i < many; ++i) {
+    const auto seed = static_cast<unsigned>(first + i);
+    const std::string broken = Disturbed(seed).run();
+    EXPECT_EQ(broken, "") << "seed " << seed;
+    bad += broken.empty() ? 0 : 1;
+  }
+  fmt::print("{} of {} break a limit\n", bad, many);
+}
+
+}  // namespace
+}  // namespace indurop::robot
