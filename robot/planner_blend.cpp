@@ -25,6 +25,21 @@ bool faster(const Segment& first, const Blend& blend, const Segment& second) noe
                                                   Profile::to_position({}, second.length, 0, second.limits).duration();
 }
 
+// How the tool moves and turns at full speed, in the base's frame.
+struct Heading {
+  Vec3 moving, turning;
+};
+
+// Of a line or circle, where it begins or ends.
+Heading heading(const Segment& s, bool at_end) noexcept {
+  const Vec3 turning = s.start.orientation * s.turn / s.length;
+  if (s.move != Move::Circle) {
+    return {(s.end.position - s.start.position) / s.length, turning};
+  }
+  const double angle = at_end ? s.angle : 0;
+  return {(std::cos(angle) * s.radius_y - std::sin(angle) * s.radius_x) * (s.angle / s.length), turning};
+}
+
 }  // namespace
 
 Blend Planner::blend(const Segment& first, const Segment& second) const noexcept {
@@ -54,10 +69,14 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
                   std::min(first.limits.acceleration, second.limits.acceleration),
                   std::min(first.limits.jerk, second.limits.jerk)};
   if (first.move != Move::Joint && second.move != Move::Joint) {
-    // The direction of the tool changes by at most this in one second at full speed.
-    const double change = first.pace() + second.pace();
-    const double bend = 1.5 * change / result.length();
-    most.velocity = std::min(most.velocity, std::sqrt(shared(tool_.acceleration / 2, bend)));
+    // What changes between the two, at full speed, changes that much as fast in the middle as on average.
+    constexpr double kMiddle = 5.0 / 3;
+    const Heading before = heading(first, true);
+    const Heading behind = heading(second, false);
+    const double bend = kMiddle * (behind.moving - before.moving).norm() / result.length();
+    const double turn = kMiddle * (behind.turning - before.turning).norm() / result.length();
+    most.velocity = std::min({most.velocity, std::sqrt(shared(tool_.acceleration / 2, bend)),
+                              std::sqrt(shared(tool_.turn_acceleration / 2, turn))});
   }
   result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints_, most);
   return faster(first, result, second) ? result : Blend{};

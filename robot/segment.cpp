@@ -39,9 +39,17 @@ Pose Segment::pose_at(double place) const noexcept {
 }
 
 void Blend::parts_at(double place, double& first, double& second) const noexcept {
-  // The second one's speed grows from 0 to 1 as 3u^2 - 2u^3, the first one's falls the same way.
+  // The second one's speed grows from 0 to 1, the first one's falls the same way: two fifths of the time with constant
+  // jerk, a fifth with constant acceleration, two fifths with jerk again.
   const double u = length() > 0 ? std::clamp(place / length(), 0.0, 1.0) : 1;
-  second = length() * u * u * u * (1 - u / 2);
+  const double at_end = std::min(u, 1 - u);
+  double part = 25.0 / 36 * at_end * at_end * at_end;
+  if (u > 0.4 && u < 0.6) {
+    part = 2.0 / 45 + (u - 0.4) * (1.0 / 3 + 5.0 / 6 * (u - 0.4));
+  } else if (u >= 0.6) {
+    part += u - 0.5;
+  }
+  second = length() * part;
   first = place - zone - second;
 }
 

@@ -182,6 +182,34 @@ TEST(Follower, Blended_lines_round_the_corner_without_stopping) {
   w.expect_kept();
 }
 
+TEST(Follower, A_slight_corner_with_a_zone_is_passed_at_full_speed) {
+  Watched w;
+  w.add(pose(Move::Joint, {0.5, -0.25, 0.4}));
+  w.run();
+  const double turn = radians(15);
+  MoveCommand first = pose(Move::Line, {0.5, 0, 0.4}, 0.03);
+  MoveCommand second = pose(Move::Line, Vec3(0.5, 0, 0.4) + 0.25 * Vec3(std::sin(turn), std::cos(turn), 0));
+  first.tool_speed = second.tool_speed = 0.5;
+  ASSERT_TRUE(w.add(first).ok());
+  ASSERT_TRUE(w.add(second).ok());
+  double slowest = 1;
+  double nearest = 1;
+  Vec3 before = w.arm.forward(w.sut.joints()).position;
+  while (!w.sut.idle()) {
+    w.step();
+    const Vec3 now = w.arm.forward(w.sut.joints()).position;
+    if (std::abs(now.y()) < 0.06) {
+      slowest = std::min(slowest, (now - before).norm() / 0.001);
+    }
+    nearest = std::min(nearest, (now - Vec3(0.5, 0, 0.4)).norm());
+    before = now;
+  }
+  // In the middle of the bend the tool takes the shorter way.
+  EXPECT_GT(slowest, 0.5 * std::cos(turn / 2) - 1e-4);
+  EXPECT_LT(nearest, 0.03 * std::sin(turn / 2));
+  w.expect_kept();
+}
+
 TEST(Follower, Override_hold_and_stop_at_any_instant_keep_the_limits) {
   std::mt19937 random(31);
   for (int round = 0; round < 60; ++round) {
