@@ -33,6 +33,13 @@ bool is_parameter(const Variable& variable, bool output) noexcept {
                 : variable.section == ast::Section::Input || variable.section == ast::Section::InOut;
 }
 
+// An array of as many dimensions and the same elements, whatever its bounds.
+bool fits_open(const Type& type, const Type& wanted) noexcept {
+  return type.kind == Type::Kind::Array && type.dimensions.size() == wanted.dimensions.size() &&
+         same_type(*type.element, *wanted.element) && in_range_of(*type.element, *wanted.element) &&
+         in_range_of(*wanted.element, *type.element);
+}
+
 bool has_body(const Pou& pou) noexcept {
   return !pou.tree->body.empty() || (pou.base != nullptr && has_body(*pou.base));
 }
@@ -260,6 +267,9 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
     context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
   }
   const Type& wanted = *parameter.type;
+  if (type != nullptr && wanted.open && fits_open(*type, wanted)) {
+    return;
+  }
   if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type)) &&
       !(type->kind == Type::Kind::Block && stands_for(*type, wanted))) {
     context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,

@@ -38,6 +38,7 @@ class CallChecker {
   const Type* library_function(ast::Expression& call, std::vector<const LibraryFunction*> overloads,
                                const Type* wanted);
   bool address_call(ast::Expression& call, const Type*& type);
+  const Type* bound_of(ast::Expression& call, bool lower);
   const Type* size_of(ast::Expression& call, ast::Expression& of);
   bool enumeration_call(ast::Expression& call, const Type*& type);
   const Pou* method_of(ast::Expression& callee, bool& said);

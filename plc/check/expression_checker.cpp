@@ -128,6 +128,10 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
   if (to.is_reference()) {
     return bind(expression, to);
   }
+  if (to.open) {
+    context_.error(expression.at, "an ARRAY[*] is not assigned as a whole, assign its elements");
+    return false;
+  }
   if (to.kind == Type::Kind::Interface) {
     return assigned_interface(expression, to);
   }
@@ -283,7 +287,7 @@ const Type* ExpressionChecker::index(Expression& expression) {
       continue;
     }
     const Bounds bounds = base->dimensions[i - 1];
-    const Constant* known = constant_of(one);
+    const Constant* known = base->open ? nullptr : constant_of(one);
     if (known != nullptr &&
         (std::get<Integer>(*known) < Integer{bounds.low} || std::get<Integer>(*known) > Integer{bounds.high})) {
       context_.error(

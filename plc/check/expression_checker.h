@@ -36,6 +36,8 @@ class ExpressionChecker {
   static const ast::Expression* through_pointer(const ast::Expression& expression) noexcept;
   // A REFERENCE TO, which is not followed: what REF= sets.
   const Type* reference_itself(ast::Expression& expression);
+  // Whether it lies in an ARRAY[*], with an error.
+  bool is_open(const ast::Expression& expression);
   // Makes the address of the variable of it.
   bool bind(ast::Expression& expression, const Type& to);
   // Assigns the result of a call that may have EN and ENO.

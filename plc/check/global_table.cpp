@@ -8,6 +8,7 @@
 
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
+#include "plc/check/object_checker.h"
 #include "plc/check/shared_names.h"
 #include "plc/check/type_builder.h"
 
@@ -75,8 +76,25 @@ std::string free_shared_name(const Program& program, const std::string& name) {
   return shared;
 }
 
+// What can only be given to a call, or be extended.
+bool is_no_variable(Context& context, const ast::Variable& variable, const Type& type) {
+  if (type.open) {
+    context.error(variable.at, kOpenArray);
+    return true;
+  }
+  const Type& one = type.kind == Type::Kind::Array ? *type.element : type;
+  if (one.kind == Type::Kind::Block && one.pou != nullptr && one.pou->tree->is_abstract) {
+    context.error(variable.at, abstract_instance(*one.pou));
+    return true;
+  }
+  return false;
+}
+
 void declare_one(Context& context, ast::Variable& variable, const Type& type) {
   Program& program = context.program;
+  if (is_no_variable(context, variable, type)) {
+    return;
+  }
   if (variable.name.empty()) {
     variable.name = name_of(*variable.address);
   }

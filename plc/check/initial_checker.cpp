@@ -66,6 +66,10 @@ bool ExpressionChecker::array_initial(ast::Initial& initial, const Type& type) {
 
 bool ExpressionChecker::struct_initial(ast::Initial& initial, const Type& type) {
   bool fine = true;
+  if (type.overlaps) {
+    context_.error(initial.at, "a UNION begins with zeros, assign its fields in the body");
+    return false;
+  }
   for (ast::InitialElement& element : initial.elements) {
     const Type* field_type = nullptr;
     for (const Field& field : type.fields) {

@@ -22,56 +22,6 @@ bool is_zero(const Expression& expression) noexcept {
   return known != nullptr && expression.resolved->untyped && *known == Constant(Integer{0});
 }
 
-const Type* pointer_to(Context& context, const Type& element, ast::PointerKind kind) {
-  Type type;
-  type.kind = Type::Kind::Pointer;
-  type.element = &element;
-  type.pointer = kind;
-  return context.program.types.add(std::move(type));
-}
-
-struct Extent {
-  std::uint64_t bytes = 0;
-  std::uint64_t alignment = 1;
-};
-
-// As the C++ of the program lays it out; none: function blocks.
-std::optional<Extent> extent_of(const Type& type) {
-  if (type.is_string()) {
-    return Extent{type.length + 1, 1};
-  }
-  if (type.kind <= Type::Kind::Enum) {
-    const std::uint64_t bytes = (bits_of(type.elementary) + 7) / 8;
-    return Extent{bytes, bytes};
-  }
-  if (type.kind == Type::Kind::Pointer) {
-    return Extent{24, 8};
-  }
-  if (type.kind == Type::Kind::Array) {
-    auto out = extent_of(*type.element);
-    for (const Bounds& one : type.dimensions) {
-      out = out ? std::optional(Extent{out->bytes * one.count(), out->alignment}) : std::nullopt;
-    }
-    return out;
-  }
-  if (type.kind != Type::Kind::Struct || !type.shared_name.empty()) {
-    return std::nullopt;
-  }
-  Extent sum;
-  const auto round = [&](std::uint64_t to) { sum.bytes = (sum.bytes + to - 1) / to * to; };
-  for (const Field& field : type.fields) {
-    const auto one = extent_of(*field.type);
-    if (!one) {
-      return std::nullopt;
-    }
-    round(one->alignment);
-    sum.bytes += one->bytes;
-    sum.alignment = std::max(sum.alignment, one->alignment);
-  }
-  round(sum.alignment);
-  return sum;
-}
-
 }  // namespace
 
 const Type* ExpressionChecker::deref(Expression& expression) {
@@ -119,7 +69,7 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
     return true;
   }
   const Type* type = reference(expression);
-  if (type == nullptr) {
+  if (type == nullptr || is_open(expression)) {
     return false;
   }
   if (to.element == nullptr || !stands_for(*type, *to.element)) {
@@ -213,60 +163,6 @@ const Type* ExpressionChecker::pointer_comparison(Expression& expression) {
   }
   resolved(expression).operand = a.type->kind == kind ? a.type : b.type;
   return context_.elementary(Elementary::Bool);
-}
-
-// ADR(x), REF(x), SIZEOF(x), __ISVALIDREF(r). False: it is nothing of these. Null as the type: after an error.
-bool CallChecker::address_call(Expression& call, const Type*& type) {
-  const std::string name = upper(call.operands[0].name);
-  const bool adr = name == "ADR" || name == "REF";
-  if (!adr && name != "SIZEOF" && name != "__ISVALIDREF") {
-    return false;
-  }
-  type = nullptr;
-  if (call.arguments.size() != 1 || !call.arguments[0].value || call.arguments[0].output) {
-    context_.error(call.at, fmt::format("{} takes one variable", name));
-    return true;
-  }
-  Expression& of = *call.arguments[0].value;
-  Resolved& out = ExpressionChecker::resolved(call);
-  if (adr) {
-    const Type* found = expressions_.reference(of);
-    out.intrinsic = Resolved::Intrinsic::Address;
-    type = found == nullptr
-               ? nullptr
-               : pointer_to(context_, *found, name == "ADR" ? ast::PointerKind::PointerTo : ast::PointerKind::RefTo);
-  } else if (name == "SIZEOF") {
-    type = size_of(call, of);
-  } else {
-    const Type* found = expressions_.reference_itself(of);
-    if (found != nullptr && found->kind != Type::Kind::Pointer) {
-      context_.error(of.at, fmt::format("{} is no reference", with_article(*found)));
-      return true;
-    }
-    out.intrinsic = Resolved::Intrinsic::IsValid;
-    type = found == nullptr ? nullptr : context_.elementary(Elementary::Bool);
-  }
-  return true;
-}
-
-const Type* CallChecker::size_of(Expression& call, Expression& of) {
-  const auto elementary = of.kind == Expression::Kind::Name ? elementary_named(of.name) : std::nullopt;
-  const Type* found = elementary ? context_.elementary(*elementary) : expressions_.typed(of, nullptr);
-  if (found == nullptr && of.resolved && of.resolved->meaning == Meaning::Type) {
-    found = of.type;
-  }
-  if (found == nullptr) {
-    return nullptr;
-  }
-  Resolved& out = ExpressionChecker::resolved(call);
-  out.intrinsic = Resolved::Intrinsic::Size;
-  out.operand = found;
-  if (const auto extent = extent_of(*found)) {
-    out.constant = Integer{extent->bytes};
-    out.untyped = true;
-    return context_.elementary(default_type(*out.constant));
-  }
-  return context_.elementary(Elementary::Udint);
 }
 
 }  // namespace indurop::plc

@@ -22,6 +22,10 @@ const Type& innermost(const Type& type) noexcept {
   return inside ? innermost(*type.element) : type;
 }
 
+const Type& innermost_array(const Type& type) noexcept {
+  return type.kind == Type::Kind::Pointer && type.element != nullptr ? innermost_array(*type.element) : type;
+}
+
 // Whose variables lie in one of the type.
 const Pou* held(const Type& type) noexcept {
   return type.kind == Type::Kind::Array ? held(*type.element) : type.kind == Type::Kind::Block ? type.pou : nullptr;
@@ -93,6 +97,10 @@ class VariableDeclarer {
     const bool is_block = is_instance(type);
     if (is_block) {
       check_instance(declared, type);
+    }
+    const bool given = declared.section == Section::InOut && pou_.tree->kind != ast::Pou::Kind::Program;
+    if (innermost_array(type).open && !(given && type.open)) {
+      context_.error(declared.at, kOpenArray);
     }
     if (declared.of_instance && pou_.owner == nullptr) {
       context_.error(declared.at, "VAR_INST is for methods, use VAR");
@@ -235,6 +243,9 @@ namespace {
 void check_result(Context& context, const Pou& pou) {
   if (pou.result != nullptr && is_instance(*pou.result)) {
     context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
+  }
+  if (pou.result != nullptr && pou.result->open) {
+    context.error(pou.tree->result->at, kOpenArray);
   }
 }
 

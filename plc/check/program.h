@@ -129,7 +129,7 @@ struct Resolved {
   bool is_output = false;            // Member of an instance: one of its outputs
 
   // Call
-  enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid };
+  enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid, LowerBound, UpperBound };
   Intrinsic intrinsic = Intrinsic::None;      // ADR() and REF(), SIZEOF(), __ISVALIDREF()
   bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for

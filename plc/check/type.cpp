@@ -23,7 +23,8 @@ std::string to_string(const Type& type) {
   if (type.kind == Type::Kind::Array) {
     std::string bounds;
     for (const Bounds& one : type.dimensions) {
-      bounds += fmt::format("{}{}..{}", bounds.empty() ? "" : ",", one.low, one.high);
+      bounds += bounds.empty() ? "" : ",";
+      bounds += type.open ? "*" : fmt::format("{}..{}", one.low, one.high);
     }
     return fmt::format("ARRAY[{}] OF {}", bounds, to_string(*type.element));
   }
@@ -60,7 +61,7 @@ bool same_type(const Type& a, const Type& b) noexcept {
     case Type::Kind::Elementary:
       return a.elementary == b.elementary && a.length == b.length;
     case Type::Kind::Array:
-      return same_bounds(a, b) && same_type(*a.element, *b.element);
+      return a.open == b.open && same_bounds(a, b) && same_type(*a.element, *b.element);
     case Type::Kind::Block:
     case Type::Kind::Interface:
       return a.pou == b.pou && a.block == b.block;
@@ -111,8 +112,9 @@ bool is_private(const Type& type) noexcept {
     return is_private(*type.element);
   }
   return type.kind == Type::Kind::Block || type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface ||
-         std::any_of(type.fields.begin(), type.fields.end(),
-                     [](const Field& field) { return is_private(*field.type); });
+         type.overlaps || std::any_of(type.fields.begin(), type.fields.end(), [](const Field& field) {
+           return is_private(*field.type);
+         });
 }
 
 const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept {
@@ -192,6 +194,7 @@ const Type* TypeTable::string(std::size_t length) {
 
 Type* TypeTable::add(Type type) {
   has_pointers_ = has_pointers_ || type.kind == Type::Kind::Pointer;
+  has_aliases_ = has_aliases_ || has_pointers_ || type.overlaps;
   return &types_.emplace_back(std::move(type));
 }
 

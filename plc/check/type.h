@@ -52,6 +52,8 @@ struct Type {
   std::size_t length = 0;                   // STRING: most characters
   std::optional<Bounds> range;              // subrange
   std::vector<Field> fields;                // Struct
+  bool overlaps = false;                    // Struct: a UNION
+  bool open = false;                        // Array: [*], the bounds are those of what is given; only as VAR_IN_OUT
   std::vector<EnumItem> items;              // Enum
   std::vector<Bounds> dimensions;           // Array
   const Type* element = nullptr;            // Array, Pointer
@@ -83,7 +85,7 @@ struct Type {
 [[nodiscard]] bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept;
 // The one of both that the other widens to; null if there is none. Texts: the longer one.
 [[nodiscard]] const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept;
-// Whether function blocks, interfaces or pointers are in it, which no other module can share.
+// Whether function blocks, interfaces, pointers or unions are in it, which no other module can share.
 [[nodiscard]] bool is_private(const Type& type) noexcept;
 // Number of elementary values, those of arrays counted; saturates.
 [[nodiscard]] std::uint64_t parts_of(const Type& type) noexcept;
@@ -106,12 +108,15 @@ class TypeTable {
   }
   [[nodiscard]] const Type* string(std::size_t length);
   [[nodiscard]] bool has_pointers() const noexcept { return has_pointers_; }
+  // Whether the bytes of a variable are seen as values of several types.
+  [[nodiscard]] bool has_aliases() const noexcept { return has_aliases_; }
   // A new type; the address stays.
   Type* add(Type type);
 
  private:
   std::deque<Type> types_;
   bool has_pointers_ = false;
+  bool has_aliases_ = false;
   std::vector<const Type*> elementary_;
   std::map<std::size_t, const Type*> strings_;
 };

@@ -31,6 +31,27 @@ std::string whose(const std::string& name) {
   return ", declare it";
 }
 
+// Why another field may not lie at the place of one of the type, "" if it may: any bytes have to be a value of it.
+std::string why_no_overlap(const Type& type) {
+  if (type.kind == Type::Kind::Array) {
+    return why_no_overlap(*type.element);
+  }
+  if (type.is(Elementary::Bool)) {
+    return "a UNION has no BOOL and no BIT, which would get values that are neither TRUE nor FALSE; use bits: x.w.3";
+  }
+  if (type.kind == Type::Kind::Pointer || type.kind == Type::Kind::Interface || type.kind == Type::Kind::Block) {
+    return fmt::format("a UNION cannot contain {}, which would get values that lead nowhere", with_article(type));
+  }
+  if (type.range) {
+    return "a UNION has no subrange, whose values nobody would check; use its base type";
+  }
+  std::string why;
+  for (const Field& field : type.fields) {
+    why = why.empty() ? why_no_overlap(*field.type) : why;
+  }
+  return why;
+}
+
 class TypeBuilder {
  public:
   explicit TypeBuilder(Context& context) : context_(context), expressions_(context) {}
@@ -127,12 +148,25 @@ class TypeBuilder {
     Type type;
     type.kind = Type::Kind::Array;
     type.element = build(*spec.element, "");
+    if (spec.open) {
+      type.open = true;
+      type.dimensions.resize(spec.dimensions.size());
+      const bool nested = type.element != nullptr && type.element->kind == Type::Kind::Array;
+      if (nested) {
+        context_.error(spec.at, "ARRAY[*] OF ARRAY, use ARRAY[*, *]");
+      }
+      return type.element == nullptr || nested ? nullptr : context_.program.types.add(std::move(type));
+    }
     for (ast::Dimension& one : spec.dimensions) {
       const auto bounds = range(one, "a bound of an array");
       if (!bounds || type.element == nullptr) {
         return nullptr;
       }
       type.dimensions.push_back(*bounds);
+    }
+    if (type.element->open) {
+      context_.error(spec.at, kOpenArray);
+      return nullptr;
     }
     if (type.element->kind == Type::Kind::Array) {  // ARRAY OF ARRAY is indexed a[i][j]; that is what it stays
       const bool deep =
@@ -186,11 +220,13 @@ class TypeBuilder {
 
   const Type* structure(ast::TypeSpec& spec, const std::string& name) {
     if (name.empty()) {
-      context_.error(spec.at, "a STRUCT needs a name, declare it between TYPE and END_TYPE");
+      context_.error(spec.at, fmt::format("a {} needs a name, declare it between TYPE and END_TYPE",
+                                          spec.overlaps ? "UNION" : "STRUCT"));
       return nullptr;
     }
     Type type;
     type.kind = Type::Kind::Struct;
+    type.overlaps = spec.overlaps;
     type.name = name;
     bool fine = true;
     for (ast::Variable& field : spec.fields) {
@@ -205,6 +241,16 @@ class TypeBuilder {
       }
       if (one->kind == Type::Kind::Block) {
         context_.error(field.at, "a STRUCT cannot contain function blocks, use a FUNCTION_BLOCK instead of the STRUCT");
+        fine = false;
+      }
+      if (one->open) {
+        context_.error(field.at, kOpenArray);
+        fine = false;
+      }
+      if (const std::string why = spec.overlaps ? why_no_overlap(*one) : "";
+          !why.empty() || (spec.overlaps && field.initial)) {
+        context_.error(
+            field.at, why.empty() ? "a field of a UNION has no initial value, because the others have its place" : why);
         fine = false;
       }
       const bool valid = !field.initial || expressions_.initial(*field.initial, *one);

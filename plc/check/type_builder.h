@@ -9,6 +9,9 @@
 
 namespace indurop::plc {
 
+inline constexpr const char* kOpenArray =
+    "ARRAY[*] is for VAR_IN_OUT of functions, methods and function blocks only, write the bounds";
+
 // Declares all types of the project, in any order of the text, and the function blocks as types.
 void declare_types(Context& context);
 // The type of a declaration, with the name it gets; null after an error.

@@ -78,6 +78,10 @@ class TypeOrder {
 
   const Type* build_named(ast::TypeDeclaration& one) {
     const Type* type = build_type(context_, one.type, one.name);
+    if (type != nullptr && type->open) {
+      context_.error(one.at, kOpenArray);
+      return nullptr;
+    }
     if (type == nullptr || !one.initial || !ExpressionChecker(context_).initial(*one.initial, *type)) {
       return type;
     }

@@ -102,7 +102,8 @@ ValueTree initial_value(const Type& type, const ast::Initial* initial) {
       return leaf(known != nullptr ? *known : Constant(Integer{type.items.front().value}));
     }
     case Type::Kind::Struct:
-      return structure(type, initial != nullptr && initial->kind == Kind::Struct ? initial : nullptr);
+      return type.overlaps ? zero()
+                           : structure(type, initial != nullptr && initial->kind == Kind::Struct ? initial : nullptr);
     case Type::Kind::Array: {
       std::uint64_t count = 1;
       for (const Bounds& one : type.dimensions) {

@@ -58,6 +58,17 @@ std::string ExpressionEmitter::run(const Expression& callee, const std::string& 
   return super ? cpp_type(*callee.type) + "::operator()" : instance;
 }
 
+std::string ExpressionEmitter::slice(const Expression& expression, const Type& to) const {
+  if (expression.type->open) {
+    return raw(expression);
+  }
+  std::string bounds;
+  for (const Bounds& one : expression.type->dimensions) {
+    bounds += fmt::format("{}{{{}, {}}}", bounds.empty() ? "" : ", ", one.low, one.high);
+  }
+  return fmt::format("{}({}, {{{{{}}}}})", cpp_type(to), raw(expression), bounds);
+}
+
 std::string ExpressionEmitter::user_call(const Expression& expression) const {
   std::string arguments;
   std::string before;
@@ -69,7 +80,7 @@ std::string ExpressionEmitter::user_call(const Expression& expression) const {
       const auto& initial = one.parameter->declared->initial;
       text = given ? value(*one.argument->value, *one.type) : default_value(*one.type, initial ? &*initial : nullptr);
     } else if (one.parameter->section == ast::Section::InOut && given) {
-      text = raw(*one.argument->value);
+      text = one.type->open ? slice(*one.argument->value, *one.type) : raw(*one.argument->value);
     } else if (!given) {
       text = fmt::format("iec::scratch<{}>()", cpp_type(*one.type));
     } else {

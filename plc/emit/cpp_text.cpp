@@ -165,6 +165,9 @@ std::string cpp_type(const Type& type) {
       return fmt::format("iec::Pointer<{}>", cpp_type(*type.element));
     case Type::Kind::Array: {
       std::string text = cpp_type(*type.element);
+      if (type.open) {
+        return fmt::format("iec::Slice<{}, {}>", text, type.dimensions.size());
+      }
       for (auto one = type.dimensions.rbegin(); one != type.dimensions.rend(); ++one) {
         text = fmt::format("std::array<{}, {}>", text, one->count());
       }

@@ -163,7 +163,7 @@ std::string ExpressionEmitter::name(const Expression& expression) const {
   const std::string text = variable.declared->of_instance
                                ? kept_name(variable)
                                : (expression.of_this ? "this->" : "") + cpp_name(std::string_view(variable.name));
-  if (variable.section == ast::Section::InOut && !variable.owner->is_callable()) {
+  if (variable.section == ast::Section::InOut && !variable.owner->is_callable() && !variable.type->open) {
     return "(*" + text + ")";
   }
   return variable.declared->edge == ast::Edge::None ? text : text + "_edge";
@@ -183,6 +183,9 @@ std::string ExpressionEmitter::member(const Expression& expression) const {
     return cpp_constant(*constant_of(expression), *expression.type, true);
   }
   const Type& base = *expression.operands[0].type;
+  if (base.overlaps) {
+    return fmt::format("iec::overlaid<{}>({})", cpp_type(*expression.type), raw(expression.operands[0]));
+  }
   const bool as_is = base.kind == Type::Kind::Struct || base.block != nullptr;
   return raw(expression.operands[0]) + "." + (as_is ? expression.name : cpp_name(std::string_view(expression.name)));
 }
@@ -191,6 +194,12 @@ std::string ExpressionEmitter::member(const Expression& expression) const {
 std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
   const Resolved& resolved = *expression.resolved;
   const Expression& of = *expression.arguments[0].value;
+  if (resolved.intrinsic >= Resolved::Intrinsic::LowerBound) {
+    return resolved.constant ? cpp_constant(*resolved.constant, *expression.type, true)
+                             : fmt::format("{}.{}({}, {})", raw(of),
+                                           resolved.intrinsic == Resolved::Intrinsic::LowerBound ? "low" : "high",
+                                           place(expression.at), value(*expression.arguments[1].value));
+  }
   if (resolved.intrinsic == Resolved::Intrinsic::Size) {
     return fmt::format("static_cast<std::uint32_t>(sizeof({}))", cpp_type(*resolved.operand));
   }
@@ -225,6 +234,13 @@ std::string ExpressionEmitter::index(const Expression& expression) const {
     return index_through_pointer(expression);
   }
   std::string text = raw(expression.operands[0]);
+  if (array.open) {
+    text += fmt::format(".at({}", place(expression.at));
+    for (std::size_t i = 1; i < expression.operands.size(); ++i) {
+      text += fmt::format(", static_cast<std::int64_t>({})", value(expression.operands[i]));
+    }
+    return text + ")";
+  }
   for (std::size_t i = 1; i < expression.operands.size(); ++i) {
     text += "[" + one_index(expression.operands[i], array.dimensions[i - 1]) + "]";
   }

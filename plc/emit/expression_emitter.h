@@ -24,6 +24,8 @@ class ExpressionEmitter {
   [[nodiscard]] std::string variable(const ast::Expression& expression) const { return raw(expression); }
   // The body of an instance, whose text is `instance`: that of SUPER^ is exactly that.
   [[nodiscard]] std::string run(const ast::Expression& callee, const std::string& instance) const;
+  // A variable as an ARRAY[*] of a call, whose type is `to`.
+  [[nodiscard]] std::string slice(const ast::Expression& expression, const Type& to) const;
   // "x = value" for an output of a call, converted; `text` is the output.
   [[nodiscard]] std::string assign_output(const ast::Argument& argument, const std::string& text,
                                           const Type& from) const;

@@ -34,7 +34,7 @@ class ModuleEmitter {
 
   std::string run() {
     out_.line("// Written by indurop plc from " + comment_text(options_.sources) + ": change that, not this.");
-    if (program_.types.has_pointers()) {
+    if (program_.types.has_aliases()) {
       out_.line("#pragma GCC optimize(\"no-strict-aliasing\")  // pointers lead to values of other types");
     }
     out_.line("#include <indurop/indurop.h>");
@@ -116,6 +116,14 @@ class ModuleEmitter {
 
   // copy_fields() knows every struct that has the same field names.
   void structure(const Type& type, const std::string& name) {
+    if (type.overlaps) {
+      std::string parts;
+      for (const Field& field : type.fields) {
+        parts += (parts.empty() ? "" : ", ") + cpp_type(*field.type);
+      }
+      out_.line(fmt::format("struct {} : iec::Overlap<{}> {{}};", name, parts));
+      return;
+    }
     out_.open("struct " + name);
     std::string fields;
     for (const Field& field : type.fields) {

@@ -76,8 +76,9 @@ std::string parameters(const Pou& pou) {
   std::string out;
   for (const Variable& one : pou.variables) {
     if (is_parameter(one)) {
-      out += fmt::format("{}[[maybe_unused]] {}{} {}", out.empty() ? "" : ", ", cpp_type(*one.type),
-                         one.section == Section::Input ? "" : "&", cpp_name(std::string_view(one.name)));
+      out +=
+          fmt::format("{}[[maybe_unused]] {}{} {}", out.empty() ? "" : ", ", cpp_type(*one.type),
+                      one.section == Section::Input || one.type->open ? "" : "&", cpp_name(std::string_view(one.name)));
     }
   }
   return out;

@@ -38,7 +38,9 @@ void members(const Pou& pou, TextWriter& out) {
     }
     const std::string comment =
         one.declared->comment.empty() ? std::string() : "  // " + comment_text(one.declared->comment);
-    if (one.section == Section::InOut) {
+    if (one.section == Section::InOut && one.type->open) {
+      out.line(fmt::format("{} {};{}", cpp_type(*one.type), name_of(one), comment));
+    } else if (one.section == Section::InOut) {
       out.line(fmt::format("{}* {} = nullptr;{}", cpp_type(*one.type), name_of(one), comment));
     } else if (one.is_constant && one.section == Section::Local) {
       out.line("static inline const " + declaration(one) + comment);

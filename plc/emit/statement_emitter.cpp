@@ -158,6 +158,10 @@ void StatementEmitter::block_call(const Expression& call) {
     }
     const std::string member = one.parameter != nullptr ? cpp_name(std::string_view(one.member)) : one.member;
     const bool by_reference = one.parameter != nullptr && one.parameter->section == ast::Section::InOut;
+    if (by_reference && one.type->open) {
+      out_.line(fmt::format("{}.{} = {};", instance, member, expressions_.slice(*one.argument->value, *one.type)));
+      continue;
+    }
     out_.line(by_reference
                   ? fmt::format("{}.{} = &{};", instance, member, expressions_.variable(*one.argument->value))
                   : fmt::format("{}.{} = {};", instance, member, expressions_.value(*one.argument->value, *one.type)));

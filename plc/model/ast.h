@@ -207,6 +207,8 @@ struct TypeSpec {
   PointerKind pointer = PointerKind::PointerTo;
   std::optional<Dimension> range;
   std::vector<Variable> fields;
+  bool overlaps = false;  // Struct: a UNION, whose fields lie at one place
+  bool open = false;      // Array: [*], as many dimensions as there are, which have no bounds
   std::vector<EnumValue> values;
 };
 

@@ -45,7 +45,8 @@ bool DeclarationParser::at_variables() const {
 void DeclarationParser::recover(std::string_view end) {
   while (!in_.at_end() && !in_.peek().is(end)) {
     const bool other_end = in_.peek().kind == TokenKind::Word && in_.peek().text.size() > 4 &&
-                           same_name(in_.peek().text.substr(0, 4), "END_") && !in_.peek().is("END_STRUCT");
+                           same_name(in_.peek().text.substr(0, 4), "END_") && !in_.peek().is("END_STRUCT") &&
+                           !in_.peek().is("END_UNION");
     if (other_end || in_.take().is(";")) {
       return;
     }

@@ -39,7 +39,7 @@ class DeclarationParser {
   [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
   [[nodiscard]] bool pointer(ast::TypeSpec& out);
   [[nodiscard]] bool array(ast::TypeSpec& out);
-  [[nodiscard]] bool structure(ast::TypeSpec& out);
+  [[nodiscard]] bool structure(ast::TypeSpec& out, std::string_view end);
   [[nodiscard]] bool enumeration(ast::TypeSpec& out);
   [[nodiscard]] bool dimension(ast::Dimension& out);
   [[nodiscard]] bool string_length(ast::TypeSpec& out);

@@ -23,12 +23,14 @@ std::optional<ast::TypeSpec> DeclarationParser::type() {
   if (in_.accept("ARRAY")) {
     ok = array(out);
   } else if (in_.accept("STRUCT")) {
-    ok = structure(out);
+    out.overlaps = in_.peek(1).kind == TokenKind::Word && in_.accept("OVERLAP");
+    ok = structure(out, "END_STRUCT");
   } else if (token.is("(")) {
     ok = enumeration(out);
   } else if (in_.peek().is("UNION") && in_.peek(1).kind == TokenKind::Word) {
-    in_.unsupported(token, "UNION is not supported, use parts of bit strings (w.%B1) or a pointer to the other type");
-    in_.skip_behind("END_UNION");
+    in_.take();
+    out.overlaps = true;
+    ok = structure(out, "END_UNION");
   } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
     in_.unsupported(token, fmt::format("{} is not supported, use STRING", token.text));
   } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
@@ -118,8 +120,13 @@ bool DeclarationParser::array(ast::TypeSpec& out) {
     return false;
   }
   do {
-    if (in_.peek().is("*")) {
-      in_.unsupported(in_.peek(), "ARRAY[*] is not supported, use a pointer to an array, and its SIZEOF()");
+    if (in_.accept("*")) {
+      out.open = true;
+      out.dimensions.emplace_back();
+      continue;
+    }
+    if (out.open) {
+      in_.error(in_.peek(), "either all bounds of an array are *, or none");
       return false;
     }
     if (!dimension(out.dimensions.emplace_back())) {
@@ -137,18 +144,18 @@ bool DeclarationParser::array(ast::TypeSpec& out) {
   return true;
 }
 
-bool DeclarationParser::structure(ast::TypeSpec& out) {
+bool DeclarationParser::structure(ast::TypeSpec& out, std::string_view end) {
   out.kind = ast::TypeSpec::Kind::Struct;
-  while (!in_.at_end() && !in_.peek().is("END_STRUCT")) {
+  while (!in_.at_end() && !in_.peek().is(end)) {
     const std::size_t from = in_.position();
     if (!declaration({}, out.fields)) {
-      recover("END_STRUCT");
+      recover(end);
     }
     if (in_.position() == from) {
       break;
     }
   }
-  return in_.expect("END_STRUCT", fmt::format("to close the STRUCT of line {}", out.at.line));
+  return in_.expect(end, fmt::format("to close the {} of line {}", end.substr(4), out.at.line));
 }
 
 bool DeclarationParser::enumeration(ast::TypeSpec& out) {

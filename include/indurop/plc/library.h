@@ -18,6 +18,7 @@
 #include <indurop/plc/pointer.h>
 #include <indurop/plc/scan.h>
 #include <indurop/plc/select.h>
+#include <indurop/plc/slice.h>
 #include <indurop/plc/text.h>
 #include <indurop/plc/text_read.h>
 #include <indurop/plc/text_write.h>

@@ -7,7 +7,9 @@
 #include <indurop/plc/clock.h>
 #include <indurop/plc/types.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -81,6 +83,22 @@ class Loop {
   T high_ = std::numeric_limits<T>::max();
   bool over_ = false;
 };
+
+// A UNION: bytes that are the place of all its fields. The code that uses it is compiled without strict aliasing.
+template <class... Fields>
+struct Overlap {
+  static constexpr std::size_t kBytes = std::max({sizeof(Fields)...});
+  alignas(std::max({alignof(Fields)...})) std::array<unsigned char, kBytes> bytes{};
+  friend bool operator==(const Overlap&, const Overlap&) = default;
+};
+template <class Field, class Union>
+auto& overlaid(Union& value) noexcept {
+  if constexpr (std::is_const_v<Union>) {
+    return reinterpret_cast<const Field&>(value.bytes);
+  } else {
+    return reinterpret_cast<Field&>(value.bytes);
+  }
+}
 
 // For an output that the caller does not want.
 template <class T>

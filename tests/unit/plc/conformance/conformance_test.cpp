@@ -85,7 +85,8 @@ TEST(PlcFaults, Name_their_place) {
         Row{16, "faults.st:67:9: a pointer that is NULL is used in Main"},
         Row{17, "faults.st:68:18: a pointer that is NULL is used in Main"},
         Row{18, "faults.st:69:9: a method of an interface variable that is NULL is called in Main"},
-        Row{19, "faults.st:81:8: more than 100 calls of methods inside each other (recursion) in Ring.Step"}}) {
+        Row{19, "faults.st:82:8: more than 100 calls of methods inside each other (recursion) in Ring.Step"},
+        Row{20, "faults.st:90:14: index 4 is outside of 1..3 in Element"}}) {
     EXPECT_EQ(fault_of(which), text) << which;
   }
 }

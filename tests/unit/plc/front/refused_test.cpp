@@ -202,19 +202,61 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
   };
   const std::string main =
       "PROGRAM Main VAR m : Motor; i : INT; END_VAR i := m.Speed; i := m.Go(x := 3); Space.F(i); END_PROGRAM\n";
-  for (const auto& [text, message] :
-       {Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
-            "WSTRING is not"},
-        Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION", "VAR_ACCESS is not"},
-        Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",
-            "NAMESPACE is not"},
-        Row{"TYPE Motor : UNION w : WORD; b : ARRAY[0..1] OF BYTE; END_UNION END_TYPE", "UNION is not"},
-        Row{"FUNCTION F : INT VAR_IN_OUT a : ARRAY[*] OF INT; END_VAR F := a[1]; END_FUNCTION", "ARRAY[*] is not"}}) {
+  for (const auto& [text, message] : {
+           Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
+               "WSTRING is not"},
+           Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION",
+               "VAR_ACCESS is not"},
+           Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",
+               "NAMESPACE is not"},
+       }) {
     const Compiled sut = compiled(main + text + "\n");
     EXPECT_FALSE(sut.ok) << text;
     EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));
   }
+}
+
+TEST(PlcRefused, A_UNION_holds_only_what_any_bytes_are_a_value_of) {
+  const auto with = [](const std::string& field) {
+    return wrong("TYPE U : UNION w : WORD; " + field +
+                 " END_UNION END_TYPE PROGRAM Main VAR x : U; END_VAR x.w := 1; END_PROGRAM");
+  };
+  EXPECT_EQ(with("b : ARRAY[0..1] OF BYTE;"), "");
+  EXPECT_THAT(with("b : BOOL;"), HasSubstr("a UNION has no BOOL and no BIT"));
+  EXPECT_THAT(with("b : ARRAY[0..1] OF BOOL;"), HasSubstr("a UNION has no BOOL and no BIT"));
+  EXPECT_THAT(with("p : POINTER TO INT;"), HasSubstr("a UNION cannot contain a POINTER TO INT"));
+  EXPECT_THAT(with("i : INT (0..5);"), HasSubstr("a UNION has no subrange"));
+  EXPECT_THAT(with("i : INT := 5;"), HasSubstr("a field of a UNION has no initial value"));
+  EXPECT_THAT(wrong("TYPE U : UNION w : WORD; END_UNION END_TYPE PROGRAM Main VAR x : U := (w := 1); END_VAR x.w := 1; "
+                    "END_PROGRAM"),
+              HasSubstr("a UNION begins with zeros"));
+}
+
+TEST(PlcRefused, An_array_without_bounds_is_seen_by_what_it_is_given_to_only) {
+  const auto function = [](const std::string& variables, const std::string& code = "F := 1;") {
+    return wrong("FUNCTION F : INT VAR_IN_OUT a : ARRAY[*] OF INT; END_VAR " + variables + " " + code +
+                 " END_FUNCTION PROGRAM Main VAR l : ARRAY[1..3] OF INT; d : ARRAY[1..3] OF DINT; i : INT; END_VAR i "
+                 ":= F(l); END_PROGRAM");
+  };
+  const std::string rule = "ARRAY[*] is for VAR_IN_OUT of functions, methods and function blocks only";
+  EXPECT_EQ(function("", "F := a[LOWER_BOUND(a, 1)];"), "");
+  EXPECT_THAT(function("VAR b : ARRAY[*] OF INT; END_VAR"), HasSubstr(rule));
+  EXPECT_THAT(function("VAR_INPUT b : ARRAY[*] OF INT; END_VAR"), HasSubstr(rule));
+  EXPECT_THAT(function("VAR p : POINTER TO ARRAY[*] OF INT; END_VAR"), HasSubstr(rule));
+  EXPECT_THAT(function("", "F := a[1, 2];"), HasSubstr("ARRAY[*] OF INT needs 1 indices, not 2"));
+  EXPECT_THAT(function("", "F := LOWER_BOUND(a, 2);"), HasSubstr("the dimensions of ARRAY[*] OF INT are 1 to 1"));
+  EXPECT_THAT(function("VAR p : POINTER TO INT; END_VAR", "p := ADR(a[1]);"),
+              HasSubstr("elements of an ARRAY[*] have no address"));
+  EXPECT_THAT(function("VAR p : REFERENCE TO INT; END_VAR", "p REF= a[1];"),
+              HasSubstr("elements of an ARRAY[*] have no address"));
+  EXPECT_THAT(function("VAR b : ARRAY[1..3] OF INT; END_VAR", "a := b;"),
+              HasSubstr("an ARRAY[*] is not assigned as a whole"));
+  EXPECT_THAT(function("VAR b : ARRAY[1..3] OF INT; END_VAR", "b := a;"), HasSubstr("is not an ARRAY[1..3] OF INT"));
+  EXPECT_THAT(function("VAR n : DINT; END_VAR", "n := SIZEOF(a);"), HasSubstr("an ARRAY[*] has no size known now"));
+  EXPECT_THAT(wrong("FUNCTION F : INT VAR_IN_OUT a : ARRAY[*] OF INT; END_VAR F := a[1]; END_FUNCTION\n"
+                    "PROGRAM Main VAR d : ARRAY[1..3] OF DINT; i : INT; END_VAR i := F(d); END_PROGRAM"),
+              HasSubstr("a is VAR_IN_OUT and needs a variable of type ARRAY[*] OF INT"));
 }
 
 TEST(PlcRefused, A_place_inside_of_an_array_is_not_a_second_variable) {
