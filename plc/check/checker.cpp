@@ -6,6 +6,7 @@
 #include "plc/check/constant_order.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
+#include "plc/check/namespaces.h"
 #include "plc/check/object_checker.h"
 #include "plc/check/pou_checker.h"
 #include "plc/check/shared_names.h"
@@ -43,6 +44,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   program->foreign = std::move(options.foreign);
   program->space = std::move(options.space);
   Context context{*program, diagnostics};
+  resolve_namespaces(program->project, diagnostics);
   check_identifiers(context);
   declare_pous(context);
   declare_objects(context);

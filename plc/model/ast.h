@@ -232,6 +232,18 @@ struct Variable {
   std::string comment;
 };
 
+// The name of another declaration, where it is needed.
+struct NameAt {
+  Place at;
+  std::string name;
+};
+
+// NAMESPACE A.B, and what USING names there.
+struct Scope {
+  std::string space;
+  std::vector<NameAt> uses;
+};
+
 // TYPE name : type := initial; END_TYPE
 struct TypeDeclaration {
   Place at;
@@ -239,12 +251,7 @@ struct TypeDeclaration {
   TypeSpec type;
   std::optional<Initial> initial;
   std::string comment;
-};
-
-// The name of another declaration, where it is needed.
-struct NameAt {
-  Place at;
-  std::string name;
+  Scope scope;
 };
 
 // What a PROPERTY is read and written by; both are methods with its name.
@@ -259,6 +266,7 @@ struct Pou {
   std::optional<TypeSpec> result;  // Function, Method
   std::vector<Variable> variables;
   Body body;
+  Scope scope;
 
   // FunctionBlock, Class, Interface, Method
   bool is_abstract = false;

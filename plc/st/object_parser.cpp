@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object orientation of the third edition: METHOD, PROPERTY (of CODESYS), CLASS, INTERFACE, and the words in the first
-// line of a POU.
+// Object orientation of the third edition: METHOD, PROPERTY (of CODESYS), CLASS, INTERFACE, the words in the first line
+// of a POU; NAMESPACE.
 
 #include "plc/st/project_parser.h"
 
@@ -39,17 +39,9 @@ void ProjectParser::modifiers(ast::Pou& out) {
 void ProjectParser::inheritance(ast::Pou& out) {
   while (in_.next_is({"EXTENDS", "IMPLEMENTS"}) && in_.peek(1).kind == TokenKind::Word) {
     std::vector<ast::NameAt>& to = in_.take().is("EXTENDS") ? out.bases : out.interfaces;
-    do {
-      ast::NameAt one;
-      one.at = in_.here();
-      if (!name(one.name, "a function block, class or interface")) {
-        return;
-      }
-      while (in_.accept(".")) {
-        one.name += "." + std::string(in_.take().text);
-      }
-      to.push_back(std::move(one));
-    } while (in_.accept(","));
+    if (!names(to, "a function block, class or interface")) {
+      return;
+    }
   }
 }
 
@@ -176,6 +168,7 @@ void ProjectParser::object(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   modifiers(out);
   out.at = in_.here();
   const bool ok = name(out.name, kind == ast::Pou::Kind::Class ? "a class" : "an interface");
+  uses(out);
   inheritance(out);
   in_.accept(";");
   while (!in_.at_end() && !in_.peek().is(end)) {
@@ -198,6 +191,68 @@ void ProjectParser::object(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   if (ok) {
     to.push_back(std::move(out));
   }
+}
+
+// NAMESPACE INTERNAL A.B USING C; ... END_NAMESPACE
+void ProjectParser::space(Project& out) {
+  const Token& word = in_.take();
+  if (in_.peek().is("INTERNAL") && in_.peek(1).kind == TokenKind::Word) {
+    in_.take();
+  }
+  const ast::Scope around = scope_;
+  std::vector<ast::NameAt> path;
+  if (names(path, "a namespace")) {
+    scope_.space += (scope_.space.empty() ? "" : ".") + path.front().name;
+  }
+  in_.accept(";");
+  while (!in_.at_end() && !in_.peek().is("END_NAMESPACE")) {
+    if (!element(out) && !in_.accept(";")) {
+      const Token& stray = in_.take();
+      in_.error(stray,
+                fmt::format("a NAMESPACE holds types, functions, function blocks, classes and interfaces, not {}",
+                            TokenReader::spelled(stray)));
+      while (!in_.at_end() &&
+             !in_.next_is({"END_NAMESPACE", "NAMESPACE", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "CLASS", "INTERFACE"})) {
+        in_.take();
+      }
+    }
+  }
+  scope_ = around;
+  if (in_.expect("END_NAMESPACE", fmt::format("to close the NAMESPACE of line {}", word.line))) {
+    in_.accept(";");
+  }
+}
+
+// Those of a POU, in its first lines.
+void ProjectParser::uses(ast::Pou& out) {
+  while (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word) {
+    using_directive(out.scope.uses);
+  }
+}
+
+void ProjectParser::using_directive(std::vector<ast::NameAt>& to) {
+  in_.take();
+  static_cast<void>(names(to, "a namespace") && in_.expect_end("behind USING"));
+}
+
+// First, Second.Inner
+bool ProjectParser::names(std::vector<ast::NameAt>& to, std::string_view what) {
+  do {
+    ast::NameAt one;
+    one.at = in_.here();
+    if (!name(one.name, what)) {
+      return false;
+    }
+    while (in_.accept(".")) {
+      std::string inner;
+      if (!name(inner, what)) {
+        return false;
+      }
+      one.name += "." + inner;
+    }
+    to.push_back(std::move(one));
+  } while (in_.accept(","));
+  return true;
 }
 
 }  // namespace indurop::plc::st

@@ -34,26 +34,8 @@ Project ProjectParser::project() {
   Project out;
   bool complained = false;  // one message for a stretch of text that is nothing
   while (!in_.at_end()) {
-    bool known = true;
-    if (in_.accept("PROGRAM")) {
-      pou(ast::Pou::Kind::Program, out.pous);
-    } else if (in_.accept("FUNCTION")) {
-      pou(ast::Pou::Kind::Function, out.pous);
-    } else if (in_.accept("FUNCTION_BLOCK") || in_.accept("FUNCTIONBLOCK")) {  // CODESYS 2.3 has both
-      pou(ast::Pou::Kind::FunctionBlock, out.pous);
-    } else if (in_.accept("TYPE")) {
-      declarations_.types(out.types);
-    } else if (in_.peek().is("VAR_GLOBAL")) {
-      declarations_.variables(out.globals);
-    } else if (in_.accept("CONFIGURATION")) {
-      configuration(out.configurations);
-    } else if (in_.accept("CLASS")) {
-      object(ast::Pou::Kind::Class, out.pous);
-    } else if (in_.accept("INTERFACE")) {
-      object(ast::Pou::Kind::Interface, out.pous);
-    } else if (in_.next_is({"NAMESPACE"}) || (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word)) {
-      leave_out();
-    } else {
+    bool known = element(out);
+    if (!known) {
       const Token& token = in_.take();
       known = token.is(";");
       if (!known && !complained) {
@@ -68,14 +50,43 @@ Project ProjectParser::project() {
   return out;
 }
 
-// One message for the whole of it.
-void ProjectParser::leave_out() {
-  const Token& word = in_.take();
-  in_.unsupported(word,
-                  fmt::format("{} is not supported, use function blocks with inputs and outputs and names of their "
-                              "own",
-                              upper(word.text)));
-  in_.skip_behind(word.is("USING") ? std::string(";") : "END_" + upper(word.text));
+// What stands in a namespace, or outside of all. False: nothing of that begins here.
+bool ProjectParser::element(Project& out) {
+  const std::size_t types = out.types.size();
+  const std::size_t pous = out.pous.size();
+  if (in_.accept("PROGRAM")) {
+    pou(ast::Pou::Kind::Program, out.pous);
+  } else if (in_.accept("FUNCTION")) {
+    pou(ast::Pou::Kind::Function, out.pous);
+  } else if (in_.accept("FUNCTION_BLOCK") || in_.accept("FUNCTIONBLOCK")) {  // CODESYS 2.3 has both
+    pou(ast::Pou::Kind::FunctionBlock, out.pous);
+  } else if (in_.accept("TYPE")) {
+    declarations_.types(out.types);
+  } else if (in_.accept("CLASS")) {
+    object(ast::Pou::Kind::Class, out.pous);
+  } else if (in_.accept("INTERFACE")) {
+    object(ast::Pou::Kind::Interface, out.pous);
+  } else if (in_.peek().is("NAMESPACE")) {
+    space(out);
+    return true;
+  } else if (in_.peek().is("USING") && in_.peek(1).kind == TokenKind::Word) {
+    using_directive(scope_.uses);
+  } else if (scope_.space.empty() && in_.peek().is("VAR_GLOBAL")) {
+    declarations_.variables(out.globals);
+  } else if (scope_.space.empty() && in_.accept("CONFIGURATION")) {
+    configuration(out.configurations);
+  } else {
+    return false;
+  }
+  for (std::size_t i = types; i < out.types.size(); ++i) {
+    out.types[i].scope = scope_;
+  }
+  for (std::size_t i = pous; i < out.pous.size(); ++i) {
+    ast::Scope& own = out.pous[i].scope;
+    own.space = scope_.space;
+    own.uses.insert(own.uses.end(), scope_.uses.begin(), scope_.uses.end());
+  }
+  return true;
 }
 
 // Whether ACTIONs stand in this POU or behind it.
@@ -108,12 +119,14 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   modifiers(out);
   out.at = in_.here();
   bool ok = name(out.name, kind == ast::Pou::Kind::Program ? "the program" : "a function or function block");
+  uses(out);
   inheritance(out);
   if (ok && kind == ast::Pou::Kind::Function && in_.accept(":")) {
     out.result = declarations_.type();
     ok = out.result.has_value();
     in_.accept(";");
   }
+  uses(out);
   if (!ok) {
     while (!in_.at_end() && !in_.peek().is(end) && !declarations_.at_variables()) {
       in_.take();

@@ -25,10 +25,14 @@ class ProjectParser {
  private:
   [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
-  void leave_out();
+  [[nodiscard]] bool element(Project& out);
+  void space(Project& out);
+  void uses(ast::Pou& out);
+  void using_directive(std::vector<ast::NameAt>& to);
   // object_parser.cpp
   void modifiers(ast::Pou& out);
   void inheritance(ast::Pou& out);
+  [[nodiscard]] bool names(std::vector<ast::NameAt>& to, std::string_view what);
   [[nodiscard]] bool at_method() const;
   void methods(ast::Pou& to);
   void method(ast::Pou& to);
@@ -54,6 +58,7 @@ class ProjectParser {
   DeclarationParser declarations_;
   StatementParser statements_;
   std::vector<WrittenBody> written_;
+  ast::Scope scope_;  // the namespace around what is read
 };
 
 }  // namespace indurop::plc::st

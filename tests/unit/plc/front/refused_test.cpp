@@ -207,14 +207,28 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
                "WSTRING is not"},
            Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION",
                "VAR_ACCESS is not"},
-           Row{"NAMESPACE Space FUNCTION F : INT VAR_INPUT x : INT; END_VAR F := x; END_FUNCTION END_NAMESPACE",
-               "NAMESPACE is not"},
        }) {
     const Compiled sut = compiled(main + text + "\n");
     EXPECT_FALSE(sut.ok) << text;
     EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));
   }
+}
+
+TEST(PlcRefused, What_is_in_a_NAMESPACE_is_seen_through_it) {
+  const std::string space = "NAMESPACE Space FUNCTION F : INT F := 1; END_FUNCTION END_NAMESPACE\n";
+  const auto main = [&](const std::string& code) {
+    return wrong(space + "PROGRAM Main VAR i : INT; END_VAR " + code + " END_PROGRAM");
+  };
+  EXPECT_EQ(main("i := Space.F();"), "");
+  EXPECT_THAT(main("i := F();"), HasSubstr("in.st:2:40: error: 'F' is in a NAMESPACE, write Space.F, or USING Space;"));
+  EXPECT_THAT(main("i := Space.G();"), HasSubstr("error"));
+  EXPECT_THAT(wrong(space + "USING Spice;\nPROGRAM Main VAR i : INT; END_VAR i := 1; END_PROGRAM"),
+              HasSubstr("in.st:2:7: error: there is no NAMESPACE 'Spice'"));
+  EXPECT_THAT(
+      wrong("NAMESPACE Space VAR_GLOBAL x : INT; END_VAR END_NAMESPACE\nPROGRAM Main VAR i : INT; END_VAR i := 1; "
+            "END_PROGRAM"),
+      HasSubstr("a NAMESPACE holds types, functions, function blocks, classes and interfaces, not 'VAR_GLOBAL'"));
 }
 
 TEST(PlcRefused, A_UNION_holds_only_what_any_bytes_are_a_value_of) {

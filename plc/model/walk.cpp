@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/model/walk.h"
+
+namespace indurop::plc::ast {
+namespace {
+
+void each_expression(std::optional<Expression>& expression, const Visit& visit) {
+  if (expression) {
+    ast::each_expression(*expression, visit);
+  }
+}
+
+}  // namespace
+
+void each_expression(Expression& expression, const Visit& visit) {
+  visit(expression);
+  for (Expression& one : expression.operands) {
+    each_expression(one, visit);
+  }
+  for (Argument& one : expression.arguments) {
+    each_expression(one.value, visit);
+  }
+}
+
+void each_expression(Body& body, const Visit& visit) {
+  for (Statement& one : body) {
+    for (auto* part : {&one.target, &one.value, &one.to, &one.by}) {
+      each_expression(*part, visit);
+    }
+    for (Branch& branch : one.branches) {
+      each_expression(branch.condition, visit);
+      for (CaseLabel& label : branch.labels) {
+        each_expression(label.low, visit);
+        each_expression(label.high, visit);
+      }
+      each_expression(branch.body, visit);
+    }
+    each_expression(one.body, visit);
+  }
+}
+
+void each_expression(Initial& initial, const Visit& visit) {
+  each_expression(initial.value, visit);
+  for (InitialElement& one : initial.elements) {
+    each_expression(one.count, visit);
+    each_expression(one.value, visit);
+  }
+}
+
+}  // namespace indurop::plc::ast

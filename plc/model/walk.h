@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Goes through all expressions of a tree, the outer ones first.
+
+#pragma once
+
+#include <functional>
+
+#include "plc/model/ast.h"
+
+namespace indurop::plc::ast {
+
+using Visit = std::function<void(Expression&)>;
+
+// The expression itself, then what is in it, as the visit left it.
+void each_expression(Expression& expression, const Visit& visit);
+void each_expression(Body& body, const Visit& visit);
+void each_expression(Initial& initial, const Visit& visit);
+
+}  // namespace indurop::plc::ast
