@@ -8,7 +8,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStill = 1e-3;  // an override below is a hold
+constexpr double kStill = 1e-3;    // an override below is a hold
+constexpr double kRounded = 1e-6;  // a speed below is none
 
 LineLimits lower(const LineLimits& a, const LineLimits& b) noexcept {
   return {std::min(a.velocity, b.velocity), std::min(a.acceleration, b.acceleration), std::min(a.jerk, b.jerk)};
@@ -87,6 +88,14 @@ void Follower::stop_hard(double hardness) noexcept {
 
 double Follower::to_go() const noexcept {
   return idle() ? 0 : std::max(0.0, profile_.duration() - time_);
+}
+
+int Follower::source() const noexcept {
+  if (idle()) {
+    return 0;
+  }
+  const Segment& now = segment(0);
+  return now.chain == nullptr ? now.source : now.chain->source_at(now.timed ? passed_[0] : state_.position);
 }
 
 double Follower::piece_end() const noexcept {
@@ -187,7 +196,8 @@ double Follower::crossing(double from, double to) const noexcept {
 }
 
 void Follower::next_piece() noexcept {
-  if (segment(0).timed) {
+  // Without a blend it has come to rest, up to rounding.
+  if (segment(0).timed || (blend_.zone <= 0 && state_.velocity < kRounded)) {
     state_ = {};
   }
   if (in_blend_ || blend_.zone <= 0) {

@@ -48,7 +48,7 @@ class Follower final : private PathAhead {
   // s until the end of the present path, as things are.
   [[nodiscard]] double to_go() const noexcept;
   // MoveCommand::source of the present path; 0: none.
-  [[nodiscard]] int source() const noexcept { return idle() ? 0 : segment(0).source; }
+  [[nodiscard]] int source() const noexcept;
 
  private:
   static constexpr int kMost = 3;

@@ -21,7 +21,8 @@ Group::Group(GroupParts parts)
       places_(parts_.arm, inverse_),
       planner_(places_, parts_.joints, parts_.tool),
       follower_(places_, planner_),
-      job_(parts_.book) {
+      job_(parts_.book),
+      ahead_(parts_.arm, parts_.tool) {
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
   // A path of 128 places is looked at within some 16 ms, whatever the period.
@@ -120,7 +121,7 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   finish_service(code, axis);
   error_ = code;
   error_axis_ = axis;
-  planning_ = false;
+  forget_plans();
   enabling_ = false;
   state_ = GroupState::Stopping;
   to_error_ = true;
@@ -194,6 +195,7 @@ void Group::motion_failed(Fault fault, int source) noexcept {
 void Group::stop_for(Fault fault) noexcept {
   error_ = fault.code;
   error_axis_ = fault.axis;
+  forget_plans();
   follower_.stop();
   state_ = GroupState::Stopping;
   to_error_ = true;
@@ -306,12 +308,14 @@ void Group::follow_path() noexcept {
 
 void Group::run_motion(Signals& signals) noexcept {
   if (job_.running()) {
+    const int before = ahead_.count();
     job_.step(period_, signals, *this);
     if (job_.state() == JobState::Failed) {
       const Fault fault = job_.fault();
       finish_service(fault.code, fault.axis);
       stop_for(fault);
     }
+    begin_next(ahead_.count() > before);
   }
   plan_ahead();
   follow_path();
@@ -353,14 +357,39 @@ void Group::run_stopping() noexcept {
 }
 
 Fault Group::move(const MoveCommand& command) noexcept {
-  const Joints from = follower_.idle() ? commanded() : follower_.end();
-  const Fault fault = planner_.begin(command, from);
+  ahead_.add(command);
+  return {};
+}
+
+// What the planner said of a motion that begins where the last one ends.
+Fault Group::planned(Fault fault) noexcept {
   planning_ = fault.ok();
   if (follower_.idle()) {
-    follower_.reset(from);
-    last_command_ = from;
+    follower_.reset(commanded());
+    last_command_ = commanded();
   }
   return fault;
+}
+
+void Group::begin_next(bool more) noexcept {
+  if (state_ != GroupState::Moving || !can_plan()) {
+    return;
+  }
+  const Joints from = planned_end();
+  const ReadAhead::Next next = ahead_.next(from, more);
+  if (next.chain == nullptr && next.command == nullptr) {
+    return;
+  }
+  const Fault fault =
+      planned(next.chain != nullptr ? planner_.begin(*next.chain, from) : planner_.begin(*next.command, from));
+  if (!fault.ok()) {
+    motion_failed(fault, planner_.segment().source);
+  }
+}
+
+void Group::forget_plans() noexcept {
+  planning_ = false;
+  ahead_.clear();
 }
 
 }  // namespace indurop::robot

@@ -9,6 +9,7 @@
 #include "robot/axis_control.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
+#include "robot/read_ahead.h"
 #include "robot/set_point_gate.h"
 
 namespace indurop::robot {
@@ -55,7 +56,9 @@ class Group final : public Controller, private MotionPort {
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
   void run_stopping() noexcept;
+  void begin_next(bool more) noexcept;
   void plan_ahead() noexcept;
+  void forget_plans() noexcept;
   void follow_path() noexcept;
   void stop_for(Fault fault) noexcept;
   void motion_failed(Fault fault, int source) noexcept;
@@ -67,9 +70,13 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] Joints commanded() const noexcept;
 
   // The job's side.
-  [[nodiscard]] bool ready() const noexcept override { return !planning_ && follower_.has_room(); }
-  [[nodiscard]] bool settled() const noexcept override { return !planning_ && follower_.idle(); }
+  [[nodiscard]] bool ready() const noexcept override { return ahead_.has_room(); }
+  [[nodiscard]] bool settled() const noexcept override { return ahead_.empty() && !planning_ && follower_.idle(); }
   Fault move(const MoveCommand& command) noexcept override;
+
+  [[nodiscard]] bool can_plan() const noexcept { return !planning_ && follower_.has_room(); }
+  [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
+  Fault planned(Fault fault) noexcept;
 
   void report(Outputs& out) noexcept;  // group_report.cpp
   void report_motion(Outputs& out) noexcept;
@@ -80,6 +87,7 @@ class Group final : public Controller, private MotionPort {
   Planner planner_;
   Follower follower_;
   JobRunner job_;
+  ReadAhead ahead_;
   std::array<AxisControl, kAxes> axes_;
   std::array<SetPointGate, kAxes> gates_;
   double period_ = 0.01;  // s

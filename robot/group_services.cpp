@@ -109,7 +109,7 @@ ErrorCode Group::disable() noexcept {
     return ErrorCode::State;
   }
   job_.stop();
-  planning_ = false;
+  forget_plans();
   enabling_ = false;
   if (state_ == GroupState::Moving || state_ == GroupState::Standby) {
     follower_.stop();
@@ -182,7 +182,7 @@ ErrorCode Group::home() noexcept {
 ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
   const bool free = std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.busy(); });
   const bool possible = (state_ == GroupState::Standby && free) || (state_ == GroupState::Moving && !job_.running());
-  if (!possible || !ready()) {
+  if (!possible || !can_plan()) {
     return ErrorCode::State;
   }
   if (std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.homed(); })) {
@@ -214,7 +214,7 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
     command.target = parts_.book.points[static_cast<std::size_t>(target)].target;
     command.mid = parts_.book.points[static_cast<std::size_t>(mid)].target;
   }
-  const Fault fault = move(command);
+  const Fault fault = planned(planner_.begin(command, planned_end()));
   if (!fault.ok()) {
     finish_service(fault.code, fault.axis);
     return ErrorCode::Ok;
@@ -251,7 +251,7 @@ ErrorCode Group::stop_motion() noexcept {
     return ErrorCode::State;
   }
   job_.stop();
-  planning_ = false;
+  forget_plans();
   follower_.stop();
   state_ = GroupState::Stopping;
   return ErrorCode::Ok;

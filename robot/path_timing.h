@@ -18,7 +18,7 @@ struct Timed {
 
 class PathTiming {
  public:
-  static constexpr int kMost = 128;  // pieces
+  static constexpr int kMost = 256;  // pieces
   struct Value {
     double value = 0, first = 0, second = 0, third = 0;
   };

@@ -62,17 +62,21 @@ Fault Planner::resolve(const Target& target, const Joints& near, Joints& joints,
   return {code_of(found.reach)};
 }
 
-Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
+void Planner::begin(const Joints& from) noexcept {
   segment_ = {};
-  segment_.move = command.move;
   segment_.from = from;
   segment_.start = places_.arm().forward(from);
-  segment_.zone = command.zone;
-  segment_.source = command.source;
   count_ = 0;
   next_ = 1;
   windows_ = noted_ = rehearsals_ = 0;
   stage_ = Stage::Done;
+}
+
+Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
+  begin(from);
+  segment_.move = command.move;
+  segment_.zone = command.zone;
+  segment_.source = command.source;
   const bool sane = command.speed > 0 && command.speed <= 1 && command.tool_speed >= 0 && command.zone >= 0;
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
@@ -160,10 +164,16 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool_.turn_acceleration, turning));
   s.limits.jerk = std::min(shared(tool_.jerk, pace), shared(tool_.turn_jerk, turning));
   s.most = s.limits;
-  bounds_.speed.fill(s.most.velocity);
-  bounds_.acceleration.fill(s.most.acceleration);
-  const double finest = std::max(s.way, 0.3 * angle) / kSpacing;
-  count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, kMost);
+  begin_look(kSpacing, kMost / 2);
+}
+
+// `spacing`: m between places.
+void Planner::begin_look(double spacing, int most) noexcept {
+  Segment& s = segment_;
+  bounds_.speed.fill(s.limits.velocity);
+  bounds_.acceleration.fill(s.limits.acceleration);
+  const double finest = std::max(s.way, 0.3 * s.turn.norm()) / spacing;
+  count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, most);
   samples_[0] = s.from;
   volumes_[0] = volume(s.from);
   least_volume_ = std::abs(volumes_[0]);
@@ -172,6 +182,9 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
 }
 
 Fault Planner::check_next() noexcept {
+  if (segment_.chain != nullptr) {
+    segment_.source = segment_.chain->source_at(segment_.length / count_ * next_);
+  }
   Joints& here = samples_[static_cast<std::size_t>(next_)];
   const Joints& before = samples_[static_cast<std::size_t>(next_) - 1];
   const double spacing = segment_.length / count_;
@@ -180,6 +193,9 @@ Fault Planner::check_next() noexcept {
     return {code_of(reach)};
   }
   here = found.q;
+  if (segment_.chain != nullptr) {
+    bound_tool(next_);
+  }
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
   least_volume_ = std::min(least_volume_, std::abs(volume(here)));
   Eigen::Index axis = 0;

@@ -21,6 +21,9 @@ class Planner {
   // Begins with a motion that starts at `from`. Real-time safe, as all here. Errors: Value, Unreachable,
   // JointLimit, Circle.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
+  // Begins with a chain that starts where the arm is at `from` and stays as it is until the motion has ended. Errors:
+  // Value.
+  Fault begin(const Chain& chain, const Joints& from) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
   // Singular.
   Fault check(int places) noexcept;
@@ -36,7 +39,7 @@ class Planner {
   [[nodiscard]] const JointLimits& joint_limits() const noexcept { return joints_; }
 
  private:
-  static constexpr int kMost = 128;
+  static constexpr int kMost = 256;
   using Samples = std::array<Joints, kMost + 1>;
 
   // Looking for reach, limits and singular positions; then for a timing; then going through what came out.
@@ -49,7 +52,7 @@ class Planner {
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   void end_rehearsal() noexcept;
-  [[nodiscard]] bool nearly_singular() const noexcept;
+  [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
   Fault look_closer() noexcept;
@@ -58,6 +61,9 @@ class Planner {
                       int depth) noexcept;
   void note(const Rates& rates) noexcept;
   void bound(const Rates& rates, double from, double length) noexcept;
+  void begin(const Joints& from) noexcept;
+  void begin_look(double spacing, int most) noexcept;
+  void bound_tool(int place) noexcept;
   Fault make_circle(const Vec3& mid) noexcept;
   void measure_joint_motion(double speed) noexcept;
   void measure_tool_motion(const MoveCommand& command) noexcept;

@@ -44,7 +44,7 @@ Heading heading(const Segment& s, bool at_end) noexcept {
 
 Blend Planner::blend(const Segment& first, const Segment& second) const noexcept {
   Blend result;
-  if (first.zone <= 0 || first.length <= 0 || second.length <= 0) {
+  if (first.zone <= 0 || first.chain != nullptr || second.chain != nullptr || first.length <= 0 || second.length <= 0) {
     return result;
   }
   // How fast the tool is at the corner, at full speed, says how long the zone is.

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What comes behind the look at a path: its timing, and a rehearsal of the motion.
 
+#include <algorithm>
+
 #include "robot/planner.h"
 
 namespace indurop::robot {
 
 namespace {
 
-constexpr double kStep = 0.005;      // s between instants of a motion that are looked at
-constexpr double kFineStep = 0.001;  // near singular positions
+constexpr double kStep = 0.004;      // s between instants of a motion that are looked at
+constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostRehearsals = 4;
 
@@ -28,7 +30,7 @@ void Planner::search() noexcept {
 }
 
 void Planner::rehearse_timing() noexcept {
-  rehearsal_.begin(segment_.from, segment_.timing.duration(), nearly_singular() ? kFineStep : kStep);
+  rehearsal_.begin(segment_.from, segment_.timing.duration(), rehearsal_step());
   stage_ = Stage::RehearseTiming;
 }
 
@@ -36,15 +38,15 @@ void Planner::rehearse_timing() noexcept {
 void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);
   stage_ = Stage::Done;
-  if (nearly_singular()) {
-    rehearsal_.begin(segment_.from, profile_.duration(), kFineStep);
+  if (rehearsal_step() < kStep) {
+    rehearsal_.begin(segment_.from, profile_.duration(), rehearsal_step());
     stage_ = Stage::RehearseProfile;
   }
 }
 
-bool Planner::nearly_singular() const noexcept {
-  constexpr double kNear = 0.03;
-  return least_volume_ < kNear * usual_volume_;
+double Planner::rehearsal_step() const noexcept {
+  constexpr double kNear = 0.1;
+  return segment_.chain != nullptr || least_volume_ < kNear * usual_volume_ ? kFineStep : kStep;
 }
 
 void Planner::rehearse() noexcept {
@@ -64,9 +66,11 @@ void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
   const bool sure = slower < kNearlyOne || ++rehearsals_ == kMostRehearsals;
   if (stage_ == Stage::RehearseProfile) {
-    segment_.limits.velocity /= slower;
-    segment_.limits.acceleration /= slower * slower;
-    segment_.limits.jerk /= slower * slower * slower;
+    LineLimits& limits = segment_.limits;
+    const LineLimits& pace = rehearsal_.pace_limits();
+    limits.velocity /= slower;
+    limits.acceleration = std::min(limits.acceleration / (slower * slower), pace.acceleration * limits.velocity);
+    limits.jerk = std::min(limits.jerk / (slower * slower * slower), pace.jerk * limits.velocity);
     if (sure) {
       stage_ = Stage::Done;
     } else {
@@ -79,7 +83,7 @@ void Planner::end_rehearsal() noexcept {
   if (segment_.timing.duration() >= Profile::to_position({}, segment_.length, 0, segment_.limits).duration()) {
     segment_.timing = {};
     rehearse_profile();
-  } else if (nearly_singular() && !sure) {
+  } else if (!sure && rehearsal_step() < kStep) {
     rehearse_timing();
   } else {
     stage_ = Stage::Done;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSure = 0.99;  // of the limits, between two instants
 constexpr int kFewest = 96;     // instants
-constexpr int kMost = 8192;
+constexpr int kMost = 65536;
 
 }  // namespace
 

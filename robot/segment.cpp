@@ -27,6 +27,9 @@ double Segment::leave_timing(double place) noexcept {
 }
 
 Pose Segment::pose_at(double place) const noexcept {
+  if (chain != nullptr) {
+    return chain->pose_at(timed ? timing.at(place).place : place);
+  }
   const double part = length > 0 ? std::clamp(timed ? timing.at(place).place / stretch : place / length, 0.0, 1.0) : 1;
   Pose pose;
   pose.orientation = start.orientation * rotation_by(part * turn);

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "robot/chain.h"
 #include "robot/inverse.h"
 #include "robot/path_timing.h"
 #include "robot/profile.h"
@@ -32,18 +33,10 @@ struct MoveCommand {
   int source = 0;         // the caller's name for it
 };
 
-// How fast the tool may move.
-struct ToolLimits {
-  double velocity = 1;            // m/s
-  double acceleration = 5;        // m/s^2
-  double jerk = 50;               // m/s^3
-  double turn_velocity = kPi;     // rad/s
-  double turn_acceleration = 20;  // rad/s^2
-  double turn_jerk = 200;         // rad/s^3
-};
-
 struct Segment {
   Move move = Move::Joint;
+  bool timed = false;  // the timing is taken
+  int source = 0;
   Joints from = Joints::Zero();
   Joints to = Joints::Zero();
   Pose start;
@@ -51,23 +44,24 @@ struct Segment {
   Vec3 turn = Vec3::Zero();  // rotation vector from start to end, in the start's frame
   Vec3 center = Vec3::Zero(), radius_x = Vec3::Zero(), radius_y = Vec3::Zero();  // of circles
   double angle = 0;                                                              // of circles, from radius_x on
+  const Chain* chain = nullptr;                                                  // many lines; its owner keeps it
   double way = 0;                                                                // m, of lines and circles
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m
-  int source = 0;
   LineLimits most;    // of the speed along it, as the tool and the command allow
   LineLimits limits;  // the same as the joints allow too
   // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places,
   // length and limits are by seconds of the timing.
   PathTiming timing;
   LineLimits timing_limits;
-  bool timed = false;
   double stretch = 0;  // what `length` is otherwise
 
   // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.
   [[nodiscard]] Joints joints_at(double place) const noexcept;
   // Of lines and circles.
   [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // What the tool and the command allow of the speed at a place, whether the timing is taken or not.
+  [[nodiscard]] LineLimits most_at(double place) const noexcept { return chain ? chain->limits_at(place) : most; }
   // From rest, at its beginning.
   void take_timing() noexcept;
   // Returns what `place` is then.

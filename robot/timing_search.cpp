@@ -113,7 +113,7 @@ bool TimingSearch::look(int knot) noexcept {
     const double x1 = d1 * g1;
     const double x2 = d2 * g1 * g1 + d1 * g2;
     const double x3 = d3 * g1 * g1 * g1 + 3 * d2 * g1 * g2 + d1 * g3;
-    const double v = kMargin * most.velocity / std::max(std::abs(x1), 1e-12);
+    const double v = (i < kAxes ? kMargin : 1) * most.velocity / std::max(std::abs(x1), 1e-12);
     k.fastest = std::min(k.fastest, v * v);
     const double a = 1 / (Shares::kBending * kMargin * most.acceleration);
     const double j = 1 / (Shares::kBendingJerk * kMargin * most.jerk);
@@ -127,7 +127,7 @@ bool TimingSearch::look(int knot) noexcept {
   for (int i = 0; i < kAxes; ++i) {
     row(i, first[i], second[i], third[i], {joints_.velocity[i], joints_.acceleration[i], joints_.jerk[i]});
   }
-  row(kAxes, 1, 0, 0, segment_.most);
+  row(kAxes, 1, 0, 0, segment_.most_at(place));
   return true;
 }
 

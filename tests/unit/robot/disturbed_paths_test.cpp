@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random lines and circles one after the other, with holds, overrides and stops at random instants: the set points they
-// make keep all limits before any gate has looked at them. (Emergency stops are in random_jobs_test.cpp, behind the
-// gate.) INDUROP_ROBOT_PATHS says how many, INDUROP_ROBOT_SEED from which one on.
+// Random lines, circles and chains of short lines one after the other, with holds, overrides and stops at random
+// instants: the set points they make keep all limits before any gate has looked at them. (Emergency stops are in
+// random_jobs_test.cpp, behind the gate.) INDUROP_ROBOT_PATHS says how many, INDUROP_ROBOT_SEED from which one on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class Disturbed {
     }
     const double often = in(0, 1) < 0.2 ? 0 : in(1, 12) * period_;
     bool calm = false;
-    for (int i = 0; i < 60 / period_ && !follower_.idle(); ++i) {
+    for (int i = 0; i < 600 / period_ && !follower_.idle(); ++i) {
       calm = calm || i > 20 / period_;
       if (calm) {
         follower_.set_hold(false);
@@ -77,7 +77,7 @@ class Disturbed {
     command.mid = pose_near(from, far / 2);
     command.target = pose_near(from, far);
     command.speed = in(0, 1) < 0.5 ? 1 : in(0.05, 1);
-    Fault fault = planner_.begin(command, from);
+    Fault fault = in(0, 1) < 0.25 ? begin_chain(from) : planner_.begin(command, from);
     while (fault.ok() && !planner_.done()) {
       fault = planner_.check(1000);
     }
@@ -85,6 +85,27 @@ class Disturbed {
       follower_.add(planner_.segment());
     }
     return fault.ok();
+  }
+  // As of a drawing program: short lines, mostly with small angles between them.
+  Fault begin_chain(const Joints& from) {
+    Chain& chain = chains_[next_chain_++ % chains_.size()];
+    Pose pose = arm_.forward(from);
+    chain.begin(pose, tool_);
+    const int lines = static_cast<int>(std::exp(in(std::log(3), std::log(300))));
+    const double size = std::exp(in(std::log(0.0005), std::log(0.03)));
+    const double zone = size * in(0.5, 8);
+    const double angle = in(0, 1) < 0.3 ? in(0, 2) : in(0, 0.1);
+    const double turn = in(0, 1) < 0.5 ? 0 : in(0, 0.02);
+    const double speed = in(0, 1) < 0.5 ? 1 : in(0.05, 1);
+    Vec3 direction = Vec3(in(-1, 1), in(-1, 1), in(-1, 1)).normalized();
+    for (int i = 0; i < lines; ++i) {
+      direction = rotation_by(angle * Vec3(in(-1, 1), in(-1, 1), in(-0.5, 1))) * direction;
+      pose.position += in(0.3, 1) * size * direction;
+      pose.orientation = pose.orientation * rotation_by(turn * Vec3(in(-1, 1), in(-1, 1), in(-1, 1)));
+      chain.add({pose, zone, speed, 0, 0});
+    }
+    chain.finish();
+    return planner_.begin(chain, from);
   }
   void disturb() {
     const double what = in(0, 1);
@@ -126,7 +147,10 @@ class Disturbed {
   Inverse inverse_{arm_};
   Places places_{arm_, inverse_};
   JointLimits limits_ = cell_limits();
-  Planner planner_{places_, limits_, ToolLimits{1, 4, 40, kPi, 4 * kPi, 40 * kPi}};
+  ToolLimits tool_{1, 4, 40, kPi, 4 * kPi, 40 * kPi};
+  Planner planner_{places_, limits_, tool_};
+  std::array<Chain, 5> chains_;
+  std::size_t next_chain_ = 0;
   Follower follower_{places_, planner_};
   Joints q_, v_ = Joints::Zero(), a_ = Joints::Zero();
 };

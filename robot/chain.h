@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many lines with zones as one smooth path: each place is the mean of the lines around it, as far as the zone reaches,
+// so corners are round however short the lines are. It begins and ends exactly where the lines do.
+
+#pragma once
+
+#include <array>
+
+#include "robot/geometry.h"
+#include "robot/profile.h"
+
+namespace indurop::robot {
+
+// How fast the tool may move.
+struct ToolLimits {
+  double velocity = 1;            // m/s
+  double acceleration = 5;        // m/s^2
+  double jerk = 50;               // m/s^3
+  double turn_velocity = kPi;     // rad/s
+  double turn_acceleration = 20;  // rad/s^2
+  double turn_jerk = 200;         // rad/s^3
+};
+
+class Chain {
+ public:
+  static constexpr int kMost = 1024;  // lines
+
+  struct Line {
+    Pose end;
+    double zone = 0;        // m, around its end
+    double speed = 1;       // part of full speed, above 0 to 1
+    double tool_speed = 0;  // m/s, instead of it; 0: none
+    int source = 0;
+  };
+
+  // Real-time safe, as all here.
+  void begin(const Pose& start, const ToolLimits& tool) noexcept;
+  // There is room for kMost. False if the line has no length: it is left out.
+  bool add(const Line& line) noexcept;
+  // Behind the last one.
+  void finish() noexcept;
+
+  [[nodiscard]] int count() const noexcept { return count_; }
+  // Whether zones meet on a line, so that corners cannot be passed one after the other.
+  [[nodiscard]] bool crowded() const noexcept { return crowded_; }
+  // s at the speeds of its lines, without any ramps.
+  [[nodiscard]] double at_speed() const noexcept { return at_speed_; }
+  // m
+  [[nodiscard]] double way() const noexcept { return way_; }
+  // s at full speed, as for all paths.
+  [[nodiscard]] double length() const noexcept { return at_[static_cast<std::size_t>(count_)]; }
+  [[nodiscard]] const Pose& end() const noexcept { return poses_[static_cast<std::size_t>(count_)]; }
+  [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // What the tool and the lines allow of the speed along the path.
+  [[nodiscard]] LineLimits limits_at(double place) const noexcept;
+  [[nodiscard]] int source_at(double place) const noexcept;
+
+ private:
+  using Corners = std::array<Vec3, kMost + 1>;
+  // Lines `first` to `last` are within reach of a place.
+  struct Window {
+    double half = 0;
+    int first = 0, last = 0;
+  };
+
+  [[nodiscard]] int line_at(double place) const noexcept;
+  [[nodiscard]] Window window(double place) const noexcept;
+  // How far round corner i is at the place: 0 before it, 1 per second behind it.
+  [[nodiscard]] double ramp(int i, double place, double half) const noexcept;
+
+  ToolLimits tool_;
+  int count_ = 0;
+  bool crowded_ = false;
+  double way_ = 0;
+  double at_speed_ = 0;
+  double half_ = 0;                     // s at full speed, how far a place looks to either side
+  std::array<double, kMost + 1> at_{};  // where the lines begin, and the last one ends
+  std::array<Pose, kMost + 1> poses_{};
+  // Of each line: how it moves and turns in a second (base frame), its turn (frame of its beginning).
+  Corners moving_{}, turning_{}, turns_{};
+  std::array<double, kMost> speeds_{}, zones_{};
+  std::array<int, kMost> sources_{};
+};
+
+}  // namespace indurop::robot

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is different when a path is a chain of lines.
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/planner.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kSpacing = 0.005;  // m between places that are looked at
+
+}  // namespace
+
+Fault Planner::begin(const Chain& chain, const Joints& from) noexcept {
+  begin(from);
+  Segment& s = segment_;
+  s.move = Move::Line;
+  s.chain = &chain;
+  s.end = chain.end();
+  s.way = chain.way();
+  s.length = chain.length();
+  s.source = chain.source_at(0);
+  if (!from.allFinite() || !std::isfinite(s.length) || s.length <= 0) {
+    return {ErrorCode::Value};
+  }
+  s.limits = chain.limits_at(0);
+  begin_look(kSpacing, kMost);
+  return {};
+}
+
+// The tool's limits between this place of a chain and the one before.
+void Planner::bound_tool(int place) noexcept {
+  const double part = 1.0 / count_;
+  const int last = static_cast<int>(part * place * PathBounds::kParts);
+  for (int i = static_cast<int>(part * (place - 1) * PathBounds::kParts); i < last; ++i) {
+    const LineLimits most = segment_.chain->limits_at(segment_.length * (i + 0.5) / PathBounds::kParts);
+    bounds_.speed[static_cast<std::size_t>(i)] = most.velocity;
+    bounds_.acceleration[static_cast<std::size_t>(i)] = most.acceleration;
+    LineLimits& all = segment_.limits;
+    all = {std::min(all.velocity, most.velocity), std::min(all.acceleration, most.acceleration),
+           std::min(all.jerk, most.jerk)};
+    wanted_ = all.velocity;
+  }
+}
+
+}  // namespace indurop::robot

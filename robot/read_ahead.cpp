@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/read_ahead.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kPerPeriod = 64;      // lines that are looked at
+constexpr double kLongest = 10;     // s that a chain may take: what a timing has knots for
+constexpr std::size_t kLiving = 6;  // chains: one in the making, one that is planned, those that are followed
+
+}  // namespace
+
+ReadAhead::ReadAhead(const Arm& arm, const ToolLimits& tool)
+    : arm_(arm), tool_(tool), commands_(Chain::kMost), chains_(kLiving) {}
+
+void ReadAhead::clear() noexcept {
+  count_ = scanned_ = single_ = 0;
+}
+
+const MoveCommand& ReadAhead::command(int i) const noexcept {
+  return commands_[static_cast<std::size_t>(first_ + i) % commands_.size()];
+}
+
+bool ReadAhead::has_room() const noexcept {
+  if (count_ < kAhead) {
+    return true;
+  }
+  const MoveCommand& last = command(count_ - 1);
+  return count_ < Chain::kMost && last.move == Move::Line && last.zone > 0;
+}
+
+void ReadAhead::add(const MoveCommand& command) noexcept {
+  commands_[static_cast<std::size_t>(first_ + count_++) % commands_.size()] = command;
+}
+
+const MoveCommand& ReadAhead::take() noexcept {
+  const MoveCommand& taken = command(0);
+  first_ = (first_ + 1) % Chain::kMost;
+  --count_;
+  return taken;
+}
+
+bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
+  return command.move == Move::Line && command.speed > 0 && command.speed <= 1;
+}
+
+void ReadAhead::begin_scan(const Joints& from) noexcept {
+  chains_[chain_].begin(arm_.forward(from), tool_);
+  closed_ = false;
+}
+
+void ReadAhead::scan() noexcept {
+  Chain& chain = chains_[chain_];
+  for (int i = 0; i < kPerPeriod && !closed_ && scanned_ < count_; ++i) {
+    const MoveCommand& line = command(scanned_);
+    if (!belongs(line)) {
+      closed_ = true;
+      return;
+    }
+    const Pose& end = line.target.is_pose ? line.target.pose : arm_.forward(line.target.joints);
+    chain.add({end, line.zone, line.speed, line.tool_speed, line.source});
+    ++scanned_;
+    closed_ = line.zone <= 0 || scanned_ == Chain::kMost || !(chain.at_speed() < kLongest);
+  }
+}
+
+ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
+  if (empty()) {
+    return {};
+  }
+  if (single_ == 0 && scanned_ == 0) {
+    begin_scan(from);
+  }
+  if (single_ == 0) {
+    scan();
+    if (!closed_ && (scanned_ < count_ || more)) {
+      return {};
+    }
+    Chain& chain = chains_[chain_];
+    if (chain.crowded()) {
+      chain.finish();
+      chain_ = (chain_ + 1) % chains_.size();
+      first_ = (first_ + scanned_) % Chain::kMost;
+      count_ -= scanned_;
+      scanned_ = 0;
+      return {&chain, nullptr};
+    }
+    single_ = scanned_ > 0 ? scanned_ : 1;
+    scanned_ = 0;
+  }
+  --single_;
+  return {nullptr, &take()};
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motions of a job that wait to be planned. Lines whose zones meet become one chain: as many as the job gives before
+// something else comes.
+
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "robot/chain.h"
+#include "robot/segment.h"
+
+namespace indurop::robot {
+
+class ReadAhead {
+ public:
+  // Allocates; nothing else here does.
+  ReadAhead(const Arm& arm, const ToolLimits& tool);
+
+  void clear() noexcept;
+  [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
+  [[nodiscard]] int count() const noexcept { return count_; }
+  // For a few motions, and for many lines with zones.
+  [[nodiscard]] bool has_room() const noexcept;
+  // There is room.
+  void add(const MoveCommand& command) noexcept;
+
+  // What is to be planned now: one of both, or none as long as it may become longer.
+  struct Next {
+    const Chain* chain = nullptr;  // stays as it is while five others are taken
+    const MoveCommand* command = nullptr;
+  };
+  // It begins at `from`. `more`: other motions may follow at once.
+  Next next(const Joints& from, bool more) noexcept;
+
+ private:
+  static constexpr int kAhead = 3;
+  [[nodiscard]] const MoveCommand& command(int i) const noexcept;
+  void begin_scan(const Joints& from) noexcept;
+  void scan() noexcept;
+  [[nodiscard]] bool belongs(const MoveCommand& command) const noexcept;
+  const MoveCommand& take() noexcept;
+
+  const Arm& arm_;
+  ToolLimits tool_;
+  std::vector<MoveCommand> commands_;  // a ring
+  int first_ = 0;
+  int count_ = 0;
+  int scanned_ = 0;  // from the first on, into the present chain
+  int single_ = 0;   // from the first on, are no chain
+  bool closed_ = false;
+  std::vector<Chain> chains_;
+  std::size_t chain_ = 0;
+};
+
+}  // namespace indurop::robot
