@@ -103,13 +103,13 @@ function(indurop_add_module name)
   target_link_libraries(${name} PRIVATE indurop::indurop ${arg_GLB} ${arg_LIBRARIES})
 endfunction()
 
-# indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...]
-#   [SHOW_LOCALS] [WATCH])
+# indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [DIALECT iec|codesys]
+#   [REAL_DIVISION fault|infinity] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])
 # A PLC program (IEC 61131-3) as thread module <name>.so. A program with several tasks names them: each becomes a module
 # <name>_<task>.so. GLB: the indurop_add_glb target whose variables the program uses. Other modules get those and the
 # program's own variables from the target <name>_variables.
 function(indurop_add_plc name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH" "GLB;NAMESPACE;DIALECT" "SOURCES;TASKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH" "GLB;NAMESPACE;DIALECT;REAL_DIVISION" "SOURCES;TASKS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "indurop_add_plc(${name}): usage: indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] "
       "[NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])")
@@ -124,6 +124,9 @@ function(indurop_add_plc name)
   endif()
   if(arg_DIALECT)
     list(APPEND options --dialect ${arg_DIALECT})
+  endif()
+  if(arg_REAL_DIVISION)
+    list(APPEND options --real-division ${arg_REAL_DIVISION})
   endif()
   if(arg_SHOW_LOCALS)
     list(APPEND options --show-locals)

@@ -282,6 +282,9 @@ std::vector<const Variable*> CallChecker::by_position(const Expression& call, co
   std::vector<const Variable*> inputs;
   std::vector<const Variable*> all;
   for (const Variable* one : all_variables(pou)) {
+    if (same_name(one->name, "ENO")) {
+      continue;
+    }
     if (is_parameter(*one, false)) {
       inputs.push_back(one);
     }
@@ -301,7 +304,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
   std::set<const Variable*> given;
   std::size_t position = 0;
   for (Argument& argument : call.arguments) {
-    if (is_enable(argument) || is_enable_out(argument)) {
+    if (is_enable(argument) || (is_enable_out(argument) && pou.find("ENO") == nullptr)) {
       continue;
     }
     const Variable* parameter = argument.name.empty() ? (position < inputs.size() ? inputs[position++] : nullptr)

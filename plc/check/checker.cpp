@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plc/check/constant_order.h"
+#include "plc/check/enable.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
 #include "plc/check/namespaces.h"
@@ -43,8 +44,11 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   program->project = std::move(project);
   program->foreign = std::move(options.foreign);
   program->space = std::move(options.space);
+  program->library = options.library;
+  program->infinite_division = options.infinite_division;
   Context context{*program, diagnostics};
   resolve_namespaces(program->project, diagnostics);
+  declare_enable_outputs(program->project);
   check_identifiers(context);
   declare_pous(context);
   declare_objects(context);

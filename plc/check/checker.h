@@ -14,6 +14,8 @@ namespace indurop::plc {
 
 struct CheckOptions {
   std::string space = "plc";              // namespace of the shared variables it declares
+  bool library = false;                   // there may be no PROGRAM
+  bool infinite_division = false;         // a REAL divided by zero is infinite or NaN, else a fault
   std::vector<schema::Variable> foreign;  // shared variables of other .glb files
 };
 

@@ -319,9 +319,24 @@ const Type* CallChecker::join_untyped(Generic generic, const Type* group, const 
   return group == nullptr ? type : context_.common_type(*group, *type);
 }
 
+// What DIV and / stand for where a REAL may become infinite.
+const LibraryFunction& infinite_division() {
+  static const LibraryFunction kMade = [] {
+    LibraryFunction made = *find_functions("DIV").front();
+    made.cpp = "iec::quotient";
+    made.faults = false;
+    return made;
+  }();
+  return kMade;
+}
+
 void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inputs) {
   Resolved& out = ExpressionChecker::resolved(at);
   out.function = choice.function;
+  const bool real = choice.result != nullptr && is_real(choice.result->elementary);
+  if (context_.program.infinite_division && real && choice.function->cpp == "iec::div") {
+    out.function = &infinite_division();
+  }
   out.actuals.clear();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     adapt(*inputs[i], *choice.types[i]);

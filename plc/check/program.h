@@ -175,7 +175,9 @@ struct Program {
   std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later
   std::vector<const Pou*> order;                                // each behind those it uses
   std::vector<TaskPlan> tasks;
-  std::string space;  // namespace of the shared variables
+  bool library = false;            // there may be no PROGRAM
+  bool infinite_division = false;  // a REAL divided by zero is infinite or NaN
+  std::string space;               // namespace of the shared variables
 };
 
 }  // namespace indurop::plc

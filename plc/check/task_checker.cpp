@@ -163,7 +163,7 @@ void plan_tasks(Context& context) {
   planner.rest(configured);
   std::erase_if(context.program.tasks, [](const TaskPlan& one) { return one.programs.empty(); });
   check_private_globals(context);
-  if (context.program.tasks.empty() && !context.diagnostics.failed()) {
+  if (context.program.tasks.empty() && !context.program.library && !context.diagnostics.failed()) {
     context.error({}, "there is no PROGRAM that could run, write one: PROGRAM main ... END_PROGRAM");
   }
 }

@@ -22,6 +22,9 @@ bool is_whole(Elementary type) noexcept {
 // Of extensions of editors, which are not part of the programs they export.
 std::string whose(const std::string& name) {
   const std::string capitals = upper(name);
+  if (capitals == "ANY" || capitals.starts_with("ANY_")) {
+    return "; types of every kind are for the functions of the library, write a function for each type you use";
+  }
   if (capitals.starts_with("HMI_")) {
     return "; it belongs to Beremiz' SVGHMI, give its pous.xml with the program, or declare TYPE " + name + " : ...";
   }

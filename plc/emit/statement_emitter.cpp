@@ -120,8 +120,14 @@ void StatementEmitter::enabled(const Expression& call, Body body) {
   out_.line(fmt::format("const bool {} = {};", name, flag));
   out_.open(fmt::format("if ({})", name));
   body();
+  // What sets its own ENO has done so.
+  const bool sets = resolved.enable_out != nullptr && resolved.pou != nullptr && resolved.pou->find("ENO") != nullptr;
+  if (sets) {
+    out_.reopen("else");
+    out_.line(expressions_.assign_output(*resolved.enable_out, "false", boolean()) + ";");
+  }
   out_.close();
-  if (resolved.enable_out != nullptr) {
+  if (resolved.enable_out != nullptr && !sets) {
     out_.line(expressions_.assign_output(*resolved.enable_out, name, boolean()) + ";");
   }
   out_.close();

@@ -91,6 +91,8 @@ class Compiler {
  private:
   void translate() {
     CheckOptions check_options;
+    check_options.library = options_.library;
+    check_options.infinite_division = options_.infinite_division;
     check_options.space = !options_.space.empty() ? options_.space : name_of_space(out_.name);
     if (!options_.glb_files.empty()) {
       auto foreign = glb2idl::compile(options_.glb_files, read_);

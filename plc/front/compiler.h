@@ -20,7 +20,9 @@ struct CompileOptions {
   std::string space;                   // namespace of its shared variables; empty: the module's name, "plc" for main
   std::optional<Dialect> dialect;      // none: of the editor that wrote the files, as far as they say
   bool show_locals = false;
-  bool watch = false;  // drawn programs tell `indurop plc watch` about their power flow
+  bool library = false;            // there may be no PROGRAM, then there are no modules
+  bool infinite_division = false;  // a REAL divided by zero is infinite or NaN, else a fault
+  bool watch = false;              // drawn programs tell `indurop plc watch` about their power flow
 };
 
 struct ModuleText {

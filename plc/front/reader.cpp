@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "plc/front/encoding.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/pou.h"
 #include "plc/plcopen/read_project.h"
@@ -61,11 +62,12 @@ Project read_project(const std::vector<std::string>& files, const ReadOptions& o
       diagnostics.error(at, fmt::format("the ending of the name is not one of a PLC program, use one of {}", known));
       continue;
     }
-    const auto got = read(file);
+    auto got = read(file);
     if (!got.text) {
       diagnostics.error(at, fmt::format("cannot read the file: {}", got.why));
       continue;
     }
+    got.text = as_utf8(std::move(*got.text));
     at.line = 1;
     at.column = 1;
     if (type->read == &read_st) {

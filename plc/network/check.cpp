@@ -121,7 +121,7 @@ class Check {
       }
     }
     for (const Pin& pin : element.inputs) {
-      if (!connected(pin) && element.instance.empty()) {
+      if (!connected(pin) && element.instance.empty() && !same_name(pin.name, "EN")) {  // an open EN is TRUE
         diagnostics_.error(pin.at, "this input of a function is connected to nothing; connect a value");
       }
     }

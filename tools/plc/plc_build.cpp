@@ -123,13 +123,16 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
 
 // Prints what is wrong, else one line.
 int check_plc(Context& context, const PlcRequest& request) {
-  const plc::Compiled compiled = plc::compile(request.compile);
+  plc::CompileOptions options = request.compile;
+  options.library = true;
+  const plc::Compiled compiled = plc::compile(options);
   print_diagnostics(context, compiled.diagnostics);
   if (!compiled.ok) {
     return kCheckFailed;
   }
-  context.out.note(
-      fmt::format("{} module{}, no errors", compiled.modules.size(), compiled.modules.size() == 1 ? "" : "s"));
+  context.out.note(compiled.modules.empty() ? "a library without a PROGRAM, no errors"
+                                            : fmt::format("{} module{}, no errors", compiled.modules.size(),
+                                                          compiled.modules.size() == 1 ? "" : "s"));
   return kOk;
 }
 
@@ -175,6 +178,12 @@ void add_sources(base::Options& app, PlcRequest& request) {
   app.add("--dialect", "DIALECT", take,
           "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
       .choices({"iec", "codesys"});
+  const base::Take divide = [&request](const std::string& text) {
+    request.compile.infinite_division = text == "infinity";
+    return std::string();
+  };
+  app.add("--real-division", "RESULT", divide, "What a REAL divided by zero is: fault or infinity (default: fault)")
+      .choices({"fault", "infinity"});
   app.flag("--show-locals", request.compile.show_locals, "Make the variables of programs shared variables too");
 }
 

@@ -78,6 +78,12 @@ constexpr T div(Place place, T a, T b) {
   return static_cast<T>(a / b);
 }
 
+// As IEEE 754 has it: infinite or NaN where b is zero.
+template <Real T>
+constexpr T quotient(T a, T b) noexcept {
+  return a / b;
+}
+
 // The remainder of div(), with the sign of a. Faults if b is zero.
 template <Integer T>
 constexpr T mod(Place place, T a, T b) {

@@ -215,6 +215,42 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
   }
 }
 
+TEST(PlcRefused, An_open_EN_of_a_function_is_TRUE) {
+  const auto add = [](const std::string& second) {
+    return R"(<project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><pous><pou name="Main" pouType="program">
+<interface><localVars><variable name="a"><type><INT/></type></variable></localVars></interface><body><FBD>
+<inVariable localId="1"><position x="0" y="0"/><connectionPointOut/><expression>a</expression></inVariable>
+<block localId="2" typeName="ADD"><position x="5" y="0"/><inputVariables>
+<variable formalParameter="EN"><connectionPointIn/></variable>
+<variable formalParameter="IN1"><connectionPointIn><connection refLocalId="1"/></connectionPointIn></variable>
+<variable formalParameter="IN2"><connectionPointIn>)" +
+           second + R"(</connectionPointIn></variable></inputVariables><inOutVariables/>
+<outputVariables><variable formalParameter="OUT"><connectionPointOut/></variable></outputVariables></block>
+<outVariable localId="3"><position x="9" y="0"/><connectionPointIn><connection refLocalId="2" formalParameter="OUT"/>
+</connectionPointIn><expression>a</expression></outVariable></FBD></body></pou></pous></types></project>)";
+  };
+  const Compiled sut = compiled(add("<connection refLocalId=\"1\"/>"), "in.xml");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("iec::add(a, a)"));
+  EXPECT_THAT(messages(compiled(add(""), "in.xml")), HasSubstr("this input of a function is connected to nothing"));
+}
+
+TEST(PlcRefused, A_library_has_no_PROGRAM) {
+  EXPECT_THAT(wrong("FUNCTION G : INT G := 1; END_FUNCTION\n"), HasSubstr("there is no PROGRAM that could run"));
+  CompileOptions options;
+  options.files = {"in.st"};
+  options.library = true;
+  const auto checked = [&](const std::string& library) {
+    return compile(options, [&](const std::string& name) { return glb2idl::ReadResult{library, name, ""}; });
+  };
+  const Compiled sut = checked("FUNCTION G : INT G := 1; END_FUNCTION\n");
+  EXPECT_TRUE(sut.ok);
+  EXPECT_TRUE(sut.modules.empty());
+  EXPECT_FALSE(checked("FUNCTION G : INT G := x; END_FUNCTION\n").ok);
+  EXPECT_THAT(messages(checked("FUNCTION F : INT VAR_INPUT x : ANY_NUM; END_VAR F := 1; END_FUNCTION\n")),
+              HasSubstr("types of every kind are for the functions of the library, write a function for each type"));
+}
+
 TEST(PlcRefused, What_is_in_a_NAMESPACE_is_seen_through_it) {
   const std::string space = "NAMESPACE Space FUNCTION F : INT F := 1; END_FUNCTION END_NAMESPACE\n";
   const auto main = [&](const std::string& code) {
