@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test soak fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench docs install clean help
+.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench docs install clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -29,12 +29,18 @@ demo: ## install what is missing, build, run the chapter's example, a plant of t
 	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
-	@$(CTEST) -LE 'tidy|soak' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
+	@$(CTEST) -LE 'tidy|soak|proof_long' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
 	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log || code=1; exit $$code
 
 soak: T = 20m
 soak: with-tests ## a plant of three boards for T (T=20m, 2h): what grows; the store read 10^9 times; as root
 	@INDUROP_SOAK_TIME=$(T) $(CTEST) -V -L soak
+
+rt-proof: T = 10
+rt-proof: with-tests ## nothing lost, and the maximum: schedules for T seconds of counted time each (T=10, 60) in QEMU with Debian's RT kernel
+	@.ci/install-deps proof
+	@tests/proof/guest.py fetch
+	@INDUROP_PROOF_SECONDS=$(T) $(CTEST) -V -L proof_long
 
 fuzz: T = 10m
 fuzz: with-tests ## all fuzz targets for T each (T=90s, 10m, 2h); findings stay in build/tests/fuzz

@@ -47,6 +47,7 @@ struct ThreadSettings {
   int fifo_priority = 0;                              // 0: normal scheduling
   int core = -1;                                      // -1: not pinned
   std::size_t stack_bytes = std::size_t{512} * 1024;  // whole pages, beside thread-local variables
+  bool runs_modules = false;                          // has a HandlerStack (rt/guard.h)
 };
 
 // Memory for a thread's stack. Ours and not the C library's, which keeps the stacks of threads that have ended, and

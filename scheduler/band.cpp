@@ -263,7 +263,6 @@ bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {
 }
 
 void Band::loop() noexcept {
-  const rt::HandlerStack handler_stack;
   runner_.attach_thread();
   while (!stop_.load(std::memory_order_acquire)) {
     wake_.wait();

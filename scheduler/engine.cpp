@@ -168,12 +168,17 @@ Status Engine::start_band_threads() {
     settings.name = plan.kind == BandKind::Handler ? "irp-events" : "irp-band-" + std::to_string(plan.fifo_priority);
     settings.fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
     settings.core = settings_.realtime ? plan.core : -1;
+    settings.runs_modules = true;
     auto thread = rt::Thread::start(settings, [&band = *band] { band.loop(); });
     if (!thread) {
       return thread.error();
     }
     threads_.push_back(std::move(thread).value());
   }
+  return {};
+}
+
+Status Engine::start_watchdog() {
   rt::ThreadSettings settings;
   settings.name = "irp-watchdog";
   settings.stack_bytes = std::size_t{128} * 1024;  // it only looks
@@ -205,12 +210,18 @@ Status Engine::start(std::uint64_t ticks) {
     epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
   }
   block_.epoch_ns = epoch_ns_;
+  if (Status started = start_watchdog(); !started) {
+    request_stop();
+    join();
+    return started;
+  }
   ticking_.store(static_cast<int>(cores_.size()), std::memory_order_release);
   for (const auto& core : cores_) {
     rt::ThreadSettings settings;
     settings.name = "irp-tick-" + std::to_string(core->number);
     settings.fifo_priority = settings_.realtime ? kTickPriority : 0;
     settings.core = settings_.realtime ? core->number : -1;
+    settings.runs_modules = true;
     auto thread = rt::Thread::start(settings, [this, &core = *core, ticks] { tick_loop(core, ticks); });
     if (!thread) {
       request_stop();
@@ -224,7 +235,6 @@ Status Engine::start(std::uint64_t ticks) {
 }
 
 void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
-  const rt::HandlerStack handler_stack;
   if (!settings_.realtime) {
     rt::request_exact_timers();
   }
@@ -320,8 +330,11 @@ void Engine::watchdog_loop() noexcept {
       period = std::min(period, std::max(state->task.budget_ns / 2, kWatchdogFastest));
     }
   }
+  // Half a basic period behind a tick, where its waking delays none, should they share a core.
+  const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
   while (!stop_watchdog_.load(std::memory_order_acquire)) {
-    clock_.sleep_until(clock_.now() + std::chrono::nanoseconds(period));
+    const std::int64_t earliest = rt::to_ns(clock_.now()) + period - epoch_ns_;
+    clock_.sleep_until(rt::mono_time(epoch_ns_ + (earliest / grid) * grid + grid / 2));
     const rt::MonoTime now = clock_.now();
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& band : bands_) {

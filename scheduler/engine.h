@@ -75,6 +75,7 @@ class Engine {
   TaskState* thread_module(std::uint32_t module) noexcept;
   [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
   Status start_band_threads();
+  Status start_watchdog();
   void tick_loop(Core& core, std::uint64_t ticks) noexcept;
   void end_run(Core& core, std::uint64_t ticks, std::uint64_t lost) noexcept;
   void do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcept;
