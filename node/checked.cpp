@@ -43,7 +43,7 @@ Reading read_plant(const Options& options) {
     return out;
   }
   config::Plant& plant = read.plant;
-  config::PlantCheck check = config::check_plant(plant, {true, options.adjust, true, options.board});
+  config::PlantCheck check = config::check_plant(plant, {.adjust = options.adjust, .board = options.board});
   out.add(check.diagnostics);
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {
     out.boards.push_back(plant.boards[i].name);

@@ -28,12 +28,20 @@ struct VariableUse {
   std::vector<std::string> writers;
 };
 
+// How long a module takes at most from its release to its end.
+struct Timing {
+  bool known = false;   // it and all that run before it say how long they execute
+  base::Nanos worst{};  // scheduler::WorstResponses::kNotDone: not before its next release
+};
+
 struct CheckResult {
   std::vector<base::Diagnostic> diagnostics;
   scheduler::PeriodTable table;       // periodic modules, indices into `periodic`
   std::vector<std::size_t> periodic;  // indices into Config::modules
   std::vector<std::size_t> sporadic;  // by priority
   std::vector<std::size_t> non_real;
+  std::vector<Timing> timings;     // one per Config::modules
+  double dispatch_share = 0;       // of a core, for ticks; 0 if no module says how long it executes
   std::vector<ModuleFacts> facts;  // one per Config::modules
   schema::Schema schema;           // of all modules together
   std::vector<VariableUse> uses;   // by variable name
@@ -44,10 +52,12 @@ struct CheckResult {
 };
 
 struct CheckOptions {
+  using Times = std::map<std::string, base::Nanos>;
   bool files = true;    // look at the module files; false: schedule only (plan works without built modules)
   bool adjust = false;  // --adjust: apply the proposed periods to the configuration instead of an error
   // Compare with this machine: its cores, its kind of processor. false: the modules are to run elsewhere.
   bool machine = true;
+  const Times* times = nullptr;  // longest executions that were measured, by module: of those without <wcet>
   std::string board{};  // of a plant: the only one of its boards that is to run on this machine; empty: all are
 };
 

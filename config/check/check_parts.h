@@ -35,8 +35,10 @@ struct CheckContext {
   SchemaTexts& texts;
 };
 
-// Basic and macro period, --adjust, number of bands. Fills table, periodic, sporadic, non_real.
+// Basic and macro period, --adjust, number of bands, and times. Fills table, periodic, sporadic, non_real, timings.
 void check_schedule(CheckContext& context);
+// Its last part: whether what says how long it executes ends in time.
+void check_times(CheckContext& context);
 // Cores, time that spinning leaves.
 void check_machine(CheckContext& context);
 // Files, ABI, symbols. Fills facts and schema.

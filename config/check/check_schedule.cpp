@@ -278,6 +278,7 @@ void check_schedule(CheckContext& context) {
     result.table = std::move(table.value());
   }
   check_bands(context);
+  check_times(context);
 }
 
 }  // namespace indurop::config

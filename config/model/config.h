@@ -45,6 +45,7 @@ struct ModulePlaces {
   base::SourcePlace period;
   base::SourcePlace offset;
   base::SourcePlace deadline;
+  base::SourcePlace wcet;
   base::SourcePlace priority;
   base::SourcePlace core;
   base::SourcePlace standby;
@@ -62,6 +63,7 @@ struct Module {
   base::Nanos period{};  // non-real thread: 0 runs it once
   base::Nanos offset{};
   base::Nanos deadline{};  // 0: none given (sporadic: required; periodic: the period)
+  base::Nanos wcet{};      // longest execution, not counting what preempts it; 0: not known
   base::Nanos budget{};    // 0: default (10 periods, at least 5 ms); kNoBudget: off
   int priority = 0;
   int core = -1;            // -1: the node's

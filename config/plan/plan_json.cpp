@@ -3,6 +3,7 @@
 
 #include "base/json.h"
 #include "config/plan/plan_parts.h"
+#include "scheduler/response_time.h"
 
 namespace indurop::config {
 namespace {
@@ -33,6 +34,31 @@ std::string text(const Json& value) {
   return value.dump();
 }
 
+// Of the modules that say how long they execute; nothing if none does.
+std::string times_json(const Config& config, const CheckResult& check) {
+  if (check.dispatch_share == 0) {
+    return {};
+  }
+  std::string lines;
+  for (std::size_t i = 0; i < config.modules.size(); ++i) {
+    const Module& module = config.modules[i];
+    if (module.wcet == base::Nanos::zero()) {
+      continue;
+    }
+    const Timing& timing = check.timings[i];
+    const bool ends = timing.known && timing.worst != scheduler::WorstResponses::kNotDone;
+    Json row;
+    row["module"] = module.name;
+    row["wcet_ns"] = module.wcet.count();
+    row["utilisation"] = utilisation(module);
+    row["worst_response_ns"] = ends ? Json(timing.worst.count()) : Json();
+    row["slack_ns"] = ends ? Json(slack_of(module, timing).count()) : Json();
+    lines += (lines.empty() ? "\n    " : ",\n    ") + text(row);
+  }
+  return ",\n  \"utilisation\": " + text(Json(utilisation(config) + check.dispatch_share)) + ",\n  \"times\": [" +
+         lines + "\n  ]";
+}
+
 // Everything between the braces.
 std::string plan_fields(const Config& config, const CheckResult& check) {
   const scheduler::PeriodTable& table = check.table;
@@ -48,6 +74,7 @@ std::string plan_fields(const Config& config, const CheckResult& check) {
   plan += table.slots.empty() ? "]" : "\n  ]";
   plan += ",\n  \"sporadic\": " + text(names_json(config, check.sporadic));
   plan += ",\n  \"non_real\": " + text(names_json(config, check.non_real));
+  plan += times_json(config, check);
   if (table.slot_count > table.slots.size()) {
     plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
   }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/plan/plan_parts.h"
 
+#include <numeric>
+
+#include "scheduler/response_time.h"
+
 namespace indurop::config {
 
 std::vector<std::string> names_of(const Config& config, const CheckResult& check, const scheduler::Slot& slot) {
@@ -18,6 +22,22 @@ std::string in_order(const std::vector<std::string>& names) {
     text += (text.empty() ? "" : " > ") + name;
   }
   return text;
+}
+
+base::Nanos slack_of(const Module& module, const Timing& timing) {
+  const base::Nanos deadline = module.deadline > base::Nanos::zero() ? module.deadline : module.period;
+  return timing.known && timing.worst != scheduler::WorstResponses::kNotDone ? deadline - timing.worst : base::Nanos{};
+}
+
+double utilisation(const Module& module) {
+  const base::Nanos between = module.operation == scheduler::Operation::Sporadic ? module.deadline : module.period;
+  return between > base::Nanos::zero() ? static_cast<double>(module.wcet.count()) / static_cast<double>(between.count())
+                                       : 0.0;
+}
+
+double utilisation(const Config& config) {
+  return std::accumulate(config.modules.begin(), config.modules.end(), 0.0,
+                         [](double sum, const Module& module) { return sum + utilisation(module); });
 }
 
 std::string milliseconds(base::Nanos value) {

@@ -14,6 +14,11 @@ namespace indurop::config {
 std::vector<std::string> names_of(const Config& config, const CheckResult& check, const scheduler::Slot& slot);
 // "cntr3 > cntr2"
 std::string in_order(const std::vector<std::string>& names);
+// Deadline, else period, less the worst response; 0 if that is not known, or there is none.
+base::Nanos slack_of(const Module& module, const Timing& timing);
+// Share of a core that modules take which say how long they execute; sporadic ones once within their deadline.
+double utilisation(const Module& module);
+double utilisation(const Config& config);
 // Nanoseconds as milliseconds, every digit: "0.1".
 std::string milliseconds(base::Nanos value);
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan for people: the chapter's Table 3, then every module with its values in normalised form.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/text.h"
 #include "config/plan/plan_parts.h"
+#include "scheduler/response_time.h"
 #include "scheduler/words.h"
 
 namespace indurop::config {
@@ -97,6 +100,22 @@ std::string schedule(const Config& config, const CheckResult& check) {
   return all;
 }
 
+std::string ends_within(const Timing& timing) {
+  return !timing.known                                         ? ""
+         : timing.worst == scheduler::WorstResponses::kNotDone ? "never"
+                                                               : base::format_duration(timing.worst);
+}
+
+// "Takes 42.0 % of a core: modules 30.0 %, ticks 12.0 %".
+std::string load(const Config& config, const CheckResult& check) {
+  if (check.dispatch_share == 0) {
+    return {};
+  }
+  const double modules = utilisation(config);
+  return fmt::format("Takes {:.1f} % of a core: modules that say how long they execute {:.1f} %, ticks {:.1f} %\n",
+                     (modules + check.dispatch_share) * 100, modules * 100, check.dispatch_share * 100);
+}
+
 std::string modules_table(const Config& config, const CheckResult& check) {
   TextTable text({{"Module"},
                   {"Type"},
@@ -106,6 +125,9 @@ std::string modules_table(const Config& config, const CheckResult& check) {
                   {"Deadline", Align::Right},
                   {"Priority", Align::Right},
                   {"Core", Align::Right},
+                  {"Executes", Align::Right},
+                  {"Ends within", Align::Right},
+                  {"Slack", Align::Right},
                   {"File"}});
   const auto add = [&](std::size_t index) {
     const Module& m = config.modules[index];
@@ -114,7 +136,8 @@ std::string modules_table(const Config& config, const CheckResult& check) {
     };
     text.add({m.name, to_text(m.type), to_text(m.operation), shown(m.period), shown(m.offset), shown(m.deadline),
               m.operation == scheduler::Operation::NonReal ? "" : std::to_string(m.priority),
-              m.core >= 0 ? std::to_string(m.core) : "", m.file_as_written});
+              m.core >= 0 ? std::to_string(m.core) : "", shown(m.wcet), ends_within(check.timings[index]),
+              shown(slack_of(m, check.timings[index])), m.file_as_written});
   };
   for (const std::uint32_t item : check.table.order) {
     add(check.periodic[item]);
@@ -160,6 +183,9 @@ std::string plan_table(const Config& config, const CheckResult& check) {
   }
   if (const std::string rest = others(config, check); !rest.empty()) {
     text += "\n" + rest;
+  }
+  if (const std::string taken = load(config, check); !taken.empty()) {
+    text += "\n" + taken;
   }
   return config.modules.empty() ? text : text + "\n" + modules_table(config, check);
 }

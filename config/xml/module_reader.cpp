@@ -41,7 +41,7 @@ class ModuleReader {
     void (ModuleReader::*read)(const base::Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 19> kKnown{{
+    static constexpr std::array<Known, 20> kKnown{{
         {"filename", false, &ModuleReader::read_file},     {"name", false, &ModuleReader::read_name},
         {"moduletype", false, &ModuleReader::read_type},   {"operationtype", false, &ModuleReader::read_operation},
         {"period", false, &ModuleReader::read_period},     {"offset", false, &ModuleReader::read_offset},
@@ -51,7 +51,7 @@ class ModuleReader {
         {"standby", false, &ModuleReader::read_standby},   {"signal", false, &ModuleReader::read_signal_element},
         {"argument", true, &ModuleReader::read_argument},  {"access", false, &ModuleReader::read_access},
         {"restart", false, &ModuleReader::read_restart},   {"failsafe", true, &ModuleReader::read_failsafe},
-        {"property", true, &ModuleReader::read_property},
+        {"property", true, &ModuleReader::read_property},  {"wcet", false, &ModuleReader::read_wcet},
     }};
     return kKnown;
   }
@@ -135,6 +135,7 @@ class ModuleReader {
   void read_period(const base::Element& e) { duration(e, false, module_.period, module_.places.period); }
   void read_offset(const base::Element& e) { duration(e, true, module_.offset, module_.places.offset); }
   void read_deadline(const base::Element& e) { duration(e, false, module_.deadline, module_.places.deadline); }
+  void read_wcet(const base::Element& e) { duration(e, false, module_.wcet, module_.places.wcet); }
   void read_budget(const base::Element& e) {
     if (e.text == "off" && e.children.empty()) {
       check_attributes(e, {}, report_);

@@ -93,9 +93,11 @@ class Rules {
   }
 
   void check_non_real() {
-    without_effect({"offset", "priority", "deadline", "budget", "overrun", "position", "signal"}, "non-real-time");
+    without_effect({"offset", "priority", "deadline", "wcet", "budget", "overrun", "position", "signal"},
+                   "non-real-time");
     module_.offset = base::Nanos::zero();
     module_.deadline = base::Nanos::zero();
+    module_.wcet = base::Nanos::zero();
     module_.signal = 0;
     if (given_.type && module_.type == ModuleType::Process) {
       without_effect({"period"}, "non-real-time process");

@@ -6,6 +6,7 @@
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 #include "tools/command/config_file.h"
+#include "tools/command/measured_times.h"
 #include "tools/plant/check_plant.h"
 #include "tools/verbs/verbs.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::string file;
   bool adjust = false;
+  config::CheckOptions::Times times;
 };
 
 std::string summary_line(const CheckedConfig& checked) {
@@ -74,7 +76,7 @@ int check(Context& context, const Options& options) {
   if (!file) {
     return report(context.out, file.error());
   }
-  const config::CheckOptions all{.files = true, .adjust = options.adjust};
+  const config::CheckOptions all{.files = true, .adjust = options.adjust, .times = &options.times};
   return config::is_plant_file(*file) ? check_plant_file(context, *file, all) : check_one(context, *file, all);
 }
 
@@ -83,6 +85,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };
 }
@@ -94,6 +97,7 @@ const Verb kCheckVerb{
     "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
     "read them, and one summary line. With -q only diagnostics and summary; -o csv prints the variables.\n"
     "For a plant it shows the boards and the variables that travel between them; -o csv prints these variables.\n"
+    "If modules say how long they execute (<wcet>, or --times), it is an error if one can miss its deadline.\n"
     "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n"
     "Examples:\n"
     "  indurop check\n"

@@ -6,6 +6,7 @@
 #include "config/plan/plan.h"
 #include "config/xml/plant_reader.h"
 #include "tools/command/config_file.h"
+#include "tools/command/measured_times.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -15,6 +16,7 @@ struct Options {
   std::string file;
   std::string svg_file;
   bool adjust = false;
+  config::CheckOptions::Times times;
 };
 
 std::string with_line_end(std::string text) {
@@ -58,7 +60,7 @@ int plan(Context& context, const Options& options) {
   if (!file) {
     return report(context.out, file.error());
   }
-  const config::CheckOptions schedule{.files = false, .adjust = options.adjust};
+  const config::CheckOptions schedule{.files = false, .adjust = options.adjust, .times = &options.times};
   if (config::is_plant_file(*file)) {
     const CheckedPlant checked = load_plant(*file, schedule);
     print_diagnostics(context, checked.diagnostics, false);
@@ -75,6 +77,7 @@ Action declare(base::Options& app, Context& context) {
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.add("--svg", "FILE", options->svg_file, "Write the timing diagram to FILE");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   return [options](Context& c) { return plan(c, *options); };
 }
@@ -84,10 +87,12 @@ Action declare(base::Options& app, Context& context) {
 const Verb kPlanVerb{"plan", "Before it runs",
                      "Show the schedule: which module runs in which basic period, in which order",
                      "Works without the module files: only the periods, offsets and priorities count.\n"
+                     "Of modules with <wcet>, and with --times, it shows when each ends at the latest.\n"
                      "-o svg prints a timing diagram for a browser or a document. Of a plant, all boards are shown.\n"
                      "Examples:\n"
                      "  indurop plan\n"
-                     "  indurop plan plant.xml -o svg > plan.svg\n",
+                     "  indurop plan plant.xml -o svg > plan.svg\n"
+                     "  indurop plan module.xml --times report.json\n",
                      &declare};
 
 }  // namespace indurop::tools

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/command/measured_times.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/json.h"
+#include "base/read_file.h"
+
+namespace indurop::tools {
+namespace {
+
+// Why it is none; empty: it is one.
+std::string take_report(const std::string& file, config::CheckOptions::Times& times) {
+  const auto text = base::read_file(file);
+  if (!text) {
+    return base::cannot_read(file, text.error());
+  }
+  const auto report = base::Json::parse(*text);
+  if (!report || !(*report)["modules"].is_array()) {
+    return file + " is no report; indurop run --report FILE writes one";
+  }
+  for (const base::Json& module : (*report)["modules"].values()) {
+    const auto name = module["name"].text();
+    const auto longest = module["exec_ns"]["max"].integer();
+    if (name && longest && *longest > 0) {
+      base::Nanos& time = times[*name];
+      time = std::max(time, base::Nanos(*longest));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_times_option(base::Options& line, config::CheckOptions::Times& times) {
+  line.add(
+          "--times", "FILE", [&times](const std::string& file) { return take_report(file, times); },
+          "Of modules without <wcet>, take the longest execution in this report of indurop run --report")
+      .completes(base::Completion::File);
+}
+
+}  // namespace indurop::tools

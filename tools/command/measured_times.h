@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The option --times of verbs that look at a schedule: how long modules executed at most in a run before.
+
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "base/options.h"
+#include "config/check/check.h"
+
+namespace indurop::tools {
+
+// Adds --times FILE, a report of `indurop run --report`; fills `times` when it is given. What cannot be read is a wrong
+// command line.
+void add_times_option(base::Options& line, config::CheckOptions::Times& times);
+
+}  // namespace indurop::tools
