@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading the robot task: files, settings, and everything that is wrong with them at once.
+// Loading the robot task: settings, files, and everything that is wrong with them at once.
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/diagnostic.h"
-#include "base/read_file.h"
 #include "robot/group.h"
-#include "robot/urdf.h"
+#include "robot/read_files.h"
 
 namespace indurop::robot {
 
 namespace {
-
-constexpr std::size_t kMostBytes = 4U << 20U;
 
 using Diagnostics = std::vector<base::Diagnostic>;
 
@@ -27,21 +22,6 @@ base::Diagnostic error(std::string file, base::SourcePlace place, std::string te
 
 void take_over(Diagnostics&& from, Diagnostics& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
-}
-
-Result<std::string, base::Diagnostic> text_of(const std::string& path, const char* what) {
-  auto text = base::read_file(path, kMostBytes);
-  if (text) {
-    return std::move(*text);
-  }
-  using Kind = base::FileProblem::Kind;
-  const base::FileProblem& problem = text.error();
-  return error(path, {1, 1},
-               std::string("this ") + what +
-                   (problem.kind == Kind::TooLarge ? " has more than 4 MiB"
-                    : problem.kind == Kind::System
-                        ? " cannot be read; names begin at the folder of the module.xml"
-                        : " cannot be read: " + problem.text + "; names begin at the folder of the module.xml"));
 }
 
 Diagnostics check_settings(const Settings& s) {
@@ -69,18 +49,6 @@ Diagnostics check_settings(const Settings& s) {
   return errors;
 }
 
-std::vector<JobFile> read_jobs(const Settings& settings, Diagnostics& errors) {
-  std::vector<JobFile> files;
-  for (const std::string& path : settings.jobs) {
-    if (auto text = text_of(path, "job")) {
-      files.push_back({path, std::move(text).value()});
-    } else {
-      errors.push_back(std::move(text).error());
-    }
-  }
-  return files;
-}
-
 GroupParts parts_of(const Settings& settings, ArmModel model, JobBook book) {
   GroupParts parts{settings, std::move(model.arm), {}, {}, std::move(book)};
   parts.joints.velocity = model.velocity;
@@ -96,40 +64,14 @@ GroupParts parts_of(const Settings& settings, ArmModel model, JobBook book) {
   return parts;
 }
 
-// Points given as joint angles can be checked against the arm right away.
-Diagnostics check_points(const JobBook& book, const Arm& arm) {
-  Diagnostics errors;
-  for (const Point& point : book.points) {
-    const int axis = point.target.is_pose ? -1 : arm.beyond_limits(point.target.joints);
-    if (axis >= 0) {
-      std::ostringstream text;
-      text << "point '" << point.name << "': joint " << axis + 1 << " is at " << degrees(point.target.joints[axis])
-           << " degrees, its limits are " << degrees(arm.axis(axis).lower) << " to " << degrees(arm.axis(axis).upper);
-      errors.push_back(error(point.file, point.place, text.str()));
-    }
-  }
-  return errors;
-}
-
 }  // namespace
 
 std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vector<std::string>& errors) {
   Diagnostics wrong = check_settings(settings);
-  std::optional<ArmModel> model;
-  if (auto text = text_of(settings.urdf, "robot description (property urdf)"); !text) {
-    wrong.push_back(std::move(text).error());
-  } else if (auto arm = arm_from_urdf(settings.urdf, *text)) {
-    model = std::move(arm).value();
-  } else {
-    take_over(std::move(arm).error(), wrong);
-  }
-  ReadJobs jobs = parse_jobs(read_jobs(settings, wrong));
-  take_over(std::move(jobs.diagnostics), wrong);
-  if (model) {
-    take_over(check_points(jobs.book, model->arm), wrong);
-  }
+  ReadFiles files = read_files({settings.urdf, settings.jobs});
+  take_over(std::move(files.errors), wrong);
   if (wrong.empty()) {
-    return std::make_unique<Group>(parts_of(settings, std::move(*model), std::move(jobs.book)));
+    return std::make_unique<Group>(parts_of(settings, std::move(*files.model), std::move(files.book)));
   }
   // The header users include knows nothing of ours.
   std::transform(wrong.begin(), wrong.end(), std::back_inserter(errors),

@@ -8,6 +8,7 @@
 
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
+#include "tools/command/robot_files.h"
 
 namespace indurop::tools {
 namespace {
@@ -24,6 +25,10 @@ const char* to_text(Severity severity) {
       return "note";
   }
   return "error";
+}
+
+void append(const std::vector<base::Diagnostic>& from, std::vector<base::Diagnostic>& to) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
 }  // namespace
@@ -58,7 +63,10 @@ CheckedConfig load_config(const std::string& file, const config::CheckOptions& o
   CheckedConfig out{std::move(read.config), {}, std::move(read.diagnostics)};
   if (out.ok()) {
     out.check = config::check_config(out.config, options);
-    out.diagnostics.insert(out.diagnostics.end(), out.check.diagnostics.begin(), out.check.diagnostics.end());
+    append(out.check.diagnostics, out.diagnostics);
+    if (options.files) {
+      append(check_robot_files(out.config, out.check), out.diagnostics);
+    }
   }
   return out;
 }
@@ -69,7 +77,10 @@ CheckedPlant load_plant(const std::string& file, config::CheckOptions options) {
   CheckedPlant out{std::move(read.plant), {}, std::move(read.diagnostics)};
   if (out.ok()) {
     out.check = config::check_plant(out.plant, options);
-    out.diagnostics.insert(out.diagnostics.end(), out.check.diagnostics.begin(), out.check.diagnostics.end());
+    append(out.check.diagnostics, out.diagnostics);
+    for (std::size_t i = 0; options.files && i < out.check.boards.size(); ++i) {
+      append(check_robot_files(out.plant.boards[i].config, out.check.boards[i]), out.diagnostics);
+    }
   }
   return out;
 }

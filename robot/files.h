@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with the files of a robot, for whoever looks at them before anything runs.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+
+namespace indurop::robot {
+
+struct FileNames {
+  std::string urdf;
+  std::vector<std::string> jobs;  // points too
+};
+
+// All errors of all of them.
+std::vector<base::Diagnostic> check_files(const FileNames& names);
+
+}  // namespace indurop::robot

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// URDF, job and point files of robot modules, as the modules would read them when the node starts.
+
+#pragma once
+
+#include <vector>
+
+#include "config/check/check.h"
+
+namespace indurop::tools {
+
+// Their errors. A robot module has the property `urdf` or `jobs` and, where its file can be read, reads URDF.
+std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check);
+
+}  // namespace indurop::tools
