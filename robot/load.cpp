@@ -39,6 +39,15 @@ Diagnostics check_settings(const Settings& s) {
   positive("tool_turn_speed", s.tool_turn_speed);
   positive("emergency_factor", s.emergency_factor);
   positive("following_limit", s.following_limit);
+  const auto six = [&](const char* name, const std::vector<double>& values) {
+    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
+    if (!values.empty() && (values.size() != kJoints || !sane)) {
+      errors.push_back(
+          error(std::string("property ") + name, {}, "it has to be six numbers above 0, one of each axis"));
+    }
+  };
+  six("acceleration", s.acceleration);
+  six("jerk", s.jerk);
   if (s.emergency_category != StopCategory::Category0 && s.emergency_category != StopCategory::Category1) {
     errors.push_back(
         error("property emergency_category", {}, "it has to be 0 or 1, an emergency stop takes power away"));
@@ -53,7 +62,13 @@ GroupParts parts_of(const Settings& settings, ArmModel model, JobBook book) {
   GroupParts parts{settings, std::move(model.arm), {}, {}, std::move(book)};
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
+  if (!settings.acceleration.empty()) {
+    parts.joints.acceleration = Eigen::Map<const Joints>(settings.acceleration.data()) * (kPi / 180);
+  }
   parts.joints.jerk = parts.joints.acceleration / settings.time_to_acceleration;
+  if (!settings.jerk.empty()) {
+    parts.joints.jerk = Eigen::Map<const Joints>(settings.jerk.data()) * (kPi / 180);
+  }
   ToolLimits& tool = parts.tool;
   tool.velocity = settings.tool_speed / 1000;
   tool.acceleration = tool.velocity / settings.time_to_speed;

@@ -7,6 +7,7 @@
 #include <indurop/generated.h>
 #include <indurop/robot/controller.h>
 
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -129,6 +130,18 @@ void write_axis_states() {
   }
 }
 
+// What is no number becomes 0, which the controller refuses.
+std::vector<double> numbers(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<double> all;
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    all.push_back(*end == '\0' ? value : 0);
+  }
+  return all;
+}
+
 }  // namespace
 
 void start() {
@@ -140,6 +153,8 @@ void start() {
   settings.absolute = irp::property("absolute", settings.absolute);
   settings.time_to_speed = irp::property("time_to_speed", settings.time_to_speed);
   settings.time_to_acceleration = irp::property("time_to_acceleration", settings.time_to_acceleration);
+  settings.acceleration = numbers(irp::property("acceleration", ""));
+  settings.jerk = numbers(irp::property("jerk", ""));
   settings.tool_speed = irp::property("tool_speed", settings.tool_speed);
   settings.tool_turn_speed = irp::property("tool_turn_speed", settings.tool_turn_speed);
   settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);

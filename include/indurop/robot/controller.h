@@ -140,10 +140,13 @@ struct Settings {
   bool absolute = true;                // the drives know where they are without homing
   double time_to_speed = 0.25;         // s, from rest to full speed of an axis with full acceleration
   double time_to_acceleration = 0.1;   // s, from none to full acceleration
-  double tool_speed = 1000;            // mm/s, full speed on lines and circles
-  double tool_turn_speed = 180;        // deg/s, the same for orientation
-  double emergency_factor = 1.5;       // of the accelerations, in an emergency stop
-  double following_limit = 10;         // deg an axis may be behind
+  // deg/s^2 and deg/s^3 of each axis, six numbers; empty: by time_to_speed and time_to_acceleration.
+  std::vector<double> acceleration;
+  std::vector<double> jerk;
+  double tool_speed = 1000;       // mm/s, full speed on lines and circles
+  double tool_turn_speed = 180;   // deg/s, the same for orientation
+  double emergency_factor = 1.5;  // of the accelerations, in an emergency stop
+  double following_limit = 10;    // deg an axis may be behind
   // Of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };

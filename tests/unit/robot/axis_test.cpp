@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "group_cell.h"
 
@@ -129,6 +130,42 @@ TEST(Axis, A_reset_waits_until_it_stands_still) {
   EXPECT_NE(cell.out.axes[0].done, cell.in.axes[0].number);
   ASSERT_TRUE(cell.until([&] { return cell.out.axes[0].done == cell.in.axes[0].number; }));
   EXPECT_EQ(cell.out.axes[0].velocity, 0);
+}
+
+TEST(Axis_limits, Each_axis_has_its_own_acceleration_and_jerk) {
+  constexpr double kPeriod = 0.001;
+  Settings settings;
+  settings.acceleration = {400, 100, 800, 900, 1000, 1100};
+  settings.jerk = {8000, 400, 9000, 9000, 9000, 9000};
+  Cell cell("", 1, 0, true, settings);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    double position = cell.out.command[axis];
+    double speed = 0;
+    double acceleration = 0;
+    double hardest = 0;
+    double jerk = 0;
+    cell.ask_axis(axis, AxisService::MoveRelative, 40, 1000);
+    for (int i = 0; i < 3000; ++i) {
+      cell.step();
+      const double v = (cell.out.command[axis] - position) / kPeriod;
+      const double a = (v - speed) / kPeriod;
+      jerk = std::max(jerk, std::abs(a - acceleration) / kPeriod);
+      hardest = std::max(hardest, std::abs(a));
+      position = cell.out.command[axis];
+      speed = v;
+      acceleration = a;
+    }
+    EXPECT_NEAR(hardest, settings.acceleration[axis], 0.01 * settings.acceleration[axis]);
+    EXPECT_NEAR(jerk, settings.jerk[axis], 0.01 * settings.jerk[axis]);
+  }
+}
+
+TEST(Axis_limits, Accelerations_of_another_number_of_axes_are_refused) {
+  Settings settings;
+  settings.acceleration = {400, 100};
+  settings.jerk = {1, 2, 3, 4, 5, -6};
+  EXPECT_THROW(Cell("", 1, 0, true, settings), std::runtime_error);
 }
 
 }  // namespace
