@@ -132,6 +132,9 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
     context_.error(expression.at, "an ARRAY[*] is not assigned as a whole, assign its elements");
     return false;
   }
+  if (to.kind == Type::Kind::Pointer) {
+    return assigned_pointer(expression, to);
+  }
   if (to.kind == Type::Kind::Interface) {
     return assigned_interface(expression, to);
   }

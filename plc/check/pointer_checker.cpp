@@ -87,6 +87,16 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
 }
 
 bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to) {
+  if (expression.kind == Expression::Kind::Name && same_name(expression.name, "THIS")) {  // its address
+    const Place at = expression.at;
+    std::vector<ast::Argument> arguments;
+    arguments.push_back(make::argument("", std::move(expression)));
+    expression = make::call(at, make::name(at, "ADR"), std::move(arguments));
+  }
+  const Type* type = expression.kind == Expression::Kind::Call ? top_call(expression, &to) : value(expression, &to);
+  if (type == nullptr) {
+    return false;
+  }
   if (is_zero(expression) || context_.assignable(*expression.type, to)) {
     return true;
   }

@@ -126,7 +126,30 @@ void StatementChecker::bind(Statement& one) {
   }
 }
 
+// a ?= b: NULL unless what b leads to is of the type of a.
+void StatementChecker::attempt(Statement& one) {
+  const auto leads = [](const Type& type) {
+    const Type* to = type.kind == Type::Kind::Interface ? &type
+                     : type.kind == Type::Kind::Pointer ? type.element
+                                                        : nullptr;
+    return to != nullptr && to->pou != nullptr &&
+           (to->kind == Type::Kind::Interface ? &type == to : to->pou->is_object);
+  };
+  const Type* to = expressions_.target(*one.target);
+  const Type* from = expressions_.value(*one.value);
+  if (to != nullptr && from != nullptr && !(leads(*to) && leads(*from))) {
+    context_.error(one.at,
+                   fmt::format("?= is for interfaces and references to function blocks with methods, not for {} "
+                               "and {}",
+                               with_article(*to), with_article(*from)));
+  }
+}
+
 void StatementChecker::assign(Statement& one) {
+  if (one.attempts) {
+    attempt(one);
+    return;
+  }
   if (one.binds) {
     bind(one);
     return;

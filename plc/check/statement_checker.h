@@ -20,6 +20,7 @@ class StatementChecker {
   void list(ast::Body& body);
   void statement(ast::Statement& one);
   void bind(ast::Statement& one);
+  void attempt(ast::Statement& one);
   void assign(ast::Statement& one);
   bool infer(ast::Statement& one);
   void condition(ast::Expression& expression);

@@ -135,6 +135,11 @@ void StatementEmitter::enabled(const Expression& call, Body body) {
 
 void StatementEmitter::assign(const Statement& one) {
   const Type& to = *one.target->type;
+  if (one.attempts) {
+    out_.line(fmt::format("iec::attempt({}, {}, {});", expressions_.place(one.at), expressions_.variable(*one.target),
+                          expressions_.variable(*one.value)));
+    return;
+  }
   const auto store = [&] { out_.line(expressions_.assign(*one.target, expressions_.value(*one.value, to)) + ";"); };
   if (one.value->kind == Expression::Kind::Call) {
     enabled(*one.value, store);

@@ -145,7 +145,8 @@ struct Statement {
   std::vector<Branch> branches;
   Body body;
   std::string label;
-  bool binds = false;  // Assign: target REF= value
+  bool binds = false;     // Assign: target REF= value
+  bool attempts = false;  // Assign: target ?= value
 };
 
 struct Initial;

@@ -161,6 +161,13 @@ bool StatementParser::simple(Statement& out) {
     out.value = expressions_.expression();
     return out.value && in_.expect_end("behind the variable");
   }
+  if (in_.accept("?=")) {
+    out.kind = Statement::Kind::Assign;
+    out.attempts = true;
+    out.target = std::move(target);
+    out.value = expressions_.expression();
+    return out.value && in_.expect_end("behind the variable");
+  }
   if (!in_.accept(":=")) {
     in_.missing("expected ':=' or '('");
     return false;

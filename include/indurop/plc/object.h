@@ -5,7 +5,10 @@
 #pragma once
 
 #include <indurop/plc/fault.h>
+#include <indurop/plc/pointer.h>
 #include <indurop/plc/scan.h>
+
+#include <type_traits>
 
 namespace indurop::iec {
 
@@ -47,6 +50,35 @@ T& called(Place place, const Interface<T>& variable) {
     fail(place, "a method of an interface variable that is NULL is called");
   }
   return *variable.object;
+}
+
+namespace detail {
+
+template <class T>
+T* instance_of(Place /*place*/, const Interface<T>& variable) noexcept {
+  return variable.object;
+}
+template <class T>
+T* instance_of(Place place, const Pointer<T>& pointer) {
+  return pointer.base == nullptr ? nullptr : &deref(place, pointer);
+}
+template <class T>
+void lead_to(Interface<T>& variable, T* instance) noexcept {
+  variable.object = instance;
+}
+template <class T>
+void lead_to(Pointer<T>& pointer, T* instance) noexcept {
+  pointer = instance == nullptr ? Pointer<T>{} : address(*instance, *instance);
+}
+
+}  // namespace detail
+
+// to ?= from: NULL unless the instance is one of what `to` leads to.
+template <class To, class From>
+void attempt(Place place, To& to, const From& from) {
+  using Wanted = std::remove_pointer_t<decltype(detail::instance_of(place, to))>;
+  auto* const instance = detail::instance_of(place, from);
+  detail::lead_to(to, instance == nullptr ? nullptr : dynamic_cast<Wanted*>(instance));
 }
 
 // A call of a method that the text does not name: through an interface, or of a function block that extends another.
