@@ -78,8 +78,10 @@ std::string random_job(std::mt19937& random) {
   const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
   std::string text;
   Joints place = anywhere(arm, random, 0.1);
-  const double spread = in(0.02, 1);
-  const int points = 2 + one_of(5);
+  // One in four has points so near to each other that lines become chains.
+  const bool near = one_of(4) == 0;
+  const double spread = near ? in(0.001, 0.02) : in(0.02, 1);
+  const int points = near ? 20 + one_of(40) : 2 + one_of(5);
   for (int i = 0; i < points; ++i) {
     Joints q = place;
     for (int tries = 0; tries < 50; ++tries) {
@@ -103,8 +105,10 @@ std::string random_job(std::mt19937& random) {
     place = q;
   }
   text += "MOVJ Q0\n";
-  for (int i = 0; i < 8; ++i) {
-    switch (one_of(6)) {
+  const int steps = near ? 60 : 8;
+  for (int i = 0; i < steps; ++i) {
+    const bool along = near && one_of(10) > 0;
+    switch (along ? 5 : one_of(6)) {
       case 0:
         text += fmt::format("SPEED {}%\n", 1 + one_of(100));
         break;
@@ -118,7 +122,7 @@ std::string random_job(std::mt19937& random) {
         text += fmt::format("MOVC Q{} Q{}\n", one_of(points), one_of(points));
         break;
       default:
-        text += fmt::format("MOVL Q{}\n", one_of(points));
+        text += fmt::format("MOVL Q{}\n", along ? i % points : one_of(points));
     }
   }
   return text;
