@@ -176,7 +176,8 @@ bool ExpressionChecker::write_property(ast::Statement& statement) {
   }
   std::vector<ast::Argument> arguments;
   arguments.push_back(make::argument("", std::move(*statement.value)));
-  Expression call = make::call(target.at, std::move(target), std::move(arguments));
+  const Place at = target.at;
+  Expression call = make::call(at, std::move(target), std::move(arguments));
   call.operands[0].resolved = nullptr;
   static_cast<void>(CallChecker(*this).method(call, *found));
   statement.kind = ast::Statement::Kind::Call;

@@ -131,10 +131,10 @@ struct Resolved {
   // Call
   enum class Intrinsic : std::uint8_t { None, Address, Size, IsValid, LowerBound, UpperBound };
   Intrinsic intrinsic = Intrinsic::None;      // ADR() and REF(), SIZEOF(), __ISVALIDREF()
+  bool by_super = false;                      // of a method: exactly that one, whatever extends it
   bool cast = false;                          // of its only argument, to the type of the call; made by the checker
   const LibraryFunction* function = nullptr;  // of the library; also what an operator stands for
   const Pou* pou = nullptr;
-  bool by_super = false;  // of a method: exactly that one, whatever extends it
   struct Actual {
     const ast::Argument* argument = nullptr;  // null: not given
     const Type* type = nullptr;               // of the parameter
