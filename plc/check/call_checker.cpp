@@ -193,7 +193,7 @@ void CallChecker::statement(Expression& call) {
   }
   if (type->block != nullptr) {
     library_block(call, *type->block);
-  } else {
+  } else if (type->pou != nullptr) {
     if (type->pou->base != nullptr && type->pou->tree->body.empty() && has_body(*type->pou->base)) {
       context_.warning(call.at, fmt::format("{} has no statements, so this call runs none; to run those of {}, write "
                                             "SUPER^(); in {}",

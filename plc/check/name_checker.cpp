@@ -292,7 +292,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
     for (const LibraryParameter& one : block.block->outputs) {
       known.push_back(one.name);
     }
-  } else {
+  } else if (block.pou != nullptr) {
     const Variable* found = block.pou->find(upper(expression.name));
     if (found != nullptr && (found->section == ast::Section::Input || found->section == ast::Section::Output)) {
       resolved(expression).is_output = found->section == ast::Section::Output;
