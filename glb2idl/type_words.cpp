@@ -61,17 +61,17 @@ constexpr std::array<Substitute, 24> kSubstitutes{{{"string", "char name[32]"},
 
 // How often each word of kWords occurs.
 using Counts = std::array<int, kWords.size()>;
-enum Word : std::size_t { kChar, kShort, kInt, kLong, kSigned, kUnsigned, kFloat, kDouble, kBool, kVoid };
+enum Word : std::size_t { Char, Short, Int, Long, Signed, Unsigned, Float, Double, Bool, Void };
 
 std::optional<Base> integer(const Counts& n) noexcept {
-  const bool is_unsigned = n[kUnsigned] != 0;
-  if (n[kSigned] + n[kUnsigned] > 1 || n[kInt] > 1 || n[kShort] > 1 || n[kLong] > 2 || n[kShort] * n[kLong] != 0) {
+  const bool is_unsigned = n[Unsigned] != 0;
+  if (n[Signed] + n[Unsigned] > 1 || n[Int] > 1 || n[Short] > 1 || n[Long] > 2 || n[Short] * n[Long] != 0) {
     return std::nullopt;
   }
-  if (n[kShort] != 0) {
+  if (n[Short] != 0) {
     return is_unsigned ? Base::UInt16 : Base::Int16;
   }
-  if (n[kLong] != 0) {
+  if (n[Long] != 0) {
     return is_unsigned ? Base::UInt64 : Base::Int64;
   }
   return is_unsigned ? Base::UInt32 : Base::Int32;
@@ -98,25 +98,25 @@ std::optional<Base> combined_type(std::span<const std::string_view> words) noexc
     ++n[static_cast<std::size_t>(found - kWords.begin())];
   }
   const auto only = [&](Word word) { return n[word] == 1 && words.size() == 1; };
-  if (only(kFloat)) {
+  if (only(Float)) {
     return Base::Float;
   }
-  if (only(kDouble)) {
+  if (only(Double)) {
     return Base::Double;
   }
-  if (only(kBool)) {
+  if (only(Bool)) {
     return Base::Bool;
   }
-  if (n[kFloat] + n[kDouble] + n[kBool] + n[kVoid] != 0) {
+  if (n[Float] + n[Double] + n[Bool] + n[Void] != 0) {
     return std::nullopt;
   }
-  if (n[kChar] == 0) {
+  if (n[Char] == 0) {
     return integer(n);
   }
-  if (n[kChar] > 1 || n[kShort] + n[kInt] + n[kLong] != 0 || n[kSigned] + n[kUnsigned] > 1) {
+  if (n[Char] > 1 || n[Short] + n[Int] + n[Long] != 0 || n[Signed] + n[Unsigned] > 1) {
     return std::nullopt;
   }
-  return n[kUnsigned] != 0 ? Base::UInt8 : n[kSigned] != 0 ? Base::Int8 : Base::Char;
+  return n[Unsigned] != 0 ? Base::UInt8 : n[Signed] != 0 ? Base::Int8 : Base::Char;
 }
 
 std::string_view substitute_for(std::string_view word) noexcept {
@@ -126,14 +126,14 @@ std::string_view substitute_for(std::string_view word) noexcept {
 }
 
 const std::vector<std::string>& type_names() {
-  static const std::vector<std::string> names = [] {
+  static const std::vector<std::string> kNames = [] {
     std::vector<std::string> all(kWords.begin(), kWords.end() - 1);
     for (const Fixed& f : kFixed) {
       all.emplace_back(f.first);
     }
     return all;
   }();
-  return names;
+  return kNames;
 }
 
 }  // namespace indurop::glb2idl
