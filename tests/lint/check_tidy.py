@@ -69,6 +69,13 @@ def fingerprint(root, entry, arguments, common_part):
     return digest.hexdigest()
 
 
+def configuration(root, file):
+    """What the .clang-tidy files of its folder and of those above say."""
+    folders = pathlib.Path(file).resolve().relative_to(root).parents
+    return b"".join((root / folder / ".clang-tidy").read_bytes() for folder in folders
+                    if (root / folder / ".clang-tidy").exists())
+
+
 def tidy_one(root, build, entry, folder, common_part):
     arguments = clang_arguments(entry)
     key = fingerprint(root, entry, arguments, common_part) if folder else None
@@ -127,12 +134,11 @@ def run_all(root, build, prefixes, only=None):
     if not entries and only is None:
         return [f"{build}/compile_commands.json: names none of our sources"]
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
-    config = b"".join((root / name).read_bytes() for name in common.project_files(root) if name.endswith(".clang-tidy"))
     folder = cache_folder(build)
     # Large files first, so that the last minutes are not one file on one core.
     order = sorted(entries.values(), key=lambda entry: -os.path.getsize(entry["file"]))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = pool.map(lambda entry: tidy_one(root, build, entry, folder, version + config), order)
+        results = pool.map(lambda entry: tidy_one(root, build, entry, folder, version + configuration(root, entry["file"])), order)
         findings = sorted({finding for found in results for finding in found})
     print(f"{len(entries)} files")
     return findings
