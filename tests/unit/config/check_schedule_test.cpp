@@ -13,8 +13,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-constexpr CheckOptions kScheduleOnly{.files = false, .adjust = false};
-constexpr CheckOptions kAdjust{.files = false, .adjust = true};
+const CheckOptions kScheduleOnly{.files = false, .adjust = false};
+const CheckOptions kAdjust{.files = false, .adjust = true};
 
 TEST(Schedule, Sorts_modules_by_operation_and_priority) {
   const Checked sut = check(root(sporadic("late.so", "thread", 2) + non_real("log.exe") + periodic("b.so", "1ms", 2) +

@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr CheckOptions kScheduleOnly{.files = false, .adjust = false};
+const CheckOptions kScheduleOnly{.files = false, .adjust = false};
 
 std::string wcet(const char* time) {
   return std::string("<wcet>") + time + "</wcet>";

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr CheckOptions kScheduleOnly{.files = false, .adjust = false};
+const CheckOptions kScheduleOnly{.files = false, .adjust = false};
 
 bool is_well_formed(const std::string& xml) {
   base::XmlRules rules;

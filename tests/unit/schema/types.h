@@ -35,7 +35,7 @@ inline Type enumeration(std::string name, std::vector<Enumerator> values) {
 }
 
 // Lays the fields out as C does.
-inline Type structure(std::string name, std::vector<std::pair<std::string, Type>> fields,
+inline Type structure(std::string name, const std::vector<std::pair<std::string, Type>>& fields,
                       std::vector<std::uint32_t> dims = {}) {
   Type type;
   type.base = Base::Struct;
@@ -48,7 +48,7 @@ inline Type structure(std::string name, std::vector<std::pair<std::string, Type>
     field.offset = up(type.element_size, field_type.align);
     type.element_size = field.offset + static_cast<std::uint32_t>(field_type.size());
     type.align = std::max(type.align, field_type.align);
-    field.type = std::move(field_type);
+    field.type = field_type;
     type.fields.push_back(std::move(field));
   }
   type.element_size = up(type.element_size, type.align);
