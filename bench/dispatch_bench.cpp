@@ -30,7 +30,7 @@ void inline_band(benchmark::State& state) {
   std::memset(memory, 0, bytes);
   auto& block = *static_cast<RunBlock*>(memory);
   init_run_block(block, setup);
-  SystemClock clock;
+  SystemKernel clock;
   CoreTrace trace;
   std::vector<std::unique_ptr<TaskState>> states;
   std::vector<TaskState*> tasks;
@@ -53,7 +53,7 @@ void inline_band(benchmark::State& state) {
 BENCHMARK(inline_band)->Arg(1)->Arg(16)->Arg(256);
 
 void clock_read(benchmark::State& state) {
-  SystemClock clock;
+  SystemKernel clock;
   for (auto _ : state) {
     benchmark::DoNotOptimize(clock.now());
   }

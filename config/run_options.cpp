@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "base/duration.h"
+#include "config/measured_times.h"
 #include "config/xml/plant_rules.h"
 
 namespace indurop::config {
 namespace {
+
+constexpr double kMostSpeed = 1e6;
 
 base::DurationText read_time(const std::string& text) {
   return base::read_duration(text, false, base::PlainNumber::Seconds);
@@ -30,6 +35,33 @@ std::string take_spin(const std::string& text, std::optional<SpinSetting>& to) {
     return time.problem;
   }
   return {};
+}
+
+std::string take_speed(const std::string& text, double& to) {
+  if (text == "max") {
+    to = 0;
+    return {};
+  }
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), to);
+  const bool ok = end.ec == std::errc() && end.ptr == text.data() + text.size() && to > 0 && to <= kMostSpeed;
+  return ok ? ""
+            : fmt::format("'{}' is no speed: use max, or how many times real time it is to run, 1 or 0.5 or 10", text);
+}
+
+void declare_simulation(base::Options& line, Simulation& simulation) {
+  const base::Option sim = line.flag("--sim", simulation.on, "Run in virtual time, the same way on every run");
+  const auto speed = [&simulation](const std::string& text) { return take_speed(text, simulation.speed); };
+  line.add("--speed", "max|N", speed, "With --sim: times real time (default: max)").needs(sim);
+  line.flag("--step", simulation.step, "With --sim: stand after each tick; Enter goes on, 10 or 20ms goes further")
+      .needs(sim);
+  line.add("--times", "FILE", simulation.times,
+           "With --sim: modules without <wcet> take as long as they took at most in this report of --report")
+      .needs(sim)
+      .check([](const std::string& file) {
+        CheckOptions::Times times;
+        return read_measured_times(file, times);
+      })
+      .completes(base::Completion::File);
 }
 
 std::string spin_word(const SpinSetting& spin) {
@@ -59,12 +91,13 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--deployment", "ID", options.deployment, "Id that indurop status shows (given by the agent)").needs(board);
   line.add("--node", "NAME", options.node, "Name of the node on this host (default: that of the board, else local)")
       .check(check_node);
-  line.add("--duration", "TIME", take_duration, "End after this time (5s, 500ms)");
+  line.add("--duration,--until", "TIME", take_duration, "End after this time (5s, 500ms)");
   line.add("--report", "FILE", options.report, "Write statistics to this JSON file at the end");
   line.flag("--require-rt", options.require_rt, "Exit with code 7 unless real-time rights were obtained");
   line.flag("--adjust", options.adjust, "Use the nearest periods that work instead of refusing too small ones");
   line.add("--core", "N", options.core, "Core of all modules that name none");
   line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");
+  declare_simulation(line, options.simulation);
 }
 
 std::vector<std::string> words_of(const RunOptions& options) {
@@ -89,6 +122,10 @@ std::vector<std::string> words_of(const RunOptions& options) {
   flag("--adjust", options.adjust);
   value("--core", options.core ? std::to_string(*options.core) : "");
   value("--spin", options.spin ? spin_word(*options.spin) : "");
+  flag("--sim", options.simulation.on);
+  flag("--step", options.simulation.step);
+  value("--speed", options.simulation.speed > 0 ? fmt::format("{}", options.simulation.speed) : "");
+  value("--times", options.simulation.times);
   flag("--quiet", options.quiet);
   if (!options.config.empty()) {
     words.insert(words.end(), {"--", options.config.string()});

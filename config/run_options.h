@@ -13,6 +13,14 @@
 
 namespace indurop::config {
 
+// A run in virtual time.
+struct Simulation {
+  bool on = false;
+  bool step = false;  // stands after each tick until standard input says to go on
+  double speed = 0;   // times real time; 0: as fast as the machine allows
+  std::string times;  // report of a run that says how long modules take; empty: only what <wcet> says
+};
+
 struct RunOptions {
   std::filesystem::path config;
   std::string node;                     // empty: that of the board, else "local"
@@ -26,6 +34,7 @@ struct RunOptions {
   bool quiet = false;  // no summary, no messages of the node but warnings and errors
   std::optional<int> core;
   std::optional<SpinSetting> spin;
+  Simulation simulation;
 };
 
 // Declares all but --quiet, which verbs have anyway; `options` must outlive the parsing.

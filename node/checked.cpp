@@ -28,7 +28,7 @@ Reading read_modules(const Options& options) {
   }
   Checked& checked = out.checked;
   checked.config = std::move(read.config);
-  checked.check = config::check_config(checked.config, {true, options.adjust});
+  checked.check = config::check_config(checked.config, {.adjust = options.adjust, .machine = !options.simulation.on});
   out.add(checked.check.diagnostics);
   checked.external.configure(checked.config, checked.check);
   out.ok = checked.check.ok();

@@ -31,7 +31,25 @@ bool waits_for_signals(const std::filesystem::path& thread) {
   return file >> number && number == SYS_rt_sigtimedwait;
 }
 
+// "State:\tS (sleeping)", and the signal is in none of the sets of pending ones.
+bool rests(const std::filesystem::path& thread, int signal) {
+  std::ifstream file(thread / "status");
+  bool sleeps = false;
+  std::uint64_t pending = 0;
+  for (std::string line; std::getline(file, line);) {
+    sleeps = sleeps || line.starts_with("State:\tS");
+    if (line.starts_with("SigPnd:") || line.starts_with("ShdPnd:")) {
+      pending |= std::strtoull(line.c_str() + std::strlen("SigPnd:"), nullptr, 16);
+    }
+  }
+  return sleeps && (pending >> static_cast<unsigned>(signal - 1) & 1U) == 0;
+}
+
 }  // namespace
+
+bool has_dealt_with(pid_t process, int signal) {
+  return rests("/proc/" + std::to_string(process), signal);
+}
 
 bool expects_signal(pid_t process, int signal) {
   std::error_code ignored;

@@ -11,4 +11,7 @@ namespace indurop::node {
 // safe.
 bool expects_signal(pid_t process, int signal);
 
+// It has taken what it was sent of this signal, and waits again. Reads /proc: not real-time safe.
+bool has_dealt_with(pid_t process, int signal);
+
 }  // namespace indurop::node

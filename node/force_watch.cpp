@@ -21,8 +21,8 @@ schema::Part part_of(const vars::Store& store, const vars::Force& force) {
   return schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
 }
 
-std::string time_of(const vars::Force& force) {
-  const std::chrono::duration<double> left = force.until - rt::MonoClock::now();
+std::string time_of(const vars::Force& force, rt::MonoTime now) {
+  const std::chrono::duration<double> left = force.until - now;
   return force.until == vars::kForever ? "until it is released (indurop unforce)"
                                        : fmt::format("for {:.1f} s", left.count());
 }
@@ -35,7 +35,8 @@ void ForceWatch::look(vars::Store& store, Console& console) {
     const vars::Force* before = find(known_, one);
     if (before == nullptr || before->value != one.value || before->until != one.until) {
       const schema::Part part = part_of(store, one);
-      console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()), time_of(one));
+      console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()),
+                      time_of(one, store.now()));
     }
   }
   for (const vars::Force& one : known_) {

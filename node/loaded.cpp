@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "config/measured_times.h"
 #include "node/setup.h"
 #include "runtime/host.h"
 
@@ -48,8 +49,8 @@ Attached::~Attached() {
   }
 }
 
-Result<Loaded, Ending> load(const Checked& checked, const Prepared& prepared, const Console& console,
-                            base::StopSignal& signals) {
+Result<Loaded, Ending> load(const Options& options, const Checked& checked, const Prepared& prepared,
+                            const Console& console, base::StopSignal& signals) {
   if (auto ending = interruption(signals)) {
     return *std::move(ending);
   }
@@ -67,6 +68,13 @@ Result<Loaded, Ending> load(const Checked& checked, const Prepared& prepared, co
     return Ending{kSchemaMismatch};
   }
   loaded.tasks = make_tasks(checked.config, prepared.setup, prepared.rights.core);
+  if (options.simulation.on) {
+    config::CheckOptions::Times times;
+    if (!options.simulation.times.empty()) {
+      (void)config::read_measured_times(options.simulation.times, times);  // was looked at with the command line
+    }
+    set_work_times(loaded.tasks, checked.config, times);
+  }
   for (scheduler::Task& task : loaded.tasks) {
     if (task.type == ModuleType::Thread) {
       task.run = loaded.libraries[task.index].functions().run;

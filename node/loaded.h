@@ -32,7 +32,7 @@ struct Loaded {
   Attached attached;  // ends before the libraries do
 };
 
-Result<Loaded, Ending> load(const Checked& checked, const Prepared& prepared, const Console& console,
-                            base::StopSignal& signals);
+Result<Loaded, Ending> load(const Options& options, const Checked& checked, const Prepared& prepared,
+                            const Console& console, base::StopSignal& signals);
 
 }  // namespace indurop::node

@@ -14,7 +14,7 @@ using scheduler::ModuleState;
 
 Ending run_modules(const Options& options, Console& console, base::StopSignal& signals, Checked& checked,
                    Prepared& prepared) {
-  auto loaded = load(checked, prepared, console, signals);
+  auto loaded = load(options, checked, prepared, console, signals);
   if (!loaded) {
     return std::move(loaded).error();
   }
@@ -29,7 +29,7 @@ Ending run_modules(const Options& options, Console& console, base::StopSignal& s
 bool save_values(Prepared& prepared, Console& console) {
   scheduler::RunBlock& run = prepared.run();
   run.state.store(scheduler::NodeState::Stopping);
-  const bool saved = prepared.retainer->stop(console);
+  const bool saved = !prepared.retainer || prepared.retainer->stop(console);
   for (std::uint32_t i = 0; i < run.module_count; ++i) {
     auto& state = run.modules()[i].state;
     if (const ModuleState now = state.load(); now != ModuleState::Faulted && now != ModuleState::Exited) {

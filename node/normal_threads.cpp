@@ -15,20 +15,22 @@ constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 }  // namespace
 
 struct NormalThreads::Normal {
-  Normal(scheduler::RunBlock& run, scheduler::Clock& clock, const scheduler::Hooks& hooks, scheduler::CoreTrace& trace)
-      : runner(run, clock, hooks, trace, 1) {}
+  Normal(scheduler::RunBlock& run, scheduler::Kernel& with, const scheduler::Hooks& hooks, scheduler::CoreTrace& trace)
+      : runner(run, with, hooks, trace, 1), kernel(with) {}
   scheduler::TaskState state;
   scheduler::Runner runner;
+  scheduler::Kernel& kernel;
   std::int64_t period_ns = 0;
   std::atomic<bool> halt{false};
   rt::MonoTime give_up;
   std::atomic<bool> done{false};
-  rt::Thread thread;
+  std::unique_ptr<scheduler::KernelThread> thread;
 };
 
 NormalThreads::NormalThreads(const config::Config& config, scheduler::RunBlock& run,
-                             const std::vector<ModuleLibrary>& libraries, const scheduler::Hooks& hooks)
-    : config_(config), run_(run), libraries_(libraries), hooks_(hooks) {}
+                             const std::vector<ModuleLibrary>& libraries, const scheduler::Hooks& hooks,
+                             scheduler::Kernel& kernel)
+    : config_(config), run_(run), libraries_(libraries), hooks_(hooks), kernel_(kernel) {}
 
 NormalThreads::~NormalThreads() {
   stop();
@@ -44,14 +46,16 @@ void NormalThreads::start() {
 }
 
 bool NormalThreads::launch(std::uint32_t module) {
-  auto normal = std::make_unique<Normal>(run_, clock_, hooks_, trace_);
+  const std::int64_t period_ns = config_.modules[module].period.count();
+  scheduler::Kernel& kernel = period_ns > 0 ? kernel_ : system_;
+  auto normal = std::make_unique<Normal>(run_, kernel, hooks_, trace_);
   normal->state.task.index = module;
   normal->state.task.operation = scheduler::Operation::NonReal;
   normal->state.task.run = libraries_[module].functions().run;
   normal->state.record = &run_.modules()[module];
-  normal->period_ns = config_.modules[module].period.count();
-  auto thread = rt::Thread::start({"irp-normal", 0, config_.modules[module].core, kStackBytes},
-                                  [this, &normal = *normal] { loop(normal); });
+  normal->period_ns = period_ns;
+  auto thread = kernel.start({"irp-normal", 0, config_.modules[module].core, kStackBytes},
+                             [this, &normal = *normal] { loop(normal); });
   if (!thread) {
     return false;
   }
@@ -84,7 +88,7 @@ bool NormalThreads::has_ended(std::uint32_t module, rt::MonoTime now) {
     }
     return false;
   }
-  normal->thread.join();
+  normal->thread->join();
   std::erase_if(normals_, [normal](const auto& one) { return one.get() == normal; });
   return true;
 }
@@ -96,12 +100,13 @@ void NormalThreads::loop(Normal& normal) noexcept {
   record.state.store(scheduler::ModuleState::Running);
   scheduler::TaskState* const only[] = {&normal.state};
   const auto leaving = [&] { return stop_.load() || normal.halt.load(); };
-  rt::MonoTime next = rt::MonoClock::now();
+  scheduler::Kernel& kernel = normal.kernel;
+  rt::MonoTime next = kernel.now();
   do {
-    normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), rt::MonoClock::now());
-    next = std::max(next + std::chrono::nanoseconds{normal.period_ns}, rt::MonoClock::now());
-    while (normal.period_ns > 0 && rt::MonoClock::now() < next && !leaving()) {
-      rt::sleep_until(std::min(next, rt::MonoClock::now() + kLook));
+    normal.runner.run(only, run_.tick.load(std::memory_order_relaxed), kernel.now());
+    next = std::max(next + std::chrono::nanoseconds{normal.period_ns}, kernel.now());
+    while (normal.period_ns > 0 && kernel.now() < next && !leaving()) {
+      kernel.sleep_until(std::min(next, kernel.now() + kLook));
     }
   } while (normal.period_ns > 0 && !leaving() && normal.state.enabled.load());
   normal.runner.detach_thread();
@@ -113,15 +118,16 @@ void NormalThreads::loop(Normal& normal) noexcept {
 
 void NormalThreads::stop() {
   stop_.store(true);
-  const rt::MonoTime give_up = rt::MonoClock::now() + kGrace;
   for (const auto& normal : normals_) {
+    scheduler::Kernel& kernel = normal->kernel;
+    const rt::MonoTime give_up = kernel.now() + kGrace;
     while (!normal->done.load()) {
-      rt::sleep_until(rt::MonoClock::now() + kLook);
-      if (const rt::MonoTime now = rt::MonoClock::now(); now > give_up) {
+      kernel.sleep_until(kernel.now() + kLook);
+      if (const rt::MonoTime now = kernel.now(); now > give_up) {
         normal->runner.enforce_budget(now, true, 1);
       }
     }
-    normal->thread.join();
+    normal->thread->join();
   }
   normals_.clear();
 }

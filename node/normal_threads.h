@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Non-real-time thread modules: run() once, or every period as well as a normal thread can. One thread per module.
+// Non-real-time thread modules: run() once, or every period as well as a normal thread can. One thread per module. In a
+// simulation the periodic ones keep virtual time, below everything else; the others run as they like.
 
 #pragma once
 
@@ -10,7 +11,6 @@
 
 #include "config/model/config.h"
 #include "node/module_library.h"
-#include "rt/thread.h"
 #include "scheduler/runner.h"
 
 namespace indurop::node {
@@ -18,7 +18,7 @@ namespace indurop::node {
 class NormalThreads {
  public:
   NormalThreads(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
-                const scheduler::Hooks& hooks);
+                const scheduler::Hooks& hooks, scheduler::Kernel& kernel);
   ~NormalThreads();
   NormalThreads(const NormalThreads&) = delete;
   NormalThreads& operator=(const NormalThreads&) = delete;
@@ -42,7 +42,8 @@ class NormalThreads {
   scheduler::RunBlock& run_;
   const std::vector<ModuleLibrary>& libraries_;
   scheduler::Hooks hooks_;
-  scheduler::SystemClock clock_;
+  scheduler::Kernel& kernel_;
+  scheduler::SystemKernel system_;  // of modules that run as they like: a simulation cannot have them wait
   scheduler::CoreTrace trace_;
   std::vector<std::unique_ptr<Normal>> normals_;
   std::atomic<bool> stop_{false};

@@ -34,8 +34,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   }
   if (options.node.empty()) {
     options.node = options.board.empty() ? vars::default_node() : options.board;
-    if (const std::string owner = vars::other_owner("local");
-        options.board.empty() && !owner.empty() && !options.quiet) {
+    if (options.simulation.on) {
+      options.node = options.board.empty() ? "sim" : options.board + "-sim";  // beside the real one
+    } else if (const std::string owner = vars::other_owner("local");
+               options.board.empty() && !owner.empty() && !options.quiet) {
       std::fprintf(stderr, "indurop-node: note: the name 'local' is in use by user %s: this node is '%s'\n",
                    owner.c_str(), options.node.c_str());
     }

@@ -18,8 +18,8 @@ constexpr std::size_t kStackBytes = std::size_t{8} * 1024 * 1024;
 
 // The scheduler's runner contains faults; this is one run of it without a schedule and without statistics.
 struct Phases::Call {
-  Call(scheduler::RunBlock& run, scheduler::Clock& clock, const scheduler::Hooks& hooks)
-      : runner(run, clock, hooks, trace, 1) {}
+  Call(scheduler::RunBlock& run, scheduler::Kernel& kernel, const scheduler::Hooks& hooks)
+      : runner(run, kernel, hooks, trace, 1) {}
   std::uint32_t index = 0;
   const char* phase = "";
   scheduler::CoreTrace trace;
@@ -33,8 +33,14 @@ struct Phases::Call {
 };
 
 Phases::Phases(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
-               Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks)
-    : config_(config), run_(run), libraries_(libraries), console_(console), signals_(signals), hooks_(hooks) {}
+               Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks, scheduler::Kernel& kernel)
+    : config_(config),
+      run_(run),
+      libraries_(libraries),
+      console_(console),
+      signals_(signals),
+      hooks_(hooks),
+      kernel_(kernel) {}
 
 bool Phases::call_all(const char* phase, void (*ModuleDescriptor::*function)()) {
   bool ok = true;
@@ -49,7 +55,7 @@ bool Phases::call_all(const char* phase, void (*ModuleDescriptor::*function)()) 
 }
 
 Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (*function)()) {
-  CallPointer call(new Call(run_, clock_, hooks_), [](Call* over) { delete over; });
+  CallPointer call(new Call(run_, kernel_, hooks_), [](Call* over) { delete over; });
   call->index = index;
   call->phase = phase;
   call->state.task.index = index;
@@ -60,7 +66,7 @@ Phases::CallPointer Phases::begin(std::uint32_t index, const char* phase, void (
     const rt::HandlerStack handler_stack;
     one.runner.attach_thread();
     scheduler::TaskState* const only[] = {&one.state};
-    one.runner.run(only, 0, clock_.now());
+    one.runner.run(only, 0, kernel_.now());
     one.runner.detach_thread();
     one.done.store(true, std::memory_order_release);
   });

@@ -18,7 +18,7 @@ namespace indurop::node {
 class Phases {
  public:
   Phases(const config::Config& config, scheduler::RunBlock& run, const std::vector<ModuleLibrary>& libraries,
-         Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks);
+         Console& console, base::StopSignal& signals, const scheduler::Hooks& hooks, scheduler::Kernel& kernel);
 
   // Calls one function of every thread module that has it, by priority. False if any of them failed: those modules are
   // marked as faulted, with the reason.
@@ -45,7 +45,7 @@ class Phases {
   Console& console_;
   base::StopSignal& signals_;
   scheduler::Hooks hooks_;
-  scheduler::SystemClock clock_;
+  scheduler::Kernel& kernel_;
 };
 
 }  // namespace indurop::node

@@ -100,7 +100,8 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (auto ending = interruption(signals)) {
     return *std::move(ending);
   }
-  auto rights = obtain_rights(options, checked.config, console);
+  auto rights = options.simulation.on ? Result<Rights, Ending>(simulated_rights(options, checked.config))
+                                      : obtain_rights(options, checked.config, console);
   if (!rights) {
     return std::move(rights).error();
   }
@@ -111,7 +112,8 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     return no_memory("the shared variables", made.error(), console);
   }
   auto store = std::make_unique<vars::Store>(std::move(made).value());
-  auto setup = make_run_setup(checked.config, checked.check, options.node, {rights->core, rights->realtime()});
+  auto setup = make_run_setup(checked.config, checked.check, options.node,
+                              {rights->core, rights->realtime() || options.simulation.on});
   setup.deployment = options.deployment;
   auto file = vars::RunFile::create(options.node, scheduler::run_block_size(setup));
   if (!file) {
@@ -127,8 +129,13 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     (void)vars::remove_shm_file(vars::mirror_file(options.node));  // of an earlier run as a board
   }
   auto failsafe = std::make_unique<FailSafe>(*store, checked.config);
-  auto retainer = std::make_unique<Retainer>(*store, options.node);
-  begin_values(*store, *retainer, previous_run_ended_well, console);
+  std::unique_ptr<Retainer> retainer;
+  if (options.simulation.on) {
+    store->reset(false);
+  } else {
+    retainer = std::make_unique<Retainer>(*store, options.node);
+    begin_values(*store, *retainer, previous_run_ended_well, console);
+  }
   console.watch(run);
   return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),   std::move(store),
                   std::move(file).value(), std::move(failsafe),       std::move(retainer)};

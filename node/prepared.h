@@ -45,7 +45,7 @@ struct Prepared {
   std::unique_ptr<vars::Store> store;
   vars::RunFile run_file;
   std::unique_ptr<FailSafe> failsafe;
-  std::unique_ptr<Retainer> retainer;
+  std::unique_ptr<Retainer> retainer;  // none in a simulation
   [[nodiscard]] scheduler::RunBlock& run() const noexcept {
     return *static_cast<scheduler::RunBlock*>(run_file.data());
   }

@@ -94,6 +94,7 @@ bool Processes::launch(Child& child) {
   }
   child.pid = started.value();
   child.killed_for_budget = false;
+  child.killed_hanging = false;
   child.warned = false;
   child.launched = rt::MonoClock::now();
   module.pid.store(child.pid, std::memory_order_release);
@@ -112,24 +113,25 @@ bool Processes::ready() const noexcept {
   });
 }
 
-bool Processes::supervise(rt::MonoTime now) {
+bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
   for (Child& child : children_) {
     scheduler::ModuleRecord& module = record(child);
     if (child.pid > 0) {
       int status = 0;
       if (::waitpid(child.pid, &status, WNOHANG) == child.pid) {
-        died(child, status, now);
+        died(child, status, schedule);
       } else if (child.stopping) {
         insist(child, now);
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         module.state.store(ModuleState::Running, std::memory_order_release);
       } else {
-        enforce_budget(child, now);
+        enforce_budget(child, schedule);
       }
-    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting && now >= child.restart_at) {
+    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting &&
+               schedule >= child.restart_at) {
       module.restarts.fetch_add(1, std::memory_order_relaxed);
       if (!launch(child)) {
-        plan_restart(child, now);
+        plan_restart(child, schedule);
       }
     }
   }
@@ -142,7 +144,7 @@ void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
   failsafe_.apply(child.index);
 }
 
-void Processes::died(Child& child, int status, rt::MonoTime now) {
+void Processes::died(Child& child, int status, rt::MonoTime schedule) {
   scheduler::ModuleRecord& module = record(child);
   child.pid = -1;
   module.pid.store(0, std::memory_order_release);
@@ -158,6 +160,8 @@ void Processes::died(Child& child, int status, rt::MonoTime now) {
   if (child.killed_for_budget) {
     fault(child, FaultKind::Budget,
           fmt::format("killed: one run took longer than its budget of {} us", module.budget_ns / 1000));
+  } else if (child.killed_hanging) {
+    fault(child, FaultKind::Budget, "killed: one run did not return for 10 s of real time");
   } else if (was_starting && WIFEXITED(status)) {
     fault(child, FaultKind::StartFailed,
           describe(status) +
@@ -165,12 +169,12 @@ void Processes::died(Child& child, int status, rt::MonoTime now) {
   } else {
     fault(child, FaultKind::Exit, describe(status));
   }
-  plan_restart(child, now);
+  plan_restart(child, schedule);
 }
 
-void Processes::plan_restart(Child& child, rt::MonoTime now) {
+void Processes::plan_restart(Child& child, rt::MonoTime schedule) {
   const config::Restart& rule = child.module->restart;
-  while (!child.restarts.empty() && now - child.restarts.front() > rule.window) {
+  while (!child.restarts.empty() && schedule - child.restarts.front() > rule.window) {
     child.restarts.pop_front();
   }
   scheduler::ModuleRecord& module = record(child);
@@ -185,15 +189,15 @@ void Processes::plan_restart(Child& child, rt::MonoTime now) {
     }
     return;
   }
-  child.restarts.push_back(now);
+  child.restarts.push_back(schedule);
   if (child.restarts.size() > kRestartsKept) {
     child.restarts.pop_front();
   }
-  child.restart_at = now + rule.delay;
+  child.restart_at = schedule + rule.delay;
   module.state.store(ModuleState::Restarting, std::memory_order_release);
 }
 
-void Processes::enforce_budget(Child& child, rt::MonoTime now) {
+void Processes::enforce_budget(Child& child, rt::MonoTime schedule) {
   const scheduler::ModuleRecord& module = record(child);
   const scheduler::ProcessSlot& at = slot(child);
   if (!managed(child) || module.budget_ns <= 0 || child.killed_for_budget) {
@@ -203,9 +207,16 @@ void Processes::enforce_budget(Child& child, rt::MonoTime now) {
   const std::int64_t start = at.start_ns.load(std::memory_order_relaxed);
   const bool running =
       done != at.released.load(std::memory_order_relaxed) && start >= at.release_ns.load(std::memory_order_relaxed);
-  if (running && rt::to_ns(now) - start > module.budget_ns) {
+  if (running && rt::to_ns(schedule) - start > module.budget_ns) {
     child.killed_for_budget = true;
     ::kill(child.pid, SIGKILL);
+  }
+}
+
+void Processes::kill_hanging(std::uint32_t module) {
+  if (Child* child = find(module); child != nullptr && child->pid > 0 && !child->killed_hanging) {
+    child->killed_hanging = true;
+    ::kill(child->pid, SIGKILL);
   }
 }
 

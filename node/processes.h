@@ -31,13 +31,16 @@ class Processes {
   // All periodic and sporadic ones have enrolled or ended.
   [[nodiscard]] bool ready() const noexcept;
   // Deaths, restarts, enrolments, budgets. True if the node is to stop because of one (reason()).
-  bool supervise(rt::MonoTime now);
+  // `now` is real time, `schedule` that of the schedule, by which restarts are due.
+  bool supervise(rt::MonoTime now, rt::MonoTime schedule);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
   // One of them alone. stop() only asks; supervise() sees to its end, which is no fault, and has_ended() tells of it.
   // start(): false if it cannot be launched (said on the console).
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
+  // One that does not return in a simulation, where it has all the time there is.
+  void kill_hanging(std::uint32_t module);
   // Asks all to end, waits, kills what is left.
   void end_all();
 
@@ -49,6 +52,7 @@ class Processes {
     rt::MonoTime restart_at{};
     std::deque<rt::MonoTime> restarts;  // times of those within the window
     bool killed_for_budget = false;
+    bool killed_hanging = false;
     bool warned = false;  // that it does not expect its signal
     rt::MonoTime launched{};
     bool stopping = false;  // by command
@@ -61,10 +65,10 @@ class Processes {
   // A process that was launched is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
-  void died(Child& child, int status, rt::MonoTime now);
+  void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
-  void plan_restart(Child& child, rt::MonoTime now);
-  void enforce_budget(Child& child, rt::MonoTime now);
+  void plan_restart(Child& child, rt::MonoTime schedule);
+  void enforce_budget(Child& child, rt::MonoTime schedule);
   scheduler::ModuleRecord& record(const Child& child) noexcept { return run_.modules()[child.index]; }
   scheduler::ProcessSlot& slot(const Child& child) noexcept { return run_.process_slots()[child.index]; }
 

@@ -81,6 +81,14 @@ Result<Rights, Ending> obtain_rights(const Options& options, const config::Confi
   return rights;
 }
 
+Rights simulated_rights(const Options& options, const config::Config& config) {
+  Rights rights;
+  rights.core = std::max(options.core.value_or(config.core), 0);
+  rights.obtained.tick_core = -1;
+  rt::copy_text(rights.obtained.why, "simulation: virtual time needs no real-time rights");
+  return rights;
+}
+
 Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,
                                  const Console& console) {
   // Used while starting, and by the threads that talk to other boards, which are not real-time.

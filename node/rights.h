@@ -24,6 +24,9 @@ struct Rights {
 
 Result<Rights, Ending> obtain_rights(const Options& options, const config::Config& config, const Console& console);
 
+// A simulation needs none: only the core that modules are on which name none.
+Rights simulated_rights(const Options& options, const config::Config& config);
+
 // Memory does not come page by page any more; says in `run` whether that worked. To be called late: what is needed no
 // longer is to be gone.
 Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "node/expected_signal.h"
 #include "node/plant_part.h"
 #include "rt/clock.h"
 #include "runtime/host.h"
@@ -16,7 +17,8 @@ using scheduler::ModuleState;
 using scheduler::ModuleType;
 
 constexpr std::chrono::milliseconds kLook{10};
-constexpr std::chrono::milliseconds kEnrol{500};  // how long the first tick waits for process modules
+constexpr std::chrono::milliseconds kEnrol{500};        // how long the first tick waits for process modules
+constexpr std::chrono::seconds kEnrolInSimulation{10};  // likewise, and later for one that was started again
 
 scheduler::SpinSettings to_spin(const config::SpinSetting& setting) {
   switch (setting.mode) {
@@ -41,20 +43,38 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       prepared_(prepared),
       run_(prepared.run()),
       tasks_(loaded.tasks),
-      engine_(run_, tasks_, engine_settings(), hooks(), clock_),
-      phases_(checked.config, run_, loaded.libraries, console, signals, hooks()),
-      normal_threads_(checked.config, run_, loaded.libraries, hooks()),
+      kernel_(make_kernel()),
+      engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
+      phases_(checked.config, run_, loaded.libraries, console, signals, hooks(), kernel_),
+      normal_threads_(checked.config, run_, loaded.libraries, hooks(), kernel_),
       processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe),
       commands_(ModuleCommands::Parts{checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
                                       phases_, *prepared.failsafe, console}) {}
+
+scheduler::Kernel& Running::make_kernel() {
+  if (!options_.simulation.on) {
+    return system_;
+  }
+  scheduler::ProcessWatch watch;
+  watch.patient = [this](const scheduler::ModuleRecord& module, std::chrono::nanoseconds so_long) {
+    if (so_long > HangWatch::kPatience) {
+      processes_.kill_hanging(static_cast<std::uint32_t>(&module - run_.modules()));
+    }
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    return module.state.load() == ModuleState::Running && signals_.wait(std::chrono::nanoseconds{0}) == 0;
+  };
+  watch.at_rest = has_dealt_with;
+  return simulation_.emplace(options_.simulation, *prepared_.store, run_, signals_, std::move(watch)).kernel();
+}
 
 scheduler::EngineSettings Running::engine_settings() const {
   const scheduler::RunBlockSetup& setup = prepared_.setup;
   scheduler::EngineSettings settings;
   settings.basic_period_ns = setup.basic_period_ns;
   settings.primary_core = prepared_.rights.core;
-  settings.realtime = prepared_.rights.realtime();
-  settings.spin = to_spin(spin_setting(options_, checked_.config));
+  settings.realtime = prepared_.rights.realtime() || simulation_;
+  settings.spin = simulation_ ? scheduler::SpinSettings{scheduler::SpinMode::Off, 0}
+                              : to_spin(spin_setting(options_, checked_.config));
   if (checked_.mirror) {
     // Boards with the same macro period begin it together, as far as their clocks agree. A long one is not waited for.
     settings.grid_ns = setup.macro_period_ns <= rt::kNanosPerSecond ? setup.macro_period_ns : setup.basic_period_ns;
@@ -124,18 +144,24 @@ Result<void, Ending> Running::launch_processes() {
   if (!processes_.launch_all()) {
     return Ending{kFailed};
   }
-  const rt::MonoTime patience = rt::MonoClock::now() + kEnrol;
-  while (!processes_.ready() && rt::MonoClock::now() < patience) {
-    signals_.wait(kLook / 10);
-    if (processes_.supervise(rt::MonoClock::now())) {
-      return Ending{kFailed, processes_.reason()};
-    }
-    console_.report(rt::MonoClock::now(), false);
+  if (!await_processes(rt::MonoClock::now() + (simulation_ ? kEnrolInSimulation : kEnrol))) {
+    return Ending{kFailed, processes_.reason()};
   }
   if (auto ending = interruption(signals_)) {
     return *std::move(ending);
   }
   return {};
+}
+
+// Until all of them are ready, or the time has come. False if one of them ends the run.
+bool Running::await_processes(rt::MonoTime until) {
+  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kLook / 10) == 0) {
+    if (processes_.supervise(rt::MonoClock::now(), kernel_.now())) {
+      return false;
+    }
+    console_.report(kernel_.now(), false);
+  }
+  return true;
 }
 
 Result<void, Ending> Running::start_schedule() {
@@ -145,21 +171,30 @@ Result<void, Ending> Running::start_schedule() {
   checked_.check = {};  // not needed any more, and what is there now stays in memory
   prepared_.store->prefault();
   prepared_.run_file.prefault();
-  if (auto locked = lock_memory(options_, prepared_.rights, run_, console_); !locked) {
-    return locked;
+  if (!simulation_) {
+    if (auto locked = lock_memory(options_, prepared_.rights, run_, console_); !locked) {
+      return locked;
+    }
   }
   for (const scheduler::Task& task : tasks_) {
     if (task.type == ModuleType::Thread) {
       run_.modules()[task.index].state.store(ModuleState::Running);
     }
   }
-  prepared_.retainer->start();
+  if (prepared_.retainer) {
+    prepared_.retainer->start();
+  }
   if (auto mirrored = start_mirror(); !mirrored) {
     return mirrored;
   }
   const config::Config& config = checked_.config;
-  checked_.external.start(options_.node, *prepared_.store, mirror_ ? &mirror_->block() : nullptr,
-                          cores_without_modules(config, prepared_.rights), console_);
+  if (!simulation_) {
+    checked_.external.start(options_.node, *prepared_.store, mirror_ ? &mirror_->block() : nullptr,
+                            cores_without_modules(config, prepared_.rights), console_);
+  }
+  if (simulation_) {
+    hang_watch_.emplace(simulation_->kernel(), engine_);
+  }
   if (const Status started = engine_.start(ticks()); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return Ending{kFailed};
@@ -175,7 +210,8 @@ Result<void, Ending> Running::start_schedule() {
   console_.info("running {} modules of {}: basic period {}, macro period {}{}", config.modules.size(),
                 config.file.filename().string(), base::format_duration(base::Nanos(setup.basic_period_ns)),
                 base::format_duration(base::Nanos(setup.macro_period_ns)),
-                prepared_.rights.realtime()
+                simulation_ ? ", in virtual time"
+                : prepared_.rights.realtime()
                     ? fmt::format(", FIFO {} on core {}", scheduler::kTickPriority, prepared_.rights.core)
                     : "");
   return {};
@@ -191,7 +227,7 @@ std::uint64_t Running::ticks() const noexcept {
 }
 
 Result<void, Ending> Running::start_mirror() {
-  if (!checked_.mirror) {
+  if (!checked_.mirror || simulation_) {
     return {};
   }
   mirror::Settings& settings = *checked_.mirror;
@@ -211,23 +247,32 @@ Result<void, Ending> Running::start_mirror() {
   return {};
 }
 
+// Until it is time to look again. Returns a stop signal, 0 if none has come.
+int Running::pass() {
+  return simulation_ ? simulation_->pass(kLook) : signals_.wait(kLook);
+}
+
 Ending Running::supervise() {
   Ending ending;
   while (!engine_.finished()) {
-    const int number = signals_.wait(kLook);
+    const int number = pass();
     const rt::MonoTime now = rt::MonoClock::now();
     prepared_.store->beat(now);
     if (number != 0) {
       ending = {number == SIGINT ? kInterrupted : kOk, fmt::format("signal {} ({})", number, ::strsignal(number))};
       break;
     }
-    if (processes_.supervise(now)) {
+    if (simulation_ && simulation_->left()) {
+      ending = {kOk, "end of the steps"};
+      break;
+    }
+    if (processes_.supervise(now, kernel_.now()) || (simulation_ && !await_processes(now + kEnrolInSimulation))) {
       ending = {kFailed, processes_.reason()};
       break;
     }
     commands_.look(now);
     forces_.look(*prepared_.store, console_);
-    console_.report(now, false);
+    console_.report(kernel_.now(), false);
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
     const scheduler::ModuleRecord& module = run_.modules()[order - 1];
@@ -245,6 +290,7 @@ void Running::stop() {
   run_.state.store(scheduler::NodeState::Stopping);
   engine_.request_stop();
   engine_.join();
+  hang_watch_.reset();
   normal_threads_.stop();
   processes_.end_all();
   runtime::stop_function_servers();

@@ -10,11 +10,13 @@
 
 #include "mirror/frames/mirror.h"
 #include "node/force_watch.h"
+#include "node/hang_watch.h"
 #include "node/loaded.h"
 #include "node/module_commands.h"
 #include "node/normal_threads.h"
 #include "node/phases.h"
 #include "node/processes.h"
+#include "node/simulation.h"
 #include "scheduler/engine.h"
 
 namespace indurop::node {
@@ -40,6 +42,9 @@ class Running {
   Result<void, Ending> start_mirror();
   Result<void, Ending> start_schedule();
   [[nodiscard]] std::uint64_t ticks() const noexcept;
+  scheduler::Kernel& make_kernel();
+  bool await_processes(rt::MonoTime until);
+  int pass();
   scheduler::Hooks hooks();
   [[nodiscard]] scheduler::EngineSettings engine_settings() const;
 
@@ -52,10 +57,13 @@ class Running {
   const std::vector<scheduler::Task>& tasks_;
   bool started_ = false;                      // start() of the modules was called, so stop() is
   std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
-  scheduler::SystemClock clock_;
+  scheduler::SystemKernel system_;
+  std::optional<Simulation> simulation_;  // in virtual time
+  scheduler::Kernel& kernel_;             // of the two, what the schedule runs on
   ForceWatch forces_;
   std::optional<mirror::Mirror> mirror_;  // of a board of a plant
   scheduler::Engine engine_;
+  std::optional<HangWatch> hang_watch_;  // of a simulation
   Phases phases_;
   NormalThreads normal_threads_;
   Processes processes_;

@@ -93,4 +93,15 @@ std::vector<scheduler::Task> make_tasks(const config::Config& config, const sche
   return tasks;
 }
 
+void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
+                    const config::CheckOptions::Times& times) {
+  for (scheduler::Task& task : tasks) {
+    const config::Module& module = config.modules[task.index];
+    const auto measured = times.find(module.name);
+    task.work_ns = module.wcet.count() > 0   ? module.wcet.count()
+                   : measured != times.end() ? measured->second.count()
+                                             : 0;
+  }
+}
+
 }  // namespace indurop::node

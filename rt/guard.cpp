@@ -2,6 +2,7 @@
 #include "rt/guard.h"
 
 #include <cstdlib>
+#include <utility>
 
 namespace indurop::rt {
 namespace {
@@ -73,6 +74,10 @@ void Guard::enter() noexcept {
 }
 void Guard::leave() noexcept {  // NOLINT(readability-convert-member-functions-to-static): the other half of enter()
   t_guard = nullptr;
+}
+
+Guard* Guard::exchange_current(Guard* guard) noexcept {
+  return std::exchange(t_guard, guard);
 }
 
 void Guard::recovered() noexcept {  // NOLINT(readability-convert-member-functions-to-static): said of this guard

@@ -37,6 +37,8 @@ class Guard {
   // Makes this the calling thread's guard.
   void enter() noexcept;
   void leave() noexcept;
+  // For whoever runs several threads of a program on one of the system: the guard until now.
+  static Guard* exchange_current(Guard* guard) noexcept;
   sigjmp_buf& target() noexcept { return target_; }
 
   // Between arm and disarm a fault jumps to target(). Real-time safe, no system call.

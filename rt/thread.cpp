@@ -15,6 +15,7 @@
 #include <span>
 #include <utility>
 
+#include "rt/fiber.h"
 #include "rt/guard.h"
 
 namespace indurop::rt {
@@ -155,6 +156,9 @@ bool StackBounds::overflowed_at(const void* address) const noexcept {
 }
 
 StackBounds own_stack() noexcept {
+  if (const Fiber* fiber = Fiber::current(); fiber != nullptr) {
+    return fiber->stack();
+  }
   StackBounds bounds;
   pthread_attr_t attributes;
   if (::pthread_getattr_np(::pthread_self(), &attributes) == 0) {

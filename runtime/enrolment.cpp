@@ -146,7 +146,9 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
     }
   }
   hot.process_module.store(index, std::memory_order_relaxed);
-  take_rights(record);
+  if (run.virtual_ns.load(std::memory_order_relaxed) == 0) {
+    take_rights(record);
+  }
   mapping_ = &mapping;
   slot_ = &slot;
   holder_ = holder;
@@ -188,7 +190,7 @@ void Enrolment::take_rights(const ModuleRecord& record) {
 void Enrolment::finish_run() noexcept {
   if (running_) {
     running_ = false;
-    slot_->end_ns.store(rt::now_ns(), std::memory_order_relaxed);
+    slot_->end_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
     slot_->done.store(seen_, std::memory_order_release);
   }
 }
@@ -197,7 +199,7 @@ bool Enrolment::take_release() noexcept {
   if (slot_->released.load(std::memory_order_acquire) <= seen_) {
     return false;
   }
-  slot_->start_ns.store(rt::now_ns(), std::memory_order_relaxed);
+  slot_->start_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
   ++seen_;
   running_ = true;
   idle_ = 0;

@@ -23,7 +23,6 @@ extern "C" int indurop_print(const char* format, const indurop::detail::PrintArg
   }
   char text[indurop::scheduler::kMessageText];
   const std::size_t length = runtime::format_message(text, sizeof text, format, {arguments, count});
-  const bool taken =
-      runtime::push_message(*run, runtime::current_module(), {text, length}, indurop::rt::MonoClock::now());
+  const bool taken = runtime::push_message(*run, runtime::current_module(), {text, length}, runtime::schedule_now());
   return taken ? static_cast<int>(length) : -1;
 }

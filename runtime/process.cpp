@@ -42,6 +42,15 @@ T* keep(std::deque<std::unique_ptr<T>>& all, T newest) {
 
 }  // namespace
 
+rt::MonoTime schedule_now() noexcept {
+  if (const auto* run = hot.run.load(std::memory_order_acquire); run != nullptr) {
+    const std::int64_t simulated = run->virtual_ns.load(std::memory_order_relaxed);
+    return simulated != 0 ? rt::mono_time(simulated) : rt::MonoClock::now();
+  }
+  const Attachment* attachment = hot.attachment.load(std::memory_order_acquire);
+  return attachment != nullptr ? attachment->store().now() : rt::MonoClock::now();
+}
+
 std::string default_node() {
   const char* node = std::getenv("INDUROP_NODE");  // NOLINT(concurrency-mt-unsafe): read only
   return node != nullptr && *node != '\0' ? node : "local";

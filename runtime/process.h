@@ -32,6 +32,9 @@ struct Hot {
 };
 extern constinit Hot hot;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): there is one process
 
+// The time of the node this process is bound to; CLOCK_MONOTONIC without one. Real-time safe.
+rt::MonoTime schedule_now() noexcept;
+
 // INDUROP_NODE, else "local".
 std::string default_node();
 

@@ -17,15 +17,15 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 }  // namespace
 
 Band::Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes, RunBlock& block,
-           Clock& clock, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns)
+           Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns)
     : plan_(plan),
       tasks_(std::move(tasks)),
       processes_(std::move(processes)),
       block_(block),
-      clock_(clock),
+      kernel_(kernel),
       hooks_(hooks),
       trace_(trace),
-      runner_(block, clock, hooks, trace, tasks_.size()),
+      runner_(block, kernel, hooks, trace, tasks_.size()),
       basic_period_ns_(basic_period_ns),
       period_ticks_(static_cast<std::uint64_t>(plan.period_ns / basic_period_ns)),
       offset_ticks_(static_cast<std::uint64_t>(plan.offset_ns / basic_period_ns)),
@@ -125,14 +125,14 @@ void Band::record_overrun(TaskState& culprit, std::uint64_t tick, bool started, 
   line.started = started;
   if (started && plan_.kind != BandKind::Process) {
     const std::int64_t start = runner_.current_start();
-    line.own_ns = rt::to_ns(clock_.now()) - start;
+    line.own_ns = rt::to_ns(kernel_.now()) - start;
     line.latency_ns = start - release_ns;
     line.previous = runner_.previous_module();
     line.previous_ns = runner_.previous_exec();
   } else {
     if (started) {
       const std::int64_t start = culprit.slot->start_ns.load(kRelaxed);
-      line.own_ns = rt::to_ns(clock_.now()) - start;
+      line.own_ns = rt::to_ns(kernel_.now()) - start;
       line.latency_ns = start - release_ns;
     }
     line.previous = trace_.module.load(kRelaxed);
@@ -170,7 +170,7 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
     return;
   }
   if (state.task.legacy_signal != 0) {
-    ::kill(pid, state.task.legacy_signal);
+    kernel_.wake_process(state.task, *state.slot, record);
     count(record.runs);
     return;
   }
@@ -189,7 +189,7 @@ void Band::release_process(TaskState& state, const Release& release) noexcept {
   slot.release_ns.store(rt::to_ns(release.time), kRelaxed);
   slot.release_tick.store(release.tick, kRelaxed);
   slot.released.store(slot.released.load(kRelaxed) + 1, std::memory_order_release);
-  slot.wake.wake();
+  kernel_.wake_process(state.task, slot, record);
 }
 
 void Band::run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept {
@@ -205,7 +205,7 @@ void Band::run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lo
   released_.store(released_.load(kRelaxed) + 1, std::memory_order_seq_cst);
   runner_.run(tasks_, tick, release);
   find_inline_overrun(tick, rt::to_ns(release));
-  for (; owed_ > 0 && clock_.now() < release + std::chrono::nanoseconds(basic_period_ns_); --owed_) {
+  for (; owed_ > 0 && kernel_.now() < release + std::chrono::nanoseconds(basic_period_ns_); --owed_) {
     runner_.run(tasks_, tick, release);
   }
   done_.store(released_.load(kRelaxed), std::memory_order_seq_cst);
@@ -265,7 +265,7 @@ bool Band::gate_open(std::uint64_t tick, bool& poll) const noexcept {
 void Band::loop() noexcept {
   runner_.attach_thread();
   while (!stop_.load(std::memory_order_acquire)) {
-    wake_.wait();
+    kernel_.wait(wake_);
     drain();
   }
   runner_.detach_thread();
@@ -283,7 +283,7 @@ void Band::drain() noexcept {
     }
     waiting_.store(false, std::memory_order_seq_cst);
     if (!open) {
-      clock_.sleep_until(clock_.now() + kPoll);
+      kernel_.sleep_until(kernel_.now() + kPoll);
       continue;
     }
     runner_.run(tasks_, now.tick, now.time);

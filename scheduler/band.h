@@ -27,7 +27,7 @@ class Band {
 
   // `processes`: sporadic process modules a Handler band signals after its threads (chapter, Figure 6).
   Band(const BandPlan& plan, std::vector<TaskState*> tasks, std::vector<TaskState*> processes, RunBlock& block,
-       Clock& clock, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns);
+       Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::int64_t basic_period_ns);
 
   [[nodiscard]] const BandPlan& plan() const noexcept { return plan_; }
   [[nodiscard]] bool due(std::uint64_t tick) const noexcept {
@@ -93,7 +93,7 @@ class Band {
   std::vector<TaskState*> tasks_;
   std::vector<TaskState*> processes_;
   RunBlock& block_;
-  Clock& clock_;
+  Kernel& kernel_;
   Hooks hooks_;
   CoreTrace& trace_;
   Runner runner_;

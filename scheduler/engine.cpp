@@ -42,8 +42,8 @@ struct Engine::Core {
 };
 
 Engine::Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
-               Clock& clock)
-    : block_(block), settings_(settings), hooks_(hooks), clock_(clock) {
+               Kernel& kernel)
+    : block_(block), settings_(settings), hooks_(hooks), kernel_(kernel) {
   core(settings_.primary_core).primary = true;
   std::vector<TaskState*> periodic;
   std::vector<TaskState*> sporadic;
@@ -89,7 +89,7 @@ void Engine::add_band(const BandPlan& plan, std::vector<TaskState*> tasks, std::
   for (const TaskState* state : processes) {
     state->record->fifo_priority = settings_.realtime ? kSporadicProcessPriority : 0;
   }
-  bands_.push_back(std::make_unique<Band>(plan, std::move(tasks), std::move(processes), block_, clock_, hooks_,
+  bands_.push_back(std::make_unique<Band>(plan, std::move(tasks), std::move(processes), block_, kernel_, hooks_,
                                           home.trace, settings_.basic_period_ns));
   (in_tick_thread(plan.kind) ? home.here : home.released).push_back(bands_.back().get());
 }
@@ -169,7 +169,7 @@ Status Engine::start_band_threads() {
     settings.fifo_priority = settings_.realtime ? plan.fifo_priority : 0;
     settings.core = settings_.realtime ? plan.core : -1;
     settings.runs_modules = true;
-    auto thread = rt::Thread::start(settings, [&band = *band] { band.loop(); });
+    auto thread = kernel_.start(settings, [&band = *band] { band.loop(); });
     if (!thread) {
       return thread.error();
     }
@@ -189,7 +189,7 @@ Status Engine::start_watchdog() {
     return std::none_of(cores_.begin(), cores_.end(), [&](const auto& used) { return used->number == number; });
   });
   settings.core = other != allowed.end() ? *other : -1;
-  auto watchdog = rt::Thread::start(settings, [this] { watchdog_loop(); });
+  auto watchdog = kernel_.start(settings, [this] { watchdog_loop(); });
   if (!watchdog) {
     return watchdog.error();
   }
@@ -204,7 +204,7 @@ Status Engine::start(std::uint64_t ticks) {
     join();
     return started;
   }
-  epoch_ns_ = rt::to_ns(clock_.now()) + kLeadNs + warm_up_ns(settings_.basic_period_ns);
+  epoch_ns_ = rt::to_ns(kernel_.now()) + kLeadNs + warm_up_ns(settings_.basic_period_ns);
   if (settings_.grid_ns > 0) {
     const std::int64_t past = (epoch_ns_ - settings_.phase_ns) % settings_.grid_ns;
     epoch_ns_ += past > 0 ? settings_.grid_ns - past : -past;
@@ -222,7 +222,7 @@ Status Engine::start(std::uint64_t ticks) {
     settings.fifo_priority = settings_.realtime ? kTickPriority : 0;
     settings.core = settings_.realtime ? core->number : -1;
     settings.runs_modules = true;
-    auto thread = rt::Thread::start(settings, [this, &core = *core, ticks] { tick_loop(core, ticks); });
+    auto thread = kernel_.start(settings, [this, &core = *core, ticks] { tick_loop(core, ticks); });
     if (!thread) {
       request_stop();
       ticking_.store(0, std::memory_order_release);
@@ -242,7 +242,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     band->runner().attach_thread();
   }
   const std::int64_t basic = settings_.basic_period_ns;
-  Spinner spinner(clock_, settings_.spin, basic);
+  Spinner spinner(kernel_, settings_.spin, basic);
   for (std::int64_t t = epoch_ns_ - warm_up_ns(basic); t < epoch_ns_; t += basic) {
     spinner.wait_until(rt::mono_time(t));
   }
@@ -270,7 +270,7 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
     }
     if (!in_vain) {
       do_tick(core, tick, std::exchange(missed, 0));
-      work.add(rt::to_ns(clock_.now()) - begin);
+      work.add(rt::to_ns(kernel_.now()) - begin);
     }
   }
   for (Band* band : core.here) {
@@ -333,9 +333,9 @@ void Engine::watchdog_loop() noexcept {
   // Half a basic period behind a tick, where its waking delays none, should they share a core.
   const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
   while (!stop_watchdog_.load(std::memory_order_acquire)) {
-    const std::int64_t earliest = rt::to_ns(clock_.now()) + period - epoch_ns_;
-    clock_.sleep_until(rt::mono_time(epoch_ns_ + (earliest / grid) * grid + grid / 2));
-    const rt::MonoTime now = clock_.now();
+    const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_ns_;
+    kernel_.sleep_until(rt::mono_time(epoch_ns_ + (earliest / grid) * grid + grid / 2));
+    const rt::MonoTime now = kernel_.now();
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& band : bands_) {
       band->runner().enforce_budget(now, stopping, settings_.stop_grace_ns);
@@ -347,7 +347,7 @@ void Engine::join() noexcept {
   // A run that ended by itself (ticks) stops its bands too.
   while (!finished()) {
     if (!stop_.load(std::memory_order_acquire)) {
-      clock_.sleep_until(clock_.now() + std::chrono::nanoseconds(kWatchdogFastest));
+      kernel_.sleep_until(kernel_.now() + std::chrono::nanoseconds(kWatchdogFastest));
       continue;
     }
     break;
@@ -356,12 +356,14 @@ void Engine::join() noexcept {
   for (const auto& band : bands_) {
     band->stop();
   }
-  for (rt::Thread& thread : threads_) {
-    thread.join();
+  for (const auto& thread : threads_) {
+    thread->join();
   }
   threads_.clear();
   stop_watchdog_.store(true, std::memory_order_release);
-  watchdog_.join();
+  if (watchdog_ != nullptr) {
+    watchdog_->join();
+  }
   for (const auto& band : bands_) {
     band->finish();
   }

@@ -34,7 +34,7 @@ class Engine {
   // `block` has its module records filled in; tasks refer to them by index. Writes fifo_priority into the records.
   // Not real-time safe.
   Engine(RunBlock& block, std::span<const Task> tasks, const EngineSettings& settings, const Hooks& hooks,
-         Clock& clock);
+         Kernel& kernel);
   ~Engine();
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
@@ -54,6 +54,9 @@ class Engine {
   // Ends a run that takes longer than the grace of a stopping node, as a fault.
   [[nodiscard]] bool at_rest(std::uint32_t module) noexcept;
   void enable(std::uint32_t module) noexcept;
+
+  // Ends what runs at this moment as a fault of its module, however short it has run. Any thread.
+  void end_runs_in_progress() noexcept;
 
   // After finished() or request_stop(): waits for all threads, ends modules that do not return, completes statistics.
   void join() noexcept;
@@ -85,12 +88,12 @@ class Engine {
   RunBlock& block_;
   EngineSettings settings_;
   Hooks hooks_;
-  Clock& clock_;
+  Kernel& kernel_;
   std::vector<std::unique_ptr<TaskState>> states_;
   std::vector<std::unique_ptr<Core>> cores_;  // the primary one first
   std::vector<std::unique_ptr<Band>> bands_;  // periodic ones in execution order, then after-base, then event handler
-  std::vector<rt::Thread> threads_;
-  rt::Thread watchdog_;
+  std::vector<std::unique_ptr<KernelThread>> threads_;
+  std::unique_ptr<KernelThread> watchdog_;
   bool gated_ = false;  // bands wait for their predecessors explicitly
   std::int64_t epoch_ns_ = 0;
   std::atomic<bool> stop_{false};

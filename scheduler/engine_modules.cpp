@@ -43,9 +43,16 @@ bool Engine::at_rest(std::uint32_t module) noexcept {
     return true;
   }
   if (band->runner().current() == state) {
-    band->runner().enforce_budget(clock_.now(), true, settings_.stop_grace_ns);
+    band->runner().enforce_budget(kernel_.now(), true, settings_.stop_grace_ns);
   }
   return false;
+}
+
+void Engine::end_runs_in_progress() noexcept {
+  const rt::MonoTime late = kernel_.now() + std::chrono::nanoseconds(settings_.stop_grace_ns);
+  for (const auto& band : bands_) {
+    band->runner().enforce_budget(late, true, 0);
+  }
 }
 
 void Engine::enable(std::uint32_t module) noexcept {

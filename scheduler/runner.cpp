@@ -49,8 +49,8 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
   }
 }
 
-Runner::Runner(RunBlock& block, Clock& clock, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks)
-    : block_(block), clock_(clock), hooks_(hooks), trace_(trace), times_(most_tasks) {}
+Runner::Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks)
+    : block_(block), kernel_(kernel), hooks_(hooks), trace_(trace), times_(most_tasks) {}
 
 void Runner::attach_thread() noexcept {
   thread_ = ::pthread_self();
@@ -74,7 +74,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
     contain_jump();
     ++position_;
   }
-  current_start_.store(rt::to_ns(clock_.now()), std::memory_order_relaxed);
+  current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
   for (; position_ < tasks_.size(); ++position_) {
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
     if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
@@ -102,7 +102,7 @@ void Runner::call_current() noexcept {
   try {
     if (state.task.condition) {
       ran = state.task.condition();
-      current_start_.store(rt::to_ns(clock_.now()), std::memory_order_relaxed);
+      current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
     }
     if (ran) {
       state.task.run();
@@ -117,8 +117,9 @@ void Runner::call_current() noexcept {
     std::snprintf(text, sizeof text, "exception of an unknown type");
   }
   guard_.disarm();
+  const bool over_budget = ran && !threw && spend_time(state.task);
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
-  const std::int64_t end = rt::to_ns(clock_.now());
+  const std::int64_t end = rt::to_ns(kernel_.now());
   times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
   if (ran) {
     trace_.module.store(static_cast<std::int32_t>(state.task.index), std::memory_order_relaxed);
@@ -127,19 +128,40 @@ void Runner::call_current() noexcept {
   current_start_.store(end, std::memory_order_relaxed);  // the next module starts where this one ended
   if (threw) [[unlikely]] {
     quarantine(state, FaultKind::Exception, tick_, text, hooks_);
+  } else if (over_budget) [[unlikely]] {
+    quarantine_for_budget(state, end - start);
   }
+}
+
+// False unless the time that a simulated run takes is more than it may.
+bool Runner::spend_time(const Task& task) noexcept {
+  if (task.work_ns == 0) [[likely]] {
+    return false;
+  }
+  const bool over = task.budget_ns > 0 && task.work_ns > task.budget_ns;
+  kernel_.work(over ? task.budget_ns : task.work_ns);
+  return over;
+}
+
+void Runner::quarantine_for_budget(TaskState& state, std::int64_t took_ns) noexcept {
+  char text[kTextLength];
+  std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>(took_ns / 1000));
+  quarantine(state, FaultKind::Budget, tick_, text, hooks_);
 }
 
 void Runner::contain_jump() noexcept {
   guard_.recovered();
   TaskState& state = *tasks_[position_];
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
-  const std::int64_t end = rt::to_ns(clock_.now());
+  const std::int64_t end = rt::to_ns(kernel_.now());
   char text[kTextLength];
   FaultKind kind = FaultKind::Signal;
   if (guard_.signal_number() == rt::Guard::kOrder) {
     kind = FaultKind::Budget;
-    std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>((end - start) / 1000));
+    // In virtual time no time has passed.
+    end == start ? std::snprintf(text, sizeof text, "did not return")
+                 : std::snprintf(text, sizeof text, "did not return within %lld us",
+                                 static_cast<long long>((end - start) / 1000));
   } else if (guard_.signal_number() == SIGSEGV && stack_.overflowed_at(guard_.fault_address())) {
     std::snprintf(text, sizeof text, "stack overflow: the module's thread has %zu KiB of stack", stack_.bytes / 1024);
   } else if (guard_.signal_number() == SIGSEGV || guard_.signal_number() == SIGBUS) {
@@ -176,10 +198,11 @@ void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_
     return;
   }
   std::int64_t limit = state->task.budget_ns;
+  const bool limited = limit > 0 || stopping;
   if (stopping && (limit == 0 || limit > grace_ns)) {
     limit = grace_ns;
   }
-  if (limit > 0 && rt::to_ns(now) - start > limit) {
+  if (limited && rt::to_ns(now) - start > limit) {
     guard_.order_end(thread_, run);
   }
 }

@@ -12,7 +12,7 @@
 
 #include "rt/guard.h"
 #include "rt/thread.h"
-#include "scheduler/clock.h"
+#include "scheduler/kernel.h"
 #include "scheduler/statistics.h"
 #include "scheduler/task.h"
 
@@ -53,7 +53,7 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
 
 class Runner {
  public:
-  Runner(RunBlock& block, Clock& clock, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks);
+  Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks);
 
   // On the thread that will run modules, before and after its loop.
   void attach_thread() noexcept;
@@ -75,11 +75,13 @@ class Runner {
 
  private:
   void call_current() noexcept;
+  bool spend_time(const Task& task) noexcept;
+  void quarantine_for_budget(TaskState& state, std::int64_t took_ns) noexcept;
   void contain_jump() noexcept;
   void account() noexcept;
 
   RunBlock& block_;
-  Clock& clock_;
+  Kernel& kernel_;
   Hooks hooks_;
   CoreTrace& trace_;
   rt::Guard guard_;

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "scheduler/clock.h"
+#include "scheduler/kernel.h"
 
 namespace indurop::scheduler {
 

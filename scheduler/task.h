@@ -22,6 +22,7 @@ struct Task {
   std::int64_t offset_ns = 0;
   std::int64_t budget_ns = 0;  // longest allowed execution, 0: no limit
   bool after_base = false;     // sporadic: evaluated right after the inline band
+  std::int64_t work_ns = 0;    // simulation only: how long a run takes; 0: no time
   int legacy_signal = 0;       // process woken by this signal instead of its slot
   void (*run)() = nullptr;     // thread modules
   Condition condition;         // sporadic thread modules

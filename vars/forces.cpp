@@ -52,8 +52,14 @@ std::optional<Held> part_in(const ForceSlot& slot) noexcept {
   return whole && part.entry != 0 ? std::optional(part) : std::nullopt;
 }
 
-bool over(const Held& part) noexcept {
-  return part.until != kForever && part.until <= rt::MonoClock::now();
+// Every table is part of a block's header.
+rt::MonoTime time_of(const ForceTable& table) noexcept {
+  return vars::time_of(*reinterpret_cast<const BlockHeader*>(reinterpret_cast<const std::byte*>(&table) -
+                                                             offsetof(BlockHeader, forces)));
+}
+
+bool over(const Held& part, const ForceTable& table) noexcept {
+  return part.until != kForever && part.until <= time_of(table);
 }
 
 // Calls `use` for every part of the entry that is forced now.
@@ -64,7 +70,7 @@ void for_each_of(const ForceTable& table, const void* entry, Use use) noexcept {
       continue;
     }
     const auto part = part_in(slot);
-    if (part && part->entry == distance(&slot, entry) && !over(*part)) {
+    if (part && part->entry == distance(&slot, entry) && !over(*part, table)) {
       use(*part);
     }
   }
@@ -138,7 +144,7 @@ ForceSlot* find(ForceTable& table, const void* entry, std::uint32_t offset) noex
 ForceSlot* find_free(ForceTable& table) noexcept {
   for (ForceSlot& slot : table.slots) {
     const auto part = part_in(slot);
-    if (!part || over(*part)) {
+    if (!part || over(*part, table)) {
       return &slot;
     }
   }
@@ -227,7 +233,7 @@ void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directo
     return;
   }
   for (ForceSlot& slot : header.forces.slots) {
-    if (const auto part = part_in(slot); part && over(*part)) {
+    if (const auto part = part_in(slot); part && over(*part, header.forces)) {
       slot.entry.store(0, std::memory_order_release);
     }
   }
@@ -245,7 +251,8 @@ void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) 
   }
 }
 
-std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory, rt::MonoTime now) {
+std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory) {
+  const rt::MonoTime now = vars::time_of(header);
   std::vector<Force> found;
   for (const ForceSlot& slot : header.forces.slots) {
     const auto part = part_in(slot);

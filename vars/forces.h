@@ -45,7 +45,7 @@ void let_overdue_go(BlockHeader& header, std::span<const DirectoryEntry> directo
 void let_all_go(BlockHeader& header, std::span<const DirectoryEntry> directory) noexcept;
 
 // Those whose time is not over at `now`. Points into the directory.
-std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory, rt::MonoTime now);
+std::vector<Force> forces_of(const BlockHeader& header, std::span<const DirectoryEntry> directory);
 
 // What writers do, real-time safe. See indurop_hold_scalar().
 bool hold_scalar(void* entry) noexcept;

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "rt/clock.h"
+
 namespace indurop::vars {
 
 inline constexpr std::uint64_t kMagic = 0x31504f5255444e49ULL;  // "INDUROP1"
@@ -43,6 +45,7 @@ struct BlockHeader {
   std::atomic<std::int32_t> node_pid;          // 0: no node runs
   std::atomic<std::uint64_t> node_start_time;  // field 22 of /proc/PID/stat, tells a reused pid
   std::atomic<std::int64_t> heartbeat_ns;      // CLOCK_MONOTONIC
+  std::atomic<std::int64_t> virtual_ns;        // time of the node's simulation; 0: it runs in real time
   std::uint32_t variable_count;
   std::uint32_t function_count;
   std::uint64_t directory_offset;
@@ -53,6 +56,12 @@ struct BlockHeader {
   char node_name[kMaxNodeName];
   ForceTable forces;
 };
+
+// The node's time: what forces, ages and modules go by. Real-time safe.
+inline rt::MonoTime time_of(const BlockHeader& header) noexcept {
+  const std::int64_t simulated = header.virtual_ns.load(std::memory_order_relaxed);
+  return simulated != 0 ? rt::mono_time(simulated) : rt::MonoClock::now();
+}
 
 struct DirectoryEntry {
   std::uint64_t name_hash;

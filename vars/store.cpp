@@ -68,6 +68,7 @@ void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
   header.node_start_time.store(process_start_time(::getpid()), std::memory_order_relaxed);
   header.node_pid.store(::getpid(), std::memory_order_relaxed);
   header.heartbeat_ns.store(rt::now_ns(), std::memory_order_relaxed);
+  header.virtual_ns.store(0, std::memory_order_relaxed);
   header.generation.store(generation, std::memory_order_release);
 }
 
@@ -332,7 +333,7 @@ void Store::let_overdue_go() noexcept {
 }
 
 std::vector<Force> Store::forces() const {
-  return forces_of(impl_->header(), impl_->index.directory, rt::MonoClock::now());
+  return forces_of(impl_->header(), impl_->index.directory);
 }
 
 void Store::release_locks_of_this_thread() noexcept {
@@ -369,6 +370,14 @@ void Store::reset(bool keep_retained) noexcept {
       commit(ring);
     }
   }
+}
+
+rt::MonoTime Store::now() const noexcept {
+  return time_of(impl_->header());
+}
+
+std::atomic<std::int64_t>& Store::virtual_time() noexcept {
+  return impl_->header().virtual_ns;
 }
 
 void Store::beat(rt::MonoTime now) noexcept {

@@ -87,6 +87,11 @@ class Store {
   // is not free in 5 ms keeps its value and counts a lost write.
   void reset(bool keep_retained) noexcept;
 
+  // The node's time: that of its simulation, if it is one, else CLOCK_MONOTONIC. Real-time safe.
+  [[nodiscard]] rt::MonoTime now() const noexcept;
+  // What a simulating node writes its time into; create() sets it to 0, which is real time.
+  [[nodiscard]] std::atomic<std::int64_t>& virtual_time() noexcept;
+
   void beat(rt::MonoTime now) noexcept;  // the node's heartbeat; real-time safe
   void prefault() const noexcept;        // makes all pages present now; not real-time safe
 

@@ -110,7 +110,7 @@ Result<void, Problem> force_values(const std::string& board, const std::string& 
     return Problem{fmt::format("{}", fmt::join(wrong, "; "))};
   }
   const rt::MonoTime until =
-      for_ns > 0 ? rt::MonoClock::now() + std::chrono::nanoseconds(for_ns) : rt::MonoTime(vars::kForever);
+      for_ns > 0 ? store->now() + std::chrono::nanoseconds(for_ns) : rt::MonoTime(vars::kForever);
   for (const Held& one : all) {
     if (const Status forced = store->force(*one.entry, one.place.offset, one.bytes, until); !forced) {
       return Problem{forced.error().code == Errc::NoSpace

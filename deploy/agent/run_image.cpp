@@ -27,7 +27,7 @@ Json forces_of(const std::string& board) {
   if (!store) {
     return list;
   }
-  const rt::MonoTime now = rt::MonoClock::now();
+  const rt::MonoTime now = store->now();
   for (const vars::Force& force : store->forces()) {
     const schema::Part part = schema::part_at(store->schema().variables[force.variable->schema_index], force.offset);
     list.push_back({{"name", part.name},

@@ -111,7 +111,7 @@ std::chrono::nanoseconds period() noexcept;
 // CLOCK_MONOTONIC: the same for all modules released together, whenever each really started. Real-time safe.
 std::uint64_t tick() noexcept;
 std::int64_t release_ns() noexcept;
-// CLOCK_MONOTONIC now, in ns. Real-time safe.
+// The node's time now, in ns: CLOCK_MONOTONIC, in a simulation its virtual time. Real-time safe.
 std::int64_t now_ns() noexcept;
 
 // True once the node wants this module to end: for the loops of non-real-time modules,

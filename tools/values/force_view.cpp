@@ -11,7 +11,7 @@ namespace indurop::tools {
 
 std::vector<ForceView> view_forces(const vars::Store& store) {
   std::vector<ForceView> views;
-  const rt::MonoTime now = rt::MonoClock::now();
+  const rt::MonoTime now = store.now();
   for (const vars::Force& force : store.forces()) {
     const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
     views.push_back({part.name, schema::format_value(part.type, force.bytes()), raw_value(part.type, force.bytes()),

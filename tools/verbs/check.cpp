@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "config/measured_times.h"
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 #include "tools/command/config_file.h"
-#include "tools/command/measured_times.h"
 #include "tools/plant/check_plant.h"
 #include "tools/verbs/verbs.h"
 
@@ -85,7 +85,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
-  add_times_option(app, options->times);
+  config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };
 }

@@ -69,7 +69,7 @@ int force(Context& context, ForceOptions& options) {
     return code;
   }
   const rt::MonoTime until =
-      options.for_ns > 0 ? rt::MonoClock::now() + std::chrono::nanoseconds(options.for_ns) : vars::kForever;
+      options.for_ns > 0 ? store->now() + std::chrono::nanoseconds(options.for_ns) : vars::kForever;
   for (const auto& [item, bytes] : *assignments) {
     const Status forced = store->force(*item.entry, item.place.offset, bytes, until);
     if (!forced.ok()) {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/replace_file.h"
+#include "config/measured_times.h"
 #include "config/plan/plan.h"
 #include "config/xml/plant_reader.h"
 #include "tools/command/config_file.h"
-#include "tools/command/measured_times.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -77,7 +77,7 @@ Action declare(base::Options& app, Context& context) {
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.add("--svg", "FILE", options->svg_file, "Write the timing diagram to FILE");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
-  add_times_option(app, options->times);
+  config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   return [options](Context& c) { return plan(c, *options); };
 }

@@ -99,6 +99,12 @@ int run(Context& context, Request& request) {
     }
     return run_local(context, program, options);
   }
+  if (plant && options.board.empty() && options.simulation.on) {
+    context.out.error(
+        fmt::format("{} is the manifest of a plant; --sim simulates one of its boards: name it with --board",
+                    options.config.string()));
+    return kUsage;
+  }
   if (plant && options.board.empty()) {
     context.out.error(
         fmt::format("{} is the manifest of a plant; run all its boards on this host with --local, or be "
@@ -126,6 +132,7 @@ const Verb kRunVerb{"run", "Start and stop", "Run a configuration, or with --loc
                     "Examples:\n"
                     "  indurop run module.xml --duration 10s\n"
                     "  indurop run module.xml --detach\n"
+                    "  indurop run module.xml --sim --until 1min\n"
                     "  indurop run plant.xml --local\n",
                     &declare};
 

@@ -13,7 +13,7 @@
 
 namespace indurop::abi {
 
-inline constexpr std::uint32_t kVersion = 3;
+inline constexpr std::uint32_t kVersion = 4;
 
 enum class Kind : std::uint32_t {
   Scalar = 0,  // one value of 1, 2, 4 or 8 bytes, an atomic at the entry's first byte

@@ -9,6 +9,10 @@
 #include <cstdint>
 #include <limits>
 
+namespace irp {
+std::int64_t now_ns() noexcept;  // <indurop/irp.h>
+}
+
 namespace indurop::detail {
 
 template <class Tag>
@@ -18,11 +22,6 @@ constexpr std::int64_t max_age_ns() noexcept {
   } else {
     return 0;
   }
-}
-
-inline std::int64_t steady_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
 }
 
 // What abi::confirmed_of() says, decoded. `now_ns` gives the time; it is asked only where it matters.
@@ -52,12 +51,12 @@ std::int64_t confirmed() noexcept {
 
 template <class Tag>
 std::chrono::nanoseconds age() noexcept {
-  return age_of(confirmed<Tag>(), steady_ns);
+  return age_of(confirmed<Tag>(), irp::now_ns);
 }
 
 template <class Tag>
 bool valid() noexcept {
-  return is_valid(confirmed<Tag>(), max_age_ns<Tag>(), steady_ns);
+  return is_valid(confirmed<Tag>(), max_age_ns<Tag>(), irp::now_ns);
 }
 
 }  // namespace indurop::detail

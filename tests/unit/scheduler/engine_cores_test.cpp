@@ -55,7 +55,7 @@ TEST_P(EngineOrder, A_lower_priority_waits_for_the_higher_one_of_its_tick) {
   settings.basic_period_ns = 2'000'000;
   settings.primary_core = cores.front();
   settings.realtime = false;
-  SystemClock clock;
+  SystemKernel clock;
   Engine sut(*block, tasks, settings, Hooks{}, clock);
   ASSERT_TRUE(sut.start(0).ok());
   const std::int64_t deadline = rt::now_ns() + 30'000'000'000;
@@ -87,7 +87,7 @@ TEST(EngineCores, Work_on_a_core_that_is_not_the_primary_one_is_told) {
   Hooks hooks;
   hooks.context = &told;
   hooks.worked = [](void* context) noexcept { ++*static_cast<std::uint64_t*>(context); };
-  SystemClock clock;
+  SystemKernel clock;
   Engine sut(*block, tasks, settings, hooks, clock);
   sut.step(0, rt::MonoTime{});
   EXPECT_EQ(told, 2U);  // once by the primary core, once by the one of the module

@@ -41,7 +41,7 @@ class EngineInVirtualTime : public testing::Test {
     g_clock = &clock;
   }
   std::unique_ptr<Engine> make(const std::vector<Task>& tasks, std::int64_t basic, std::int64_t macro,
-                               Clock* with = nullptr) {
+                               Kernel* with = nullptr) {
     block = make_block(tasks, basic, macro);
     EngineSettings settings;
     settings.basic_period_ns = basic;
@@ -178,7 +178,7 @@ TEST_F(EngineInVirtualTime, Stops_only_the_module_whose_policy_says_so) {
 
 class EngineThreads : public EngineInVirtualTime {
  protected:
-  SystemClock system;
+  SystemKernel system;
   void run_until(Engine& sut, const std::function<bool()>& reached) {
     const std::int64_t deadline = rt::now_ns() + 20'000'000'000;
     while (!reached() && rt::now_ns() < deadline) {
@@ -201,7 +201,7 @@ TEST_F(EngineThreads, Runs_exactly_the_ticks_asked_for) {
 }
 
 // Moves with the tick thread alone; others sleep really, and a little only.
-class TickClock final : public Clock {
+class TickClock final : public Kernel {
  public:
   rt::MonoTime now() noexcept override { return rt::mono_time(now_.load()); }
   void sleep_until(rt::MonoTime deadline) noexcept override {

@@ -15,7 +15,7 @@
 
 namespace indurop::scheduler {
 
-class VirtualClock final : public Clock {
+class VirtualClock final : public Kernel {
  public:
   rt::MonoTime now() noexcept override { return rt::mono_time(now_); }
   void sleep_until(rt::MonoTime deadline) noexcept override { now_ = std::max(now_, rt::to_ns(deadline)); }

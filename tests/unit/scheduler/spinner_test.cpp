@@ -12,7 +12,7 @@ namespace indurop::scheduler {
 namespace {
 
 // Sleeps end `late` ns after they should; reading the clock takes `step`.
-class LateClock final : public Clock {
+class LateClock final : public Kernel {
  public:
   rt::MonoTime now() noexcept override { return rt::mono_time(now_ += step); }
   void sleep_until(rt::MonoTime deadline) noexcept override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/command/measured_times.h"
+#include "config/measured_times.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,11 +7,9 @@
 #include "base/json.h"
 #include "base/read_file.h"
 
-namespace indurop::tools {
-namespace {
+namespace indurop::config {
 
-// Why it is none; empty: it is one.
-std::string take_report(const std::string& file, config::CheckOptions::Times& times) {
+std::string read_measured_times(const std::string& file, CheckOptions::Times& times) {
   const auto text = base::read_file(file);
   if (!text) {
     return base::cannot_read(file, text.error());
@@ -31,13 +29,11 @@ std::string take_report(const std::string& file, config::CheckOptions::Times& ti
   return {};
 }
 
-}  // namespace
-
-void add_times_option(base::Options& line, config::CheckOptions::Times& times) {
+void add_times_option(base::Options& line, CheckOptions::Times& times) {
   line.add(
-          "--times", "FILE", [&times](const std::string& file) { return take_report(file, times); },
+          "--times", "FILE", [&times](const std::string& file) { return read_measured_times(file, times); },
           "Of modules without <wcet>, take the longest execution in this report of indurop run --report")
       .completes(base::Completion::File);
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::config

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/hang_watch.h"
+
+#include <csignal>
+#include <cstdint>
+#include <utility>
+
+#include "rt/clock.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{50};
+constexpr std::chrono::seconds kPatienceAtEnd{2};
+
+// A signal that every thread blocks waits for the main one, which is inside a module.
+bool end_is_wanted() {
+  sigset_t pending;
+  ::sigemptyset(&pending);
+  ::sigpending(&pending);
+  return ::sigismember(&pending, SIGINT) == 1 || ::sigismember(&pending, SIGTERM) == 1 ||
+         ::sigismember(&pending, SIGHUP) == 1;
+}
+
+}  // namespace
+
+HangWatch::HangWatch(const scheduler::SimulatedKernel& kernel, scheduler::Engine& engine)
+    : kernel_(kernel), engine_(engine) {
+  auto thread = rt::Thread::start({"irp-sim-watch", 0, -1}, [this] { loop(); });
+  if (thread) {
+    thread_ = std::move(thread).value();
+  }
+}
+
+HangWatch::~HangWatch() {
+  stop_.store(true);
+  thread_.join();
+}
+
+void HangWatch::loop() {
+  std::uint64_t before = kernel_.resumptions();
+  rt::MonoTime since = rt::MonoClock::now();
+  while (!stop_.load()) {
+    rt::sleep_until(rt::MonoClock::now() + kLook);
+    const std::uint64_t now = kernel_.resumptions();
+    if (now != before) {
+      before = now;
+      since = rt::MonoClock::now();
+    } else if (rt::MonoClock::now() - since > (end_is_wanted() ? kPatienceAtEnd : kPatience)) {
+      engine_.end_runs_in_progress();  // none if the node only stands
+    }
+  }
+}
+
+}  // namespace indurop::node
