@@ -42,6 +42,9 @@ class Preparation {
     flags |= launch.group == Launch::Group::Own ? POSIX_SPAWN_SETPGROUP : 0U;  // 0 as it is: a group of its own
     flags |= launch.group == Launch::Group::OwnSession ? POSIX_SPAWN_SETSID : 0U;
     ::posix_spawnattr_setflags(&attributes_, static_cast<short>(flags));
+    if (launch.input >= 0) {
+      ::posix_spawn_file_actions_adddup2(&actions_, launch.input, STDIN_FILENO);
+    }
     if (launch.output >= 0) {
       ::posix_spawn_file_actions_adddup2(&actions_, launch.output, STDOUT_FILENO);
       ::posix_spawn_file_actions_adddup2(&actions_, launch.output, STDERR_FILENO);
@@ -83,6 +86,9 @@ class Preparation {
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  }
+  if (launch.input >= 0) {
+    ::dup2(launch.input, STDIN_FILENO);
   }
   if (launch.output >= 0) {
     ::dup2(launch.output, STDOUT_FILENO);

@@ -22,6 +22,7 @@ struct Launch {
   std::filesystem::path program;   // empty: words[0], looked for in PATH
   std::optional<std::vector<std::string>> environment = std::nullopt;  // "NAME=value"; ours if not given
   Group group = Group::Ours;
+  int input = -1;     // an open file for standard input; -1: ours
   int output = -1;    // an open file for standard output and error; -1: ours
   int inherits = -1;  // an open file the program gets under the same number, although others are closed to it; -1: none
   bool fresh_signals = false;  // blocks and ignores nothing, whatever we do

@@ -21,6 +21,9 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     check_machine(context);
     check_files(context);
     check_access(context);
+    if (options.simulation) {
+      check_determinism(context);
+    }
     const std::array<BoardView, 1> alone{BoardView{"", config, result}};
     check_agreement(alone, context.report);
     const Uses uses(alone);

@@ -57,6 +57,7 @@ struct CheckOptions {
   bool adjust = false;  // --adjust: apply the proposed periods to the configuration instead of an error
   // Compare with this machine: its cores, its kind of processor. false: the modules are to run elsewhere.
   bool machine = true;
+  bool simulation = false;       // also note what a run in virtual time cannot repeat
   const Times* times = nullptr;  // longest executions that were measured, by module: of those without <wcet>
   std::string board{};  // of a plant: the only one of its boards that is to run on this machine; empty: all are
 };

@@ -47,6 +47,9 @@ void check_files(CheckContext& context);
 // three above.
 void check_access(CheckContext& context);
 
+// Modules whose runs may differ in a simulation. After check_access().
+void check_determinism(CheckContext& context);
+
 // Do all modules that have a variable mean the same bytes, on whatever board they run.
 void check_agreement(std::span<const BoardView> boards, base::Diagnostics& report);
 // Variables that several modules write, none writes, or none reads. Nothing is missed of those `set_by_hand`.

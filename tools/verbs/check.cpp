@@ -16,6 +16,7 @@ namespace {
 struct Options {
   std::string file;
   bool adjust = false;
+  bool simulation = false;
   config::CheckOptions::Times times;
 };
 
@@ -76,7 +77,8 @@ int check(Context& context, const Options& options) {
   if (!file) {
     return report(context.out, file.error());
   }
-  const config::CheckOptions all{.files = true, .adjust = options.adjust, .times = &options.times};
+  const config::CheckOptions all{
+      .files = true, .adjust = options.adjust, .simulation = options.simulation, .times = &options.times};
   return config::is_plant_file(*file) ? check_plant_file(context, *file, all) : check_one(context, *file, all);
 }
 
@@ -85,6 +87,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  app.flag("--sim", options->simulation, "Also note what a simulation (run --sim) cannot repeat");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };

@@ -79,13 +79,14 @@ bool write_project(Context& context, const fs::path& folder, const std::string& 
   }
   const std::string space = namespace_of(name);
   for (const ProjectFile& file : project_files()) {
-    const fs::path path = folder / filled_in(file.path, {{"@NAMESPACE@", space}});
+    const fs::path path = folder / filled_in(file.path, {{"@NAMESPACE@", space}, {"@NAME@", name}});
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     std::string problem = error ? fmt::format("cannot make {}: {}", path.parent_path().string(), error.message()) : "";
     if (problem.empty()) {
       const std::string text = filled_in(file.text, {{"@NAME@", name},
                                                      {"@NAMESPACE@", space},
+                                                     {"@GTEST@", "gtest/gtest.h"},
                                                      {"@PACKAGE@", package.string()},
                                                      {"@PROGRAMS@", programs.string()},
                                                      {"@VERSION@", minor_version()}});
@@ -134,11 +135,12 @@ Action declare(base::Options& app, Context& /*context*/) {
 
 }  // namespace
 
-const Verb kNewVerb{"new", "Before it runs", "Make a project that builds and runs",
-                    "A .glb file, two thread modules, a process module, module.xml, CMakeLists.txt, Makefile, README.\n"
-                    "It never writes into a folder that is not empty.\n"
-                    "Examples:\n"
-                    "  indurop new demo\n",
-                    &declare};
+const Verb kNewVerb{
+    "new", "Before it runs", "Make a project that builds and runs",
+    "A .glb file, two thread modules, a process module, a test, module.xml, CMakeLists.txt, Makefile, README.\n"
+    "It never writes into a folder that is not empty.\n"
+    "Examples:\n"
+    "  indurop new demo\n",
+    &declare};
 
 }  // namespace indurop::tools

@@ -23,23 +23,37 @@ indurop_add_glb(variables FILES @NAMESPACE@.glb)
 indurop_add_module(wave SOURCES src/wave.cpp GLB variables)
 indurop_add_module(smooth SOURCES src/smooth.cpp GLB variables)
 indurop_add_module(monitor PROCESS SOURCES src/monitor.cpp GLB variables)
+
+# Tests in virtual time, where GoogleTest is installed (Debian: libgtest-dev): `make test`.
+find_package(InduRoP @VERSION@ REQUIRED COMPONENTS testing)
+find_package(GTest)
+if(GTest_FOUND)
+  enable_testing()
+  add_executable(@NAME@_test tests/@NAME@_test.cpp)
+  target_link_libraries(@NAME@_test PRIVATE indurop::testing variables GTest::gtest_main)
+  target_compile_definitions(@NAME@_test PRIVATE CONFIGURATION="${CMAKE_CURRENT_SOURCE_DIR}/module.xml")
+  add_test(NAME @NAME@ COMMAND @NAME@_test)
+endif()
 )text";
 
 constexpr const char* kMakefile =
-    R"text(# make: build    make check: look for mistakes    make run: run until Ctrl-C    make clean
+    R"text(# make: build    make check: look for mistakes    make test    make run: run until Ctrl-C    make clean
 # Where InduRoP was when this project was made; if it is there no more, CMake and PATH are searched.
 INDUROP_PACKAGE ?= @PACKAGE@
 INDUROP_PROGRAMS ?= @PROGRAMS@
 INDUROP = $(firstword $(wildcard $(INDUROP_PROGRAMS)/indurop) indurop)
 
 MAKEFLAGS += --no-print-directory
-.PHONY: all check run clean
+.PHONY: all check test run clean
 all:
 	@cmake -S . -B build $(if $(wildcard $(INDUROP_PACKAGE)/InduRoPConfig.cmake),"-DInduRoP_DIR=$(INDUROP_PACKAGE)")
 	@cmake --build build
 
 check: all
 	@"$(INDUROP)" check module.xml
+
+test: all
+	@cd build && ctest --output-on-failure --output-junit tests.xml
 
 run: all
 	@"$(INDUROP)" run module.xml
@@ -134,6 +148,34 @@ int main() {
 }
 )text";
 
+constexpr const char* kTest = R"text(// What the modules of @NAME@ do together, in virtual time: the same on every run.
+#include <@GTEST@>
+#include <indurop/generated.h>
+#include <indurop/testing.h>
+
+using namespace @NAMESPACE@;
+using namespace std::chrono_literals;
+
+TEST(Wave, Is_as_high_as_gain_says) {
+  irp::testing::Plant p(CONFIGURATION);
+  p.set("gain", 2.5);
+  p.run(500ms);  // a quarter of a wave
+  EXPECT_NEAR(wave, 2.5, 0.01) << "variables of the header are those of the plant";
+  EXPECT_NEAR(p.get<double>("wave"), 2.5, 0.01) << "and the same by name";
+  EXPECT_EQ(p.module("wave").runs, 500u);
+}
+
+TEST(Monitor, Is_started_again_after_a_crash) {
+  irp::testing::Plant p(CONFIGURATION);
+  p.run(1s);
+  EXPECT_EQ(p.get<int>("seen.samples"), 10);
+  p.kill("monitor");
+  EXPECT_TRUE(p.run_until([&] { return p.get<int>("seen.samples") == 15; }, 5s));
+  EXPECT_EQ(p.module("monitor").restarts, 1u);
+  EXPECT_EQ(p.module("wave").faults, 0u);
+}
+)text";
+
 constexpr const char* kModuleXml = R"text(<?xml version="1.0" encoding="UTF-8"?>
 <!-- What runs, how often and in which order: the lowest priority value comes first in each period. -->
 <root>
@@ -174,10 +216,12 @@ An InduRoP project: two thread modules and a process module that share variables
 | `src/wave.cpp`, `src/smooth.cpp` | thread modules |
 | `src/monitor.cpp` | process module |
 | `module.xml` | periods, priorities, properties |
+| `tests/@NAME@_test.cpp` | what they do together, tested in virtual time |
 
     make                      # builds into build/
     indurop check             # mistakes, who reads and writes what
     indurop plan              # which module runs in which basic period
+    make test                 # in virtual time; needs GoogleTest (Debian: libgtest-dev)
     indurop run --detach      # runs module.xml in the background
     indurop status
     indurop watch '@NAMESPACE@::*'   # q quits
@@ -191,15 +235,16 @@ If `indurop` is not found, put it into PATH: `export PATH=@PROGRAMS@:$PATH`.
 
 constexpr const char* kGitignore = "build/\n";
 
-constexpr std::array<ProjectFile, 9> kFiles{{{"CMakeLists.txt", kCMakeLists},
-                                             {"Makefile", kMakefile},
-                                             {"@NAMESPACE@.glb", kGlb},
-                                             {"src/wave.cpp", kWave},
-                                             {"src/smooth.cpp", kSmooth},
-                                             {"src/monitor.cpp", kMonitor},
-                                             {"module.xml", kModuleXml},
-                                             {"README.md", kReadme},
-                                             {".gitignore", kGitignore}}};
+constexpr std::array<ProjectFile, 10> kFiles{{{"CMakeLists.txt", kCMakeLists},
+                                              {"Makefile", kMakefile},
+                                              {"@NAMESPACE@.glb", kGlb},
+                                              {"src/wave.cpp", kWave},
+                                              {"src/smooth.cpp", kSmooth},
+                                              {"src/monitor.cpp", kMonitor},
+                                              {"tests/@NAME@_test.cpp", kTest},
+                                              {"module.xml", kModuleXml},
+                                              {"README.md", kReadme},
+                                              {".gitignore", kGitignore}}};
 
 }  // namespace
 

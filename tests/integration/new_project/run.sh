@@ -24,6 +24,8 @@ cd cell-7
 make
 PATH="$programs:$PATH"
 indurop check || fail "check of a fresh project"
+make test || fail "the tests of a fresh project"
+grep -q 'name="cell-7"' build/tests.xml || fail "no JUnit report"
 indurop plan -o json | grep -q '"basic_period_ns": *1000000' || fail "plan"
 indurop run --duration 20s >run.log 2>&1 &
 runner=$!

@@ -116,6 +116,18 @@ TEST_F(Simulation, Keeps_time_with_the_real_one_when_told) {
   EXPECT_EQ(sut.wait(), 0);
 }
 
+TEST_F(Simulation, Check_names_what_it_cannot_repeat) {
+  const std::string file =
+      write("chance.xml", xml({{.file = "counter.so", .name = "plain"},
+                               {.file = "process.exe", .name = "beside", .type = "process", .operation = "non-real"}}));
+  const Outcome notes = indurop({"check", "--sim", file});
+  EXPECT_EQ(notes.code, 0) << notes.err;
+  EXPECT_CONTAINS(notes.out + notes.err, "module beside: it runs beside the schedule, as it likes");
+  EXPECT_FALSE(contains(notes.out + notes.err, "module plain:"));
+  const Outcome none = indurop({"check", file});
+  EXPECT_FALSE(contains(none.out + none.err, "module beside:"));
+}
+
 TEST_F(Simulation, Refuses_what_makes_no_sense) {
   const std::vector<Module> modules = {{.file = "counter.so", .name = "one"}};
   EXPECT_EQ(run_to_end(modules, {"--speed", "2"}).code, 2) << "without --sim";

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_16e69f9a627facec,comdat
-.ascii "{\"schema\":1,\"abi\":3,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_149fd7a5bf7a08f7,comdat
+.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
 .ascii "cription needs no marks: stars and blanks are cut.\",\"source\":\"in.glb:2\"},{\"name\":\"behind\",\"type\":\"in"
 .ascii "t32\",\"kind\":\"scalar\",\"description\":\"behind wins over above\",\"source\":\"in.glb:3\"},{\"name\":\"none\",\"typ"
 .ascii "e\":\"int32\",\"kind\":\"scalar\",\"source\":\"in.glb:6\"},{\"name\":\"two\",\"type\":\"int32\",\"kind\":\"scalar\",\"descri"
@@ -38,7 +38,7 @@ constexpr void indurop_fields(const S& v, indurop_visitor f) {
   f("y", v.y);
 }
 
-namespace indurop_generated_16e69f9a627facec __attribute__((visibility("hidden"))) {
+namespace indurop_generated_149fd7a5bf7a08f7 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_in{4};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x3f71052d617f9b2a, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "above"},
@@ -142,15 +142,15 @@ union ref_S {
   INDUROP_UNION_SHAPE(ref_S)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_16e69f9a627facec
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
-inline constexpr ::indurop_generated_16e69f9a627facec::ref_S<::indurop_generated_16e69f9a627facec::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_16e69f9a627facec::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_149fd7a5bf7a08f7
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
+inline constexpr ::indurop_generated_149fd7a5bf7a08f7::ref_S<::indurop_generated_149fd7a5bf7a08f7::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};

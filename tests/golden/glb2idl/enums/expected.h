@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_eb49972850a0df51,comdat
-.ascii "{\"schema\":1,\"abi\":3,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_b7c212267bb4799c,comdat
+.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
 .ascii "\"values\":[[\"SLOW\",0],[\"FAST\",1]]},\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:5\"},{\"name\":"
 .ascii "\"demo::mode\",\"type\":{\"base\":\"enum\",\"name\":\"demo::Mode\",\"values\":[[\"OFF\",0],[\"AUTO\",1],[\"MANUAL\",2]]}"
 .ascii ",\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:6\"},{\"name\":\"demo::gears\",\"type\":{\"base\":\"enu"
@@ -46,7 +46,7 @@ inline constexpr ::demo::Mode DEFAULT_MODE{static_cast<::demo::Mode>(1)};
 inline constexpr ::demo::Mode START_MODE{static_cast<::demo::Mode>(0)};
 }  // namespace demo
 
-namespace indurop_generated_eb49972850a0df51 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_b7c212267bb4799c __attribute__((visibility("hidden"))) {
 inline constexpr ::demo::speed_t initial_demo_speed{::demo::FAST};
 inline constexpr ::demo::Mode initial_demo_mode{::demo::AUTO};
 inline constexpr ::std::array<::demo::Gear, 2> initial_demo_gears{{::demo::DRIVE}};
@@ -111,12 +111,12 @@ union ref_demo_Motor {
   INDUROP_UNION_SHAPE(ref_demo_Motor)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_eb49972850a0df51
+}  // namespace indurop_generated_b7c212267bb4799c
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_eb49972850a0df51::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_eb49972850a0df51::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_eb49972850a0df51::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_eb49972850a0df51::ref_demo_Motor<::indurop_generated_eb49972850a0df51::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_eb49972850a0df51::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_b7c212267bb4799c::ref_demo_Motor<::indurop_generated_b7c212267bb4799c::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

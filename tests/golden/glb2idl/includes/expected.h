@@ -12,8 +12,8 @@
 
 #include "base.glb.h"
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_1ad1c280cd7ee104,comdat
-.ascii "{\"schema\":1,\"abi\":3,\"variables\":[{\"name\":\"cell::home\",\"type\":{\"base\":\"struct\",\"name\":\"Point\",\"size\":"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_b4bb844987df4703,comdat
+.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::home\",\"type\":{\"base\":\"struct\",\"name\":\"Point\",\"size\":"
 .ascii "16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":"
 .ascii "8}]},\"kind\":\"ring\",\"initial\":\"00000000000010400000000000000040\",\"source\":\"in.glb:6\"},{\"name\":\"cell::"
 .ascii "joints\",\"type\":{\"base\":\"struct\",\"name\":\"arm::Joint\",\"size\":24,\"align\":8,\"fields\":[{\"name\":\"p\",\"type\""
@@ -23,7 +23,7 @@ asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_1ad1c280
 .ascii "\n"
 .popsection)indurop");
 
-namespace indurop_generated_1ad1c280cd7ee104 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_b4bb844987df4703 __attribute__((visibility("hidden"))) {
 inline constexpr ::Point initial_cell_home{4.0, 2.0};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xbbbaf10108cc49ee, 0x4b12722cf7960421, nullptr, &initial_cell_home, 16, ::indurop::abi::Kind::Ring, "cell::home"},
@@ -52,9 +52,9 @@ struct var_cell_joints {
   static constexpr ::std::size_t kSize = 96;
   INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
-}  // namespace indurop_generated_1ad1c280cd7ee104
+}  // namespace indurop_generated_b4bb844987df4703
 
 namespace cell {
-inline constexpr ::indurop_generated_217fd4abb773a724::ref_Point<::indurop_generated_1ad1c280cd7ee104::var_cell_home, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_f31233946fc5b25e::ref_arm_Joint<::indurop_generated_1ad1c280cd7ee104::var_cell_joints, 0>, 4> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_2f9ed87f2331be9d::ref_Point<::indurop_generated_b4bb844987df4703::var_cell_home, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_f042e49450b18ded::ref_arm_Joint<::indurop_generated_b4bb844987df4703::var_cell_joints, 0>, 4> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_be5a3a3bc1d50478,comdat
-.ascii "{\"schema\":1,\"abi\":3,\"variables\":[{\"name\":\"cell::both\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Both\",\"s"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_974e06c4012cec53,comdat
+.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::both\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Both\",\"s"
 .ascii "ize\":8,\"align\":4,\"fields\":[{\"name\":\"dCur\",\"type\":\"int32\",\"offset\":0},{\"name\":\"d_cur\",\"type\":\"int32\","
 .ascii "\"offset\":4}]},\"kind\":\"ring\",\"source\":\"in.glb:6\"},{\"name\":\"cell::target\",\"type\":\"double\",\"kind\":\"scal"
 .ascii "ar\",\"source\":\"in.glb:8\"}]}"
@@ -42,7 +42,7 @@ constexpr void indurop_fields(const Target& v, indurop_visitor f) {
 }
 }  // namespace cell
 
-namespace indurop_generated_be5a3a3bc1d50478 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_974e06c4012cec53 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x48a5cbd050f86922, 0xe76636a1a2cf9472, nullptr, nullptr, 8, ::indurop::abi::Kind::Ring, "cell::both"},
     {0x415cb53400bc0468, 0xdd744c18ff7ea1ab, nullptr, nullptr, 8, ::indurop::abi::Kind::Scalar, "cell::target"},
@@ -93,9 +93,9 @@ union ref_cell_Target {
   INDUROP_UNION_SHAPE(ref_cell_Target)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_be5a3a3bc1d50478
+}  // namespace indurop_generated_974e06c4012cec53
 
 namespace cell {
-inline constexpr ::indurop_generated_be5a3a3bc1d50478::ref_cell_Both<::indurop_generated_be5a3a3bc1d50478::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_be5a3a3bc1d50478::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_974e06c4012cec53::ref_cell_Both<::indurop_generated_974e06c4012cec53::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_974e06c4012cec53::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "testing/node_process.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "base/spawn.h"
+#include "rt/clock.h"
+
+namespace indurop::testing {
+namespace {
+
+constexpr const char* kProgram = "indurop-node";
+constexpr std::chrono::microseconds kLook{20};
+constexpr std::chrono::seconds kEnd{5};
+
+// Beside this library: bin/ of the build tree or of the installation it is part of. Else along PATH.
+std::filesystem::path find_program() {
+  Dl_info info{};
+  std::error_code error;
+  if (::dladdr(reinterpret_cast<const void*>(&find_program), &info) != 0 && info.dli_fname != nullptr) {
+    auto folder = std::filesystem::canonical(info.dli_fname, error).parent_path();
+    for (int up = 0; up < 4 && !folder.empty(); ++up, folder = folder.parent_path()) {
+      for (const auto& place : {folder / kProgram, folder / "bin" / kProgram}) {
+        if (::access(place.c_str(), X_OK) == 0) {
+          return place;
+        }
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+NodeProcess::NodeProcess(const std::string& node, const std::vector<std::string>& arguments,
+                         std::chrono::seconds patience)
+    : node_(node), patience_(patience) {
+  std::array<int, 2> ends{-1, -1};
+  output_ = ::memfd_create("output of a node", MFD_CLOEXEC);
+  if (output_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw std::runtime_error("cannot make a pipe to a node");
+  }
+  commands_ = ends[1];
+  base::Launch launch;
+  launch.words = {kProgram, "--sim", "--step", "--node", node};
+  launch.words.insert(launch.words.end(), arguments.begin(), arguments.end());
+  launch.program = find_program();
+  launch.input = ends[0];
+  launch.output = output_;
+  launch.fresh_signals = true;
+  launch.group = base::Launch::Group::Own;
+  const auto started = base::spawn(launch);
+  ::close(ends[0]);
+  if (!started) {
+    end();
+    throw std::runtime_error("indurop-node cannot be started: put the folder of the InduRoP programs into PATH");
+  }
+  pid_ = started.value();
+  try {
+    wait_until_it_stands();
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+NodeProcess::~NodeProcess() {
+  end();
+}
+
+void NodeProcess::end() noexcept {
+  if (commands_ >= 0) {
+    ::close(commands_);  // the end of its input is the end of it
+  }
+  const rt::MonoTime give_up = rt::MonoClock::now() + kEnd;
+  while (!has_ended()) {
+    if (rt::MonoClock::now() > give_up) {
+      ::kill(pid_, SIGKILL);
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  if (output_ >= 0) {
+    ::close(output_);
+  }
+}
+
+bool NodeProcess::has_ended() {
+  if (pid_ > 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) {
+    pid_ = -1;
+  }
+  return pid_ <= 0;
+}
+
+scheduler::RunBlock& NodeProcess::run() const noexcept {
+  return *static_cast<scheduler::RunBlock*>(file_->data());
+}
+
+std::string NodeProcess::printed() const {
+  struct stat status {};
+  std::string text;
+  if (::fstat(output_, &status) == 0) {
+    text.resize(static_cast<std::size_t>(status.st_size));
+    const ssize_t count = ::pread(output_, text.data(), text.size(), 0);
+    text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  }
+  return text;
+}
+
+void NodeProcess::fail(const std::string& what) const {
+  constexpr std::size_t kLast = 2000;
+  const std::string said = printed();
+  throw std::runtime_error(said.empty() ? what
+                                        : fmt::format("{}; the node said:\n{}", what,
+                                                      said.substr(said.size() - std::min(said.size(), kLast))));
+}
+
+// Just before the next tick begins: whatever belongs to the last one is done.
+void NodeProcess::wait_until_it_stands() {
+  const rt::MonoTime give_up = rt::MonoClock::now() + patience_;
+  for (;;) {
+    const bool ended = has_ended();
+    if (!file_ && !ended) {
+      if (auto opened =
+              vars::RunFile::open(node_, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock))) {
+        file_ = std::move(opened).value();
+      }
+    }
+    if (file_ && run().epoch_ns != 0 &&
+        run().virtual_ns.load(std::memory_order_acquire) ==
+            run().epoch_ns + static_cast<std::int64_t>(ticks_) * run().basic_period_ns - 1) {
+      return;
+    }
+    if (ended) {
+      fail(ticks_ == 0 ? "the configuration cannot be run" : fmt::format("the node ended before tick {}", ticks_));
+    }
+    if (rt::MonoClock::now() > give_up) {
+      fail(fmt::format("tick {} was not reached within {} s", ticks_, patience_.count()));
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+void NodeProcess::go(std::uint64_t ticks) {
+  if (ticks == 0) {
+    return;
+  }
+  ticks_ += ticks;
+  const std::string command = fmt::format("{}\n", ticks);
+  (void)::signal(SIGPIPE, SIG_IGN);
+  if (::write(commands_, command.data(), command.size()) != static_cast<ssize_t>(command.size())) {
+    fail(fmt::format("the node ended before tick {}", ticks_));
+  }
+  wait_until_it_stands();
+}
+
+}  // namespace indurop::testing
