@@ -15,7 +15,7 @@ struct FileNames {
   std::vector<std::string> jobs;  // points too
 };
 
-// All errors of all of them.
+// All errors of all of them, and a note of what the arm can do.
 std::vector<base::Diagnostic> check_files(const FileNames& names);
 
 }  // namespace indurop::robot

@@ -21,6 +21,7 @@ struct GroupParts {
   JointLimits joints;
   ToolLimits tool;
   JobBook book;
+  std::string kind;
 };
 
 class Group final : public Controller, private MotionPort {
@@ -29,6 +30,7 @@ class Group final : public Controller, private MotionPort {
 
   void step(const Inputs& in, Signals& signals, Outputs& out) noexcept override;
   [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return parts_.book.signals; }
+  [[nodiscard]] const std::string& kind() const noexcept override { return parts_.kind; }
 
  private:
   // Services (group_services.cpp).

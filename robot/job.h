@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +61,8 @@ struct JobBook {
 
   // Index of the point called P<number>; -1 if there is none.
   [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
-  std::vector<int> numbered;  // by number, filled by parse_jobs
+  std::vector<int> numbered;                            // by number, filled by parse_jobs
+  std::vector<std::shared_ptr<const Solutions>> known;  // Target::known points there
 };
 
 struct JobFile {

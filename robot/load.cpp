@@ -58,8 +58,9 @@ Diagnostics check_settings(const Settings& s) {
   return errors;
 }
 
-GroupParts parts_of(const Settings& settings, ArmModel model, JobBook book) {
-  GroupParts parts{settings, std::move(model.arm), {}, {}, std::move(book)};
+GroupParts parts_of(const Settings& settings, ReadFiles files) {
+  const ArmModel& model = *files.model;
+  GroupParts parts{settings, model.arm, {}, {}, std::move(files.book), std::move(files.kind)};
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
   if (!settings.acceleration.empty()) {
@@ -86,7 +87,7 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   ReadFiles files = read_files({settings.urdf, settings.jobs});
   take_over(std::move(files.errors), wrong);
   if (wrong.empty()) {
-    return std::make_unique<Group>(parts_of(settings, std::move(*files.model), std::move(files.book)));
+    return std::make_unique<Group>(parts_of(settings, std::move(files)));
   }
   // The header users include knows nothing of ours.
   std::transform(wrong.begin(), wrong.end(), std::back_inserter(errors),

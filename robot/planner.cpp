@@ -46,7 +46,8 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
   }
 }
 
-Fault Planner::resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept {
+Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept {
+  const Target& target = command.target;
   if (!finite(target)) {
     return {ErrorCode::Value};
   }
@@ -57,7 +58,11 @@ Fault Planner::resolve(const Target& target, const Joints& near, Joints& joints,
     return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
   }
   pose = target.pose;
-  const auto found = places_.inverse().nearest(pose, near, target.posture);
+  if (command.move != Move::Joint && !places_.inverse().closed_form()) {
+    return {};  // what goes on from place to place comes to its end by itself
+  }
+  const auto found = target.known != nullptr ? places_.inverse().nearest(*target.known, near, target.posture)
+                                             : places_.inverse().nearest(pose, near, target.posture);
   joints = found.solution.q;
   return {code_of(found.reach)};
 }
@@ -81,7 +86,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
   }
-  if (const Fault fault = resolve(command.target, from, segment_.to, segment_.end); !fault.ok()) {
+  if (const Fault fault = resolve(command, from, segment_.to, segment_.end); !fault.ok()) {
     return fault;
   }
   if (command.move == Move::Joint) {

@@ -53,7 +53,7 @@ class Planner {
   void rehearse_profile() noexcept;
   void end_rehearsal() noexcept;
   [[nodiscard]] double rehearsal_step() const noexcept;
-  Fault resolve(const Target& target, const Joints& near, Joints& joints, Pose& pose) const noexcept;
+  Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;

@@ -65,6 +65,43 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
   return errors;
 }
 
+std::string ways_of(const Solutions& found) {
+  std::string ways;
+  for (int i = 0; i < found.count; ++i) {
+    const std::string one = std::to_string(found.list[static_cast<std::size_t>(i)].posture);
+    ways += ways.find(one) != std::string::npos ? "" : (ways.empty() ? "" : ", ") + one;
+  }
+  return ways;
+}
+
+// How an arm without a closed form is held at poses takes a search, which is made here, before anything moves.
+Diagnostics solve_points(JobBook& book, const Inverse& inverse) {
+  Diagnostics errors;
+  for (Point& point : book.points) {
+    if (!point.target.is_pose || inverse.closed_form()) {
+      continue;
+    }
+    const auto found = std::make_shared<const Solutions>(inverse.search(point.target.pose, Joints::Zero()));
+    const std::string name = "point '" + point.name + "': ";
+    if (found->count == 0) {
+      errors.push_back(error(point.file, point.place,
+                             name + "the arm cannot hold its tool like that there" +
+                                 (found->reach == Reach::JointLimit ? " within the limits of its joints" : "") +
+                                 "; give it a nearer position or another orientation"));
+    } else if (point.target.posture && !inverse.has_postures()) {
+      errors.push_back(
+          error(point.file, point.place, name + "this arm has no postures; leave POSTURE out, or use JOINT"));
+    } else if (point.target.posture && found->nearest(Joints::Zero(), point.target.posture) == nullptr) {
+      errors.push_back(error(
+          point.file, point.place,
+          name + "not possible in posture " + std::to_string(*point.target.posture) + ", but in " + ways_of(*found)));
+    }
+    book.known.push_back(found);
+    point.target.known = found.get();
+  }
+  return errors;
+}
+
 }  // namespace
 
 ReadFiles read_files(const FileNames& names) {
@@ -80,13 +117,20 @@ ReadFiles read_files(const FileNames& names) {
   take_over(std::move(jobs.diagnostics), read.errors);
   read.book = std::move(jobs.book);
   if (read.model) {
+    const Inverse inverse(read.model->arm);
     take_over(check_points(read.book, read.model->arm), read.errors);
+    take_over(solve_points(read.book, inverse), read.errors);
+    read.kind = inverse.kind();
   }
   return read;
 }
 
 Diagnostics check_files(const FileNames& names) {
-  return read_files(names).errors;
+  ReadFiles read = read_files(names);
+  if (!read.kind.empty()) {
+    read.errors.push_back({base::Diagnostic::Severity::Note, names.urdf, {1, 1}, "the arm: " + read.kind});
+  }
+  return std::move(read.errors);
 }
 
 }  // namespace indurop::robot

@@ -14,7 +14,8 @@ namespace indurop::robot {
 struct ReadFiles {
   std::optional<ArmModel> model;
   JobBook book;
-  std::vector<base::Diagnostic> errors;  // without any, both of the others count
+  std::vector<base::Diagnostic> errors;  // without any, the others count
+  std::string kind;                      // what the arm can do
 };
 ReadFiles read_files(const FileNames& names);
 

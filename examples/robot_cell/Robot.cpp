@@ -170,6 +170,7 @@ void start() {
   if (!plcRobot) {
     throw std::runtime_error("the robot cannot be started, see the messages above");
   }
+  irp::printf("the arm: %s\n", plcRobot->kind().c_str());
   signals = std::make_unique<JobSignals>(plcRobot->signals());
   ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;
   for (std::size_t k = 0; k < 6; k++) {

@@ -168,6 +168,8 @@ class Controller {
   virtual void step(const Inputs& in, Signals& signals, Outputs& out) noexcept = 0;
   // Names of the variables that jobs set or wait for, each once; Signals count in this order.
   [[nodiscard]] virtual const std::vector<std::string>& signals() const noexcept = 0;
+  // What this arm can do, in words.
+  [[nodiscard]] virtual const std::string& kind() const noexcept = 0;
 
  protected:
   Controller() = default;

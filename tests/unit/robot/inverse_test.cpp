@@ -54,7 +54,8 @@ TEST(Inverse, Eight_postures_where_limits_allow_them) {
   const Solutions found = sut.all(arm.forward(q), q);
   ASSERT_EQ(found.count, 8);
   unsigned seen = 0;
-  for (const Solution& one : found.list) {
+  for (int i = 0; i < found.count; ++i) {
+    const Solution& one = found.list[static_cast<std::size_t>(i)];
     seen |= 1U << one.posture;
     EXPECT_LT(distance(arm.forward(one.q), arm.forward(q)), 1e-6);
   }
@@ -134,8 +135,8 @@ TEST(Inverse, Numeric_solution_of_arms_without_closed_form) {
     const auto result = solve_numerically(arm, arm.forward(q), near);
     if (result.reach == Reach::Ok) {
       ++found;
-      EXPECT_LT(distance(arm.forward(result.solution.q), arm.forward(q)), 1e-6);
-      EXPECT_EQ(arm.beyond_limits(result.solution.q), -1);
+      EXPECT_LT(distance(arm.forward(result.q), arm.forward(q)), 1e-6);
+      EXPECT_EQ(arm.beyond_limits(result.q), -1);
     }
   }
   EXPECT_GT(found, kTries * 95 / 100);

@@ -33,6 +33,15 @@ Arm odd_arm() {
   return {axes, arm.home()};
 }
 
+Arm arm_of(const std::string& name) {
+  std::ifstream file(std::string(ROBOT_ARMS) + "/" + name + ".urdf");
+  auto model = arm_from_urdf(name + ".urdf", {std::istreambuf_iterator<char>(file), {}});
+  if (!model) {
+    throw std::runtime_error(base::to_text(model.error()));
+  }
+  return model->arm;
+}
+
 std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings) {
   const auto folder = std::filesystem::temp_directory_path() / ("robot_test." + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

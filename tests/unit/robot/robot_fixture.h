@@ -17,6 +17,8 @@ std::string cell_urdf();
 Arm cell_arm();
 // Wrist axes that do not meet: no closed form.
 Arm odd_arm();
+// Of the file in tests/unit/robot/arms. Throws what is wrong with it.
+Arm arm_of(const std::string& name);
 JointLimits cell_limits();
 // One that has read both texts as files. Throws what it says of them.
 std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings = {});

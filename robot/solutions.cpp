@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/solutions.h"
+
+#include <cmath>
+
+#include "robot/angles.h"
+
+namespace indurop::robot {
+
+void Solutions::add(const Arm& arm, const Joints& q, std::uint8_t posture, const Joints& near) noexcept {
+  Solution one{q, posture};
+  for (int i = 0; i < kAxes; ++i) {
+    const auto angle = turn_nearest(arm.axis(i), q[i], near[i]);
+    if (!angle) {
+      reach = count > 0 ? Reach::Ok : Reach::JointLimit;
+      return;
+    }
+    one.q[i] = *angle;
+  }
+  if (count < static_cast<int>(list.size())) {
+    list[static_cast<std::size_t>(count++)] = one;
+  }
+  reach = Reach::Ok;
+}
+
+const Solution* Solutions::nearest(const Joints& near, std::optional<std::uint8_t> posture) const noexcept {
+  const Solution* best = nullptr;
+  double distance = HUGE_VAL;
+  for (int i = 0; i < count; ++i) {
+    const Solution& one = list[static_cast<std::size_t>(i)];
+    const double away = (one.q - near).squaredNorm();
+    if (away < distance && (!posture || one.posture == *posture)) {
+      distance = away;
+      best = &one;
+    }
+  }
+  return best;
+}
+
+}  // namespace indurop::robot

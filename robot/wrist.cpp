@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/wrist.h"
+
+#include <cmath>
+
+#include "robot/angles.h"
+
+namespace indurop::robot {
+
+Wrist::Wrist(const Vec3& first, const Vec3& middle, const Vec3& last) noexcept
+    : first_(first), middle_(middle), last_(last) {
+  constant_ = first.dot(middle) * middle.dot(last);
+  cosine_ = first.dot(last) - constant_;
+  sine_ = first.dot(middle.cross(last));
+}
+
+double Wrist::straight() const noexcept {
+  return std::atan2(sine_, cosine_);
+}
+
+std::optional<Wrist::Angles> Wrist::turn(const Mat3& rotation, bool other, const Keep& keep) const noexcept {
+  const Vec3 wanted = rotation * last_;
+  const auto half = angle_with_cosine((first_.dot(wanted) - constant_) / std::hypot(cosine_, sine_));
+  if (!half) {
+    return std::nullopt;
+  }
+  Angles angles;
+  angles.middle = straight() + (other ? -*half : *half);
+  const Mat3 bend = turned(middle_, angles.middle);
+  const Vec3 bent = bend * last_;
+  // Something perpendicular to an axis, to see how far that is turned.
+  const auto turn_of = [](const Vec3& axis, const Mat3& by) {
+    const Vec3 mark = axis.unitOrthogonal();
+    return angle_about(axis, mark, by * mark);
+  };
+  const bool singular = first_.cross(bent).norm() < Close::kSingular;
+  if (singular && !keep.first) {
+    angles.last = keep.angle;
+    angles.first = turn_of(first_, rotation * (bend * turned(last_, angles.last)).transpose());
+    return angles;
+  }
+  angles.first = singular ? keep.angle : angle_about(first_, bent, wanted);
+  angles.last = turn_of(last_, (turned(first_, angles.first) * bend).transpose() * rotation);
+  return angles;
+}
+
+}  // namespace indurop::robot
