@@ -12,6 +12,7 @@
 #include "glb2idl/notes.h"
 #include "glb2idl/text.h"
 #include "glb2idl/types.h"
+#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -370,7 +371,7 @@ void choose_idl_constants(Context& context) {
       const bool is_integer = constant->value.kind == Value::Kind::Integer && constant->value.enum_type.empty() &&
                               constant->value.integer != INT64_MIN;
       constant->in_idl =
-          is_integer && !is_idl_keyword(name) && !context.field_names.contains(mangled(constant->name)) &&
+          is_integer && !schema::is_idl_keyword(name) && !context.field_names.contains(mangled(constant->name)) &&
           context.scope.idl_is_free(constant->name) && context.scope.claim_idl(constant->name, Span{}, false);
     }
   }

@@ -9,17 +9,13 @@
 #include <limits>
 
 #include "glb2idl/emit.h"
-#include "glb2idl/names.h"
 #include "glb2idl/text.h"
+#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {
 
 using schema::Base;
-
-std::string idl_name(std::string_view name) {
-  return (is_idl_keyword(name) ? "_" : "") + std::string(name);
-}
 
 std::string idl_type(const schema::Type& type) {
   constexpr std::array<std::string_view, 12> kNames{"boolean", "char",   "int8",  "uint8",  "int16", "uint16",
@@ -82,7 +78,7 @@ class IdlWriter {
     enter(enumeration.scope);
     std::string values;
     for (const schema::Enumerator& e : enumeration.type.enumerators) {
-      values += (values.empty() ? "" : ", ") + idl_name(e.name);
+      values += (values.empty() ? "" : ", ") + schema::idl_name(e.name);
     }
     any_ = true;
     line("enum {} {{ {} }};{}", last_of(enumeration.type.name), values, comment(enumeration.description));
@@ -93,7 +89,7 @@ class IdlWriter {
     any_ = true;
     line("@final struct {} {{{}", last_of(structure.type.name), comment(structure.description));
     for (const schema::Field& field : structure.type.fields) {
-      line("  {} {}{};{}", idl_type(field.type), idl_name(field.name), dims(field.type),
+      line("  {} {}{};{}", idl_type(field.type), schema::idl_name(field.name), dims(field.type),
            comment(notes(field.description, field.unit, field.range)));
     }
     line("}};");

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "glb2idl/text.h"
+#include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
 namespace {
@@ -36,18 +37,6 @@ const Words& keywords() {
       "protected public register reinterpret_cast requires restrict return short signed sizeof static static_assert "
       "static_cast struct switch template this thread_local throw true try typedef typeid typename typeof union "
       "unsigned using virtual void volatile wchar_t while xor xor_eq ");
-  return kWords;
-}
-
-// Keywords of OMG IDL 4.2; compilers compare them without regard to case.
-const Words& idl_keywords() {
-  static const Words kWords = split(
-      "abstract alias any attribute bitfield bitmask bitset boolean case char component connector const consumes "
-      "context custom default double emits enum eventtype exception factory false finder fixed float getraises home "
-      "import in inout int16 int32 int64 int8 interface local long manages map mirrorport module multiple native "
-      "object octet oneway out port porttype primarykey private provides public publishes raises readonly sequence "
-      "setraises short string struct supports switch true truncatable typedef typeid typename typeprefix uint16 "
-      "uint32 uint64 uint8 union unsigned uses valuebase valuetype void wchar wstring ");
   return kWords;
 }
 
@@ -209,10 +198,6 @@ std::optional<std::string> form_objection(std::string_view name, NameRole role) 
 
 }  // namespace
 
-bool is_idl_keyword(std::string_view name) {
-  return idl_keywords().contains(lower(name));
-}
-
 bool is_system_macro(std::string_view name) {
   return macros().contains(std::string(name));
 }
@@ -229,7 +214,7 @@ std::optional<std::string> objection(std::string_view name, NameRole role, bool 
   if (macros().contains(word)) {
     return "is a macro of the system headers";
   }
-  if ((role == NameRole::Type || role == NameRole::Namespace) && is_idl_keyword(name)) {
+  if ((role == NameRole::Type || role == NameRole::Namespace) && schema::is_idl_keyword(name)) {
     return "is a keyword of IDL";
   }
   if (inner) {

@@ -18,9 +18,6 @@ enum class NameRole { Namespace, Type, Variable, Constant, Enumerator, Function,
 // A similar name without objection.
 [[nodiscard]] std::string proposal(std::string_view name, NameRole role, bool global);
 
-// A word of IDL that C and C++ allow as a name (such as `port`); written `_port` in IDL.
-[[nodiscard]] bool is_idl_keyword(std::string_view name);
-
 // A macro of the headers that modules include: no C++ name of any kind gets past the preprocessor.
 [[nodiscard]] bool is_system_macro(std::string_view name);
 

@@ -43,8 +43,6 @@ TEST(Names, Keywords_of_IDL_are_refused_only_where_they_cannot_be_escaped) {
   EXPECT_FALSE(objection("Any", NameRole::Enumerator, false));
   EXPECT_TRUE(objection("port", NameRole::Type, false));
   EXPECT_TRUE(objection("Home", NameRole::Namespace, false));
-  EXPECT_TRUE(is_idl_keyword("SEQUENCE"));
-  EXPECT_FALSE(is_idl_keyword("position"));
 }
 
 TEST(Names, What_modules_use_without_prefix_is_refused) {

@@ -5,10 +5,18 @@
 
 #include <gmock/gmock.h>
 
+#include "schema/idl_word.h"
 #include "schema/schema.h"
 
 namespace indurop::schema {
 namespace {
+
+TEST(IdlWord, Keywords_are_escaped_in_whatever_case) {
+  EXPECT_TRUE(is_idl_keyword("SEQUENCE"));
+  EXPECT_FALSE(is_idl_keyword("position"));
+  EXPECT_EQ(idl_name("Port"), "_Port");
+  EXPECT_EQ(idl_name("position"), "position");
+}
 
 TEST(Glob, Matches_as_a_shell_does) {
   EXPECT_TRUE(glob_match("*", "knu::Robot::joints"));
