@@ -18,6 +18,8 @@ THIRD_PARTY = {
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
     "openssl": ("openssl/",),
     "modbus": ("modbus/",),
+    "zstd": ("zstd.h",),
+    "lz4": ("lz4frame.h",),
     "eigen": ("Eigen/",),
     "urdf": ("urdf_parser/", "urdf_model/", "console_bridge/"),
     "kdl": ("kdl/",),

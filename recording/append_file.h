@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A new file that only grows, by whole portions: one that could not be written leaves nothing of it behind.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+
+#include "base/descriptor.h"
+#include "base/problem.h"
+#include "recording/records.h"
+
+namespace indurop::recording {
+
+class AppendFile {
+ public:
+  // Errors: there is a file of this name already; what the operating system says.
+  static Result<AppendFile, base::Problem> create(const std::filesystem::path& path);
+
+  // After an error (a full disk, mostly) the file is as before and the call may be repeated.
+  Result<void, base::Problem> append(View bytes);
+  // Returns when the bytes are on the disk. Errors as above; the file is closed then too.
+  Result<void, base::Problem> close();
+
+  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+  // Of all bytes.
+  [[nodiscard]] std::uint32_t crc() const noexcept { return crc_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  AppendFile(std::filesystem::path path, base::Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
+
+  std::filesystem::path path_;
+  base::Descriptor file_;
+  std::uint64_t size_ = 0;
+  std::uint32_t crc_ = 0;
+};
+
+}  // namespace indurop::recording

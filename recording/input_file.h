@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A file that is read at given places, and how its errors are worded: "FILE: byte 123: what is wrong".
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "base/descriptor.h"
+#include "base/problem.h"
+#include "recording/compression.h"
+#include "recording/records.h"
+
+namespace indurop::recording {
+
+// What stands before each record's content.
+struct RecordHead {
+  Opcode opcode{};
+  std::uint64_t length = 0;  // of the content
+};
+
+class InputFile {
+ public:
+  // Errors: it cannot be read; it is no ordinary file.
+  static Result<InputFile, base::Problem> open(const std::filesystem::path& path);
+
+  // When it was opened; it may have grown since.
+  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+  [[nodiscard]] bool has(std::uint64_t offset, std::uint64_t length) const noexcept {
+    return offset <= size_ && length <= size_ - offset;
+  }
+  [[nodiscard]] base::Problem problem(std::uint64_t offset, std::string_view why) const;
+
+  // Errors: the file is shorter than that; the operating system cannot read it.
+  [[nodiscard]] Result<Block, base::Problem> read(std::uint64_t offset, std::uint64_t length) const;
+  // The content of a record that has this opcode and `length` bytes, its head included.
+  // Errors: as above, and if the file has another record there; `most` is less than its content.
+  [[nodiscard]] Result<Block, base::Problem> read_content(Opcode opcode, std::uint64_t offset, std::uint64_t length,
+                                                          std::uint64_t most) const;
+
+ private:
+  InputFile(std::filesystem::path path, base::Descriptor file, std::uint64_t size)
+      : path_(std::move(path)), file_(std::move(file)), size_(size) {}
+
+  std::filesystem::path path_;
+  base::Descriptor file_;
+  std::uint64_t size_;
+};
+
+// `bytes` has at least kRecordHead of them.
+RecordHead record_head(View bytes);
+
+}  // namespace indurop::recording

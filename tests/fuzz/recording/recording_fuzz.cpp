@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever bytes a recording holds: it is read to its end, or refused; messages come in the order of time, and nothing
+// beyond the sizes that records.h allows is reserved.
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "recording/mcap_reader.h"
+
+namespace {
+
+using namespace indurop::recording;
+
+void read_all(McapReader& reader) {
+  std::uint64_t before = 0;
+  // Each error passes over a segment or a message, of which a file has no more than bytes when not compressed.
+  while (true) {
+    const auto next = reader.next();
+    if (!next) {
+      continue;
+    }
+    if (!*next) {
+      return;
+    }
+    if ((*next)->log_time_ns < before) {
+      std::abort();
+    }
+    before = (*next)->log_time_ns;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const int file = ::memfd_create("recording", MFD_CLOEXEC);
+  if (file < 0 || ::write(file, data, size) != static_cast<ssize_t>(size)) {
+    std::abort();
+  }
+  if (auto reader = McapReader::open("/proc/self/fd/" + std::to_string(file))) {
+    read_all(*reader);
+    reader->seek(1);
+    read_all(*reader);
+    for (const McapAttachmentIndex& each : reader->contents().attachments) {
+      (void)reader->attachment(each);
+    }
+    for (const McapMetadataIndex& each : reader->contents().metadata) {
+      (void)reader->metadata(each);
+    }
+  }
+  ::close(file);
+  return 0;
+}
