@@ -2,11 +2,31 @@
 #include "recording/chunk_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-
-#include "recording/record_bytes.h"
+#include <cstring>
 
 namespace indurop::recording {
+namespace {
+
+// What append_record does, in one step: this is done for each value that is recorded.
+void append_message(Bytes& to, const McapMessage& message) {
+  std::array<std::uint8_t, kRecordHead + 22> head{static_cast<std::uint8_t>(Opcode::Message)};
+  std::size_t at = 1;
+  const auto put = [&](const auto& number) {
+    std::memcpy(head.data() + at, &number, sizeof number);
+    at += sizeof number;
+  };
+  put(std::uint64_t{head.size() - kRecordHead + message.data.view.size()});
+  put(message.channel);
+  put(message.sequence);
+  put(message.log_time_ns);
+  put(message.publish_time_ns);
+  to.insert(to.end(), head.begin(), head.end());
+  to.insert(to.end(), message.data.view.begin(), message.data.view.end());
+}
+
+}  // namespace
 
 void ChunkBuilder::add(const McapMessage& message) {
   start_ns_ = empty() ? message.log_time_ns : std::min(start_ns_, message.log_time_ns);
@@ -20,7 +40,7 @@ void ChunkBuilder::add(const McapMessage& message) {
     used_.push_back(message.channel);
   }
   index.entries.emplace_back(message.log_time_ns, records_.size());
-  append_record(records_, message);
+  append_message(records_, message);
 }
 
 void ChunkBuilder::clear() {

@@ -43,6 +43,17 @@ class FieldWriter {
   void put(const std::vector<std::pair<First, Second>>& pairs) {
     list(pairs);
   }
+  // As above, in one piece: a recording has one such pair for each message.
+  void put(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& pairs) {
+    static_assert(sizeof pairs[0] == 2 * sizeof(std::uint64_t));
+    const std::size_t size = pairs.size() * sizeof pairs[0];
+    put(static_cast<std::uint32_t>(size));
+    const std::size_t at = to_.size();
+    to_.resize(at + size);
+    if (size > 0) {
+      std::memcpy(to_.data() + at, pairs.data(), size);
+    }
+  }
 
  private:
   void list(const auto& pairs) {

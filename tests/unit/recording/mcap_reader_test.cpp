@@ -207,6 +207,21 @@ TEST_F(Reader, Messages_outside_of_chunks_and_other_writers_orders_are_read) {
   EXPECT_THAT(times, ElementsAre(10, 15, 20, 30));
 }
 
+TEST_F(Reader, Chunks_that_others_compressed_are_read) {
+  for (const auto& [name, times] : {std::pair("lz4.mcap", std::vector<std::uint64_t>{10, 20, 30}),
+                                    std::pair("no_crc.mcap", std::vector<std::uint64_t>{10, 10, 20, 20, 30, 30})}) {
+    auto reader = McapReader::open(std::filesystem::path(RECORDING_CORPUS) / name);
+    ASSERT_TRUE(reader.ok()) << reader.error().text;
+    EXPECT_THAT(reader->contents().damages, IsEmpty());
+    std::vector<std::uint64_t> found;
+    for (const Message& message : all(*reader).messages) {
+      found.push_back(std::get<2>(message));
+      EXPECT_EQ(std::get<4>(message), "{}");
+    }
+    EXPECT_EQ(found, times) << name;
+  }
+}
+
 TEST_F(Reader, What_is_no_recording_is_refused) {
   EXPECT_THAT(McapReader::open(folder / "no.mcap").error().text, HasSubstr("No such file or directory"));
   EXPECT_THAT(McapReader::open(folder).error().text, HasSubstr("it is a directory"));
