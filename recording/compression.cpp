@@ -98,6 +98,7 @@ Result<Block, Problem> decompress(std::string_view compression, View bytes, std:
     if (bytes.size() != size) {
       return Problem{fmt::format("{} bytes are announced, there are {}", size, bytes.size())};
     }
+    // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): the result owns it
     Block block = make_block(size);
     std::copy(bytes.begin(), bytes.end(), block.bytes.get());
     return block;
@@ -108,6 +109,7 @@ Result<Block, Problem> decompress(std::string_view compression, View bytes, std:
   if (!possible(compression, bytes, size)) {
     return damaged(compression, "its size");
   }
+  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): the result owns it
   Block block = make_block(size);
   auto problem = compression == "zstd" ? undo_zstd(bytes, block) : undo_lz4(bytes, block);
   if (problem) {
