@@ -64,6 +64,7 @@ bool Scope::claim_idl(const std::string& full_name, Span at, bool is_struct) {
   }
   idl_.emplace(lower(full_name), Claim{full_name, at});
   c_names_.emplace(c_name, Claim{full_name, at});
+  // NOLINTNEXTLINE(readability-use-anyofallof): it remembers names on its way
   for (const std::string_view suffix : kDerived) {
     if (is_struct) {
       const std::string derived = c_name + std::string(suffix);

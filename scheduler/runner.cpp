@@ -117,7 +117,9 @@ void Runner::call_current() noexcept {
     std::snprintf(text, sizeof text, "exception of an unknown type");
   }
   guard_.disarm();
-  const bool over_budget = ran && !threw && spend_time(state.task);
+  if (state.task.work_ns != 0) [[unlikely]] {
+    spend_time(state, ran && !threw);
+  }
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
   const std::int64_t end = rt::to_ns(kernel_.now());
   times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
@@ -128,25 +130,21 @@ void Runner::call_current() noexcept {
   current_start_.store(end, std::memory_order_relaxed);  // the next module starts where this one ended
   if (threw) [[unlikely]] {
     quarantine(state, FaultKind::Exception, tick_, text, hooks_);
-  } else if (over_budget) [[unlikely]] {
-    quarantine_for_budget(state, end - start);
   }
 }
 
-// False unless the time that a simulated run takes is more than it may.
-bool Runner::spend_time(const Task& task) noexcept {
-  if (task.work_ns == 0) [[likely]] {
-    return false;
-  }
+// In a simulation: lets the time of the run pass, but not more than it may take.
+void Runner::spend_time(TaskState& state, bool ran) noexcept {
+  const Task& task = state.task;
   const bool over = task.budget_ns > 0 && task.work_ns > task.budget_ns;
-  kernel_.work(over ? task.budget_ns : task.work_ns);
-  return over;
-}
-
-void Runner::quarantine_for_budget(TaskState& state, std::int64_t took_ns) noexcept {
-  char text[kTextLength];
-  std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>(took_ns / 1000));
-  quarantine(state, FaultKind::Budget, tick_, text, hooks_);
+  if (ran) {
+    kernel_.work(over ? task.budget_ns : task.work_ns);
+  }
+  if (ran && over) {
+    char text[kTextLength];
+    std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>(task.budget_ns / 1000));
+    quarantine(state, FaultKind::Budget, tick_, text, hooks_);
+  }
 }
 
 void Runner::contain_jump() noexcept {

@@ -75,8 +75,7 @@ class Runner {
 
  private:
   void call_current() noexcept;
-  bool spend_time(const Task& task) noexcept;
-  void quarantine_for_budget(TaskState& state, std::int64_t took_ns) noexcept;
+  void spend_time(TaskState& state, bool ran) noexcept;
   void contain_jump() noexcept;
   void account() noexcept;
 

@@ -230,13 +230,13 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
 }  // namespace
 
 ReadIo read_io_config(const std::filesystem::path& file) {
-  auto bytes = read_bytes(file, kIoConfigXml);
+  const auto bytes = read_bytes(file, kIoConfigXml);
   if (bytes) {
     return read_io_config_text(*bytes, file);
   }
   ReadIo result;
   result.config.file = file;
-  result.diagnostics.push_back(std::move(bytes.error()));
+  result.diagnostics.push_back(bytes.error());
   return result;
 }
 

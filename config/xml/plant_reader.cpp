@@ -234,13 +234,13 @@ bool is_plant_file(const std::filesystem::path& file) {
 }
 
 ReadPlant read_plant(const std::filesystem::path& file) {
-  auto bytes = read_bytes(file, kPlantXml);
+  const auto bytes = read_bytes(file, kPlantXml);
   if (bytes) {
     return read_plant_text(*bytes, file);
   }
   ReadPlant result;
   result.plant.file = file;
-  result.diagnostics.push_back(std::move(bytes.error()));
+  result.diagnostics.push_back(bytes.error());
   return result;
 }
 

@@ -30,6 +30,9 @@ enum class PeerState : std::uint32_t {
 };
 const char* to_text(PeerState state) noexcept;
 
+// Shared memory is zero before it is filled in.
+// NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+
 // Another board of the plant.
 struct PeerRecord {
   char name[kBoardName];
@@ -92,6 +95,7 @@ struct MirrorBlock {
     return reinterpret_cast<const IncomingRecord*>(peers() + peer_count);
   }
 };
+// NOLINTEND(cppcoreguidelines-pro-type-member-init)
 static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0 && sizeof(PeerRecord) % alignof(IncomingRecord) == 0);
 
 inline constexpr std::size_t mirror_block_size(std::size_t peers, std::size_t incoming) noexcept {

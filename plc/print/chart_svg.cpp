@@ -127,20 +127,21 @@ class Drawing {
     if (chart_.steps[i].initial) {
       out_.rect(x - half + 4, y + 4, 2 * half - 8, kStep - 8, R"(fill="none" stroke="#2B4C7E" stroke-width="1.2")");
     }
-    out_.text(x, y + kStep / 2 + 4, chart_.steps[i].name, R"(text-anchor="middle" font-weight="bold" fill="#2B4C7E")");
+    const int middle = y + kStep / 2;
+    out_.text(x, middle + 4, chart_.steps[i].name, R"(text-anchor="middle" font-weight="bold" fill="#2B4C7E")");
     const auto lines = actions_of(i);
     if (lines.empty()) {
       return;
     }
-    line(x + half, y + kStep / 2, x + half + 24, y + kStep / 2);
+    line(x + half, middle, x + half + 24, middle);
     int qualifiers = 0;
     const int width = width_of_actions(lines, qualifiers);
     int top = y + (lines.size() == 1 ? (kStep - kAction) / 2 : 0);
     for (const network::ActionLine* each : lines) {
       out_.rect(x + half + 24, top, width, kAction, R"(fill="#FFF8EC" stroke="#8A4B08")");
       line(x + half + 24 + qualifiers, top, x + half + 24 + qualifiers, top + kAction);
-      out_.text(x + half + 24 + qualifiers / 2, top + 15, qualifier_of(*each),
-                R"(text-anchor="middle" fill="#8A4B08")");
+      const int centre = x + half + 24 + qualifiers / 2;
+      out_.text(centre, top + 15, qualifier_of(*each), R"(text-anchor="middle" fill="#8A4B08")");
       out_.text(x + half + 24 + qualifiers + 8, top + 15, action_text(*each), R"(fill="#0B4A8F")");
       top += kAction;
     }

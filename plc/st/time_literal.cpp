@@ -100,7 +100,7 @@ std::optional<std::int64_t> take_clock(std::string_view& text) {
   if (!hour || !colon || !minute) {
     return std::nullopt;
   }
-  std::int64_t ns = (*hour * 60 + *minute) * 60 * kSecond;
+  std::int64_t ns = (std::int64_t{*hour} * 60 + *minute) * 60 * kSecond;
   if (take(text, ':')) {
     const auto second = take_number(text, 0, 59);
     const std::string fraction = take(text, '.') ? take_digits(text) : "0";

@@ -89,7 +89,8 @@ Environment NodeTest::environment() const {
   return {{"INDUROP_STATE_DIR=" + (folder_ / "state").string(), "INDUROP_NODE=" + name_}, static_cast<uid_t>(-1), {}};
 }
 
-Program& NodeTest::start_file(const std::string& file, const std::vector<std::string>& more, Environment environment) {
+Program& NodeTest::start_file(const std::string& file, const std::vector<std::string>& more,
+                              const Environment& environment) {
   std::vector<std::string> command = {NODE_PROGRAM, file};
   command.insert(command.end(), more.begin(), more.end());
   programs_.push_back(std::make_unique<Program>(command, environment));

@@ -61,7 +61,7 @@ class NodeTest : public ::testing::Test {
 
   // indurop-node with these modules, under this test's node name. It has started when run() shows it.
   Program& start(const std::vector<Module>& modules, const std::vector<std::string>& more = {});
-  Program& start_file(const std::string& file, const std::vector<std::string>& more, Environment environment);
+  Program& start_file(const std::string& file, const std::vector<std::string>& more, const Environment& environment);
   Program& start_file(const std::string& file, const std::vector<std::string>& more = {}) {
     return start_file(file, more, environment());
   }

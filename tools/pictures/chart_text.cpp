@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "tools/command/table.h"
 #include "tools/command/units.h"
@@ -49,8 +50,8 @@ std::string value_text(const Series& series, double value) {
 }
 
 std::string draw(const Row& row, const std::vector<double>& time, std::size_t width, bool unicode) {
-  double low = INFINITY;
-  double high = -INFINITY;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
   for (const double value : *row.line) {
     low = std::isfinite(value) ? std::min(low, value) : low;
     high = std::isfinite(value) ? std::max(high, value) : high;

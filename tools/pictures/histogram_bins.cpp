@@ -17,7 +17,8 @@ using scheduler::Histogram;
 // `share` of `width` places, in eighths if the terminal can show them; something for every count above 0.
 std::string bar(double share, std::size_t width, bool unicode) {
   if (!unicode) {
-    return std::string(static_cast<std::size_t>(std::ceil(share * static_cast<double>(width))), '#');
+    std::string plain(static_cast<std::size_t>(std::ceil(share * static_cast<double>(width))), '#');
+    return plain;
   }
   static constexpr std::array kParts{"", "\u258f", "\u258e", "\u258d", "\u258c", "\u258b", "\u258a", "\u2589"};
   const auto eighths = static_cast<std::size_t>(std::ceil(share * static_cast<double>(width) * 8));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop stop: asks the node to end and waits until it has. Of single modules and of boards: plant/commands.h.
 #include <fmt/format.h>
-#include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <cerrno>
 #include <cstring>

@@ -127,7 +127,8 @@ template <std::size_t Size>
 template <class T, std::size_t Size>
 INDUROP_ALWAYS_INLINE T ring_read(abi::RingHeader* ring, std::uint32_t offset) noexcept {
   const std::uint64_t seq = ring->seq.load(std::memory_order_acquire);
-  T value;  // declared here, so that its initial zeros are seen to be overwritten and cost nothing
+  // Not initialised here, so that its own initial zeros are seen to be overwritten and cost nothing.
+  T value;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   if (!try_copy(ring, abi::slot_stride(Size), seq, &value, offset, sizeof(T))) [[unlikely]] {
     ring_read_again<Size>(ring, &value, offset, sizeof(T));
   }

@@ -95,6 +95,7 @@ class Writer {
     return reinterpret_cast<const std::uint64_t*>(reinterpret_cast<unsigned char*>(&ring) + sizeof(abi::RingHeader) +
                                                   ring.seq.load() % abi::kSlots * ring.slot_stride);
   }
+  // NOLINTNEXTLINE(readability-non-const-parameter): it writes there
   static void put(std::uint64_t* to, std::uint64_t value) { __atomic_store_n(to, value, __ATOMIC_RELAXED); }
   static std::uint64_t get(const std::uint64_t* from) { return __atomic_load_n(from, __ATOMIC_RELAXED); }
   Store& store_;

@@ -2,9 +2,9 @@
 // Stands for a node in tests of the tools: has its lock, store and run block and moves numbers, but runs no modules.
 // fake_node NAME [ignore-term] [config FILE]   prints "ready" when everything is there; ends at SIGTERM.
 
-#include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <cstdio>
 #include <cstring>

@@ -18,6 +18,7 @@ class HeldFile {
  public:
   explicit HeldFile(const std::string& file) : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
     ::signal(SIGIO, SIG_IGN);
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once the signal is ignored
     held_ = file_ >= 0 && ::fcntl(file_, F_SETLEASE, F_WRLCK) == 0;
   }
   HeldFile(const HeldFile&) = delete;
@@ -112,6 +113,7 @@ class Phases : public Killed {
   }
 };
 
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage,readability-identifier-naming): GTEST_SKIP() returns from the test
 #define NEEDS_LEASE(held)                                            \
   if (!(held).ok()) {                                                \
     GTEST_SKIP() << "this file system gives no leases on its files"; \

@@ -123,7 +123,7 @@ class Boards : public ::testing::Test {
     const auto* entry = stores_.at(board)->find(abi::fnv1a64(variable.data(), variable.size()));
     std::vector<std::uint8_t> bytes(sizeof(T));
     EXPECT_TRUE(stores_.at(board)->read(*entry, 0, bytes).ok());
-    T value;
+    T value{};
     std::memcpy(&value, bytes.data(), sizeof value);
     return value;
   }

@@ -32,6 +32,7 @@ class Lab : public Boards {
   bool up_ = false;
 };
 
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage,readability-identifier-naming): GTEST_SKIP() returns from the test
 #define NEEDS_LAB(boards)                                                                    \
   if (!up(boards)) {                                                                         \
     GTEST_SKIP() << "network namespaces cannot be made here (root and iproute2 are needed)"; \

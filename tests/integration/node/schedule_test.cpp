@@ -161,7 +161,7 @@ TEST_F(Schedule, Sporadic_thread_and_process_run_when_their_event_occurs) {
     }
   }
   for (const Started& s : log) {
-    if (s.module != 0 && end_of.count(s.tick) > 0) {
+    if (s.module != 0 && end_of.contains(s.tick)) {
       EXPECT_GE(s.start_ns, end_of[s.tick]);
     }
   }

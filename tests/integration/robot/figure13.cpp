@@ -7,6 +7,9 @@
 
 using namespace PLC_ROBOT;
 
+// Names and layout are the chapter's.
+// NOLINTBEGIN(readability-*,cppcoreguidelines-*,bugprone-narrowing-conversions)
+
 namespace {
 
 enum Command { OPCODE_MOVJ };
@@ -78,3 +81,4 @@ void run() {
   PLC_ROBOT::AXIS5_OUT.position = N * 1320000 * joint[4] / 360;
   PLC_ROBOT::AXIS6_OUT.position = N * 1320000 * joint[5] / 360;
 }
+// NOLINTEND(readability-*,cppcoreguidelines-*,bugprone-narrowing-conversions)

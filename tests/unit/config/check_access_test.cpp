@@ -10,7 +10,6 @@
 namespace indurop::config {
 namespace {
 
-using testing::_;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;

@@ -22,7 +22,7 @@ TEST(Syntax, Mistakes_are_told_with_line_and_column) {
     const char* xml;
     const char* where;
     const char* what;
-  } kCases[] = {
+  } cases[] = {
       {"<root>\n  <module>\n    <period>1</priority>\n", "m.xml:3:14: ",
        "</priority> where </period> must come first: "
        "<period> was opened at 3:5"},
@@ -59,7 +59,7 @@ TEST(Syntax, Mistakes_are_told_with_line_and_column) {
       {"<!-- only a comment -->", "m.xml:1:24: ", "no element"},
       {"<>", "m.xml:1:1: ", "write &lt;"},
   };
-  for (const auto& c : kCases) {
+  for (const auto& c : cases) {
     EXPECT_THAT(errors_of(c.xml), ElementsAre(AllOf(StartsWith(std::string(c.where) + "error: "), HasSubstr(c.what))))
         << c.xml;
   }

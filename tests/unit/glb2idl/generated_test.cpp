@@ -30,8 +30,8 @@ struct Memory {
 };
 // Never destroyed: the tables are withdrawn after all static objects are gone.
 Memory& memory() {
-  static Memory* const instance = new Memory;
-  return *instance;
+  static auto* const kInstance = new Memory;
+  return *kInstance;
 }
 
 unsigned char* slot(RingHeader* ring, std::uint64_t seq) {
@@ -49,7 +49,7 @@ void indurop_register_refs(Ref* refs, std::uint32_t count, std::uint32_t /*abi_v
     const std::size_t size = indurop::abi::entry_size(ref.kind, ref.value_size);
     ref.entry = ::operator new(size, kCacheLine);
     std::memset(ref.entry, 0, size);
-    unsigned char* value = static_cast<unsigned char*>(ref.entry);
+    auto* value = static_cast<unsigned char*>(ref.entry);
     if (ref.kind == Kind::Ring) {
       auto* ring = static_cast<RingHeader*>(ref.entry);
       ring->value_size = ref.value_size;
@@ -113,7 +113,7 @@ class Generated : public ::testing::Test {
       auto* ring = static_cast<RingHeader*>(ref->entry);
       value = slot(ring, ring->seq.load());
     }
-    T result;
+    T result{};
     std::memcpy(&result, value + place->offset, sizeof result);
     return result;
   }

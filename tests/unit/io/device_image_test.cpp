@@ -20,9 +20,9 @@ class FakeDriver final : public Driver {
   bool open() override { return true; }
   Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds /*e*/) override {
     sent.assign(outputs.begin(), outputs.end());
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      inputs[i].quality = answer.quality;
-      inputs[i].value = answer.quality == Quality::Good ? answer.value : inputs[i].value;
+    for (Sample& input : inputs) {
+      input.quality = answer.quality;
+      input.value = answer.quality == Quality::Good ? answer.value : input.value;
     }
     return outcome;
   }
@@ -50,7 +50,7 @@ T value_of(const DeviceImage& image) {
 }
 
 DeviceImage input(const config::BoundPoint& p) {
-  return DeviceImage(std::span(&p, 1), {});
+  return {std::span(&p, 1), {}};
 }
 
 TEST(DeviceImage, Good_values_are_scaled) {
@@ -143,7 +143,7 @@ class Output : public ::testing::Test {
     config::BoundPoint p = point(schema::Base::Double, scale, 5);
     p.point.output = true;
     p.point.stop = stop;
-    return DeviceImage({}, std::span(&p, 1));
+    return {{}, std::span(&p, 1)};
   }
   static OutputImage bits(double value) {
     OutputImage all(1);

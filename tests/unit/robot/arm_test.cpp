@@ -17,7 +17,7 @@ KDL::Chain kdl_arm() {
   using KDL::Joint;
   using KDL::Vector;
   KDL::Chain chain;
-  const auto add = [&](Joint::JointType kind, Vector before) {
+  const auto add = [&](Joint::JointType kind, const Vector& before) {
     chain.addSegment(KDL::Segment(Joint(Joint::None), Frame(before)));
     chain.addSegment(KDL::Segment(Joint(kind)));
   };

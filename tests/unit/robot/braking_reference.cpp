@@ -51,8 +51,11 @@ class Search {
     const double e = std::max(task.speed * 0.002, 1e-5);
     for (int i = 0; i <= kPlaces; ++i) {
       const double x = spacing_ * i;
-      const Joints a = task.path(x - 2 * e), b = task.path(x - e), c = task.path(x), d = task.path(x + e),
-                   f = task.path(x + 2 * e);
+      const Joints a = task.path(x - 2 * e);
+      const Joints b = task.path(x - e);
+      const Joints c = task.path(x);
+      const Joints d = task.path(x + e);
+      const Joints f = task.path(x + 2 * e);
       rates_.push_back(
           {(a - 8 * b + 8 * d - f) / (12 * e), (b - 2 * c + d) / (e * e), (f - 2 * d + 2 * b - a) / (2 * e * e * e)});
     }
@@ -63,7 +66,8 @@ class Search {
     std::vector<Motion> braking{{0, task_.speed, task_.acceleration}};
     while (braking.size() < 4000 && brake(braking, part, hardest)) {
     }
-    std::size_t early = 0, late = braking.size();
+    std::size_t early = 0;
+    std::size_t late = braking.size();
     double best = kNever;
     while (early < late) {
       const std::size_t middle = (early + late) / 2;

@@ -13,8 +13,8 @@ constexpr double kSlack = 1e-7;
 
 struct Case {
   LineState from;
-  double length;
-  double arrival;
+  double length = 0;
+  double arrival = 0;
   LineLimits limits;
 };
 

@@ -36,7 +36,9 @@ class Judge {
       }
       const auto k = static_cast<Eigen::Index>(i);
       const Axis& axis = arm_.axis(static_cast<int>(i));
-      const double v = (p - seen.p) / period_, a = (v - seen.v) / period_, j = (a - seen.a) / period_;
+      const double v = (p - seen.p) / period_;
+      const double a = (v - seen.v) / period_;
+      const double j = (a - seen.a) / period_;
       const double beyond = std::max(axis.lower - p, p - axis.upper);
       if (!axis.endless && !(beyond <= 1e-6)) {
         broken += fmt::format("axis {} is {} rad beyond its range; ", i + 1, beyond);

@@ -92,10 +92,14 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
     SetPointGate sut({-1, 1, false}, limits, period);
     const double start = 2 * part(random) - 1;
     sut.stand(start);
-    double p0 = start, v0 = 0, a0 = 0;
+    double p0 = start;
+    double v0 = 0;
+    double a0 = 0;
     const auto look = [&](const char* what) {
       const double p = sut.state().position;
-      const double v = (p - p0) / period, a = (v - v0) / period, j = (a - a0) / period;
+      const double v = (p - p0) / period;
+      const double a = (v - v0) / period;
+      const double j = (a - a0) / period;
       ASSERT_LE(std::abs(p), 1 + 1e-8) << what << " in round " << round;
       ASSERT_LE(std::abs(v), limits.velocity * 1.0002) << what << " in round " << round;
       ASSERT_LE(std::abs(a), limits.acceleration * 1.0002) << what << " in round " << round;

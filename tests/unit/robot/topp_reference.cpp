@@ -24,8 +24,8 @@ class Plane {
     }
     for (int i = 0; i <= kPlaces; ++i) {
       const auto k = static_cast<std::size_t>(std::clamp(i, 1, kPlaces - 1));
-      first_.push_back((q[k + 1] - q[k - 1]) / (2 * step_));
-      second_.push_back((q[k + 1] - 2 * q[k] + q[k - 1]) / (step_ * step_));
+      first_.emplace_back((q[k + 1] - q[k - 1]) / (2 * step_));
+      second_.emplace_back((q[k + 1] - 2 * q[k] + q[k - 1]) / (step_ * step_));
     }
   }
 

@@ -55,7 +55,7 @@ TestNode::~TestNode() {
   }
 }
 
-void TestNode::restart(const schema::Schema& schema, std::vector<TestModule> modules) {
+void TestNode::restart(const schema::Schema& schema, const std::vector<TestModule>& modules) {
   auto store = vars::Store::create(name_, schema);
   if (!store) {
     throw std::runtime_error(store.error().where);
@@ -95,7 +95,7 @@ void TestNode::make_run(const std::vector<TestModule>& modules) {
   block.modules_offset = records;
   block.slots_offset = slots;
   block.rings_offset = rings;
-  std::uint32_t text = static_cast<std::uint32_t>(properties);
+  auto text = static_cast<std::uint32_t>(properties);
   for (std::uint32_t i = 0; i <= count; ++i) {
     block.rings()[i].capacity = ring_capacity_;
     block.rings()[i].entries_offset = entries + i * std::uint64_t{ring_capacity_} * sizeof(MessageEntry);

@@ -45,7 +45,7 @@ class TestNode {
   void release(std::size_t index, std::uint64_t tick = 0, std::int64_t grid_ns = 0) noexcept;
 
   // As after a restart of the node: a new store (another layout retires the old one) and a new run block.
-  void restart(const schema::Schema& schema, std::vector<TestModule> modules);
+  void restart(const schema::Schema& schema, const std::vector<TestModule>& modules);
 
  private:
   void make_run(const std::vector<TestModule>& modules);

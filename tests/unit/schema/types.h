@@ -42,7 +42,7 @@ inline Type structure(std::string name, const std::vector<std::pair<std::string,
   type.name = std::move(name);
   type.dims = std::move(dims);
   const auto up = [](std::uint32_t at, std::uint32_t align) { return (at + align - 1) / align * align; };
-  for (auto& [field_name, field_type] : fields) {
+  for (const auto& [field_name, field_type] : fields) {
     Field field;
     field.name = field_name;
     field.offset = up(type.element_size, field_type.align);

@@ -12,7 +12,7 @@
 namespace indurop {
 namespace {
 
-using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""ms;  // NOLINT(misc-unused-using-decls): clang-tidy does not see its use
 using testing::PlcModule;
 namespace house = plc_test_openplc_ladder;
 namespace tank = plc_test_codesys_ladder;
