@@ -44,7 +44,8 @@ class Kernel : public Clock {
   virtual void wait(rt::SignalWord& word) noexcept;
   // Wakes a process module for the release that its slot tells of, or by its signal.
   virtual void wake_process(const Task& task, ProcessSlot& slot, ModuleRecord& record) noexcept;
-  // The calling thread works this long.
+  // Runs take the time that Task::work_ns says, by work(): the calling thread works this long.
+  [[nodiscard]] virtual bool is_virtual() const noexcept { return false; }
   virtual void work(std::int64_t ns) noexcept;
   // Errors: those of rt::Thread::start().
   virtual Result<std::unique_ptr<KernelThread>> start(const rt::ThreadSettings& settings, std::function<void()> body);

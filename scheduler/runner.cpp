@@ -10,6 +10,9 @@
 namespace indurop::scheduler {
 namespace {
 
+// A simulated run has used up its budget.
+class TooLong : public std::exception {};
+
 const char* signal_text(int number) noexcept {
   switch (number) {
     case SIGSEGV:
@@ -50,7 +53,12 @@ void quarantine(TaskState& state, FaultKind kind, std::uint64_t tick, const char
 }
 
 Runner::Runner(RunBlock& block, Kernel& kernel, const Hooks& hooks, CoreTrace& trace, std::size_t most_tasks)
-    : block_(block), kernel_(kernel), hooks_(hooks), trace_(trace), times_(most_tasks) {}
+    : block_(block),
+      kernel_(kernel),
+      virtual_time_(kernel.is_virtual()),
+      hooks_(hooks),
+      trace_(trace),
+      times_(most_tasks) {}
 
 void Runner::attach_thread() noexcept {
   thread_ = ::pthread_self();
@@ -78,7 +86,7 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
   for (; position_ < tasks_.size(); ++position_) {
     // Ordered with the band's release number, so that Engine::disable() knows which runs may still enter it.
     if (tasks_[position_]->enabled.load(std::memory_order_seq_cst)) [[likely]] {
-      call_current();
+      virtual_time_ ? call_current<true>() : call_current<false>();
     } else {
       times_[position_] = {};
     }
@@ -87,6 +95,8 @@ void Runner::run(std::span<TaskState* const> tasks, std::uint64_t tick, rt::Mono
   account();
 }
 
+// Two functions of one text: what a simulation adds costs a real run nothing.
+template <bool kVirtualTime>
 void Runner::call_current() noexcept {
   TaskState& state = *tasks_[position_];
   previous_.store(trace_.module.load(std::memory_order_relaxed), std::memory_order_relaxed);
@@ -106,9 +116,20 @@ void Runner::call_current() noexcept {
     }
     if (ran) {
       state.task.run();
+      if constexpr (kVirtualTime) {
+        spend_time(state.task);
+      }
     }
   } catch (const std::exception& error) {
     guard_.disarm();
+    if constexpr (kVirtualTime) {
+      if (dynamic_cast<const TooLong*>(&error) != nullptr) {
+        std::snprintf(text, sizeof text, "did not return within %lld us",
+                      static_cast<long long>(state.task.budget_ns / 1000));
+        contain(FaultKind::Budget, text);
+        return;
+      }
+    }
     threw = true;
     std::snprintf(text, sizeof text, "exception: %s", error.what());
   } catch (...) {
@@ -117,9 +138,6 @@ void Runner::call_current() noexcept {
     std::snprintf(text, sizeof text, "exception of an unknown type");
   }
   guard_.disarm();
-  if (state.task.work_ns != 0) [[unlikely]] {
-    spend_time(state, ran && !threw);
-  }
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
   const std::int64_t end = rt::to_ns(kernel_.now());
   times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
@@ -134,22 +152,16 @@ void Runner::call_current() noexcept {
 }
 
 // In a simulation: lets the time of the run pass, but not more than it may take.
-void Runner::spend_time(TaskState& state, bool ran) noexcept {
-  const Task& task = state.task;
-  const bool over = task.budget_ns > 0 && task.work_ns > task.budget_ns;
-  if (ran) {
-    kernel_.work(over ? task.budget_ns : task.work_ns);
+void Runner::spend_time(const Task& task) {
+  if (task.budget_ns > 0 && task.work_ns > task.budget_ns) {
+    kernel_.work(task.budget_ns);
+    throw TooLong();
   }
-  if (ran && over) {
-    char text[kTextLength];
-    std::snprintf(text, sizeof text, "did not return within %lld us", static_cast<long long>(task.budget_ns / 1000));
-    quarantine(state, FaultKind::Budget, tick_, text, hooks_);
-  }
+  kernel_.work(task.work_ns);
 }
 
 void Runner::contain_jump() noexcept {
   guard_.recovered();
-  TaskState& state = *tasks_[position_];
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
   const std::int64_t end = rt::to_ns(kernel_.now());
   char text[kTextLength];
@@ -167,9 +179,17 @@ void Runner::contain_jump() noexcept {
   } else {
     std::snprintf(text, sizeof text, "%s", signal_text(guard_.signal_number()));
   }
+  contain(kind, text);
+}
+
+void Runner::contain(FaultKind kind, const char* text) noexcept {
+  TaskState& state = *tasks_[position_];
+  const std::int64_t start = current_start_.load(std::memory_order_relaxed);
+  const std::int64_t end = rt::to_ns(kernel_.now());
   times_[position_] = {release_ns_, start, end};
   trace_.module.store(static_cast<std::int32_t>(state.task.index), std::memory_order_relaxed);
   trace_.exec_ns.store(end - start, std::memory_order_relaxed);
+  current_start_.store(end, std::memory_order_relaxed);
   quarantine(state, kind, tick_, text, hooks_);
 }
 

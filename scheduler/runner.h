@@ -74,13 +74,16 @@ class Runner {
   void enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept;
 
  private:
+  template <bool kVirtualTime>
   void call_current() noexcept;
-  void spend_time(TaskState& state, bool ran) noexcept;
+  void spend_time(const Task& task);
   void contain_jump() noexcept;
+  void contain(FaultKind kind, const char* text) noexcept;
   void account() noexcept;
 
   RunBlock& block_;
   Kernel& kernel_;
+  bool virtual_time_;
   Hooks hooks_;
   CoreTrace& trace_;
   rt::Guard guard_;

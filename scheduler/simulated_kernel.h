@@ -42,6 +42,7 @@ class SimulatedKernel final : public Kernel {
   void sleep_until(rt::MonoTime deadline) noexcept override;
   void wait(rt::SignalWord& word) noexcept override;
   void wake_process(const Task& task, ProcessSlot& slot, ModuleRecord& record) noexcept override;
+  [[nodiscard]] bool is_virtual() const noexcept override { return true; }
   void work(std::int64_t ns) noexcept override;
   // Errors: NoSpace.
   Result<std::unique_ptr<KernelThread>> start(const rt::ThreadSettings& settings, std::function<void()> body) override;
