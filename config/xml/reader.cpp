@@ -11,13 +11,13 @@ bool ReadResult::ok() const noexcept {
 }
 
 ReadResult read_config(const std::filesystem::path& file) {
-  auto bytes = read_bytes(file, kModuleXml);
+  const auto bytes = read_bytes(file, kModuleXml);
   if (bytes) {
     return read_config_text(*bytes, file);
   }
   ReadResult result;
   result.config.file = file;
-  result.diagnostics.push_back(std::move(bytes.error()));
+  result.diagnostics.push_back(bytes.error());
   return result;
 }
 

@@ -16,6 +16,7 @@ bool is_word(char c) noexcept {
 }  // namespace
 
 void Diagnostics::add(base::Diagnostic::Severity severity, const Place& at, std::string text) {
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the rest of the place has fields of its own below
   base::Diagnostic one{severity, at.file ? *at.file : std::string(), at, std::move(text)};
   if (!all_.full()) {
     one.within = at.within ? *at.within : std::string();

@@ -22,7 +22,7 @@ void throw_number() {
 }
 volatile std::uintptr_t bad_address = 0x10;
 void segv() {
-  *reinterpret_cast<volatile int*>(bad_address) = 1;
+  *reinterpret_cast<volatile int*>(bad_address) = 1;  // NOLINT(performance-no-int-to-ptr): to crash
 }
 volatile int number = 1000;
 volatile int zero = 0;

@@ -15,7 +15,7 @@
 namespace {
 
 constexpr int kThreads = 64;
-struct Row {
+struct Row {  // NOLINT(cppcoreguidelines-pro-type-member-init): static memory is zero
   char name[16];
   std::atomic<long> calls;
 };
@@ -78,6 +78,7 @@ void* malloc(std::size_t size) {
   note();
   return __libc_malloc(size);
 }
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name): the C library's names are reserved
 void* calloc(std::size_t count, std::size_t size) {
   note();
   return __libc_calloc(count, size);
@@ -90,4 +91,5 @@ void free(void* memory) {
   note();
   __libc_free(memory);
 }
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)
 }

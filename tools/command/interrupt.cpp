@@ -2,7 +2,7 @@
 #include "tools/command/interrupt.h"
 
 #include <poll.h>
-#include <signal.h>
+#include <csignal>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +15,7 @@ namespace indurop::tools {
 namespace {
 
 // A handler needs a global; it is the only one of this program.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler is given nothing else
 std::atomic<int> caught_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 

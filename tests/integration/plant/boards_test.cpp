@@ -24,6 +24,7 @@ class OwnNamespaces : public TurningTable {
   std::string lab_;
 };
 
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage,readability-identifier-naming): GTEST_SKIP() returns from the test
 #define NEEDS_NAMESPACES()                                                                   \
   if (!up()) {                                                                               \
     GTEST_SKIP() << "network namespaces cannot be made here (root and iproute2 are needed)"; \

@@ -45,8 +45,8 @@ TEST(ModuleDescriptor, Carries_all_fields_in_any_order) {
 
 TEST(ModuleDescriptor, Of_an_older_node_is_not_written_beyond_its_size) {
   struct {
-    indurop::ModuleDescriptor old;
-    unsigned char behind[8];
+    indurop::ModuleDescriptor old{};
+    unsigned char behind[8]{};
   } memory{};
   constexpr std::size_t kOldSize = offsetof(indurop::ModuleDescriptor, description);
   memory.old.size = kOldSize;

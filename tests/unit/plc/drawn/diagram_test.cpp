@@ -11,7 +11,7 @@
 namespace indurop {
 namespace {
 
-using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""ms;  // NOLINT(misc-unused-using-decls): clang-tidy does not see its use
 using testing::PlcModule;
 namespace mixed = plc_test_beremiz_mixed;
 

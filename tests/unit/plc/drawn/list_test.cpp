@@ -11,7 +11,7 @@
 namespace indurop {
 namespace {
 
-using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""ms;  // NOLINT(misc-unused-using-decls): clang-tidy does not see its use
 using testing::PlcModule;
 namespace list = plc_test_instruction_list;
 

@@ -10,7 +10,7 @@
 namespace indurop {
 namespace {
 
-using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""ms;  // NOLINT(misc-unused-using-decls): clang-tidy does not see its use
 
 plc::Compiled compiled(const std::vector<std::string>& cases) {
   plc::CompileOptions options;

@@ -9,7 +9,7 @@
 #include "module.h"
 
 namespace v = plc_test_timing;
-using std::chrono_literals::operator""ms;
+using std::chrono_literals::operator""ms;  // NOLINT(misc-unused-using-decls): clang-tidy does not see its use
 
 TEST(PlcTiming, Timers_are_exact_to_the_scan) {
   const indurop::testing::PlcModule sut("plc_test_timing");
