@@ -26,6 +26,11 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
   const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
   if (result == CommandResult::Done) {
     parts_.console.info("module {}: {} by command", record(work.module).name, done);
+  } else if (result == CommandResult::OldCode) {
+    parts_.console.warning(
+        "module {}: started by command, with the code that was loaded when the node started; its file is another one "
+        "now, stop and run the node to load it",
+        record(work.module).name);
   } else if (result == CommandResult::Failed) {
     parts_.console.error("module {}: could not be {} as commanded", record(work.module).name, done);
   }
@@ -125,13 +130,18 @@ bool ModuleCommands::begin_start(Work& work, rt::MonoTime now) {
   return work.call == nullptr && answer(work, CommandResult::Failed);
 }
 
+// A thread module keeps its code as long as the node runs; whoever has built another one has to know.
+CommandResult ModuleCommands::started(std::uint32_t module) const {
+  return parts_.libraries[module].is_outdated() ? CommandResult::OldCode : CommandResult::Done;
+}
+
 bool ModuleCommands::enter(Work& work) {
   if (parts_.config.modules[work.module].operation == Operation::NonReal) {
-    return answer(work, parts_.normal_threads.launch(work.module) ? CommandResult::Done : CommandResult::Failed);
+    return answer(work, parts_.normal_threads.launch(work.module) ? started(work.module) : CommandResult::Failed);
   }
   record(work.module).state.store(ModuleState::Running);
   parts_.engine.enable(work.module);
-  return answer(work, CommandResult::Done);
+  return answer(work, started(work.module));
 }
 
 bool ModuleCommands::launched(Work& work, rt::MonoTime now) {

@@ -57,6 +57,7 @@ class ModuleCommands {
   bool begin_start(Work& work, rt::MonoTime now);
   bool enter(Work& work);
   bool launched(Work& work, rt::MonoTime now);
+  [[nodiscard]] scheduler::CommandResult started(std::uint32_t module) const;
   bool answer(const Work& work, scheduler::CommandResult result);
   [[nodiscard]] bool is_process(std::uint32_t module) const noexcept;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {

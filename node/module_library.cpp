@@ -45,6 +45,8 @@ Function symbol(void* handle, const char* plain, const char* mangled) {
 }  // namespace
 
 Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& file, bool own_copy) {
+  file_ = file;
+  mark_ = mark_of(file);
   std::string path = file.string();
   if (own_copy) {
     copy_ = copy_to_memory(file);
@@ -83,12 +85,28 @@ void ModuleLibrary::find_functions() {
   }
 }
 
+ModuleLibrary::Mark ModuleLibrary::mark_of(const std::filesystem::path& file) {
+  struct stat info {};
+  constexpr std::int64_t kSecondNs = 1'000'000'000;
+  return ::stat(file.c_str(), &info) != 0
+             ? Mark{}
+             : Mark{info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec * kSecondNs + info.st_mtim.tv_nsec};
+}
+
+bool ModuleLibrary::is_outdated() const {
+  return handle_ != nullptr && mark_of(file_) != mark_;
+}
+
 ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)),
+    : file_(std::move(other.file_)),
+      mark_(other.mark_),
+      handle_(std::exchange(other.handle_, nullptr)),
       copy_(std::exchange(other.copy_, -1)),
       functions_(other.functions_) {}
 
 ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(mark_, other.mark_);
   std::swap(handle_, other.handle_);
   std::swap(copy_, other.copy_);
   std::swap(functions_, other.functions_);

@@ -7,6 +7,7 @@
 #include <indurop/module.h>
 #include <indurop/result.h>
 
+#include <cstdint>
 #include <filesystem>
 
 #include "base/problem.h"
@@ -24,10 +25,24 @@ class ModuleLibrary {
   ModuleLibrary& operator=(const ModuleLibrary&) = delete;
   ~ModuleLibrary();
 
+  // Whether its file was replaced or removed since it was loaded: what runs is what was there before.
+  [[nodiscard]] bool is_outdated() const;
+
   [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
 
  private:
+  // Which file it was.
+  struct Mark {
+    std::uint64_t device = 0;
+    std::uint64_t number = 0;
+    std::int64_t size = 0;
+    std::int64_t changed_ns = 0;
+    friend bool operator==(const Mark&, const Mark&) = default;
+  };
+  static Mark mark_of(const std::filesystem::path& file);
   void find_functions();
+  std::filesystem::path file_;
+  Mark mark_;
   void* handle_ = nullptr;
   int copy_ = -1;  // stays open: the dynamic linker would take a second file of the same number for this one
   ModuleDescriptor functions_;

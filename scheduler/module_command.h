@@ -18,6 +18,7 @@ enum class CommandResult : std::uint8_t {
   Unchanged,  // it was so before
   Failed,     // it is not; ModuleRecord::last_fault or the node's own words tell why
   Ending,     // the node itself stops
+  OldCode,    // done, but its file is another one now than the one that was loaded and runs
 };
 
 // What a ticket stands for; the next command gets another one.

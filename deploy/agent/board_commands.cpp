@@ -229,6 +229,8 @@ std::optional<CommandReply> BoardCommands::look_at_module() {
   switch (scheduler::result_of(*module_, ticket_)) {
     case CommandResult::Done:
       return reply(*command_, Outcome::Done);
+    case CommandResult::OldCode:
+      return reply(*command_, Outcome::Done, "its file is another one now, the code that was loaded before runs");
     case CommandResult::Unchanged:
       return reply(*command_, Outcome::Unchanged);
     case CommandResult::Failed:

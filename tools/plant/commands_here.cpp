@@ -39,6 +39,13 @@ int conclude(Context& context, ModuleCommand command, const scheduler::ModuleRec
     case CommandResult::Done:
       context.out.note(fmt::format("module '{}' {} after {}", module, past_of(command), human_ns(took_ns)));
       return kOk;
+    case CommandResult::OldCode:
+      context.out.message_line(
+          fmt::format("indurop: warning: module '{}' {}, with the code that was loaded when the node started: its file "
+                      "is another one now. Stop and "
+                      "run the node to load it",
+                      module, past_of(command)));
+      return kOk;
     case CommandResult::Unchanged:
       context.out.note(
           fmt::format("module '{}' {} already", module, command == ModuleCommand::Stop ? "is stopped" : "runs"));

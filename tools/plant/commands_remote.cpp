@@ -44,7 +44,8 @@ std::string name_of(const CommandTarget& target) {
 int conclude(Context& context, ModuleCommand what, const CommandTarget& target, const Answered& answered) {
   const deploy::CommandReply& reply = answered.reply;
   if (reply.outcome == Outcome::Done) {
-    context.out.note(fmt::format("{} {} after {}", name_of(target), past_of(what), human_ns(answered.took_ns)));
+    context.out.note(fmt::format("{} {} after {}{}{}", name_of(target), past_of(what), human_ns(answered.took_ns),
+                                 reply.text.empty() ? "" : "; ", printable(reply.text)));
     return kOk;
   }
   if (reply.outcome == Outcome::Unchanged) {

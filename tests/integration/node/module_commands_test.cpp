@@ -2,6 +2,7 @@
 // indurop stop, start and restart of single modules: the others keep their ticks.
 
 #include <csignal>
+#include <filesystem>
 
 #include "node_fixture.h"
 
@@ -58,6 +59,24 @@ TEST_F(ModuleCommands, Restart_calls_stop_and_start_once_each) {
   const std::string text = sut.out();
   EXPECT_NE(text.find("counter starts with"), text.rfind("counter starts with")) << text;
   EXPECT_TRUE(runs_reach("counter", module("counter").runs.load() + 20));
+}
+
+TEST_F(ModuleCommands, Restart_says_that_the_loaded_code_runs_on_when_the_file_is_another_one) {
+  const std::filesystem::path built = std::filesystem::path(MODULE_DIR) / "counter.so";
+  const std::filesystem::path file = folder() / "copied.so";
+  std::filesystem::copy_file(built, file);
+  Program& sut = start_and_wait({{.file = file.string(), .name = "counter"}});
+  ASSERT_TRUE(runs_reach("counter", 10));
+  EXPECT_FALSE(contains(command("restart", "counter").err, "another one"));
+  std::filesystem::copy_file(built, folder() / "new.so");
+  std::filesystem::rename(folder() / "new.so", file);
+  const Outcome restarted = command("restart", "counter");
+  EXPECT_EQ(restarted.code, 0) << restarted.err;
+  EXPECT_CONTAINS(restarted.err, "with the code that was loaded when the node started: its file is another one now");
+  EXPECT_TRUE(runs_reach("counter", module("counter").runs.load() + 20)) << "it runs all the same";
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_CONTAINS(sut.err(), "its file is another one now");
 }
 
 TEST_F(ModuleCommands, A_stopped_module_gets_no_second_stop_when_the_node_ends) {
