@@ -13,6 +13,7 @@
 #include "plc/model/diagnostics.h"
 #include "plc/model/project.h"
 #include "plc/model/read_options.h"
+#include "plc/plcopen/document.h"
 
 namespace indurop::plc {
 
@@ -20,14 +21,21 @@ namespace indurop::plc {
 using Reader = Project (*)(std::string_view text, const Place& at, const ReadOptions& options,
                            Diagnostics& diagnostics);
 
+using DocumentReader = plcopen::Document (*)(std::string_view text, const Place& at, Diagnostics& diagnostics);
+
 struct FileType {
   std::string_view ending;  // ".st"
   Reader read = nullptr;
+  DocumentReader read_document = nullptr;
 };
 [[nodiscard]] std::span<const FileType> file_types();
 
 // Everything the files contain. Files that cannot be read are errors.
 [[nodiscard]] Project read_project(const std::vector<std::string>& files, const ReadOptions& options,
                                    const glb2idl::FileReader& read, Diagnostics& diagnostics);
+
+// The same with the code of all POUs as it is written or drawn, for those who show it or write it again.
+[[nodiscard]] plcopen::Document read_document(const std::vector<std::string>& files, const glb2idl::FileReader& read,
+                                              Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

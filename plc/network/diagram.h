@@ -18,11 +18,18 @@ namespace indurop::plc::network {
 
 enum class Storage : std::uint8_t { None, Set, Reset };
 
+// On the sheet, or from the corner of an element.
+struct Point {
+  int x = 0;
+  int y = 0;
+};
+
 // From the output `pin` of element `from`; "" is its only one.
 struct Connection {
   Place at;
   std::uint64_t from = 0;
   std::string pin;
+  std::vector<Point> corners;  // of its line, from here to there; none: the file has none
 };
 
 struct Pin {
@@ -32,6 +39,7 @@ struct Pin {
   ast::Edge edge = ast::Edge::None;
   Storage storage = Storage::None;
   std::vector<Connection> connections;  // of inputs
+  std::optional<Point> spot;            // where it is at its element
   std::string expression;               // written at the pin instead of a connection: an operand, or the target
 };
 
@@ -45,6 +53,7 @@ struct ActionLine {
   Place at;
   std::string qualifier = "N";
   std::string duration;
+  std::string indicator;     // says nothing about the run
   std::string name;          // an action or a variable; empty: the body below
   bool only_action = false;  // never a variable
   std::shared_ptr<Body> inlined;
@@ -95,6 +104,7 @@ struct Element {
   std::shared_ptr<Body> inlined;    // Transition: its condition as code; Block: what the box does, as code
   std::optional<Pin> condition;     // Transition: its condition as a connection
   std::vector<Pin> inputs;          // of others than blocks at most one
+  std::vector<Point> ends;          // of others than blocks: where lines leave it
   std::vector<Pin> in_outs;         // Block
   std::vector<Pin> outputs;         // Block
   std::vector<ActionLine> actions;  // ActionBlock, Step

@@ -10,6 +10,7 @@
 
 #include "plc/model/elementary.h"
 #include "plc/plcopen/body_reader.h"
+#include "plc/plcopen/extensions.h"
 #include "plc/plcopen/type_reader.h"
 #include "plc/st/parser.h"
 
@@ -43,6 +44,15 @@ void read_address(const Node& node, ast::Variable& variable, Diagnostics& diagno
   }
 }
 
+ast::Edge edge_of(const Node& variable) {
+  for (const Node& data : children_of(variable.child("addData"))) {
+    if (data.attribute("name") == kEdgeExtension) {
+      return formatted_text(data) == "rising" ? ast::Edge::Rising : ast::Edge::Falling;
+    }
+  }
+  return ast::Edge::None;
+}
+
 void read_variable(const Node& node, ast::Variable variable, const std::string& what, std::vector<ast::Variable>& into,
                    Diagnostics& diagnostics) {
   variable.name = std::string(node.attribute("name"));
@@ -63,6 +73,7 @@ void read_variable(const Node& node, ast::Variable variable, const std::string& 
     read_address(node, variable, diagnostics);
   }
   variable.initial = read_initial(node, whole, diagnostics);
+  variable.edge = edge_of(node);
   into.push_back(std::move(variable));
 }
 

@@ -7,12 +7,11 @@
 
 #include "plc/plcopen/body_reader.h"
 #include "plc/plcopen/declarations.h"
+#include "plc/plcopen/extensions.h"
 #include "plc/plcopen/instances.h"
 
 namespace indurop::plc::plcopen {
 namespace {
-
-constexpr std::string_view kExtensionsOfCodesys = "http://www.3s-software.com/plcopenxml/";
 
 std::optional<ast::Pou::Kind> kind_named(std::string_view name) {
   if (name == "program") {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "plc/plcopen/body_reader.h"
+#include "plc/plcopen/extensions.h"
 
 namespace indurop::plc::plcopen {
 namespace {
@@ -48,12 +49,6 @@ constexpr std::array<std::pair<std::string_view, Kind>, 22> kKinds{
 constexpr std::array<std::string_view, 4> kNameAttributes{"name", "label", "targetName", "target"};
 constexpr std::array<std::string_view, 2> kNameElements{"variable", "expression"};
 
-// Entry, main and exit action of a step.
-constexpr std::array<std::pair<std::string_view, const char*>, 3> kStepActions{
-    {{"a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", "P1"},
-     {"700a583f-b4d4-43e4-8c14-629c7cd3bec8", network::kWhileActive},
-     {"a2621e18-7de3-4ea6-ae6d-89e9e0b7befd", "P0"}}};
-
 std::string trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kSpace);
@@ -78,6 +73,10 @@ int coordinate(std::string_view text) {
   constexpr double kFar = 1e8;
   return error == std::errc{} && end != text.data() && std::abs(value) < kFar ? static_cast<int>(std::lround(value))
                                                                               : 0;
+}
+
+network::Point point_of(const Node& position) {
+  return {coordinate(position.attribute("x")), coordinate(position.attribute("y"))};
 }
 
 class Reader {
@@ -128,6 +127,10 @@ class Reader {
       Element& made = diagram_.elements.emplace_back();
       made.kind = Kind::Title;
       made.at = place(node);
+      if (const Node* position = node.child("position")) {
+        made.x = point_of(*position).x;
+        made.y = point_of(*position).y;
+      }
       made.text = trimmed(formatted_text(*text));
     }
   }
@@ -217,6 +220,8 @@ class Reader {
         Pin& pin = made.inputs.emplace_back();
         pin.at = place(child);
         connect(child, pin);
+      } else if (const Node* end = child.name == "connectionPointOut" ? child.child("relPosition") : nullptr) {
+        made.ends.push_back(point_of(*end));
       }
     }
     if (made.inputs.empty() && has_one_input(made.kind)) {
@@ -231,8 +236,15 @@ class Reader {
     for (const Node& child : point.children) {
       if (child.name == "connection") {
         if (const auto from = number(child, "refLocalId")) {
-          pin.connections.push_back({place(child), *from, std::string(child.attribute("formalParameter"))});
+          pin.connections.push_back({place(child), *from, std::string(child.attribute("formalParameter")), {}});
+          for (const Node& corner : child.children) {
+            if (corner.name == "position") {
+              pin.connections.back().corners.push_back(point_of(corner));
+            }
+          }
         }
+      } else if (child.name == "relPosition") {
+        pin.spot = point_of(child);
       } else if (child.name == "expression") {
         pin.expression = trimmed(formatted_text(child));
       }
@@ -303,6 +315,9 @@ class Reader {
     if (condition == nullptr) {
       return;
     }
+    if (is_true(*condition, "negated")) {
+      diagnostics_.error(place(*condition), "a negated condition is not supported; write NOT into it");
+    }
     if (const Node* reference = condition->child("reference")) {
       made.text = trimmed(reference->attribute("name"));
     } else if (const Node* inlined = condition->child("inline")) {
@@ -341,6 +356,7 @@ class Reader {
       network::ActionLine& line = made.actions.emplace_back();
       line.at = place(child);
       line.duration = trimmed(child.attribute("duration"));
+      line.indicator = trimmed(child.attribute("indicator"));
       if (child.has("qualifier") && !trimmed(child.attribute("qualifier")).empty()) {
         line.qualifier = trimmed(child.attribute("qualifier"));
       }

@@ -3,122 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include "plc/print/expression_text.h"
 
 namespace indurop::plc {
 namespace {
 
-using ast::Expression;
-using ast::Operator;
 using ast::Statement;
-
-struct Spelling {
-  Operator op;
-  std::string_view text;
-  int strength;  // of precedence
-};
-
-constexpr std::array<Spelling, 17> kSpellings{{{Operator::Not, "NOT ", 9},
-                                               {Operator::Negate, "-", 9},
-                                               {Operator::Plus, "+", 9},
-                                               {Operator::Power, " ** ", 8},
-                                               {Operator::Multiply, " * ", 7},
-                                               {Operator::Divide, " / ", 7},
-                                               {Operator::Modulo, " MOD ", 7},
-                                               {Operator::Add, " + ", 6},
-                                               {Operator::Subtract, " - ", 6},
-                                               {Operator::Less, " < ", 5},
-                                               {Operator::Greater, " > ", 5},
-                                               {Operator::LessEqual, " <= ", 5},
-                                               {Operator::GreaterEqual, " >= ", 5},
-                                               {Operator::Equal, " = ", 4},
-                                               {Operator::NotEqual, " <> ", 4},
-                                               {Operator::And, " AND ", 3},
-                                               {Operator::Xor, " XOR ", 2}}};
-constexpr Spelling kOr{Operator::Or, " OR ", 1};
-
-const Spelling& spelling(Operator op) {
-  const auto* found = std::find_if(kSpellings.begin(), kSpellings.end(), [&](const Spelling& s) { return s.op == op; });
-  return found == kSpellings.end() ? kOr : *found;
-}
-
-std::string literal_text(const Expression& expression) {
-  if (const bool* truth = std::get_if<bool>(&expression.value)) {
-    return *truth ? "TRUE" : "FALSE";
-  }
-  if (const auto* number = std::get_if<std::uint64_t>(&expression.value)) {
-    return std::to_string(*number);
-  }
-  if (const auto* real = std::get_if<double>(&expression.value)) {
-    const std::string text = fmt::format("{}", *real);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-  }
-  if (const auto* time = std::get_if<std::int64_t>(&expression.value)) {
-    constexpr std::int64_t kMillisecondNs = 1'000'000;
-    const std::string_view type = name_of(expression.value_type.value_or(Elementary::Time));
-    return *time % kMillisecondNs == 0 ? fmt::format("{}#{}ms", type, *time / kMillisecondNs)
-                                       : fmt::format("{}#{}ns", type, *time);
-  }
-  return "'" + std::get<std::string>(expression.value) + "'";
-}
-
-std::string text_of(const Expression& expression, int around = 0);
-
-std::string call_text(const Expression& call) {
-  std::string text = text_of(call.operands.front()) + "(";
-  for (std::size_t i = 0; i < call.arguments.size(); ++i) {
-    const ast::Argument& argument = call.arguments[i];
-    text += i == 0 ? "" : ", ";
-    text += argument.negated ? "NOT " : "";
-    text += argument.name.empty() ? "" : argument.name + (argument.output ? " => " : " := ");
-    text += argument.value ? text_of(*argument.value) : "";
-  }
-  return text + ")";
-}
-
-std::string index_text(const Expression& expression) {
-  std::string text = text_of(expression.operands.front()) + "[";
-  for (std::size_t i = 1; i < expression.operands.size(); ++i) {
-    text += (i == 1 ? "" : ", ") + text_of(expression.operands[i]);
-  }
-  return text + "]";
-}
-
-// `around`: how strongly the operator binds that it is an operand of.
-std::string text_of(const Expression& expression, int around) {
-  switch (expression.kind) {
-    case Expression::Kind::Literal:
-      return literal_text(expression);
-    case Expression::Kind::Name:
-      return expression.value_enum.empty() ? expression.name : expression.value_enum + "#" + expression.name;
-    case Expression::Kind::Direct:
-      return to_string(expression.address);
-    case Expression::Kind::Member:
-      return text_of(expression.operands.front()) + "." + expression.name;
-    case Expression::Kind::Bit:
-      if (expression.width > 1) {
-        const char size = expression.width == 8 ? 'B' : expression.width == 16 ? 'W' : 'D';
-        return fmt::format("{}.%{}{}", text_of(expression.operands.front()), size, expression.bit / expression.width);
-      }
-      return fmt::format("{}.{}", text_of(expression.operands.front()), expression.bit);
-    case Expression::Kind::Index:
-      return index_text(expression);
-    case Expression::Kind::Deref:
-      return text_of(expression.operands.front()) + "^";
-    case Expression::Kind::Call:
-      return call_text(expression);
-    case Expression::Kind::Unary:
-    case Expression::Kind::Binary:
-      break;
-  }
-  const Spelling& op = spelling(expression.op);
-  const bool unary = expression.kind == Expression::Kind::Unary;
-  const std::string text = unary ? std::string(op.text) + text_of(expression.operands[0], op.strength)
-                                 : text_of(expression.operands[0], op.strength) + std::string(op.text) +
-                                       text_of(expression.operands[1], op.strength + 1);
-  return op.strength < around ? "(" + text + ")" : text;
-}
 
 class Writer {
  public:
@@ -143,10 +33,10 @@ class Writer {
       case Statement::Kind::Empty:
         break;
       case Statement::Kind::Assign:
-        line(depth, text_of(*each.target) + " := " + text_of(*each.value) + ";");
+        line(depth, expression_text(*each.target) + " := " + expression_text(*each.value) + ";");
         break;
       case Statement::Kind::Call:
-        line(depth, text_of(*each.value) + ";");
+        line(depth, expression_text(*each.value) + ";");
         break;
       case Statement::Kind::If:
         branches(each, depth);
@@ -157,7 +47,7 @@ class Writer {
       case Statement::Kind::Jump:
       case Statement::Kind::Return: {
         const std::string where = each.kind == Statement::Kind::Jump ? "JMP " + each.label : std::string("RETURN");
-        line(depth, each.value ? "IF " + text_of(*each.value) + " THEN " + where + "; END_IF;" : where + ";");
+        line(depth, each.value ? "IF " + expression_text(*each.value) + " THEN " + where + "; END_IF;" : where + ";");
         break;
       }
       case Statement::Kind::Exit:
@@ -178,8 +68,8 @@ class Writer {
   void branches(const Statement& each, int depth) {
     bool first = true;
     for (const ast::Branch& branch : each.branches) {
-      line(depth,
-           branch.condition ? (first ? "IF " : "ELSIF ") + text_of(*branch.condition) + " THEN" : std::string("ELSE"));
+      line(depth, branch.condition ? (first ? "IF " : "ELSIF ") + expression_text(*branch.condition) + " THEN"
+                                   : std::string("ELSE"));
       list(branch.body, depth + 1);
       first = false;
     }
@@ -189,20 +79,20 @@ class Writer {
   void loop(const Statement& each, int depth) {
     switch (each.kind) {
       case Statement::Kind::For:
-        line(depth, fmt::format("FOR {} := {} TO {}{} DO", text_of(*each.target), text_of(*each.value),
-                                text_of(*each.to), each.by ? " BY " + text_of(*each.by) : ""));
+        line(depth, fmt::format("FOR {} := {} TO {}{} DO", expression_text(*each.target), expression_text(*each.value),
+                                expression_text(*each.to), each.by ? " BY " + expression_text(*each.by) : ""));
         list(each.body, depth + 1);
         line(depth, "END_FOR;");
         break;
       case Statement::Kind::While:
-        line(depth, "WHILE " + text_of(*each.value) + " DO");
+        line(depth, "WHILE " + expression_text(*each.value) + " DO");
         list(each.body, depth + 1);
         line(depth, "END_WHILE;");
         break;
       case Statement::Kind::Repeat:
         line(depth, "REPEAT");
         list(each.body, depth + 1);
-        line(depth, "UNTIL " + text_of(*each.value) + " END_REPEAT;");
+        line(depth, "UNTIL " + expression_text(*each.value) + " END_REPEAT;");
         break;
       default:
         cases(each, depth);
@@ -210,11 +100,12 @@ class Writer {
   }
 
   void cases(const Statement& each, int depth) {
-    line(depth, "CASE " + text_of(*each.value) + " OF");
+    line(depth, "CASE " + expression_text(*each.value) + " OF");
     for (const ast::Branch& branch : each.branches) {
       std::string labels;
       for (const ast::CaseLabel& label : branch.labels) {
-        labels += (labels.empty() ? "" : ", ") + text_of(label.low) + (label.high ? ".." + text_of(*label.high) : "");
+        labels += (labels.empty() ? "" : ", ") + expression_text(label.low) +
+                  (label.high ? ".." + expression_text(*label.high) : "");
       }
       line(depth + 1, labels.empty() ? "ELSE" : labels + ":");
       list(branch.body, depth + 2);

@@ -95,7 +95,7 @@ network::Element& ChartParser::add(Kind kind, const Place& at) {
 }
 
 void ChartParser::lead(Element& to, std::uint64_t from) {
-  to.inputs.front().connections.push_back({to.at, from, ""});
+  to.inputs.front().connections.push_back({to.at, from, "", {}});
 }
 
 // name: action(N); ... END_STEP

@@ -19,15 +19,23 @@ auto alone(const Text& text, Diagnostics& diagnostics, Parse parse) -> decltype(
   return out;
 }
 
+Project parse(const Text& text, bool as_written, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics) {
+  const auto tokens = tokenize(text.text, text.at, diagnostics);
+  TokenReader in(tokens, text.at, diagnostics);
+  ProjectParser parser(in, as_written);
+  Project project = parser.project();
+  bodies = parser.take_written();
+  return project;
+}
+
 }  // namespace
 
 Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics) {
-  const auto tokens = tokenize(text.text, text.at, diagnostics);
-  TokenReader in(tokens, text.at, diagnostics);
-  ProjectParser parser(in);
-  Project project = parser.project();
-  others = parser.take_written();
-  return project;
+  return parse(text, false, others, diagnostics);
+}
+
+Project parse_declarations(const Text& text, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return parse(text, true, bodies, diagnostics);
 }
 
 ast::Body parse_body(const Text& text, Diagnostics& diagnostics) {

@@ -22,6 +22,8 @@ struct Text {
 // PROGRAM, FUNCTION, FUNCTION_BLOCK, TYPE, VAR_GLOBAL, CONFIGURATION. What has errors is left out.
 // `others`: bodies that are no Structured Text; their POUs are without code in the result.
 [[nodiscard]] Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics);
+// The same for those who show it: no POU has statements, `bodies` has the text of each.
+[[nodiscard]] Project parse_declarations(const Text& text, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics);
 // Statements.
 [[nodiscard]] ast::Body parse_body(const Text& text, Diagnostics& diagnostics);
 // Exactly one; none after an error.

@@ -145,7 +145,12 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   } else if (has_actions(end)) {
     written = chart.statements(end);
   } else {
+    const Token& before = in_.previous();
     out.body = body(end);
+    if (as_written_) {
+      written = text_behind(before);
+      out.body.clear();
+    }
   }
   methods(out);
   if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
@@ -162,6 +167,19 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   if (ok && !refuses_c_code(out)) {
     to.push_back(std::move(out));
   }
+}
+
+// From behind the token to here, comments included.
+WrittenBody ProjectParser::text_behind(const Token& before) const {
+  const char* begin = before.text.data() + before.text.size();
+  WrittenBody made;
+  network::Body& body = made.code.body;
+  body.language = network::Body::Language::St;
+  body.at = in_.place(before);
+  body.text_at = body.at;
+  body.text_at.column += static_cast<int>(before.text.size());
+  body.text.assign(begin, static_cast<std::size_t>(in_.peek().text.data() - begin));
+  return made;
 }
 
 // Beremiz puts blocks of its own into every program it writes; who does not use them does not miss them.

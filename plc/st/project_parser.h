@@ -12,7 +12,9 @@ namespace indurop::plc::st {
 
 class ProjectParser {
  public:
-  explicit ProjectParser(TokenReader& in) : in_(in), expressions_(in), declarations_(in), statements_(in) {}
+  // `as_written`: all bodies are kept as texts, Structured Text too.
+  explicit ProjectParser(TokenReader& in, bool as_written = false)
+      : in_(in), as_written_(as_written), expressions_(in), declarations_(in), statements_(in) {}
 
   [[nodiscard]] Project project();
   // Bodies in other languages, of its POUs.
@@ -23,6 +25,7 @@ class ProjectParser {
   [[nodiscard]] ast::Body body(std::string_view end);
 
  private:
+  [[nodiscard]] WrittenBody text_behind(const Token& before) const;
   [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
   [[nodiscard]] bool element(Project& out);
@@ -54,6 +57,7 @@ class ProjectParser {
   void recover();
 
   TokenReader& in_;
+  bool as_written_;
   ExpressionParser expressions_;
   DeclarationParser declarations_;
   StatementParser statements_;

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compiles random programs as users do, and runs them: what became of every variable after every scan."""
 
+import difflib
 import os
+import re
 import struct
 import subprocess
 
@@ -122,6 +124,24 @@ def checked_call(arguments, folder):
     return done.stdout
 
 
+def code_of(folder, name):
+    """What was generated, without the places of its text."""
+    with open(os.path.join(folder, f"{name}.glb"), encoding="utf-8") as glb, open(os.path.join(folder, f"{name}.cpp"), encoding="utf-8") as cpp:
+        text = re.sub(r'"[^"\n]*\.(st|xml)[^"\n]*"', "place", glb.read() + cpp.read())
+    return re.sub(r"(// Written by|#line) [^\n]*", "", text)
+
+
+def check_export(build, folder):
+    """Exported as PLCopen XML and read again, the programs become the same code."""
+    tool = [os.path.join(build, "bin/indurop"), "plc"]
+    os.makedirs(os.path.join(folder, "again"), exist_ok=True)
+    checked_call([*tool, "export", "batch.st", "-o", "again/batch.xml", "--quiet"], folder)
+    checked_call([*tool, "build", "again/batch.xml", "--only-sources", "--quiet", "-o", "again"], folder)
+    before, after = code_of(folder, "batch").splitlines(), code_of(os.path.join(folder, "again"), "batch").splitlines()
+    if before != after:
+        raise Failed("exported and read again it is other code:\n" + "\n".join(list(difflib.unified_diff(before, after, n=0))[:20]))
+
+
 def compile_batch(build, folder, programs, optimize):
     """The path of a program that runs all of them."""
     os.makedirs(folder, exist_ok=True)
@@ -129,6 +149,7 @@ def compile_batch(build, folder, programs, optimize):
         for program in programs:
             file.write("\n".join(program.text()) + "\n")
     checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet"], folder)
+    check_export(build, folder)
     checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
     with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
         file.write(driver_text("batch", programs))

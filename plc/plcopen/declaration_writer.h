@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types, variables and initial values as a PLCopen file has them. What the format does not have is an error.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plc/model/ast.h"
+#include "plc/model/diagnostics.h"
+#include "plc/plcopen/xml_writer.h"
+
+namespace indurop::plc::plcopen {
+
+class DeclarationWriter {
+ public:
+  DeclarationWriter(XmlWriter& out, Diagnostics& diagnostics) : out_(out), diagnostics_(diagnostics) {}
+
+  // <dataType>
+  void type(const ast::TypeDeclaration& declared);
+  // <interface>, with the type of the result
+  void interface(const ast::Pou& pou);
+  // <globalVars> for each stretch of variables that have the same attributes
+  void globals(const std::vector<ast::Variable>& variables);
+
+ private:
+  void lists(const std::vector<ast::Variable>& variables);
+  void variable(const ast::Variable& one);
+  void edge(const ast::Variable& one);
+  void holder(std::string_view name, const ast::TypeSpec& spec);
+  void spec(const ast::TypeSpec& spec);
+  void array(const ast::TypeSpec& spec);
+  void subrange(const ast::TypeSpec& spec);
+  void enumeration(const ast::TypeSpec& spec);
+  void structure(const ast::TypeSpec& spec);
+  void initial(const ast::Initial& value);
+  void value(const ast::Initial& value);
+  void elementary(Elementary type);
+  // "<what> is not part of PLCopen XML"
+  void refuse(const Place& at, std::string_view what);
+
+  XmlWriter& out_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace indurop::plc::plcopen

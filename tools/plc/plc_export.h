@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop plc export: a program as PLCopen XML.
+
+#pragma once
+
+#include <memory>
+
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+// Adds the subcommand; once it was parsed, `chosen` is what to do.
+void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen);
+
+}  // namespace indurop::tools
