@@ -12,7 +12,7 @@ class AxisMotion {
  public:
   // Moving on like this, with nothing to do. Real-time safe, as all here.
   void reset(const LineState& state) noexcept;
-  // Where the way is too short or backwards, it stops first.
+  // As fast as the limits allow, also where the way is too short or backwards.
   void move_to(double position, const LineLimits& limits) noexcept;
   void move_with(double velocity, const LineLimits& limits) noexcept;
   void stop(const LineLimits& limits) noexcept;
@@ -23,7 +23,7 @@ class AxisMotion {
 
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
-  [[nodiscard]] bool done() const noexcept { return !and_then_ && !held() && time_ >= profile_.duration(); }
+  [[nodiscard]] bool done() const noexcept { return !held() && time_ >= profile_.duration(); }
   [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0; }
 
  private:
@@ -31,18 +31,14 @@ class AxisMotion {
 
   [[nodiscard]] bool held() const noexcept;
   void plan() noexcept;
-  void plan_to_position() noexcept;
-  void plan_to_velocity(double velocity) noexcept;
 
   Goal goal_ = Goal::Rest;
   double target_ = 0;  // position or velocity
   LineLimits limits_;
   double override_ = 1;
   Profile profile_;
-  double sign_ = 1;  // profiles go forwards
   double time_ = 0;
   LineState state_;
-  bool and_then_ = false;  // stops only to turn back
 };
 
 }  // namespace indurop::robot

@@ -26,9 +26,14 @@ double velocity_unloaded(const LineState& from, const LineLimits& limits) noexce
   return from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * limits.jerk);
 }
 
-// The way through `peak`, reached as fast as possible, to `arrival`, without any time at the peak.
-double way_through(const LineState& from, double peak, double arrival, const LineLimits& limits) noexcept {
-  return ramp(from, peak, limits).distance + ramp({0, peak, 0}, arrival, limits).distance;
+LineState after(const Ramp& ramp, const LineState& from, double time) noexcept {
+  LineState state = from;
+  for (const auto& phase : ramp.phases) {
+    const double t = std::clamp(time, 0.0, phase.duration);
+    state = advanced(state, t, phase.jerk);
+    time -= phase.duration;
+  }
+  return state;
 }
 
 // The argument between `fits`, whose way fits into `length`, and `beyond`, whose way does not, where it just fits.
@@ -95,23 +100,43 @@ Profile Profile::to_velocity(const LineState& from, double velocity, const LineL
   return profile;
 }
 
+// First on the ramp to the top speed, then down to the last one: the later it leaves the ramp the farther it comes, and
+// the limits are used up all the way.
+void Profile::append_way(double length, double last, const LineLimits& limits) noexcept {
+  const LineState from{0, end_.velocity, end_.acceleration};
+  const Ramp up = ramp(from, limits.velocity, limits);
+  const auto way = [&](double time) {
+    const LineState there = after(up, from, time);
+    return there.position + ramp(there, last, limits).distance;
+  };
+  double time = up.duration();
+  double cruise = 0;
+  if (const double all = way(time); all <= length) {
+    cruise = limits.velocity > 0 ? (length - all) / limits.velocity : 0;
+  } else {
+    time = just_fitting(0, time, length, way);
+  }
+  double left = time;
+  for (const auto& phase : up.phases) {
+    append(std::min(left, phase.duration), phase.jerk);
+    left = std::max(0.0, left - phase.duration);
+  }
+  if (cruise > 0) {
+    end_.acceleration = 0;
+    end_.velocity = limits.velocity;
+    append(cruise, 0);
+  }
+  append(ramp(end_, last, limits));
+}
+
 Profile Profile::to_position(const LineState& from, double position, double arrival,
                              const LineLimits& limits) noexcept {
   const double length = position - from.position;
-  const double top = limits.velocity;
-  double last = std::min(arrival, top);
-  const auto through = [&](double peak) { return way_through(from, peak, last, limits); };
+  double last = std::min(arrival, limits.velocity);
   const auto straight = [&](double velocity) { return ramp(from, velocity, limits).distance; };
   Profile profile = coast(from);
-
-  double peak = top;
-  double cruise = 0;
-  if (const double way = through(top); way <= length) {
-    cruise = top > 0 ? (length - way) / top : 0;
-  } else if (straight(last) <= length) {
-    const double unloaded = std::clamp(velocity_unloaded(from, limits), last, top);
-    const bool faster = through(unloaded) <= length;
-    peak = just_fitting(faster ? unloaded : last, faster ? top : unloaded, length, through);
+  if (straight(last) <= length) {
+    profile.append_way(length, last, limits);
   } else {
     // Too short to come to the wanted velocity: as near to it as possible, but when slowing down not above `arrival`.
     const double unloaded = velocity_unloaded(from, limits);
@@ -119,15 +144,27 @@ Profile Profile::to_position(const LineState& from, double position, double arri
     nearest = straight(nearest) <= length ? nearest : 0;
     profile.overshoots_ = straight(nearest) > length * (1 + 1e-9) + 1e-12;
     last = straight(nearest) > length ? 0 : just_fitting(nearest, last, length, straight);
-    peak = last;
+    profile.append(ramp(from, last, limits));
   }
-  profile.append(ramp(from, peak, limits));
-  profile.append(cruise, 0);
-  profile.append(ramp({0, peak, 0}, last, limits));
   if (!profile.overshoots_) {
     profile.end_.position = position;
   }
   profile.end_.velocity = last;
+  return profile;
+}
+
+Profile Profile::to_rest(const LineState& from, double position, const LineLimits& limits) noexcept {
+  const double length = position - from.position;
+  const double stopping = ramp(from, 0, limits).distance;
+  // Where it comes to rest if it brakes at once decides in which direction it has to go; the other one in the mirror.
+  const double sign = length < stopping ? -1 : 1;
+  Profile profile = coast({0, sign * from.velocity, sign * from.acceleration});
+  profile.append_way(std::max(sign * length, sign * stopping), 0, limits);
+  for (auto& phase : profile.phases_) {
+    phase.jerk *= sign;
+  }
+  profile.start_ = from;
+  profile.end_ = {position, 0, 0};
   return profile;
 }
 

@@ -49,6 +49,9 @@ class Profile {
   // possible behind `position`, and overshoots() says so.
   static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits) noexcept;
 
+  // From any velocity and acceleration to rest at `position`, wherever that is, as fast as possible.
+  static Profile to_rest(const LineState& from, double position, const LineLimits& limits) noexcept;
+
   // At `time` seconds after the start; beyond the end it moves on with its last velocity.
   [[nodiscard]] LineState at(double time) const noexcept;
   [[nodiscard]] double duration() const noexcept { return duration_; }
@@ -59,6 +62,7 @@ class Profile {
  private:
   void append(const Ramp& ramp) noexcept;
   void append(double duration, double jerk) noexcept;
+  void append_way(double length, double last, const LineLimits& limits) noexcept;
 
   LineState start_;
   LineState end_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "lattice_reference.h"
+
 namespace indurop::robot {
 namespace {
 
@@ -107,14 +109,85 @@ TEST(Profile, Planning_again_on_the_way_changes_nothing) {
     const Profile first = Profile::to_position({}, c.length, 0, c.limits);
     const double when = part(random) * first.duration();
     const Profile again = Profile::to_position(first.at(when), c.length, 0, c.limits);
-    // While it already brakes, there may be no way to lose less; it never takes much longer and arrives all the same.
-    EXPECT_GE(when + again.duration(), first.duration() * (1 - 1e-6));
-    const double before_braking = first.duration() / 2;
-    if (when < before_braking) {
-      EXPECT_NEAR(when + again.duration(), first.duration(), 1e-4 * first.duration());
-    }
+    EXPECT_NEAR(when + again.duration(), first.duration(), 1e-4 * first.duration());
     EXPECT_NEAR(again.at(again.duration()).position, c.length, 1e-6 * (1 + c.length));
   }
+}
+
+// Any state within the limits, in either direction, and any target.
+Case any_case(std::mt19937& random) {
+  Case c = random_case(random);
+  const auto one_of = [&](double value) { return random() % 2 == 0 ? value : -value; };
+  const double sign = one_of(1);
+  c.from.velocity *= sign;
+  c.from.acceleration *= sign;
+  c.from.position = one_of(1);
+  c.length = one_of(c.length);
+  return c;
+}
+
+TEST(Profile, To_rest_from_any_state_within_the_limits) {
+  std::mt19937 random(14);
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = any_case(random);
+    const double target = c.from.position + c.length;
+    const Profile sut = Profile::to_rest(c.from, target, c.limits);
+    constexpr int kPlaces = 200;
+    const double step = sut.duration() / kPlaces;
+    LineState last = sut.at(0);
+    EXPECT_EQ(last.position, c.from.position);
+    for (int k = 1; k <= kPlaces; ++k) {
+      const LineState now = sut.at(k * step * (1 - 1e-12));
+      ASSERT_LE(std::abs(now.velocity), c.limits.velocity * (1 + kSlack) + kSlack);
+      ASSERT_LE(std::abs(now.acceleration), c.limits.acceleration * (1 + kSlack) + kSlack);
+      ASSERT_LE(std::abs(now.acceleration - last.acceleration), c.limits.jerk * step * (1 + 1e-6) + 1e-6);
+      last = now;
+    }
+    EXPECT_NEAR(last.position, target, 1e-6 * (1 + std::abs(c.length)));
+    EXPECT_NEAR(last.velocity, 0, 1e-6 * (1 + c.limits.velocity));
+    EXPECT_NEAR(last.acceleration, 0, 1e-3 * (1 + c.limits.acceleration));
+  }
+}
+
+// The best way has nothing better in its rest.
+TEST(Profile, To_rest_planned_again_on_the_way_changes_nothing) {
+  std::mt19937 random(15);
+  std::uniform_real_distribution<double> part(0, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const Case c = any_case(random);
+    const double target = c.from.position + c.length;
+    const Profile first = Profile::to_rest(c.from, target, c.limits);
+    const double when = part(random) * first.duration();
+    const Profile again = Profile::to_rest(first.at(when), target, c.limits);
+    EXPECT_NEAR(when + again.duration(), first.duration(), 1e-4 * first.duration()) << i;
+  }
+}
+
+// Against all motions in steps of one second with whole jerks.
+TEST(Profile, To_rest_in_the_least_time) {
+  constexpr int kAcceleration = 8;
+  constexpr int kSpeed = 160;
+  const Lattice lattice(kAcceleration, kSpeed, 160);
+  const LineLimits limits{kSpeed / 2.0, kAcceleration, 1};
+  std::mt19937 random(16);
+  const auto any = [&](int most) { return std::uniform_int_distribution<int>(-most, most)(random); };
+  double ours = 0;
+  double least = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const int a = any(kAcceleration);
+    const int v = any(kSpeed);
+    const int place = any(i % 2 == 0 ? 20000 : 2000);
+    const int steps = lattice.steps_to(a, v, place);
+    if (steps < 0) {
+      continue;  // this speed cannot be kept below its limit, or it is too far
+    }
+    const double taken = Profile::to_rest({0, v / 2.0, 1.0 * a}, place / 6.0, limits).duration();
+    EXPECT_LE(taken, steps + 1e-4) << a << " " << v << " " << place;
+    EXPECT_GE(taken, steps - 4) << a << " " << v << " " << place;
+    ours += taken;
+    least += steps;
+  }
+  EXPECT_GT(ours, 0.97 * least);
 }
 
 TEST(Profile, To_a_velocity_and_on) {
