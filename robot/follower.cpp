@@ -87,7 +87,14 @@ void Follower::stop_hard(double hardness) noexcept {
 }
 
 double Follower::to_go() const noexcept {
+  if (!idle() && segment(0).timed) {
+    return (piece_end() - state_.position) / std::max(wanted_pace(), kStill);
+  }
   return idle() ? 0 : std::max(0.0, profile_.duration() - time_);
+}
+
+double Follower::wanted_pace() const noexcept {
+  return mode_ == Mode::Run && override_ >= kStill ? override_ : 0;
 }
 
 int Follower::source() const noexcept {
@@ -148,7 +155,7 @@ void Follower::begin_piece() noexcept {
   if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && first.timing.known()) {
     first.take_timing();
     passed_.fill(0);
-    state_ = {0, mode_ == Mode::Run && override_ >= kStill ? override_ : 0, 0};
+    state_ = {0, wanted_pace(), 0};
   }
   replan();
 }
@@ -172,16 +179,19 @@ void Follower::note_place(double seconds) noexcept {
   speed_ = speed;
 }
 
+// What has a timing is planned anew in each period.
 void Follower::replan() noexcept {
   time_ = 0;
+  if (segment(0).timed) {
+    return;
+  }
   if (mode_ != Mode::Run || override_ < kStill) {
     profile_ = Profile::to_velocity(state_, 0, stop_limits());
     return;
   }
   LineLimits limits = piece_limits();
   limits.velocity *= override_;
-  // A timing ends at rest by itself.
-  const double exit = segment(0).timed ? limits.velocity : in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
+  const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
   profile_ = Profile::to_position(state_, piece_end(), exit, limits);
 }
 
@@ -223,8 +233,13 @@ double Follower::advance(double seconds) noexcept {
   double moved = 0;
   // Short paths may begin and end within one period; more of them than this wait for the next one.
   for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
+    const bool timed = segment(0).timed;
+    if (timed) {
+      profile_ = pace_.next(state_, wanted_pace(), seconds, segment(0).pace_limits);
+      time_ = 0;
+    }
     const double until = time_ + seconds;
-    const bool running = mode_ == Mode::Run && override_ >= kStill && !profile_.overshoots();
+    const bool running = !timed && wanted_pace() > 0 && !profile_.overshoots();
     double reached = until;
     bool crossed = false;
     if (running) {

@@ -58,6 +58,7 @@ class Follower final : private PathAhead {
   [[nodiscard]] double piece_end() const noexcept;
   [[nodiscard]] const LineLimits& piece_limits() const noexcept;
   [[nodiscard]] LineLimits stop_limits() const noexcept;
+  [[nodiscard]] double wanted_pace() const noexcept;
   void begin_piece() noexcept;
   void leave_timing() noexcept;
   void note_place(double seconds) noexcept;
@@ -85,6 +86,7 @@ class Follower final : private PathAhead {
   PathBrake brake_;
   PathHistory past_;
   Profile profile_;
+  PaceChange pace_;
   double time_ = 0;  // in the profile
   LineState state_;  // position: place on the present piece
   // What it is in seconds at full speed, whether the piece has a timing or not, and where it was on a piece with one.

@@ -30,7 +30,7 @@ void Planner::search() noexcept {
 }
 
 void Planner::rehearse_timing() noexcept {
-  rehearsal_.begin(segment_.from, segment_.timing.duration(), rehearsal_step());
+  rehearsal_.begin(segment_.from, segment_.timing.duration(), rehearsal_step(), true);
   stage_ = Stage::RehearseTiming;
 }
 
@@ -39,7 +39,7 @@ void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);
   stage_ = Stage::Done;
   if (rehearsal_step() < kStep) {
-    rehearsal_.begin(segment_.from, profile_.duration(), rehearsal_step());
+    rehearsal_.begin(segment_.from, profile_.duration(), rehearsal_step(), false);
     stage_ = Stage::RehearseProfile;
   }
 }
@@ -67,10 +67,13 @@ void Planner::end_rehearsal() noexcept {
   const bool sure = slower < kNearlyOne || ++rehearsals_ == kMostRehearsals;
   if (stage_ == Stage::RehearseProfile) {
     LineLimits& limits = segment_.limits;
-    const LineLimits& pace = rehearsal_.pace_limits();
+    const PaceLimits& pace = rehearsal_.pace_limits();
+    constexpr double kLeft = 1 - Shares::kBendingJerk - Shares::kMixedJerk;
     limits.velocity /= slower;
-    limits.acceleration = std::min(limits.acceleration / (slower * slower), pace.acceleration * limits.velocity);
-    limits.jerk = std::min(limits.jerk / (slower * slower * slower), pace.jerk * limits.velocity);
+    limits.acceleration = std::min(
+        limits.acceleration / (slower * slower),
+        std::min((1 - Shares::kBending) * pace.acceleration, Shares::kMixedJerk / 3 * pace.mixed) * limits.velocity);
+    limits.jerk = std::min(limits.jerk / (slower * slower * slower), kLeft * pace.jerk * limits.velocity);
     if (sure) {
       stage_ = Stage::Done;
     } else {
@@ -79,7 +82,7 @@ void Planner::end_rehearsal() noexcept {
     return;
   }
   segment_.timing.slow_down(slower);
-  segment_.timing_limits = rehearsal_.pace_limits();
+  segment_.pace_limits = rehearsal_.pace_limits();
   if (segment_.timing.duration() >= Profile::to_position({}, segment_.length, 0, segment_.limits).duration()) {
     segment_.timing = {};
     rehearse_profile();

@@ -12,16 +12,18 @@ namespace {
 
 constexpr double kSure = 0.99;  // of the limits, between two instants
 constexpr int kFewest = 96;     // instants
-constexpr int kMost = 65536;
+constexpr int kMost = 1 << 20;
 
 }  // namespace
 
-void Rehearsal::begin(const Joints& from, double duration, double step) noexcept {
+void Rehearsal::begin(const Joints& from, double duration, double step, bool timed) noexcept {
   count_ = static_cast<int>(std::clamp(std::ceil(duration / step), double{kFewest}, double{kMost}));
   step_ = duration / count_;
   next_ = 1;
   worst_ = 0;
-  pace_ = {1, 100, 1000};
+  acceleration_share_ = timed ? TimingShares::kAcceleration : Shares::kBending;
+  jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
+  pace_ = {};
   seen_.fill(from);
 }
 
@@ -40,15 +42,12 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
   const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
   const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
   worst_ = std::max({worst_, first.cwiseQuotient(joints_.velocity).maxCoeff(),
-                     std::sqrt(second.cwiseQuotient(Shares::kBending * joints_.acceleration).maxCoeff()),
-                     std::cbrt(third.cwiseQuotient(Shares::kBendingJerk * joints_.jerk).maxCoeff())});
-  // |second| r^2 + |first| r' and |third| r^3 + 3 |second| r r' + |first| r'' are what a joint does at the pace r.
+                     std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
+                     std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
   for (int i = 0; i < kAxes; ++i) {
-    const double a = joints_.acceleration[i];
-    const double j = joints_.jerk[i];
-    pace_.acceleration = std::min({pace_.acceleration, shared((1 - Shares::kBending) * a, first[i]),
-                                   shared(Shares::kMixedJerk / 3 * j, second[i])});
-    pace_.jerk = std::min(pace_.jerk, shared((1 - Shares::kBendingJerk - Shares::kMixedJerk) * j, first[i]));
+    pace_ = {std::min(pace_.acceleration, shared(joints_.acceleration[i], first[i])),
+             std::min(pace_.mixed, shared(joints_.jerk[i], second[i])),
+             std::min(pace_.jerk, shared(joints_.jerk[i], first[i]))};
   }
   ++next_;
   return true;

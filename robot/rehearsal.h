@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "robot/pace.h"
 #include "robot/segment.h"
 
 namespace indurop::robot {
@@ -14,8 +15,9 @@ class Rehearsal {
  public:
   Rehearsal(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
 
-  // A motion from rest to rest. `step`: from one instant to the next, at most. Real-time safe, as all here.
-  void begin(const Joints& from, double duration, double step) noexcept;
+  // A motion from rest to rest, with or without a timing. `step`: from one instant to the next, at most. Real-time
+  // safe, as all here.
+  void begin(const Joints& from, double duration, double step, bool timed) noexcept;
   [[nodiscard]] bool done() const noexcept { return next_ > count_ + 3; }
   // The instant that is looked at next, and where the motion is then.
   [[nodiscard]] double time() const noexcept;
@@ -23,8 +25,8 @@ class Rehearsal {
 
   // When done: how many times as long it has to take, 1 at least.
   [[nodiscard]] double factor() const noexcept;
-  // Of the pace at which it is followed, 1 at most.
-  [[nodiscard]] const LineLimits& pace_limits() const noexcept { return pace_; }
+  // Of changes of the pace at which it is followed.
+  [[nodiscard]] const PaceLimits& pace_limits() const noexcept { return pace_; }
 
  private:
   const Places& places_;
@@ -33,7 +35,8 @@ class Rehearsal {
   int next_ = 0;
   double step_ = 0;
   double worst_ = 0;
-  LineLimits pace_;
+  double acceleration_share_ = 1, jerk_share_ = 1;
+  PaceLimits pace_;
   std::array<Joints, 4> seen_;
 };
 

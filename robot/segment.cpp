@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace indurop::robot {
 
@@ -15,13 +14,11 @@ Joints Segment::joints_at(double place) const noexcept {
 void Segment::take_timing() noexcept {
   stretch = length;
   length = timing.duration();
-  std::swap(limits, timing_limits);
   timed = true;
 }
 
 double Segment::leave_timing(double place) noexcept {
   length = stretch;
-  std::swap(limits, timing_limits);
   timed = false;
   return timing.at(place).place;
 }

@@ -8,6 +8,7 @@
 
 #include "robot/chain.h"
 #include "robot/inverse.h"
+#include "robot/pace.h"
 #include "robot/path_timing.h"
 #include "robot/profile.h"
 
@@ -51,10 +52,10 @@ struct Segment {
   double zone = 0;                                                               // m
   LineLimits most;    // of the speed along it, as the tool and the command allow
   LineLimits limits;  // the same as the joints allow too
-  // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places,
-  // length and limits are by seconds of the timing.
+  // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places and
+  // length are seconds of the timing, and `pace_limits` limits changes of it, not `limits`.
   PathTiming timing;
-  LineLimits timing_limits;
+  PaceLimits pace_limits;
   double stretch = 0;  // what `length` is otherwise
 
   // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.

@@ -115,8 +115,8 @@ bool TimingSearch::look(int knot) noexcept {
     const double x3 = d3 * g1 * g1 * g1 + 3 * d2 * g1 * g2 + d1 * g3;
     const double v = (i < kAxes ? kMargin : 1) * most.velocity / std::max(std::abs(x1), 1e-12);
     k.fastest = std::min(k.fastest, v * v);
-    const double a = 1 / (Shares::kBending * kMargin * most.acceleration);
-    const double j = 1 / (Shares::kBendingJerk * kMargin * most.jerk);
+    const double a = 1 / (TimingShares::kAcceleration * kMargin * most.acceleration);
+    const double j = 1 / (TimingShares::kJerk * kMargin * most.jerk);
     k.bend[at(i)] = x2 * a;
     k.drive[at(i)] = x1 * a / 2;
     k.third[at(i)] = x3 * j;

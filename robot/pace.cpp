@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kStages = 8;
+constexpr double kRounding = 1e-9;
+
+// The pace at which its change is taken back.
+double unloaded(const LineState& now, const LineLimits& limits) noexcept {
+  return now.velocity + now.acceleration * std::abs(now.acceleration) / (2 * limits.jerk);
+}
+
+bool can_level_off(const LineState& now, double top, const PaceLimits& limits) noexcept {
+  const LineLimits there = limits.at(top);
+  return unloaded(now, there) <= top + kRounding && now.acceleration <= there.acceleration * (1 + kRounding);
+}
+
+}  // namespace
+
+LineLimits PaceLimits::at(double pace) const noexcept {
+  // Half of the jerk that is left is for the change of pace itself, half for what it makes of accelerations.
+  const double left = (1 - TimingShares::kJerk * pace * pace * pace) / 2;
+  return {1,
+          std::min((1 - TimingShares::kAcceleration * pace * pace) * acceleration,
+                   left * mixed / (3 * std::max(pace, 1e-3))),
+          left * jerk};
+}
+
+// Upwards less and less is left for changes, so the pace must be able to level off somewhere, with what is left there.
+// Of the stages on the way that allow this, the one that leads farthest.
+Profile PaceChange::faster(const LineState& now, double wanted, double seconds, const PaceLimits& limits) noexcept {
+  Profile best;
+  double most = -1;
+  const auto consider = [&](double top) {
+    const Profile stage = Profile::to_velocity(now, top, limits.at(top));
+    if (const double there = stage.at(seconds).velocity; there > most) {
+      best = stage;
+      most = there;
+      top_ = top;
+    }
+  };
+  if (now.acceleration > 0) {
+    consider(top_);
+  }
+  for (int i = 1; i <= kStages; ++i) {
+    const double top = now.velocity + (wanted - now.velocity) * i / kStages;
+    if (can_level_off(now, top, limits)) {
+      consider(top);
+    }
+  }
+  return best;
+}
+
+// It was getting faster, up to more than is wanted now: it levels off as low as it can first.
+Profile PaceChange::no_faster(const LineState& now, double wanted, const PaceLimits& limits) noexcept {
+  const double before = top_;
+  for (int i = kStages - 1; i >= 0; --i) {
+    const double lower = now.velocity + (before - now.velocity) * i / kStages;
+    top_ = can_level_off(now, lower, limits) ? lower : top_;
+  }
+  return Profile::to_velocity(now, std::min(wanted, top_), limits.at(top_));
+}
+
+Profile PaceChange::next(const LineState& now, double wanted, double seconds, const PaceLimits& limits) noexcept {
+  if (now.acceleration < 0 || (now.acceleration <= 0 && wanted <= now.velocity)) {
+    const LineLimits here = limits.at(now.velocity);
+    return Profile::to_velocity(now, std::min(wanted, std::max(unloaded(now, here), 0.0)), here);
+  }
+  return now.acceleration > 0 && wanted < top_ ? no_faster(now, wanted, limits) : faster(now, wanted, seconds, limits);
+}
+
+}  // namespace indurop::robot
