@@ -29,8 +29,10 @@ void Follower::reset(const Joints& q) noexcept {
   past_.moved = {};
 }
 
-void Follower::add(const Segment& segment) noexcept {
-  segments_[static_cast<std::size_t>(count_++)] = segment;
+void Follower::add(const Segment& segment, const Blend& blend) noexcept {
+  const auto i = static_cast<std::size_t>(count_++);
+  segments_[i] = segment;
+  blends_[i] = blend;
   if (count_ == 1) {
     state_ = {};
     begin_piece();
@@ -129,7 +131,7 @@ void Follower::try_blend() noexcept {
   if (in_blend_ || blend_.zone > 0 || stopping() || segment(0).timed) {
     return;
   }
-  Blend wanted = planner_.blend(segment(0), segment(1));
+  Blend wanted = blends_[1];
   if (wanted.zone <= 0) {
     return;
   }
@@ -214,6 +216,7 @@ void Follower::next_piece() noexcept {
     // On to the next segment, behind the blend if there was one.
     state_.position = in_blend_ ? blend_.zone : 0;
     std::move(segments_.begin() + 1, segments_.begin() + count_, segments_.begin());
+    std::move(blends_.begin() + 1, blends_.begin() + count_, blends_.begin());
     --count_;
     in_blend_ = false;
     blend_ = {};
@@ -235,6 +238,8 @@ double Follower::advance(double seconds) noexcept {
   for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
     const bool timed = segment(0).timed;
     if (timed) {
+      // Where it has not begun there is nothing yet that a jump of the pace could change.
+      state_ = state_.position > 0 ? state_ : LineState{0, wanted_pace(), 0};
       profile_ = pace_.next(state_, wanted_pace(), seconds, segment(0).pace_limits);
       time_ = 0;
     }
@@ -306,13 +311,26 @@ void Follower::go(double distance) noexcept {
   }
 }
 
+Fault Follower::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
+  constexpr double kSlack = 1.05;  // planned limits are exact for joint motions, sampled for the others
+  if (const int beyond = places_.arm().beyond_limits(to, 1e-6); beyond >= 0) {
+    return {ErrorCode::JointLimit, beyond + 1};
+  }
+  for (int i = 0; i < kAxes; ++i) {
+    if (!(std::abs(to[i] - from[i]) <= kSlack * seconds * most_.velocity[i] + 1e-9)) {
+      return {ErrorCode::Speed, i + 1};
+    }
+  }
+  return {};
+}
+
 Fault Follower::brake(double seconds) noexcept {
   double distance = 0;
   Joints q = q_;
   if (const Reach reach = brake_.next(*this, past_, seconds, distance, q); reach != Reach::Ok) {
     return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
   }
-  const Fault fault = planner_.allowed(q_, q, seconds);
+  const Fault fault = allowed(q_, q, seconds);
   if (!fault.ok()) {
     return fault;
   }
@@ -335,7 +353,7 @@ Fault Follower::place(double seconds) noexcept {
   if (const Reach reach = joints_on_piece(state_.position, q_, q); reach != Reach::Ok) {
     return {reach == Reach::JointLimit ? ErrorCode::JointLimit : ErrorCode::Singular};
   }
-  const Fault fault = planner_.allowed(q_, q, seconds);
+  const Fault fault = allowed(q_, q, seconds);
   if (fault.ok()) {
     q_ = q;
   }
@@ -354,7 +372,7 @@ Fault Follower::step(double seconds) noexcept {
   const Joints end = segment(count_ - 1).to;
   const double moved = advance(seconds);
   if (count_ == 0) {
-    const Fault fault = planner_.allowed(q_, end, seconds);
+    const Fault fault = allowed(q_, end, seconds);
     if (fault.ok()) {
       q_ = end;
     }

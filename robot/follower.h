@@ -6,22 +6,23 @@
 
 #include <array>
 
+#include "robot/errors.h"
 #include "robot/path_brake.h"
-#include "robot/planner.h"
+#include "robot/segment.h"
 
 namespace indurop::robot {
 
 class Follower final : private PathAhead {
  public:
-  Follower(const Places& places, const Planner& planner) noexcept
-      : places_(places), planner_(planner), brake_(planner.joint_limits()) {}
+  Follower(const Places& places, const JointLimits& limits) noexcept : places_(places), most_(limits), brake_(limits) {}
 
   // At rest at these joint angles, with nothing to do.
   void reset(const Joints& q) noexcept;
   // Whether another path can be taken; it has to begin at end().
   [[nodiscard]] bool has_room() const noexcept { return count_ < kMost && !stopping(); }
   [[nodiscard]] const Joints& end() const noexcept { return count_ > 0 ? segment(count_ - 1).to : q_; }
-  void add(const Segment& segment) noexcept;
+  // `blend`: from the one before into this one, if it may be passed without a stop.
+  void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
   // Part of the planned speed, from 0 to 1.
   void set_override(double part) noexcept;
@@ -69,6 +70,8 @@ class Follower final : private PathAhead {
   void next_piece() noexcept;
   Fault place(double seconds) noexcept;
   Fault brake(double seconds) noexcept;
+  // Whether the joints may get from one place to the other in that time. Errors: JointLimit, Speed.
+  [[nodiscard]] Fault allowed(const Joints& from, const Joints& to, double seconds) const noexcept;
   void go(double distance) noexcept;
   void note(double moved) noexcept;
   [[nodiscard]] Reach joints_on_piece(double place, const Joints& near, Joints& q) const noexcept;
@@ -76,8 +79,9 @@ class Follower final : private PathAhead {
   [[nodiscard]] double left() const noexcept override;
 
   const Places& places_;
-  const Planner& planner_;
+  JointLimits most_;
   std::array<Segment, kMost> segments_;
+  std::array<Blend, kMost> blends_;  // into each of them
   int count_ = 0;
   Blend blend_;            // between the first two segments; zone 0: none
   bool in_blend_ = false;  // the present piece is the blend, not the first segment

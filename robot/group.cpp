@@ -19,14 +19,12 @@ Group::Group(GroupParts parts)
     : parts_(std::move(parts)),
       inverse_(parts_.arm),
       places_(parts_.arm, inverse_),
-      planner_(places_, parts_.joints, parts_.tool),
-      follower_(places_, planner_),
+      follower_(places_, parts_.joints),
       job_(parts_.book),
-      ahead_(parts_.arm, parts_.tool) {
+      ahead_(parts_.arm, parts_.tool),
+      desk_(places_, parts_.joints, parts_.tool, parts_.settings) {
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
-  // A path of 128 places is looked at within some 16 ms, whatever the period.
-  places_per_period_ = std::clamp(static_cast<int>(period_ * 8000), 8, 128);
   const AxisControl::Scale scale{settings.counts_per_turn / (2 * kPi), settings.gear};
   for (int i = 0; i < kAxes; ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
@@ -62,6 +60,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     }
   }
   set_pace(in);
+  desk_.expect_work(powered());
   run_state(signals);
   pass_gates();
   for (int i = 0; i < kAxes; ++i) {
@@ -280,17 +279,15 @@ void Group::run_homing() noexcept {
   }
 }
 
-// A path is looked at a few places per period before it may be followed.
-void Group::plan_ahead() noexcept {
-  if (!planning_) {
+void Group::take_plan() noexcept {
+  const Plan* plan = desk_.take();
+  if (plan == nullptr) {
     return;
   }
-  if (const Fault fault = planner_.check(places_per_period_); !fault.ok()) {
-    planning_ = false;
-    motion_failed(fault, planner_.segment().source);
-  } else if (planner_.done()) {
-    planning_ = false;
-    follower_.add(planner_.segment());
+  if (plan->fault.ok()) {
+    follower_.add(plan->segment, plan->blend);
+  } else {
+    motion_failed(plan->fault, plan->segment.source);
   }
 }
 
@@ -317,7 +314,7 @@ void Group::run_motion(Signals& signals) noexcept {
     }
     begin_next(ahead_.count() > before);
   }
-  plan_ahead();
+  take_plan();
   follow_path();
   if (state_ == GroupState::Moving && settled() && !job_.running()) {
     come_to_standby();
@@ -361,34 +358,31 @@ Fault Group::move(const MoveCommand& command) noexcept {
   return {};
 }
 
-// What the planner said of a motion that begins where the last one ends.
-Fault Group::planned(Fault fault) noexcept {
-  planning_ = fault.ok();
+// For a motion that begins where the last one ends.
+void Group::ask_for_plan(const PlanRequest& request) noexcept {
+  desk_.ask(request);
   if (follower_.idle()) {
     follower_.reset(commanded());
     last_command_ = commanded();
   }
-  return fault;
 }
 
 void Group::begin_next(bool more) noexcept {
-  if (state_ != GroupState::Moving || !can_plan()) {
+  // Chains are few and used again, so none is begun while a forgotten one is still looked at.
+  if (state_ != GroupState::Moving || !can_plan() || desk_.holds_forgotten()) {
     return;
   }
   const Joints from = planned_end();
   const ReadAhead::Next next = ahead_.next(from, more);
-  if (next.chain == nullptr && next.command == nullptr) {
-    return;
-  }
-  const Fault fault =
-      planned(next.chain != nullptr ? planner_.begin(*next.chain, from) : planner_.begin(*next.command, from));
-  if (!fault.ok()) {
-    motion_failed(fault, planner_.segment().source);
+  if (next.chain != nullptr) {
+    ask_for_plan({{}, next.chain, from, !follower_.idle()});
+  } else if (next.command != nullptr) {
+    ask_for_plan({*next.command, nullptr, from, !follower_.idle()});
   }
 }
 
 void Group::forget_plans() noexcept {
-  planning_ = false;
+  desk_.forget();
   ahead_.clear();
 }
 

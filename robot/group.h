@@ -9,6 +9,7 @@
 #include "robot/axis_control.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
+#include "robot/planning_desk.h"
 #include "robot/read_ahead.h"
 #include "robot/set_point_gate.h"
 
@@ -59,7 +60,7 @@ class Group final : public Controller, private MotionPort {
   void run_motion(Signals& signals) noexcept;
   void run_stopping() noexcept;
   void begin_next(bool more) noexcept;
-  void plan_ahead() noexcept;
+  void take_plan() noexcept;
   void forget_plans() noexcept;
   void follow_path() noexcept;
   void stop_for(Fault fault) noexcept;
@@ -73,12 +74,12 @@ class Group final : public Controller, private MotionPort {
 
   // The job's side.
   [[nodiscard]] bool ready() const noexcept override { return ahead_.has_room(); }
-  [[nodiscard]] bool settled() const noexcept override { return ahead_.empty() && !planning_ && follower_.idle(); }
+  [[nodiscard]] bool settled() const noexcept override { return ahead_.empty() && desk_.free() && follower_.idle(); }
   Fault move(const MoveCommand& command) noexcept override;
 
-  [[nodiscard]] bool can_plan() const noexcept { return !planning_ && follower_.has_room(); }
+  [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
   [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
-  Fault planned(Fault fault) noexcept;
+  void ask_for_plan(const PlanRequest& request) noexcept;
 
   void report(Outputs& out) noexcept;  // group_report.cpp
   void report_motion(Outputs& out) noexcept;
@@ -86,14 +87,13 @@ class Group final : public Controller, private MotionPort {
   GroupParts parts_;
   Inverse inverse_;
   Places places_;
-  Planner planner_;
   Follower follower_;
   JobRunner job_;
   ReadAhead ahead_;
+  PlanningDesk desk_;
   std::array<AxisControl, kAxes> axes_;
   std::array<SetPointGate, kAxes> gates_;
   double period_ = 0.01;  // s
-  int places_per_period_ = 8;
 
   GroupState state_ = GroupState::Disabled;
   ErrorCode error_ = ErrorCode::Ok;
@@ -105,7 +105,6 @@ class Group final : public Controller, private MotionPort {
   double hardness_ = 1;       // of the stop in progress
   bool enabling_ = false;
   bool quick_stop_ = false;
-  bool planning_ = false;
   bool job_moves_ = false;
   double waited_ = 0;
 

@@ -8,6 +8,15 @@
 
 namespace indurop::robot {
 
+namespace {
+
+bool is_move(Service service) noexcept {
+  return service == Service::MoveJoints || service == Service::MoveLine || service == Service::MoveCircle ||
+         service == Service::DirectAbsolute || service == Service::LinearAbsolute;
+}
+
+}  // namespace
+
 void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (first_) {
     // What was asked for before this program started is not done now.
@@ -21,6 +30,9 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (!numbered && (!edit || by_edit_ || edit_done_)) {
     by_edit_ = by_edit_ && (edit || active_);
     return;
+  }
+  if (is_move(static_cast<Service>(request.code)) && state_ == GroupState::Moving && !job_.running() && !desk_.free()) {
+    return;  // the motion before it is being planned
   }
   acknowledged_ = request.number;
   by_edit_ = !numbered;
@@ -214,11 +226,7 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
     command.target = parts_.book.points[static_cast<std::size_t>(target)].target;
     command.mid = parts_.book.points[static_cast<std::size_t>(mid)].target;
   }
-  const Fault fault = planned(planner_.begin(command, planned_end()));
-  if (!fault.ok()) {
-    finish_service(fault.code, fault.axis);
-    return ErrorCode::Ok;
-  }
+  ask_for_plan({command, nullptr, planned_end(), !follower_.idle()});
   state_ = GroupState::Moving;
   return ErrorCode::Ok;
 }

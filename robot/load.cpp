@@ -39,6 +39,7 @@ Diagnostics check_settings(const Settings& s) {
   positive("tool_turn_speed", s.tool_turn_speed);
   positive("emergency_factor", s.emergency_factor);
   positive("following_limit", s.following_limit);
+  positive("plan_time", s.plan_time);
   const auto six = [&](const char* name, const std::vector<double>& values) {
     const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
     if (!values.empty() && (values.size() != kJoints || !sane)) {

@@ -362,17 +362,4 @@ Fault Planner::check(int places) noexcept {
   return {};
 }
 
-Fault Planner::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
-  constexpr double kSlack = 1.05;  // planned limits are exact for joint motions, sampled for the others
-  if (const int beyond = places_.arm().beyond_limits(to, 1e-6); beyond >= 0) {
-    return {ErrorCode::JointLimit, beyond + 1};
-  }
-  for (int i = 0; i < kAxes; ++i) {
-    if (!(std::abs(to[i] - from[i]) <= kSlack * seconds * joints_.velocity[i] + 1e-9)) {
-      return {ErrorCode::Speed, i + 1};
-    }
-  }
-  return {};
-}
-
 }  // namespace indurop::robot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a command to a path that is known to work: geometry first, then a look at places all along it for reach, joint
-// limits and singular positions, a few at a time so that a tick stays short.
+// limits and singular positions, a few at a time so that it can be given up in between.
 
 #pragma once
 
@@ -34,9 +34,6 @@ class Planner {
   // How `first` goes over into `second` with first.zone; zone 0 in the result if it cannot, or if
   // stopping at the corner is faster.
   [[nodiscard]] Blend blend(const Segment& first, const Segment& second) const noexcept;
-  // Whether the joints may get from one place to the other in that time. Errors: JointLimit, Speed.
-  [[nodiscard]] Fault allowed(const Joints& from, const Joints& to, double seconds) const noexcept;
-  [[nodiscard]] const JointLimits& joint_limits() const noexcept { return joints_; }
 
  private:
   static constexpr int kMost = 256;

@@ -5,7 +5,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kPerPeriod = 64;      // lines that are looked at
+constexpr int kPerPeriod = 16;      // lines that are looked at
 constexpr double kLongest = 10;     // s that a chain may take: what a timing has knots for
 constexpr std::size_t kLiving = 6;  // chains: one in the making, one that is planned, those that are followed
 

@@ -7,10 +7,12 @@
 #include <indurop/generated.h>
 #include <indurop/robot/controller.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "job_signals.h"
 
@@ -23,6 +25,13 @@ std::unique_ptr<robot::Controller> plcRobot;
 std::unique_ptr<JobSignals> signals;
 robot::Inputs in;
 robot::Outputs out;
+
+// In a simulation no time passes while a module runs, and a thread beside it would be done at any time or other.
+bool time_stands() {
+  const std::int64_t before = irp::now_ns();
+  std::this_thread::sleep_for(std::chrono::microseconds(100));
+  return irp::now_ns() == before;
+}
 
 std::vector<std::string> files(const std::string& names) {
   std::istringstream stream(names);
@@ -160,6 +169,8 @@ void start() {
   settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);
   settings.emergency_category = static_cast<robot::StopCategory>(
       irp::property("emergency_category", static_cast<int>(settings.emergency_category)));
+  settings.plan_time = irp::property("plan_time", settings.plan_time);
+  settings.plan_in_tick = irp::property("plan_in_tick", time_stands());
   settings.following_limit = irp::property("following_limit", settings.following_limit);
 
   std::vector<std::string> errors;

@@ -147,6 +147,10 @@ struct Settings {
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // of the accelerations, in an emergency stop
   double following_limit = 10;    // deg an axis may be behind
+  // s from asking for a motion to its beginning, if the robot stands: what planning it has time for. More for many
+  // short lines, as much again for each second that they take.
+  double plan_time = 0.02;
+  bool plan_in_tick = false;  // not beside it: where time is simulated, or no thread wanted
   // Of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };

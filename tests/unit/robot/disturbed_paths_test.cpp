@@ -39,7 +39,7 @@ class Disturbed {
     }
     const double often = in(0, 1) < 0.2 ? 0 : in(1, 12) * period_;
     bool calm = false;
-    for (int i = 0; i < 600 / period_ && !follower_.idle(); ++i) {
+    for (int i = 0; i < 3600 / period_ && !follower_.idle(); ++i) {
       calm = calm || i > 20 / period_;
       if (calm) {
         follower_.set_hold(false);
@@ -151,7 +151,7 @@ class Disturbed {
   Planner planner_{places_, limits_, tool_};
   std::array<Chain, 5> chains_;
   std::size_t next_chain_ = 0;
-  Follower follower_{places_, planner_};
+  Follower follower_{places_, limits_};
   Joints q_, v_ = Joints::Zero(), a_ = Joints::Zero();
 };
 

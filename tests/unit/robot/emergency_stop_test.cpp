@@ -32,7 +32,7 @@ class Emergency_stop : public testing::Test {
   Places places{arm, inverse};
   JointLimits limits = cell_limits();
   Planner planner{places, limits, ToolLimits{1, 4, 40, kPi, 4 * kPi, 40 * kPi}};
-  Follower sut{places, planner};
+  Follower sut{places, limits};
   Segment segment;  // the last one
   double period = 0.001;
   std::vector<Joints> way;
@@ -65,8 +65,8 @@ class Emergency_stop : public testing::Test {
     if (!fault.ok() || planner.segment().length <= 0) {
       return false;
     }
+    sut.add(planner.segment(), sut.idle() ? Blend{} : planner.blend(segment, planner.segment()));
     segment = planner.segment();
-    sut.add(segment);
     return true;
   }
   bool step() {

@@ -25,7 +25,8 @@ class Watched {
       fault = planner.check(1000);
     }
     if (fault.ok()) {
-      sut.add(planner.segment());
+      sut.add(planner.segment(), sut.idle() ? Blend{} : planner.blend(before_, planner.segment()));
+      before_ = planner.segment();
     }
     return fault;
   }
@@ -66,13 +67,14 @@ class Watched {
   Places places{arm, inverse};
   JointLimits limits = cell_limits();
   Planner planner{places, limits, ToolLimits{1, 4, 40, kPi, 4 * kPi, 40 * kPi}};
-  Follower sut{places, planner};
+  Follower sut{places, limits};
   double velocity = 0;
   double acceleration = 0;
   double jerk = 0;
   double time = 0;
 
  private:
+  Segment before_;
   double period_;
   Joints q_;
   Joints v_ = Joints::Zero();

@@ -112,7 +112,7 @@ class Path_time : public testing::Test {
   JointLimits limits = cell_limits();
   ToolLimits tool{1, 4, 40, kPi, 4 * kPi, 40 * kPi};
   Planner planner{places, limits, tool};
-  Follower sut{places, planner};
+  Follower sut{places, limits};
   std::mt19937 random{7};
 
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }

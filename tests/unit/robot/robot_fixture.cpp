@@ -45,6 +45,7 @@ Arm arm_of(const std::string& name) {
 std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings) {
   const auto folder = std::filesystem::temp_directory_path() / ("robot_test." + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
+  settings.plan_in_tick = true;  // time is what the test says it is
   settings.urdf = folder / "arm.urdf";
   std::ofstream(settings.urdf) << urdf;
   settings.jobs = {folder / "main.job"};

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/planning_desk.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr int kPortion = 64;  // places, between two looks whether it is still wanted
+constexpr std::chrono::milliseconds kSoon{1}, kLater{10};
+constexpr std::size_t kStack = std::size_t{256} * 1024;
+constexpr double kPerSecond = 1;  // what a second of a path takes longer to plan, as part of the time for all of it
+constexpr double kLongest = 60;   // s
+
+}  // namespace
+
+PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool,
+                           const Settings& settings)
+    : arm_(places.arm()),
+      tool_(tool),
+      due_(settings.plan_time / std::chrono::duration<double>(settings.period).count()),
+      in_tick_(settings.plan_in_tick),
+      planner_(places, joints, tool) {
+  in_tick_ = in_tick_ || !begin_thread();
+}
+
+PlanningDesk::~PlanningDesk() {
+  if (!in_tick_) {
+    ending_.store(true, std::memory_order_relaxed);
+    dropped_.store(true, std::memory_order_relaxed);
+    ::pthread_join(thread_, nullptr);
+  }
+}
+
+// An ordinary thread, whatever the one that loads the task is: below every tick, on any processor, and with a small
+// stack, since all of it may be locked in memory. Where there can be none the tick plans.
+bool PlanningDesk::begin_thread() noexcept {
+  pthread_attr_t attributes;
+  ::pthread_attr_init(&attributes);
+  ::pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
+  ::pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
+  ::pthread_attr_setstacksize(&attributes, kStack);
+  cpu_set_t all;
+  std::fill_n(reinterpret_cast<unsigned char*>(&all), sizeof all, static_cast<unsigned char>(0xFF));
+  ::pthread_attr_setaffinity_np(&attributes, sizeof all, &all);
+  const int code = ::pthread_create(&thread_, &attributes, enter, this);
+  ::pthread_attr_destroy(&attributes);
+  if (code == 0) {
+    ::pthread_setname_np(thread_, "robot-plan");
+  }
+  return code == 0;
+}
+
+void* PlanningDesk::enter(void* desk) noexcept {
+  static_cast<PlanningDesk*>(desk)->run();
+  return nullptr;
+}
+
+// It looks for work by itself: waking it would be a system call of the tick.
+void PlanningDesk::run() noexcept {
+  while (!ending_.load(std::memory_order_relaxed)) {
+    State asked = State::Asked;
+    if (state_.compare_exchange_strong(asked, State::Working, std::memory_order_acq_rel)) {
+      work();
+      state_.store(State::Made, std::memory_order_release);
+    } else {
+      std::this_thread::sleep_for(soon_.load(std::memory_order_relaxed) ? kSoon : kLater);
+    }
+  }
+}
+
+void PlanningDesk::work() noexcept {
+  plan_.blend = {};
+  plan_.fault = request_.chain != nullptr ? planner_.begin(*request_.chain, request_.from)
+                                          : planner_.begin(request_.command, request_.from);
+  while (plan_.fault.ok() && !planner_.done() && !dropped_.load(std::memory_order_relaxed)) {
+    plan_.fault = planner_.check(kPortion);
+  }
+  plan_.segment = planner_.segment();
+  if (plan_.fault.ok() && planner_.done()) {
+    if (request_.follows) {
+      plan_.blend = planner_.blend(before_, plan_.segment);
+    }
+    before_ = plan_.segment;
+  }
+}
+
+// About how long the motion takes at least. Where lines and circles are looked at in time, that decides.
+double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
+  const MoveCommand& command = request.command;
+  if (request.chain != nullptr) {
+    return std::min(request.chain->at_speed(), kLongest);
+  }
+  if (command.move == Move::Joint || !(command.speed > 0)) {
+    return 0;
+  }
+  const Pose start = arm_.forward(request.from);
+  const auto pose_of = [&](const Target& target) { return target.is_pose ? target.pose : arm_.forward(target.joints); };
+  const Pose end = pose_of(command.target);
+  double way = (end.position - start.position).norm();
+  if (command.move == Move::Circle) {
+    const Vec3 mid = pose_of(command.mid).position;
+    way = kPi / 2 * ((mid - start.position).norm() + (end.position - mid).norm());
+  }
+  const double turn = rotation_between(start.orientation, end.orientation).norm();
+  const double speed = command.tool_speed > 0 ? command.tool_speed : command.speed * tool_.velocity;
+  const double seconds = std::max(way / speed, turn / (command.speed * tool_.turn_velocity));
+  return seconds < kLongest ? seconds : kLongest;  // also if it is no number
+}
+
+void PlanningDesk::ask(const PlanRequest& request) noexcept {
+  asked_ = waits_ = true;
+  waiting_ = request;
+  periods_left_ = static_cast<int>(std::ceil(due_ * (1 + kPerSecond * seconds_of(request)) - 1e-6));
+  post();
+}
+
+void PlanningDesk::post() noexcept {
+  const State state = state_.load(std::memory_order_acquire);
+  if (!waits_ || (state != State::Free && state != State::Made)) {
+    return;
+  }
+  waits_ = false;
+  request_ = waiting_;
+  dropped_.store(false, std::memory_order_relaxed);
+  if (in_tick_) {
+    work();
+    state_.store(State::Made, std::memory_order_relaxed);
+  } else {
+    state_.store(State::Asked, std::memory_order_release);
+  }
+}
+
+void PlanningDesk::forget() noexcept {
+  asked_ = waits_ = false;
+  dropped_.store(true, std::memory_order_relaxed);
+  State asked = State::Asked;
+  state_.compare_exchange_strong(asked, State::Free, std::memory_order_acq_rel);
+}
+
+const Plan* PlanningDesk::take() noexcept {
+  if (!asked_) {
+    return nullptr;
+  }
+  post();
+  if (periods_left_ > 0) {
+    --periods_left_;
+    return nullptr;
+  }
+  if (waits_ || state_.load(std::memory_order_acquire) != State::Made) {
+    return nullptr;
+  }
+  asked_ = false;
+  return &plan_;
+}
+
+}  // namespace indurop::robot
