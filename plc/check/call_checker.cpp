@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
+#include "plc/check/generic_functions.h"
+#include "plc/library/hidden.h"
 #include "plc/model/make.h"
 
 namespace indurop::plc {
@@ -31,13 +35,6 @@ std::vector<std::string> names_of(const std::vector<LibraryParameter>& list) {
 bool is_parameter(const Variable& variable, bool output) noexcept {
   return output ? variable.section == ast::Section::Output
                 : variable.section == ast::Section::Input || variable.section == ast::Section::InOut;
-}
-
-// An array of as many dimensions and the same elements, whatever its bounds.
-bool fits_open(const Type& type, const Type& wanted) noexcept {
-  return type.kind == Type::Kind::Array && type.dimensions.size() == wanted.dimensions.size() &&
-         same_type(*type.element, *wanted.element) && in_range_of(*type.element, *wanted.element) &&
-         in_range_of(*wanted.element, *type.element);
 }
 
 bool has_body(const Pou& pou) noexcept {
@@ -84,11 +81,17 @@ bool CallChecker::take_enable(Expression& call, bool allowed) {
 
 // The functions of the library that the name may mean.
 std::vector<const LibraryFunction*> CallChecker::overloads_of(const std::string& name, const Type* wanted) const {
+  if (name.starts_with('@')) {
+    const bool elementary = wanted != nullptr && wanted->kind == Type::Kind::Elementary;
+    const LibraryFunction* hidden = find_hidden(name, elementary ? std::optional(wanted->elementary) : std::nullopt);
+    return hidden == nullptr ? std::vector<const LibraryFunction*>() : std::vector{hidden};
+  }
   if (same_name(name, "TRUNC") && wanted != nullptr && is_int(wanted->elementary)) {
     // Any whole number, says the standard: the one that is wanted, else DINT.
     return find_functions(fmt::format("TRUNC_{}", name_of(wanted->elementary)));
   }
-  const auto out = find_functions(name);
+  auto out = find_functions(name);
+  out = out.empty() ? find_typed(name) : std::move(out);
   const bool literal = context_.codesys() && out.size() == 1 && out.front()->cpp == "iec::to_literal";
   return literal ? find_functions("TO_STRING") : out;  // '42'
 }
@@ -118,6 +121,11 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     }
     return user_function(call, *pou->second);
   }
+  if (const auto generic = context_.program.generic_functions.find(upper(callee.name));
+      generic != context_.program.generic_functions.end()) {
+    const Pou* pou = generic_function(call, *generic->second);
+    return pou != nullptr ? user_function(call, *pou) : nullptr;
+  }
   if (const Type* type = nullptr; address_call(call, type)) {
     return type;
   }
@@ -128,12 +136,28 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   if (!overloads.empty()) {
     return library_function(call, overloads, wanted);
   }
+  no_function(call);
+  return nullptr;
+}
+
+// Why the name is none.
+void CallChecker::no_function(const Expression& call) {
+  const Expression& callee = call.operands[0];
   if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
     context_.error(call.at,
                    fmt::format("'{}' is not a function; the call of a function block stands alone, its result is "
                                "in an output",
                                callee.name));
-    return nullptr;
+    return;
+  }
+  if (callee.name.starts_with('@')) {
+    context_.error(call.at,
+                   "this C code gives the time as a number, declare the variable it goes to as UDINT or ULINT");
+    return;
+  }
+  if (const std::string why = why_left_out(context_.program.project, callee.name); !why.empty()) {
+    context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name, why));
+    return;
   }
   std::vector<std::string> known;
   for (const LibraryFunction& one : library_functions()) {
@@ -145,7 +169,6 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   const std::string hint = did_you_mean(callee.name, known);
   context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name,
                                       hint.empty() ? ", declare it as FUNCTION" : hint));
-  return nullptr;
 }
 
 void CallChecker::statement(Expression& call) {
@@ -161,6 +184,7 @@ void CallChecker::statement(Expression& call) {
   const bool is_instance = callee.kind != Expression::Kind::Name ||
                            (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) ||
                            same_name(callee.name, "SUPER") || same_name(callee.name, "THIS") ||
+                           expressions_.program_named(callee.name) != nullptr ||
                            context_.program.global_names.contains(upper(callee.name));
   if (!is_instance) {
     call.type = function(call, nullptr, true);
@@ -176,7 +200,7 @@ void CallChecker::statement(Expression& call) {
     return;
   }
   expressions_.note_call(callee);
-  if (!take_enable(call, true)) {
+  if (!may_run(callee) || !take_enable(call, true)) {
     return;
   }
   call.type = type;
@@ -261,22 +285,6 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
   }
 }
 
-void CallChecker::in_out(const Expression& call, Expression& given, const Variable& parameter) {
-  const Type* type = expressions_.reference(given);
-  if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
-    context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
-  }
-  const Type& wanted = *parameter.type;
-  if (type != nullptr && wanted.open && fits_open(*type, wanted)) {
-    return;
-  }
-  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type)) &&
-      !(type->kind == Type::Kind::Block && stands_for(*type, wanted))) {
-    context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,
-                                         to_string(wanted), with_article(*type)));
-  }
-}
-
 // What values without a name are for: the inputs; if there are more values, all parameters as they are declared.
 std::vector<const Variable*> CallChecker::by_position(const Expression& call, const Pou& pou) {
   std::vector<const Variable*> inputs;
@@ -340,6 +348,8 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
       output_to(argument, *parameter->type);
     } else if (parameter->section == ast::Section::InOut) {
       in_out(call, *argument.value, *parameter);
+    } else if (parameter->type->kind == Type::Kind::Block) {
+      instance_input(*argument.value, *parameter);
     } else {
       expressions_.assigned(*argument.value, *parameter->type);
     }

@@ -46,6 +46,10 @@ class CallChecker {
   void library_block(ast::Expression& call, const LibraryBlock& block);
   void in_out(const ast::Expression& call, ast::Expression& given, const Variable& parameter);
   static std::vector<const Variable*> by_position(const ast::Expression& call, const Pou& pou);
+  void no_function(const ast::Expression& call);
+  const Pou* generic_function(ast::Expression& call, const ast::Pou& tree);
+  void instance_input(ast::Expression& given, const Variable& parameter);
+  bool may_run(const ast::Expression& callee);
   void user_block(ast::Expression& call, const Pou& pou);
   void output_to(ast::Argument& argument, const Type& type);
   bool take_enable(ast::Expression& call, bool allowed);

@@ -97,6 +97,9 @@ class ExpressionChecker {
   const Type* bare_enum_value(ast::Expression& expression, const Type* wanted,
                               std::pair<std::string, std::string>& both);
   const Type* unknown(ast::Expression& expression, const Type* wanted);
+  // The instance that a program is for others, which use it by its name; null: there is no such program, or the dialect
+  // does not have that.
+  Global* program_named(std::string_view name);
   void note_write(const ast::Expression& expression);
   // An instance that is called, or passed by reference.
   void note_call(const ast::Expression& expression);

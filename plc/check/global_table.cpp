@@ -9,6 +9,7 @@
 #include "plc/check/expression_checker.h"
 #include "plc/check/foreign_types.h"
 #include "plc/check/object_checker.h"
+#include "plc/check/places.h"
 #include "plc/check/shared_names.h"
 #include "plc/check/type_builder.h"
 
@@ -123,8 +124,8 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     const Constant* known = scalar ? constant_of(*variable.initial->value) : nullptr;
     global.constant = known != nullptr && !type.is_string() ? std::optional(stored(*known, type)) : std::nullopt;
   } else if (is_private(type)) {
-    if (variable.retain) {
-      context.error(variable.at, kNoRetain);
+    if (variable.retain && !holds_instances(type)) {
+      context.error(variable.at, fmt::format("{} cannot be kept over a restart, remove RETAIN", with_article(type)));
     }
     global.kind = Global::Kind::Private;
   }
@@ -184,10 +185,8 @@ void declare_global(Context& context, ast::Variable& variable) {
 // AT %I*: a shared variable of the declared name.
 Global* declare_placeless(Context& context, ast::Variable& variable, const Type& type) {
   if (context.pou != nullptr && context.pou->tree->kind != ast::Pou::Kind::Program) {
-    context.error(variable.at,
-                  fmt::format("AT {} in a function block is a place of its own for each instance, which is "
-                              "not supported; make it an input or output",
-                              ast::to_string(*variable.address)));
+    context.error(variable.at, fmt::format("AT {} has no place in a call, declare it in a program or function block",
+                                           ast::to_string(*variable.address)));
     return nullptr;
   }
   const auto address = std::exchange(variable.address, std::nullopt);

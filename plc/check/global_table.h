@@ -10,9 +10,6 @@
 
 namespace indurop::plc {
 
-inline constexpr const char* kNoRetain =
-    "an instance of a function block is not kept over a restart, make the values that matter RETAIN variables";
-
 // Declares a variable of VAR_GLOBAL.
 void declare_global(Context& context, ast::Variable& variable);
 // The variable at an address; declared now if no declaration names the address.

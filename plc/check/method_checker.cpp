@@ -49,6 +49,10 @@ const Type* ExpressionChecker::this_or_super(Expression& expression) {
                                    : fmt::format("{} extends nothing, so there is no SUPER", self->name));
     return nullptr;
   }
+  if (self->type == nullptr) {
+    context_.error(expression.at, "a PROGRAM is no instance, so it has no THIS");
+    return nullptr;
+  }
   resolved(expression).meaning = super ? Meaning::Super : Meaning::This;
   return super ? self->base->type : self->type;
 }

@@ -71,6 +71,9 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
   if (const auto found = program.global_names.find(capitals); found != program.global_names.end()) {
     return global(expression, *found->second);
   }
+  if (Global* instance = program_named(expression.name)) {
+    return global(expression, *instance);
+  }
   if (const auto type = program.type_names.find(capitals); type != program.type_names.end()) {
     out.meaning = Meaning::Type;
     expression.type = type->second;
@@ -156,7 +159,7 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
       pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Program) {
     context_.error(expression.at,
                    fmt::format("{} is a program, whose variables are its own; declare what others use as "
-                               "VAR_GLOBAL",
+                               "VAR_GLOBAL, or say --dialect codesys",
                                pou->second->name));
     return nullptr;
   }
@@ -173,6 +176,31 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
   context_.error(expression.at, fmt::format("'{}' is not declared{}", expression.name,
                                             hint.empty() ? ", declare it between VAR and END_VAR" : hint));
   return nullptr;
+}
+
+Global* ExpressionChecker::program_named(std::string_view name) {
+  Program& program = context_.program;
+  const auto found = context_.codesys() ? program.pou_names.find(upper(name)) : program.pou_names.end();
+  if (found == program.pou_names.end() || found->second->tree->kind != ast::Pou::Kind::Program) {
+    return nullptr;
+  }
+  Pou& pou = *found->second;
+  if (pou.instance == nullptr) {
+    Type type;
+    type.kind = Type::Kind::Block;
+    type.name = pou.name;
+    type.pou = &pou;
+    Global global;
+    global.kind = Global::Kind::Private;
+    global.at = pou.tree->at;
+    global.name = pou.name + "_program";
+    while (program.global_names.contains(upper(global.name))) {
+      global.name += "_1";
+    }
+    global.type = program.types.add(std::move(type));
+    pou.instance = &program.globals.emplace_back(std::move(global));
+  }
+  return pou.instance;
 }
 
 const Type* ExpressionChecker::enum_value(Expression& expression, const Type& type, std::string_view item) {
@@ -303,10 +331,13 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       expression.name = found->name;
       return found->type;
     }
-    const bool inside = found != nullptr && found->section == ast::Section::Local && found->global == nullptr &&
-                        !found->is_constant && found->type != nullptr;
+    if (found != nullptr && found->global != nullptr && found->section == ast::Section::Local && context_.codesys()) {
+      return global(expression, *context_.program.global_names.at(upper(found->global->name)));
+    }
+    const bool inside = found != nullptr && found->section == ast::Section::Local && found->type != nullptr;
     if (inside && context_.codesys()) {
       resolved(expression).is_output = true;  // read, not written
+      resolved(expression).constant = found->constant;
       expression.name = found->name;
       return found->type;
     }

@@ -229,7 +229,8 @@ class ObjectChecker {
                        fmt::format("{} is not called here, give initial values to the variables instead", special));
       }
     }
-    if (pou_.tree->kind != Kind::FunctionBlock && pou_.tree->kind != Kind::Class &&
+    const bool program = pou_.tree->kind == Kind::Program && context_.codesys();
+    if (!program && pou_.tree->kind != Kind::FunctionBlock && pou_.tree->kind != Kind::Class &&
         pou_.tree->kind != Kind::Interface) {
       context_.error(tree.at, "only function blocks, classes and interfaces have methods, write a FUNCTION");
       return;

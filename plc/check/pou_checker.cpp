@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "plc/check/generic_functions.h"
 #include "plc/check/global_table.h"
 #include "plc/check/object_checker.h"
+#include "plc/check/places.h"
 #include "plc/check/statement_checker.h"
 #include "plc/check/type_builder.h"
 #include "plc/check/usage_checker.h"
@@ -31,10 +34,6 @@ const Pou* held(const Type& type) noexcept {
   return type.kind == Type::Kind::Array ? held(*type.element) : type.kind == Type::Kind::Block ? type.pou : nullptr;
 }
 
-bool is_instance(const Type& type) noexcept {
-  return type.kind == Type::Kind::Block || (type.kind == Type::Kind::Array && is_instance(*type.element));
-}
-
 class VariableDeclarer {
  public:
   VariableDeclarer(Context& context, Pou& pou) : context_(context), pou_(pou), expressions_(context) {}
@@ -57,9 +56,9 @@ class VariableDeclarer {
     }
     if (declared.section == Section::External) {
       made->global = external_global(context_, declared, *type);
-    } else if (declared.address && declared.address->numbers.empty()) {
+    } else if (declared.address && declared.address->numbers.empty() && !pou_.is_block()) {
       made->global = declare_placeless(context_, declared, *type);
-    } else if (declared.address) {
+    } else if (declared.address && !declared.address->numbers.empty()) {
       made->global = &declare_located(context_, declared, *type);
     } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
                declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
@@ -86,7 +85,8 @@ class VariableDeclarer {
       context_.error(declared.at, abstract_instance(*held_one));
     }
     const bool has_memory = !pou_.is_callable() || declared.is_static || declared.of_instance;
-    if (!has_memory && declared.section != Section::InOut && declared.section != Section::External) {
+    const bool given = declared.section == Section::Input || declared.section == Section::InOut;
+    if (!has_memory && !given && declared.section != Section::External) {
       context_.error(declared.at, pou_.owner != nullptr
                                       ? "a METHOD has no memory for function blocks, declare the instance as VAR_INST"
                                       : "a FUNCTION has no memory for function blocks, make it a FUNCTION_BLOCK");
@@ -94,7 +94,7 @@ class VariableDeclarer {
   }
 
   void check_kind(const ast::Variable& declared, const Type& type) {
-    const bool is_block = is_instance(type);
+    const bool is_block = holds_instances(type);
     if (is_block) {
       check_instance(declared, type);
     }
@@ -108,11 +108,7 @@ class VariableDeclarer {
     if (is_block && declared.constant) {
       context_.error(declared.at, "an instance of a function block cannot be CONSTANT");
     }
-    if (declared.retain && is_block) {
-      context_.error(declared.at, kNoRetain);
-    } else if (declared.retain && pou_.tree->kind != ast::Pou::Kind::Program) {
-      context_.warning(declared.at, "RETAIN has no effect here, only in programs and in VAR_GLOBAL");
-    }
+    check_memory(declared, type);
     if (declared.edge != ast::Edge::None &&
         (!type.is(Elementary::Bool) || declared.section != Section::Input || pou_.is_callable())) {
       context_.error(declared.at, "R_EDGE and F_EDGE are for BOOL inputs of function blocks and programs");
@@ -125,6 +121,25 @@ class VariableDeclarer {
     }
     if (pou_.tree->kind == ast::Pou::Kind::Program && declared.section == Section::InOut) {
       context_.error(declared.at, "a PROGRAM has no caller that could give a VAR_IN_OUT, use VAR_EXTERNAL");
+    }
+  }
+
+  // RETAIN, and AT %I* in function blocks: a shared variable for each instance.
+  void check_memory(const ast::Variable& declared, const Type& type) {
+    const bool is_block = holds_instances(type);
+    const bool program = pou_.tree->kind == ast::Pou::Kind::Program;
+    const bool lasts = declared.section != Section::Temp && (program || (pou_.is_block() && !declared.is_static));
+    if (declared.retain && !lasts) {
+      context_.warning(declared.at, "RETAIN has no effect here, only in programs, function blocks and VAR_GLOBAL");
+    } else if (declared.retain && !is_block && is_private(type)) {
+      context_.error(declared.at, fmt::format("{} cannot be kept over a restart, remove RETAIN", with_article(type)));
+    }
+    const bool placeless = declared.address && declared.address->numbers.empty();
+    if (placeless && pou_.is_block() &&
+        (!lasts || declared.constant || declared.section == Section::InOut || is_private(type))) {
+      context_.error(declared.at, fmt::format("{} is a value of each instance, so it stands in VAR, VAR_INPUT or "
+                                              "VAR_OUTPUT and is no instance, pointer or UNION",
+                                              ast::to_string(*declared.address)));
     }
   }
 
@@ -232,6 +247,10 @@ void declare_pous(Context& context) {
                                          to_string(known->second->tree->at)));
       continue;
     }
+    if (is_generic(tree)) {
+      context.program.generic_functions.emplace(upper(tree.name), &tree);
+      continue;
+    }
     Pou& pou = add(context, tree);
     context.program.pou_names.emplace(upper(tree.name), &pou);
     declare_methods(context, pou);
@@ -241,7 +260,7 @@ void declare_pous(Context& context) {
 namespace {
 
 void check_result(Context& context, const Pou& pou) {
-  if (pou.result != nullptr && is_instance(*pou.result)) {
+  if (pou.result != nullptr && holds_instances(*pou.result)) {
     context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
   }
   if (pou.result != nullptr && pou.result->open) {
@@ -251,31 +270,77 @@ void check_result(Context& context, const Pou& pou) {
 
 }  // namespace
 
-void declare_variables(Context& context) {
-  for (Pou& pou : context.program.pous) {
-    context.pou = &pou;
-    VariableDeclarer declarer(context, pou);
-    if (pou.tree->result) {
-      pou.result = build_type(context, *pou.tree->result);
-      check_result(context, pou);
-      if (pou.result != nullptr) {
-        declarer.use_types(*pou.result);
-      }
-    }
-    for (ast::Variable& one : pou.tree->variables) {
-      declarer.declare(one);
+namespace {
+
+void declare_variables_of(Context& context, Pou& pou) {
+  Pou* before = std::exchange(context.pou, &pou);
+  VariableDeclarer declarer(context, pou);
+  if (pou.tree->result) {
+    pou.result = build_type(context, *pou.tree->result);
+    check_result(context, pou);
+    if (pou.result != nullptr) {
+      declarer.use_types(*pou.result);
     }
   }
-  context.pou = nullptr;
+  for (ast::Variable& one : pou.tree->variables) {
+    declarer.declare(one);
+  }
+  context.pou = before;
 }
 
+}  // namespace
+
+void declare_variables(Context& context) {
+  for (Pou& pou : context.program.pous) {
+    declare_variables_of(context, pou);
+  }
+}
+
+Pou& declare_further(Context& context, ast::Pou& tree) {
+  Pou& pou = add(context, tree);
+  context.program.pou_names.emplace(upper(tree.name), &pou);
+  declare_variables_of(context, pou);
+  return pou;
+}
+
+namespace {
+
+// What only shows when the variables of all function blocks are known.
+void check_instances(Context& context) {
+  for (const Pou& pou : context.program.pous) {
+    context.pou = nullptr;
+    for (const Variable& one : pou.variables) {
+      const bool own = one.type != nullptr && one.section != Section::External && one.section != Section::InOut;
+      if (!own || !holds_instances(*one.type)) {
+        continue;
+      }
+      const bool lasts = !one.declared->is_static && !one.declared->of_instance && !pou.is_callable() &&
+                         one.section != Section::Temp && one.section != Section::Input;
+      if (!lasts && holds_places(*one.type)) {
+        context.error(one.declared->at,
+                      fmt::format("{} has variables AT %I* or %Q*, which only an instance in VAR of a program or "
+                                  "function block, or in VAR_GLOBAL, gives a place",
+                                  to_string(*one.type)));
+      }
+      if (const LibraryBlock* block = one.retain ? forgetful_block(*one.type) : nullptr) {
+        context.warning(one.declared->at,
+                        fmt::format("of {} only inputs and outputs are kept over a restart", block->name));
+      }
+    }
+  }
+}
+
+}  // namespace
+
 void check_bodies(Context& context) {
+  check_instances(context);
   const auto has_body = [](const Pou& pou) {
     return pou.owner == nullptr ? pou.tree->kind != ast::Pou::Kind::Interface
                                 : !pou.tree->is_abstract && pou.owner->tree->kind != ast::Pou::Kind::Interface;
   };
   std::vector<Pou*> fine;
-  for (Pou& pou : context.program.pous) {
+  for (std::size_t i = 0; i < context.program.pous.size(); ++i) {  // calls may make further ones
+    Pou& pou = context.program.pous[i];
     if (!has_body(pou)) {
       continue;
     }
@@ -295,6 +360,7 @@ void check_bodies(Context& context) {
     warn_about_usage(context, *pou);
   }
   context.pou = nullptr;
+  warn_about_uncalled(context);
 }
 
 void order_pous(Context& context) {

@@ -15,4 +15,7 @@ void check_bodies(Context& context);
 // Fills Program::order; a POU that needs itself is an error.
 void order_pous(Context& context);
 
+// One more function, which a call asks for: its body is checked after those before it.
+Pou& declare_further(Context& context, ast::Pou& tree);
+
 }  // namespace indurop::plc

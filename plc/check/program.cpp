@@ -15,7 +15,8 @@ Variable* Pou::find(const std::string& capitals) const {
 }
 
 const Pou* Pou::self() const noexcept {
-  return owner != nullptr ? owner : is_block() ? this : nullptr;
+  const bool has_methods = tree->kind == ast::Pou::Kind::Program && !methods.empty();
+  return owner != nullptr ? owner : is_block() || has_methods ? this : nullptr;
 }
 
 std::string Pou::title() const {

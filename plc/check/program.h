@@ -84,6 +84,8 @@ struct Pou {
   bool calls_blocks = false;                     // which need to know the scan
   std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
+  Global* instance = nullptr;  // of a program that others use by its name: that one
+
   // Object orientation
   Pou* owner = nullptr;                // of a method: whose instances it works on
   const Pou* base = nullptr;           // EXTENDS of a function block or class
@@ -95,7 +97,7 @@ struct Pou {
 
   // A variable of it, else of the instance it works on, else an inherited one.
   [[nodiscard]] Variable* find(const std::string& capitals) const;
-  // Whose THIS^ is: itself, or of a method its owner; null: there are no instances.
+  // Whose methods are its own: itself, or of a method its owner; null: there are no instances.
   [[nodiscard]] const Pou* self() const noexcept;
   // "Motor.Start"
   [[nodiscard]] std::string title() const;
@@ -170,6 +172,8 @@ struct Program {
   std::map<std::string, Global*> global_names;
   std::deque<Pou> pous;
   std::map<std::string, Pou*> pou_names;
+  std::map<std::string, const ast::Pou*> generic_functions;  // with inputs such as ANY_NUM, in capitals
+  std::deque<ast::Pou> made_functions;                       // of them, for the types they are called with
   bool types_known = false;
   bool has_objects = false;                                     // classes, interfaces, methods
   std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later

@@ -39,6 +39,9 @@ class TaskPlanner {
       if (pou.tree->kind != ast::Pou::Kind::Program || mentioned_.contains(&pou)) {
         continue;
       }
+      if (pou.instance != nullptr && is_called(pou)) {
+        continue;  // another one runs it
+      }
       if (configured) {
         context_.warning(pou.tree->at, fmt::format("the program {} is in no task and never runs", pou.name));
         continue;
@@ -49,6 +52,11 @@ class TaskPlanner {
   }
 
  private:
+  [[nodiscard]] bool is_called(const Pou& pou) const {
+    const auto& all = context_.program.pous;
+    return std::any_of(all.begin(), all.end(), [&](const Pou& one) { return one.calls.contains(&pou); });
+  }
+
   TaskPlan& default_task() {
     const auto known =
         std::find_if(tasks().begin(), tasks().end(), [](const TaskPlan& one) { return one.name.empty(); });
@@ -135,15 +143,40 @@ void check_private_globals(Context& context) {
     std::vector<std::string> users;
     for (const TaskPlan& task : context.program.tasks) {
       const auto pous = reached_by(task);
-      if (std::any_of(pous.begin(), pous.end(), [&](const Pou* pou) { return pou->globals.contains(&global); })) {
+      const bool runs = std::any_of(task.programs.begin(), task.programs.end(),
+                                    [&](const TaskProgram& one) { return one.pou->instance == &global; });
+      if (runs ||
+          std::any_of(pous.begin(), pous.end(), [&](const Pou* pou) { return pou->globals.contains(&global); })) {
         users.push_back(task.name);
       }
     }
-    if (users.size() > 1) {
+    const Pou* pou = global.type->pou;
+    if (users.size() > 1 && pou != nullptr && pou->instance == &global) {
+      context.error(global.at,
+                    fmt::format("the tasks {} and {} both use the program {} by its name, and they are modules "
+                                "of their own; declare what they share as VAR_GLOBAL",
+                                users[0], users[1], pou->name));
+    } else if (users.size() > 1) {
       context.error(global.at,
                     fmt::format("'{}' is an instance of a function block and used by the tasks {} and {}, which are "
                                 "modules of their own; declare one instance for each",
                                 global.name, users[0], users[1]));
+    }
+  }
+}
+
+// A program that others use by its name is one.
+void check_named_programs(Context& context) {
+  for (const Pou& pou : context.program.pous) {
+    std::size_t count = 0;
+    for (const TaskPlan& task : context.program.tasks) {
+      count += static_cast<std::size_t>(std::count_if(task.programs.begin(), task.programs.end(),
+                                                      [&](const TaskProgram& one) { return one.pou == &pou; }));
+    }
+    if (pou.instance != nullptr && count > 1) {
+      context.error(pou.tree->at, fmt::format("{} has several instances, so its name does not say which one others "
+                                              "mean; declare what they use as VAR_GLOBAL",
+                                              pou.name));
     }
   }
 }
@@ -163,6 +196,7 @@ void plan_tasks(Context& context) {
   planner.rest(configured);
   std::erase_if(context.program.tasks, [](const TaskPlan& one) { return one.programs.empty(); });
   check_private_globals(context);
+  check_named_programs(context);
   if (context.program.tasks.empty() && !context.program.library && !context.diagnostics.failed()) {
     context.error({}, "there is no PROGRAM that could run, write one: PROGRAM main ... END_PROGRAM");
   }

@@ -23,12 +23,9 @@ bool is_whole(Elementary type) noexcept {
 std::string whose(const std::string& name) {
   const std::string capitals = upper(name);
   if (capitals == "ANY" || capitals.starts_with("ANY_")) {
-    return "; types of every kind are for the functions of the library, write a function for each type you use";
+    return "; types of every kind are for inputs of functions, write a function block for each type you use";
   }
-  if (capitals.starts_with("HMI_")) {
-    return "; it belongs to Beremiz' SVGHMI, give its pous.xml with the program, or declare TYPE " + name + " : ...";
-  }
-  if (capitals.starts_with("PYTHON_") || capitals == "LOGGER") {
+  if (capitals.starts_with("PYTHON_")) {
     return "; it is Python or C code of Beremiz, write a module of its own for that, with shared variables between";
   }
   return ", declare it";
@@ -123,7 +120,8 @@ class TypeBuilder {
     for (std::size_t i = 0; i < kElementaryCount; ++i) {
       known.emplace_back(name_of(static_cast<Elementary>(i)));
     }
-    const std::string hint = did_you_mean(spec.name, known);
+    std::string hint = why_left_out(context_.program.project, spec.name);
+    hint = hint.empty() ? did_you_mean(spec.name, known) : hint;
     context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
                                         hint.empty() ? whose(spec.name) : hint));
     return nullptr;
@@ -231,7 +229,7 @@ class TypeBuilder {
     type.kind = Type::Kind::Struct;
     type.overlaps = spec.overlaps;
     type.name = name;
-    bool fine = true;
+    bool fine = !spec.element || inherit(spec, type);
     for (ast::Variable& field : spec.fields) {
       const auto same = [&](const Field& other) { return same_name(other.name, field.name); };
       if (std::any_of(type.fields.begin(), type.fields.end(), same)) {
@@ -269,6 +267,19 @@ class TypeBuilder {
     Type* added = context_.program.types.add(std::move(type));
     context_.program.named_types.push_back(added);
     return added;
+  }
+
+  // Fields of the STRUCT it extends come first.
+  bool inherit(ast::TypeSpec& spec, Type& type) {
+    const Type* base = build(*spec.element, "");
+    if (base != nullptr && (base->kind != Type::Kind::Struct || base->overlaps || spec.overlaps)) {
+      context_.error(spec.element->at, fmt::format("{} is no STRUCT that could be extended", to_string(*base)));
+      return false;
+    }
+    if (base != nullptr) {
+      type.fields = base->fields;
+    }
+    return base != nullptr;
   }
 
   const Type* enumeration(ast::TypeSpec& spec, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/places.h"
 
 namespace indurop::plc {
 namespace {
@@ -101,9 +102,12 @@ bool ExpressionChecker::writable(const Expression& expression) {
     context_.error(expression.at, fmt::format("'{}' is CONSTANT and cannot be changed", root.name));
     return false;
   }
-  if (global != nullptr && global->address.starts_with("%I")) {
+  const std::string address = global != nullptr                                ? global->address
+                              : variable != nullptr && is_placeless(*variable) ? to_string(*variable->declared->address)
+                                                                               : "";
+  if (address.starts_with("%I")) {
     context_.error(expression.at,
-                   fmt::format("{} is an input, which only the world outside changes; use %Q or %M", global->address));
+                   fmt::format("{} is an input, which only the world outside changes; use %Q or %M", address));
     return false;
   }
   // Outputs of an instance belong to its function block.

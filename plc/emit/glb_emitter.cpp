@@ -76,10 +76,8 @@ class GlbEmitter {
     }
     for (const TaskPlan& task : program_.tasks) {
       for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
-        const ast::Variable& declared = *one.variable->declared;
-        need(*one.variable->type);
-        variable(std::string(last_name(one.shared_name)), *one.variable->type,
-                 declared.initial ? &*declared.initial : nullptr, declared.retain, declared.comment, declared.at);
+        need(*one.type);
+        variable(std::string(last_name(one.shared_name)), *one.type, one.initial, one.retain, one.comment, one.at);
       }
     }
     return std::move(out_);

@@ -17,10 +17,6 @@ bool in_image(const Global& global) noexcept {
   return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
 }
 
-std::string instance_name(const TaskProgram& one) {
-  return "instance_" + one.instance;
-}
-
 class ModuleEmitter {
  public:
   ModuleEmitter(const Program& program, const TaskPlan& task, const ModuleOptions& options)
@@ -165,10 +161,14 @@ class ModuleEmitter {
 
   void instances() {
     for (const TaskProgram& one : task_.programs) {
-      out_.line(fmt::format("plc::{} {};", cpp_name(std::string_view(one.pou->name)), instance_name(one)));
+      if (one.pou->instance == nullptr) {
+        out_.line(fmt::format("plc::{} {};", cpp_name(std::string_view(one.pou->name)), instance_of(one)));
+      }
     }
     for (const SharedLocal& one : use_.locals) {
-      out_.line(fmt::format("{} before_{}_{}{{}};", cpp_type(*one.variable->type), one.instance, one.variable->name));
+      if (!one.input) {
+        out_.line(fmt::format("{} before_{}{{}};", cpp_type(*one.type), one.name));
+      }
     }
     out_.line();
   }
@@ -181,9 +181,10 @@ class ModuleEmitter {
       }
     }
     for (const SharedLocal& one : use_.locals) {
-      const std::string local = member_of(one);
-      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", local, one.shared_name));
-      out_.line(fmt::format("before_{}_{} = {};", one.instance, one.variable->name, local));
+      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", one.cpp, one.shared_name));
+      if (!one.input) {
+        out_.line(fmt::format("before_{} = {};", one.name, one.cpp));
+      }
     }
     if (std::any_of(globals_.begin(), globals_.end(), [](const Global* one) { return in_image(*one); })) {
       out_.line("before = shared;");
@@ -197,8 +198,26 @@ class ModuleEmitter {
       }
     }
     for (const SharedLocal& one : use_.locals) {
-      out_.line(fmt::format("iec::write_changed(::{}, {}, before_{}_{});", one.shared_name, member_of(one),
-                            one.instance, one.variable->name));
+      if (!one.input) {
+        out_.line(fmt::format("iec::write_changed(::{}, {}, before_{});", one.shared_name, one.cpp, one.name));
+      }
+    }
+    out_.close();
+    restore();
+  }
+
+  // Once, when what was retained is there: timers go on, and an input that was true is no edge.
+  void restore() {
+    if (use_.restored.empty()) {
+      return;
+    }
+    out_.line();
+    out_.open("void restore([[maybe_unused]] const iec::Scan& scan)");
+    out_.line("static bool done = false;");
+    out_.line("if (done) { return; }");
+    out_.line("done = true;");
+    for (const std::string& one : use_.restored) {
+      out_.line(one);
     }
     out_.close();
   }
@@ -219,17 +238,16 @@ class ModuleEmitter {
     }
   }
 
-  std::string member_of(const SharedLocal& one) const {
-    return fmt::format("instance_{}.{}", one.instance, cpp_name(std::string_view(one.variable->name)));
-  }
-
   void entry() {
     out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
     out_.open("void POU_PROGRAM()");
     out_.line("const iec::Scan scan{irp::release_ns()};");
     out_.line("read_shared();");
+    if (!use_.restored.empty()) {
+      out_.line("restore(scan);");
+    }
     for (const TaskProgram& one : task_.programs) {
-      out_.line(instance_name(one) + "(scan);");
+      out_.line(instance_of(one) + "(scan);");
     }
     out_.line("write_shared();");
     out_.close();

@@ -142,7 +142,8 @@ void declare_pou(const Pou& pou, TextWriter& out) {
 }
 
 void define_pou(const Pou& pou, TextWriter& out) {
-  const bool has_body = !pou.tree->is_abstract && (pou.owner == nullptr || pou.owner->is_block());
+  const bool inside = pou.owner != nullptr && pou.owner->tree->kind == ast::Pou::Kind::Interface;
+  const bool has_body = !pou.tree->is_abstract && !inside;
   if (pou.is_callable()) {
     if (has_body) {
       out.line();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a task needs of the whole program, and which local variables of its programs are shared too.
+// What a task needs of the whole program, and which local variables of its programs and instances are shared too.
 
 #pragma once
 
@@ -11,19 +11,30 @@
 
 namespace indurop::plc {
 
-// A variable of a program that everybody can see: RETAIN, or all of them on request.
+// A variable of a program or instance that everybody can see: RETAIN, AT %I* in a function block, or all those of
+// programs on request.
 struct SharedLocal {
-  std::string instance;
-  const Variable* variable = nullptr;
-  std::string shared_name;  // "main::MAIN_counter"
+  std::string cpp;          // "instance_main.c.n"
+  std::string name;         // "main_c_n"
+  std::string shared_name;  // "main::main_c_n"
+  const Type* type = nullptr;
+  const ast::Initial* initial = nullptr;
+  bool retain = false;
+  bool input = false;   // AT %I*: the program does not write it
+  std::string comment;  // with its address
+  Place at;
 };
 
 struct TaskUse {
   std::vector<const Pou*> pous;  // each behind those it uses
   std::map<const Global*, GlobalUse> globals;
   std::vector<SharedLocal> locals;
+  std::vector<std::string> restored;  // statements of C++ for when what is RETAIN has come
 };
 
 [[nodiscard]] TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals);
+
+// In C++: the task's own variable, or the global that the program is where others use it by its name.
+[[nodiscard]] std::string instance_of(const TaskProgram& program);
 
 }  // namespace indurop::plc

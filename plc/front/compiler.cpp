@@ -103,8 +103,10 @@ class Compiler {
       }
       check_options.foreign = variables_of(foreign.program);
     }
-    Project project = read_project(options_.files, {options_.watch}, read_, diagnostics_);
+    Project project = read_project(options_.files, options_.libraries,
+                                   {options_.watch, options_.dialect == Dialect::Codesys}, read_, diagnostics_);
     project.dialect = options_.dialect.value_or(project.dialect);
+    out_.dialect = project.dialect;
     if (project.incomplete) {
       return;  // what is left out would be missed everywhere
     }

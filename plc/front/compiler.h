@@ -15,6 +15,7 @@ namespace indurop::plc {
 
 struct CompileOptions {
   std::vector<std::string> files;
+  std::vector<std::string> libraries;  // .plclib files, "motors.plclib@1.2"
   std::vector<std::string> glb_files;  // whose shared variables the program may use
   std::string name;                    // of the module; empty: the first file's name
   std::string space;                   // namespace of its shared variables; empty: the module's name, "plc" for main
@@ -34,6 +35,7 @@ struct ModuleText {
 
 struct Compiled {
   bool ok = false;
+  Dialect dialect = Dialect::Iec;             // that counted
   std::vector<base::Diagnostic> diagnostics;  // in the order of the files; errors in .glb files come first
   std::string name;
   std::string glb;  // text of <name>.glb, with includes of the other files

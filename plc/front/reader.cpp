@@ -7,11 +7,16 @@
 #include <array>
 #include <iterator>
 
+#include "plc/front/actions.h"
+#include "plc/front/builtin.h"
 #include "plc/front/encoding.h"
+#include "plc/front/library_file.h"
+#include "plc/library/standard.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/pou.h"
 #include "plc/plcopen/read_project.h"
 #include "plc/st/parser.h"
+#include "plc/twincat/read_object.h"
 
 namespace indurop::plc {
 namespace {
@@ -23,15 +28,28 @@ bool has_step_type(const Project& project) {
   return std::any_of(project.types.begin(), project.types.end(), is_step_type);
 }
 
-Project read_st(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> others;
-  Project project = st::parse_project({text, at}, others, diagnostics);
+// Bodies in other languages than Structured Text.
+void lower_bodies(std::vector<st::WrittenBody>& others, Project& project, const ReadOptions& options,
+                  Diagnostics& diagnostics) {
   for (st::WrittenBody& other : others) {
     if (other.code.body.language == network::Body::Language::Sfc && !has_step_type(project)) {
       project.types.push_back(lower::step_type());
     }
     lower::lower_pou(other.code, options, project, project.pous[other.pou], diagnostics);
   }
+}
+
+Project read_st(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> others;
+  Project project = st::parse_project({text, at, options.in_editor}, others, diagnostics);
+  lower_bodies(others, project, options, diagnostics);
+  return project;
+}
+
+Project read_twincat(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> others;
+  Project project = twincat::read_object(text, at, others, diagnostics);
+  lower_bodies(others, project, options, diagnostics);
   return project;
 }
 
@@ -44,7 +62,7 @@ plcopen::Document st_document(std::string_view text, const Place& at, Diagnostic
   plcopen::Document out;
   out.project = st::parse_declarations({text, at}, bodies, diagnostics);
   for (ast::Pou& pou : out.project.pous) {
-    out.pous.push_back({std::move(pou), {}});
+    out.pous.push_back({std::move(pou), {}, {}});
   }
   out.project.pous.clear();
   for (st::WrittenBody& body : bodies) {
@@ -57,76 +75,242 @@ plcopen::Document xml_document(std::string_view text, const Place& at, Diagnosti
   return plcopen::read_document(text, at.file == nullptr ? std::string() : *at.file, diagnostics);
 }
 
-const FileType* type_of(const std::string& file, const Place& at, Diagnostics& diagnostics) {
-  const auto types = file_types();
-  const auto type = std::find_if(types.begin(), types.end(),
-                                 [&](const FileType& one) { return upper(file).ends_with(upper(one.ending)); });
-  if (type != types.end()) {
-    return &*type;
-  }
-  std::string known;
-  for (const FileType& one : types) {
-    known += (known.empty() ? "" : " ") + std::string(one.ending);
-  }
-  diagnostics.error(at, fmt::format("the ending of the name is not one of a PLC program, use one of {}", known));
-  return nullptr;
+}  // namespace
+
+std::span<const FileType> file_types() {
+  static constexpr std::array kTypes{
+      FileType{".st", &read_st, &st_document}, FileType{".xml", &read_xml, &xml_document},
+      FileType{".TcPOU", &read_twincat},       FileType{".TcDUT", &read_twincat},
+      FileType{".TcGVL", &read_twincat},       FileType{".TcIO", &read_twincat},
+      FileType{".TcTTO", &read_twincat},       FileType{".exp", &read_st, &st_document}};
+  return kTypes;
 }
 
-// Calls `take(type, text, place of its first character)` with each file that can be read.
-template <class Take>
-void each_file(const std::vector<std::string>& files, const glb2idl::FileReader& read, Diagnostics& diagnostics,
-               Take take) {
-  for (const std::string& file : files) {
-    Place at;
-    at.file = std::make_shared<const std::string>(file);
-    const FileType* type = type_of(file, at, diagnostics);
-    if (type == nullptr) {
+namespace {
+
+constexpr std::string_view kProject = ".plcproj";  // of TwinCAT: names its files
+
+bool ends_with(const std::string& file, std::string_view ending) {
+  return upper(file).ends_with(upper(ending));
+}
+
+// Beremiz puts blocks of its own into every program it writes; who does not use them does not miss them.
+void leave_out(Project& project, Diagnostics& diagnostics) {
+  for (const ast::Pou& pou : project.pous) {
+    if (!pou.c_code) {
       continue;
     }
-    auto got = read(file);
-    if (!got.text) {
-      diagnostics.error(at, fmt::format("cannot read the file: {}", got.why));
+    if (pou.kind == ast::Pou::Kind::Program) {
+      diagnostics.error(*pou.c_code, "C code in { } is not supported, write it in ST, or as a module of its own");
       continue;
     }
-    const std::string text = as_utf8(std::move(*got.text));
+    const bool known = !find_functions(pou.name).empty();
+    diagnostics.warning(*pou.c_code, fmt::format("{} is left out, because C code in {{ }} is not supported{}", pou.name,
+                                                 known ? "; the function of the library takes its place" : ""));
+    project.left_out.push_back({*pou.c_code, pou.name});
+  }
+  std::erase_if(project.pous, [](const ast::Pou& pou) { return pou.c_code.has_value(); });
+}
+
+// The variable whose type was left out; null: there is none.
+const ast::Variable* missing_variable(const Project& project, const ast::Pou& pou) {
+  const auto found = std::find_if(pou.variables.begin(), pou.variables.end(), [&](const ast::Variable& one) {
+    const ast::TypeSpec* type = &one.type;
+    while (type->element != nullptr) {
+      type = type->element.get();
+    }
+    return type->kind == ast::TypeSpec::Kind::Named && !why_left_out(project, type->name).empty();
+  });
+  return found == pou.variables.end() ? nullptr : &*found;
+}
+
+// Function blocks with instances of what was left out go the same way, as python_gear of Beremiz.
+void leave_out_users(Project& project, Diagnostics& diagnostics) {
+  for (bool again = !project.left_out.empty(); again;) {
+    again = false;
+    for (auto pou = project.pous.begin(); pou != project.pous.end(); ++pou) {
+      const ast::Variable* missing =
+          pou->kind == ast::Pou::Kind::FunctionBlock ? missing_variable(project, *pou) : nullptr;
+      if (missing != nullptr) {
+        diagnostics.warning(missing->at, fmt::format("{} is left out too, because of this variable", pou->name));
+        project.left_out.push_back({missing->at, pou->name});
+        project.pous.erase(pou);
+        again = true;
+        break;
+      }
+    }
+  }
+}
+
+class FileReader {
+ public:
+  FileReader(const ReadOptions& options, const glb2idl::FileReader& read, Diagnostics& diagnostics)
+      : options_(options), read_(read), diagnostics_(diagnostics) {}
+
+  void file(const std::string& file) {
+    if (const auto text = bytes_of(file)) {
+      source(file, *text);
+    }
+  }
+
+  // What is wrong in it is said with the name of the library.
+  void library(const LibraryChoice& choice) {
+    const auto text = bytes_of(choice.file);
+    if (!text) {
+      return;
+    }
+    std::string why;
+    const auto read = read_library(*text, why);
+    const Place at = place_of(choice.file);
+    if (!read) {
+      diagnostics_.error(at, why);
+      return;
+    }
+    if (!choice.version.empty() && !does_for(read->version, choice.version)) {
+      diagnostics_.error(at, fmt::format("this is {} {}, and {} is wanted", read->name, read->version, choice.version));
+    }
+    for (const auto& [name, version] : libraries_) {
+      if (same_name(name, read->name)) {
+        diagnostics_.error(at, fmt::format("the library {} is given twice, as {} and {}; remove one of them", name,
+                                           version, read->version));
+        return;
+      }
+    }
+    libraries_.emplace_back(read->name, read->version);
+    for (const LibrarySource& one : read->sources) {
+      source(fmt::format("{}-{}/{}", read->name, read->version, one.name), one.text);
+    }
+    out_.dialect = read->dialect == Dialect::Iec ? out_.dialect : read->dialect;
+  }
+
+  // With the code as it is written or drawn.
+  void document(const std::string& file, plcopen::Document& to) {
+    Place at = place_of(file);
+    const FileType* type = type_of(file);
+    if (type == nullptr || type->read_document == nullptr) {
+      diagnostics_.error(at, "files of TwinCAT are not read here, only .st, .exp and PLCopen .xml");
+      return;
+    }
+    const auto text = bytes_of(file);
+    if (!text) {
+      return;
+    }
     at.line = 1;
     at.column = 1;
-    if (type->read == &read_st) {
-      diagnostics.show_lines_of(file, text);
+    if (type->read != &read_xml) {
+      diagnostics_.show_lines_of(file, *text);
     }
-    take(*type, text, at);
+    plcopen::Document made = type->read_document(*text, at, diagnostics_);
+    append(to.project, std::move(made.project));
+    std::move(made.pous.begin(), made.pous.end(), std::back_inserter(to.pous));
   }
+
+  Project take() {
+    leave_out_users(out_, diagnostics_);
+    make_methods_of_actions(out_);
+    add_builtin(out_);
+    return std::move(out_);
+  }
+
+ private:
+  // Null: none of a program.
+  static const FileType* type_of(const std::string& file) {
+    const auto types = file_types();
+    const auto type =
+        std::find_if(types.begin(), types.end(), [&](const FileType& one) { return ends_with(file, one.ending); });
+    return type != types.end() ? &*type : nullptr;
+  }
+
+  static Place place_of(const std::string& file) {
+    Place at;
+    at.file = std::make_shared<const std::string>(file);
+    return at;
+  }
+
+  std::optional<std::string> bytes_of(const std::string& file) {
+    auto got = read_(file);
+    if (!got.text) {
+      diagnostics_.error(place_of(file), fmt::format("cannot read the file: {}", got.why));
+      return std::nullopt;
+    }
+    return as_utf8(std::move(*got.text));
+  }
+
+  void source(const std::string& file, const std::string& text) {
+    Place at = place_of(file);
+    const FileType* type = type_of(file);
+    at.line = 1;
+    at.column = 1;
+    if (type == nullptr) {  // a project of TwinCAT
+      for (const std::string& one : twincat::files_of_project(text, at, diagnostics_)) {
+        this->file(one);
+      }
+      return;
+    }
+    if (type->read != &read_xml) {
+      diagnostics_.show_lines_of(file, text);
+    }
+    Project made = type->read(text, at, options_, diagnostics_);
+    leave_out(made, diagnostics_);
+    if (has_step_type(out_)) {
+      std::erase_if(made.types, is_step_type);  // each file with a chart has it
+    }
+    append(out_, std::move(made));
+  }
+
+  const ReadOptions& options_;
+  const glb2idl::FileReader& read_;
+  Diagnostics& diagnostics_;
+  Project out_;
+  std::vector<std::pair<std::string, std::string>> libraries_;  // names and versions
+};
+
+// Whether the ending is one of a program; else an error.
+bool is_program(const std::string& file, Diagnostics& diagnostics) {
+  const auto types = file_types();
+  std::string known;
+  for (const FileType& one : types) {
+    if (ends_with(file, one.ending)) {
+      return true;
+    }
+    known += std::string(one.ending) + " ";
+  }
+  if (ends_with(file, kProject)) {
+    return true;
+  }
+  Place at;
+  at.file = std::make_shared<const std::string>(file);
+  diagnostics.error(
+      at, fmt::format("the ending of the name is not one of a PLC program, use one of {}{}", known, kProject));
+  return false;
 }
 
 }  // namespace
 
-std::span<const FileType> file_types() {
-  static constexpr std::array kTypes{FileType{".st", &read_st, &st_document},
-                                     FileType{".xml", &read_xml, &xml_document}};
-  return kTypes;
-}
-
-Project read_project(const std::vector<std::string>& files, const ReadOptions& options, const glb2idl::FileReader& read,
-                     Diagnostics& diagnostics) {
-  Project out;
-  each_file(files, read, diagnostics, [&](const FileType& type, std::string_view text, const Place& at) {
-    Project read_now = type.read(text, at, options, diagnostics);
-    if (has_step_type(out)) {
-      std::erase_if(read_now.types, is_step_type);  // each file with a chart has it
+Project read_project(const std::vector<std::string>& files, const std::vector<std::string>& libraries,
+                     const ReadOptions& options, const glb2idl::FileReader& read, Diagnostics& diagnostics) {
+  FileReader reader(options, read, diagnostics);
+  for (const std::string& one : libraries) {
+    reader.library(library_choice(one));
+  }
+  for (const std::string& one : files) {
+    if (is_program(one, diagnostics)) {
+      reader.file(one);
     }
-    append(out, std::move(read_now));
-  });
-  return out;
+  }
+  return reader.take();
 }
 
 plcopen::Document read_document(const std::vector<std::string>& files, const glb2idl::FileReader& read,
                                 Diagnostics& diagnostics) {
+  const ReadOptions options;
+  FileReader reader(options, read, diagnostics);
   plcopen::Document out;
-  each_file(files, read, diagnostics, [&](const FileType& type, std::string_view text, const Place& at) {
-    plcopen::Document read_now = type.read_document(text, at, diagnostics);
-    append(out.project, std::move(read_now.project));
-    std::move(read_now.pous.begin(), read_now.pous.end(), std::back_inserter(out.pous));
-  });
+  for (const std::string& one : files) {
+    if (is_program(one, diagnostics)) {
+      reader.document(one, out);
+    }
+  }
   return out;
 }
 

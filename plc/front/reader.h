@@ -30,9 +30,10 @@ struct FileType {
 };
 [[nodiscard]] std::span<const FileType> file_types();
 
-// Everything the files contain. Files that cannot be read are errors.
-[[nodiscard]] Project read_project(const std::vector<std::string>& files, const ReadOptions& options,
-                                   const glb2idl::FileReader& read, Diagnostics& diagnostics);
+// Everything the files and libraries ("motors.plclib@1.2") contain. Files that cannot be read are errors.
+[[nodiscard]] Project read_project(const std::vector<std::string>& files, const std::vector<std::string>& libraries,
+                                   const ReadOptions& options, const glb2idl::FileReader& read,
+                                   Diagnostics& diagnostics);
 
 // The same with the code of all POUs as it is written or drawn, for those who show it or write it again.
 [[nodiscard]] plcopen::Document read_document(const std::vector<std::string>& files, const glb2idl::FileReader& read,

@@ -119,7 +119,11 @@ std::vector<ast::Argument> BlockLowering::arguments(const Element& element, bool
 
 // Structured Text in a box. What flows out of it is what flowed in.
 void BlockLowering::code(const Element& element, const std::string& enable) {
-  ast::Body body = st::parse_body({element.inlined->text, element.inlined->text_at}, code_.diagnostics());
+  std::optional<Place> c_code;
+  ast::Body body = st::parse_body({element.inlined->text, element.inlined->text_at}, c_code, code_.diagnostics());
+  if (c_code) {
+    code_.diagnostics().error(*c_code, "C code in { } is not supported, write it in ST, or as a module of its own");
+  }
   ast::Expression power = enable.empty() ? make::truth(element.at, true) : make::name(element.at, enable);
   code_.add(make::when(power, std::move(body)));
   for (const Pin& pin : element.outputs) {

@@ -74,18 +74,52 @@ class PouLowering {
 
   void run() {
     Lowered code = pou_code_.body.language == Language::Sfc ? chart() : lower(pou_code_.body, what_, "");
-    std::move(code.variables.begin(), code.variables.end(), std::back_inserter(pou_.variables));
+    keep(code);
     pou_.body = std::move(code.body);
+    const bool callable = pou_.kind == ast::Pou::Kind::Program || pou_.kind == ast::Pou::Kind::FunctionBlock;
+    for (std::size_t i = 0; callable && i < pou_code_.actions.size(); ++i) {
+      outer_action(pou_code_.actions[i], fmt::format("a{}_", i));
+    }
   }
 
  private:
+  // Variables that the translation needs, among those of the POU.
+  void keep(Lowered& code) {
+    for (ast::Variable& one : code.variables) {
+      one.of_instance = pou_.kind == ast::Pou::Kind::Method && one.section == ast::Section::Local;
+      pou_.variables.push_back(std::move(one));
+    }
+  }
+
+  // As others may call it. What is wrong in it was said already if the POU itself calls it.
+  void outer_action(NamedBody& named, const std::string& prefix) {
+    const bool known = lowered_actions_.contains(&named.body);
+    Diagnostics again;
+    Lowered code;
+    {
+      Diagnostics& said = known ? again : diagnostics_;
+      PouLowering inner(pou_code_, read_options_, project_, pou_, said);
+      code = inner.action(named.body, prefix);
+    }
+    ast::Pou made;
+    made.kind = ast::Pou::Kind::Method;
+    made.at = named.at;
+    made.name = named.name;
+    made.body = std::move(code.body);
+    for (ast::Variable& one : code.variables) {
+      one.of_instance = one.section == ast::Section::Local;  // kept from call to call
+      made.variables.push_back(std::move(one));
+    }
+    pou_.actions.push_back(std::move(made));
+  }
+
   Lowered lower(Body& body, const std::string& what, const std::string& prefix, ListUse use = ListUse::Statements) {
     Lowered code;
     switch (body.language) {
       case Language::None:
         break;
       case Language::St:
-        code.body = st::parse_body({body.text, body.text_at}, diagnostics_);
+        code.body = st::parse_body({body.text, body.text_at}, pou_.c_code, diagnostics_);
         call_actions(code.body, code.variables);
         break;
       case Language::Il:
@@ -215,6 +249,7 @@ class PouLowering {
   }
 
   Lowered action(Body& body, const std::string& prefix) {
+    lowered_actions_.insert(&body);
     Lowered code = lower(body, what_of(body), prefix);
     stays_inside(code);
     return code;
@@ -257,6 +292,7 @@ class PouLowering {
   std::string what_;
   std::unordered_set<std::string> conditions_;
   std::unordered_set<const Body*> open_actions_;
+  std::unordered_set<const Body*> lowered_actions_;
   int calls_ = 0;
 };
 

@@ -204,7 +204,7 @@ struct TypeSpec {
   std::string name;
   std::optional<Expression> length;
   std::vector<Dimension> dimensions;
-  std::shared_ptr<TypeSpec> element;
+  std::shared_ptr<TypeSpec> element;  // Array, Pointer; of a Struct what it extends
   PointerKind pointer = PointerKind::PointerTo;
   std::optional<Dimension> range;
   std::vector<Variable> fields;
@@ -226,6 +226,7 @@ struct Variable {
   std::optional<DirectAddress> address;  // AT %IX0.0; then the name may be empty
   bool constant = false;
   bool retain = false;
+  bool non_retain = false;       // also where the instance around it is RETAIN
   bool is_static = false;        // VAR_STAT: one for all instances, or of a function: kept from call to call
   bool of_instance = false;      // VAR_INST of a method: kept in the instance
   std::optional<Access> access;  // VAR PUBLIC
@@ -278,6 +279,9 @@ struct Pou {
   std::vector<NameAt> bases;       // EXTENDS; several of an interface
   std::vector<NameAt> interfaces;  // IMPLEMENTS
   std::vector<Pou> methods;
+
+  std::vector<Pou> actions;     // as methods, for those that others call: x.Restart();
+  std::optional<Place> c_code;  // it has C code that means nothing here, so it is left out
 };
 
 }  // namespace indurop::plc::ast

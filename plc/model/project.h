@@ -50,10 +50,14 @@ struct Project {
   std::vector<ast::Pou> pous;
   std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
   std::vector<Configuration> configurations;
+  std::vector<ast::NameAt> left_out;      // POUs with C code, and where that stands
   bool incomplete = false;                // something that is not supported was left out, so that names may miss
   Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say
   std::vector<std::string> global_lists;  // names through which globals may be reached: Io.Blocked, as CODESYS has it
 };
+
+// "; it was left out, ..." of a POU that C code kept out, "" of others.
+[[nodiscard]] std::string why_left_out(const Project& project, const std::string& name);
 
 // Appends everything in `from`, in its order. Doubles are for the checker to find.
 void append(Project& into, Project from);

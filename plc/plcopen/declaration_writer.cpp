@@ -32,7 +32,7 @@ const char* list_name(ast::Section section) noexcept {
 }
 
 bool same_list(const ast::Variable& a, const ast::Variable& b) noexcept {
-  return a.section == b.section && a.constant == b.constant && a.retain == b.retain;
+  return a.section == b.section && a.constant == b.constant && a.retain == b.retain && a.non_retain == b.non_retain;
 }
 
 }  // namespace
@@ -81,6 +81,9 @@ void DeclarationWriter::lists(const std::vector<ast::Variable>& variables) {
       }
       if (one.retain) {
         attributes.emplace_back("retain", "true");
+      }
+      if (one.non_retain) {
+        attributes.emplace_back("nonretain", "true");
       }
       out_.open(list_name(one.section), attributes);
     }
@@ -154,6 +157,9 @@ void DeclarationWriter::spec(const TypeSpec& of) {
       subrange(of);
       break;
     case TypeSpec::Kind::Struct:
+      if (of.element != nullptr) {
+        refuse(of.at, "EXTENDS of a STRUCT");
+      }
       structure(of);
       break;
     case TypeSpec::Kind::Enum:

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <set>
 #include <utility>
 
 #include "plc/model/elementary.h"
+#include "plc/model/make.h"
 #include "plc/plcopen/body_reader.h"
 #include "plc/plcopen/extensions.h"
 #include "plc/plcopen/type_reader.h"
@@ -93,6 +95,7 @@ void read_variables(const Node& list, ast::Section section, const std::string& w
   form.section = section;
   form.constant = is_true(list, "constant");
   form.retain = is_true(list, "retain") || is_true(list, "persistent");
+  form.non_retain = is_true(list, "nonretain");
   for (const Node& node : list.children) {
     if (node.name == "variable") {
       read_variable(node, form, what, into, diagnostics);
@@ -169,6 +172,13 @@ void read_data_type(const Node& node, std::vector<ast::TypeDeclaration>& into, D
     return;
   }
   declared.type = std::move(*read);
+  for (const Node& data : children_of(node.child("addData"))) {
+    const Node* inheritance = data.child("Inheritance");
+    const Node* extends = inheritance == nullptr ? nullptr : inheritance->child("Extends");
+    if (extends != nullptr && declared.type.kind == ast::TypeSpec::Kind::Struct) {
+      declared.type.element = std::make_shared<ast::TypeSpec>(make::type(declared.at, extends->text));
+    }
+  }
   declared.initial = read_initial(node, what, diagnostics);
   into.push_back(std::move(declared));
 }

@@ -9,6 +9,7 @@
 #include "plc/plcopen/declarations.h"
 #include "plc/plcopen/extensions.h"
 #include "plc/plcopen/instances.h"
+#include "plc/plcopen/objects.h"
 
 namespace indurop::plc::plcopen {
 namespace {
@@ -76,7 +77,7 @@ class Reader {
       return;
     }
     made.pou.kind = *kind;
-    refuse_classes(node, made.pou.at);
+    read_object(node, what, made, diagnostics_);
     if (const Node* documentation = node.child("documentation")) {
       made.pou.comment = formatted_text(*documentation);
     }
@@ -137,6 +138,8 @@ class Reader {
           globals(part);
         } else if (part.name == "pou") {
           pou(part);
+        } else if (part.name == "Interface") {
+          document_.pous.push_back(read_interface_object(part, diagnostics_));
         } else if (part.name == "dataType") {
           read_data_type(part, document_.project.types, diagnostics_);
         } else if (part.name == "resource") {
@@ -160,18 +163,6 @@ class Reader {
     document_.project.global_lists.emplace_back(list.attribute("name"));
     read_variables(list, ast::Section::Global, "globals " + document_.project.global_lists.back(),
                    document_.project.globals, diagnostics_);
-  }
-
-  void refuse_classes(const Node& node, const Place& at) {
-    for (const Node& data : children_of(node.child("addData"))) {
-      for (const Node& part : data.children) {
-        if (part.name == "Method" || part.name == "Property" || part.name == "Inheritance") {
-          diagnostics_.error(at,
-                             "methods, properties and inheritance are not supported; use function blocks with inputs "
-                             "and outputs");
-        }
-      }
-    }
   }
 
   Diagnostics& diagnostics_;

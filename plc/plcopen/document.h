@@ -16,6 +16,7 @@ namespace indurop::plc::plcopen {
 struct PouDocument {
   ast::Pou pou;  // without code
   network::PouCode code;
+  std::vector<PouDocument> methods;
 };
 
 struct Document {

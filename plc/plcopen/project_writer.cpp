@@ -77,7 +77,8 @@ class Writer {
                        fmt::format("{} is not part of PLCopen XML 2.01; only programs without it are exported", what));
   }
 
-  bool is_known(const ast::Pou& pou) {
+  bool is_known(const PouDocument& one) {
+    const ast::Pou& pou = one.pou;
     const std::size_t before = diagnostics_.errors();
     if (!pou.scope.space.empty() || !pou.scope.uses.empty()) {
       refuse(pou.at, pou.scope.space.empty() ? "USING" : "NAMESPACE");
@@ -88,6 +89,9 @@ class Writer {
       refuse(pou.at, pou.bases.empty() ? "IMPLEMENTS" : "EXTENDS");
     } else if (!pou.methods.empty()) {
       refuse(pou.methods.front().at, pou.methods.front().accessor == ast::Accessor::None ? "METHOD" : "PROPERTY");
+    } else if (!one.methods.empty()) {
+      const ast::Pou& method = one.methods.front().pou;
+      refuse(method.at, method.accessor == ast::Accessor::None ? "METHOD" : "PROPERTY");
     } else if (pou.is_abstract || pou.is_final) {
       refuse(pou.at, pou.is_final ? "FINAL" : "ABSTRACT");
     }
@@ -95,7 +99,7 @@ class Writer {
   }
 
   void pou(const PouDocument& one) {
-    if (!is_known(one.pou)) {
+    if (!is_known(one)) {
       return;
     }
     out_.open("pou", {{"name", one.pou.name}, {"pouType", type_of(one.pou.kind)}});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/plcopen/read_project.h"
 
+#include <utility>
+
 #include "plc/lower/chart.h"
 #include "plc/lower/pou.h"
 
@@ -18,6 +20,13 @@ Project lower(Document& document, const ReadOptions& options, Diagnostics& diagn
   }
   for (std::size_t i = 0; i < document.pous.size(); ++i) {
     lower::lower_pou(document.pous[i].code, options, project, project.pous[i], diagnostics);
+    for (PouDocument& method : document.pous[i].methods) {
+      lower::lower_pou(method.code, options, project, method.pou, diagnostics);
+      if (method.pou.c_code && !project.pous[i].c_code) {
+        project.pous[i].c_code = method.pou.c_code;
+      }
+      project.pous[i].methods.push_back(std::move(method.pou));
+    }
   }
   return project;
 }

@@ -75,7 +75,9 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
       out.constant = true;
     } else if (in_.accept("RETAIN") || in_.accept("PERSISTENT")) {
       out.retain = true;
-    } else if (!in_.accept("NON_RETAIN")) {
+    } else if (in_.accept("NON_RETAIN")) {
+      out.non_retain = true;
+    } else {
       return out;
     }
   }
@@ -124,6 +126,7 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     one.section = block.section;
     one.constant = block.constant;
     one.retain = block.retain;
+    one.non_retain = block.non_retain;
     one.is_static = block.is_static;
     one.of_instance = block.of_instance;
     one.access = block.access;
@@ -206,12 +209,25 @@ bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
     return false;
   }
   out.name = in_.take().text;
+  std::shared_ptr<ast::TypeSpec> base;
+  if (in_.accept("EXTENDS")) {
+    auto named = type();
+    if (!named) {
+      return false;
+    }
+    base = std::make_shared<ast::TypeSpec>(std::move(*named));
+  }
   if (!in_.expect(":", "behind the type's name")) {
     return false;
   }
   auto spec = type();
   if (!spec) {
     return false;
+  }
+  if (base && spec->kind != ast::TypeSpec::Kind::Struct) {
+    in_.error(first, "only a STRUCT extends another one");
+  } else if (base) {
+    spec->element = std::move(base);
   }
   if (in_.accept(":=")) {
     out.initial = expressions_.initial();

@@ -28,6 +28,7 @@ class DeclarationParser {
     ast::Section section = ast::Section::Local;
     bool constant = false;
     bool retain = false;
+    bool non_retain = false;
     bool is_static = false;
     bool of_instance = false;
     std::optional<ast::Access> access;

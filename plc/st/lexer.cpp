@@ -212,6 +212,11 @@ class Lexer {
     }
     const std::string prefix = upper(text_.substr(from_, at_ - from_));
     step();
+    if (prefix == "STRING" && peek() == '\'') {  // STRING#'OK' is 'OK'
+      begin();
+      quoted('\'');
+      return;
+    }
     typed(prefix);
     push(TokenKind::Typed);
   }

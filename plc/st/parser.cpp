@@ -19,10 +19,10 @@ auto alone(const Text& text, Diagnostics& diagnostics, Parse parse) -> decltype(
   return out;
 }
 
-Project parse(const Text& text, bool as_written, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics) {
+Project parse(const Text& text, Bodies wanted, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics) {
   const auto tokens = tokenize(text.text, text.at, diagnostics);
   TokenReader in(tokens, text.at, diagnostics);
-  ProjectParser parser(in, as_written);
+  ProjectParser parser(in, text.in_editor, wanted);
   Project project = parser.project();
   bodies = parser.take_written();
   return project;
@@ -31,17 +31,26 @@ Project parse(const Text& text, bool as_written, std::vector<WrittenBody>& bodie
 }  // namespace
 
 Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics) {
-  return parse(text, false, others, diagnostics);
+  return parse(text, Bodies::Parsed, others, diagnostics);
 }
 
 Project parse_declarations(const Text& text, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics) {
-  return parse(text, true, bodies, diagnostics);
+  return parse(text, Bodies::AsWritten, bodies, diagnostics);
 }
 
-ast::Body parse_body(const Text& text, Diagnostics& diagnostics) {
+Project parse_tokens(const std::vector<Token>& tokens, const Place& at, std::vector<WrittenBody>& others,
+                     Diagnostics& diagnostics) {
+  TokenReader in(tokens, at, diagnostics);
+  ProjectParser parser(in);
+  Project project = parser.project();
+  others = parser.take_written();
+  return project;
+}
+
+ast::Body parse_body(const Text& text, std::optional<Place>& c_code, Diagnostics& diagnostics) {
   const auto tokens = tokenize(text.text, text.at, diagnostics);
   TokenReader in(tokens, text.at, diagnostics);
-  return ProjectParser(in).whole_body();
+  return ProjectParser(in).whole_body(c_code);
 }
 
 std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics) {

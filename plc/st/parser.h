@@ -17,6 +17,7 @@ namespace indurop::plc::st {
 struct Text {
   std::string_view text;
   Place at;
+  bool in_editor = false;  // as CODESYS shows a POU: END_PROGRAM and so on may miss at the end
 };
 
 // PROGRAM, FUNCTION, FUNCTION_BLOCK, TYPE, VAR_GLOBAL, CONFIGURATION. What has errors is left out.
@@ -24,8 +25,11 @@ struct Text {
 [[nodiscard]] Project parse_project(const Text& text, std::vector<WrittenBody>& others, Diagnostics& diagnostics);
 // The same for those who show it: no POU has statements, `bodies` has the text of each.
 [[nodiscard]] Project parse_declarations(const Text& text, std::vector<WrittenBody>& bodies, Diagnostics& diagnostics);
-// Statements.
-[[nodiscard]] ast::Body parse_body(const Text& text, Diagnostics& diagnostics);
+// The same as parse_project() of words that others have put together; `at` says which file they are of.
+[[nodiscard]] Project parse_tokens(const std::vector<Token>& tokens, const Place& at, std::vector<WrittenBody>& others,
+                                   Diagnostics& diagnostics);
+// Statements. `c_code`: where C code stands that means nothing here, if it does.
+[[nodiscard]] ast::Body parse_body(const Text& text, std::optional<Place>& c_code, Diagnostics& diagnostics);
 // Exactly one; none after an error.
 [[nodiscard]] std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics);
 [[nodiscard]] std::optional<ast::Initial> parse_initial(const Text& text, Diagnostics& diagnostics);

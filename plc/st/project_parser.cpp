@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include "plc/library/standard.h"
-
 namespace indurop::plc::st {
 namespace {
 
@@ -145,15 +143,12 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   } else if (has_actions(end)) {
     written = chart.statements(end);
   } else {
-    const Token& before = in_.previous();
-    out.body = body(end);
-    if (as_written_) {
-      written = text_behind(before);
-      out.body.clear();
-    }
+    written = statements(out, end);
   }
   methods(out);
-  if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
+  if (in_editor_ && in_.at_end()) {
+    in_.warning(out.at, fmt::format("{} has no {}, which is taken to stand at the end of the text", out.name, end));
+  } else if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
     in_.accept(";");
   }
   if (written) {
@@ -164,9 +159,21 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
   if (written && ok) {
     written_.push_back(std::move(*written));
   }
-  if (ok && !refuses_c_code(out)) {
+  out.c_code = statements_.take_c_code();
+  if (ok) {
     to.push_back(std::move(out));
   }
+}
+
+// The body in Structured Text, or its text.
+std::optional<WrittenBody> ProjectParser::statements(ast::Pou& out, std::string_view end) {
+  const Token& before = in_.previous();
+  out.body = body(end);
+  if (!as_written_) {
+    return std::nullopt;
+  }
+  out.body.clear();
+  return text_behind(before);
 }
 
 // From behind the token to here, comments included.
@@ -182,27 +189,10 @@ WrittenBody ProjectParser::text_behind(const Token& before) const {
   return made;
 }
 
-// Beremiz puts blocks of its own into every program it writes; who does not use them does not miss them.
-bool ProjectParser::refuses_c_code(const ast::Pou& pou) {
-  const auto at = statements_.take_c_code();
-  if (!at) {
-    return false;
-  }
-  if (pou.kind == ast::Pou::Kind::Program) {
-    in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
-  } else {
-    const bool known = !find_functions(pou.name).empty();
-    in_.warning(*at, fmt::format("{} is left out, because C code in {{ }} is not supported{}", pou.name,
-                                 known ? "; the function of the library takes its place" : ""));
-  }
-  return true;
-}
-
-ast::Body ProjectParser::whole_body() {
+ast::Body ProjectParser::whole_body(std::optional<Place>& c_code) {
   ast::Body out = body("");
-  if (const auto at = statements_.take_c_code()) {
-    in_.error(*at, "C code in { } is not supported, write it in ST, or as a module of its own");
-  }
+  const auto at = statements_.take_c_code();
+  c_code = c_code ? c_code : at;
   return out;
 }
 

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <optional>
+
 #include "plc/model/project.h"
 #include "plc/st/chart_parser.h"
 #include "plc/st/declaration_parser.h"
@@ -10,23 +12,31 @@
 
 namespace indurop::plc::st {
 
+// AsWritten: all bodies are kept as texts, Structured Text too.
+enum class Bodies { Parsed, AsWritten };
+
 class ProjectParser {
  public:
-  // `as_written`: all bodies are kept as texts, Structured Text too.
-  explicit ProjectParser(TokenReader& in, bool as_written = false)
-      : in_(in), as_written_(as_written), expressions_(in), declarations_(in), statements_(in) {}
+  // `in_editor`: END_PROGRAM and so on may miss at the end of the text.
+  explicit ProjectParser(TokenReader& in, bool in_editor = false, Bodies wanted = Bodies::Parsed)
+      : in_(in),
+        as_written_(wanted == Bodies::AsWritten),
+        expressions_(in),
+        declarations_(in),
+        statements_(in),
+        in_editor_(in_editor) {}
 
   [[nodiscard]] Project project();
   // Bodies in other languages, of its POUs.
   [[nodiscard]] std::vector<WrittenBody> take_written() { return std::move(written_); }
-  // Statements up to the end of the text.
-  [[nodiscard]] ast::Body whole_body();
+  // Statements up to the end of the text. `c_code`: where C code stands that means nothing here.
+  [[nodiscard]] ast::Body whole_body(std::optional<Place>& c_code);
   // The same up to `end`, which is not taken.
   [[nodiscard]] ast::Body body(std::string_view end);
 
  private:
+  [[nodiscard]] std::optional<WrittenBody> statements(ast::Pou& out, std::string_view end);
   [[nodiscard]] WrittenBody text_behind(const Token& before) const;
-  [[nodiscard]] bool refuses_c_code(const ast::Pou& pou);
   void pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
   [[nodiscard]] bool element(Project& out);
   void space(Project& out);
@@ -62,6 +72,7 @@ class ProjectParser {
   DeclarationParser declarations_;
   StatementParser statements_;
   std::vector<WrittenBody> written_;
+  bool in_editor_;
   ast::Scope scope_;  // the namespace around what is read
 };
 

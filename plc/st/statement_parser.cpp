@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "plc/library/hidden.h"
 #include "plc/model/make.h"
+#include "plc/st/c_code.h"
 
 namespace indurop::plc::st {
 namespace {
@@ -35,8 +37,9 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
       continue;
     }
     if (in_.peek().kind == TokenKind::CCode) {
-      c_code_ = c_code_ ? c_code_ : in_.here();
-      in_.take();
+      if (auto known = c_code()) {
+        out.push_back(std::move(*known));
+      }
       continue;
     }
     if (begins_something(in_.peek())) {
@@ -52,6 +55,18 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
     before_.clear();
   }
   return out;
+}
+
+// The statement that C code stands for; none where it has no meaning here, which is noted.
+std::optional<ast::Statement> StatementParser::c_code() {
+  const Place at = in_.here();
+  const auto base = time_base(in_.take().text);
+  if (!base) {
+    c_code_ = c_code_ ? c_code_ : at;
+    return std::nullopt;
+  }
+  const std::string_view ticks = base->unit_ns == 1 ? kTicksNs : base->unit_ns == 1000 ? kTicksUs : kTicksMs;
+  return make::assign(make::name(at, base->variable), make::call(at, make::name(at, std::string(ticks)), {}));
 }
 
 // Behind the next ';', or before a word that ends a statement around this one.

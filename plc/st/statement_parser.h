@@ -25,6 +25,7 @@ class StatementParser {
   using Statement = ast::Statement;
 
   [[nodiscard]] std::optional<Statement> statement();
+  [[nodiscard]] std::optional<Statement> c_code();
   [[nodiscard]] bool fill(Statement& out);
   [[nodiscard]] bool simple(Statement& out);
   [[nodiscard]] bool set_or_reset(ast::Expression target, Statement& out);

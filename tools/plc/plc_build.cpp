@@ -8,6 +8,7 @@
 
 #include "base/replace_file.h"
 #include "plc/front/compiler.h"
+#include "plc/front/library_file.h"
 #include "tools/command/self.h"
 #include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
@@ -21,6 +22,7 @@ struct PlcRequest {
   plc::CompileOptions compile;
   std::string folder = ".";  // -o
   bool only_sources = false;
+  std::string version;  // of a library
 };
 
 bool save(Context& context, const fs::path& path, const std::string& text) {
@@ -163,8 +165,52 @@ int build_plc(Context& context, const PlcRequest& request) {
   return kOk;
 }
 
+// Writes <name>-<version>.plclib.
+int build_library(Context& context, const PlcRequest& request) {
+  if (!plc::is_version(request.version)) {
+    context.out.error(fmt::format("'{}' is not a version, write --version 1.2.0", request.version));
+    return kUsage;
+  }
+  plc::CompileOptions options = request.compile;
+  options.library = true;
+  const plc::Compiled compiled = plc::compile(options);
+  print_diagnostics(context, compiled.diagnostics);
+  if (!compiled.ok) {
+    return kCheckFailed;
+  }
+  if (!compiled.modules.empty()) {
+    context.out.error("a library has no PROGRAM, leave it out, or use indurop plc build");
+    return kCheckFailed;
+  }
+  plc::LibraryFile library;
+  library.name = compiled.name;
+  library.version = request.version;
+  library.dialect = request.compile.dialect.value_or(compiled.dialect);
+  for (const std::string& one : request.compile.files) {
+    if (one.ends_with(".plcproj")) {  // it only names files
+      context.out.error(fmt::format("{} is a project, name its files instead", one));
+      return kUsage;
+    }
+    plc::LibrarySource& source = library.sources.emplace_back();
+    source.name = fs::path(one).filename().string();
+    if (!read_plc_file(context, one, source.text)) {
+      return kFailed;
+    }
+  }
+  const fs::path file = fs::path(request.folder) / fmt::format("{}-{}.plclib", library.name, library.version);
+  if (!save(context, file, to_text(library))) {
+    return kFailed;
+  }
+  context.out.note("made " + file.string());
+  return kOk;
+}
+
 void add_sources(base::Options& app, PlcRequest& request) {
-  app.add("files", "FILE", request.compile.files, "The program: .st and PLCopen .xml files").required();
+  app.add("files", "FILE", request.compile.files, "The program: .st, PLCopen .xml, TwinCAT .plcproj or .TcPOU files")
+      .required();
+  app.add("--lib", "FILE", request.compile.libraries,
+          "A library the program uses, motors-1.2.0.plclib; FILE@1.2 asks for at least this version (repeatable)")
+      .one_at_a_time();
   app.add("--glb", "FILE", request.compile.glb_files,
           "A .glb file whose shared variables the program uses (repeatable)")
       .one_at_a_time();
@@ -203,6 +249,9 @@ void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
   build->flag("--watch", request->compile.watch, "Let `indurop plc watch` see the power in drawn programs");
   build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
   verb("check", "Say what is wrong with a program", &check_plc);
+  base::Options* lib = verb("lib", "Make a library (.plclib) of files without a PROGRAM, for --lib", &build_library);
+  lib->add("--version", "VERSION", request->version, "Its version, 1.2.0").required();
+  lib->add("-o,--output", "DIR", request->folder, "Where to write it (default: here)");
 }
 
 }  // namespace indurop::tools

@@ -41,6 +41,7 @@ struct Sema {
       taken_ = false;
     }
   }
+  void restore(const Scan& /*scan*/) noexcept { taken_ = busy || claim; }
 
  private:
   bool taken_ = false;
@@ -55,6 +56,7 @@ struct RTrig {
     q = clk && !memory_;
     memory_ = clk;
   }
+  void restore(const Scan& /*scan*/) noexcept { memory_ = clk; }
 
  private:
   bool memory_ = false;
@@ -69,6 +71,7 @@ struct FTrig {
     q = !clk && !memory_;
     memory_ = !clk;
   }
+  void restore(const Scan& /*scan*/) noexcept { memory_ = !clk; }
 
  private:
   bool memory_ = false;
@@ -83,6 +86,7 @@ class Edge {
     memory_ = input;
     return edge;
   }
+  void restore(bool input) noexcept { memory_ = input; }
 
  private:
   bool memory_ = false;

@@ -23,4 +23,10 @@ inline std::uint32_t t_plc_us() noexcept {
   return static_cast<std::uint32_t>(irp::release_ns() / kMicrosecond);
 }
 
+// The same in any unit, as a number of any type; that of an integer goes around.
+template <Number T, std::int64_t unit_ns>
+T ticks() noexcept {
+  return static_cast<T>(irp::release_ns() / unit_ns);
+}
+
 }  // namespace indurop::iec

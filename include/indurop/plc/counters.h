@@ -27,6 +27,7 @@ struct Ctu {
     }
     q = cv >= pv;
   }
+  void restore(const Scan& /*scan*/) noexcept { up_.restore(cu); }
 
  private:
   detail::Edge up_;
@@ -49,6 +50,7 @@ struct Ctd {
     }
     q = cv <= 0;
   }
+  void restore(const Scan& /*scan*/) noexcept { down_.restore(cd); }
 
  private:
   detail::Edge down_;
@@ -80,6 +82,10 @@ struct Ctud {
     }
     qu = cv >= pv;
     qd = cv <= 0;
+  }
+  void restore(const Scan& /*scan*/) noexcept {
+    up_.restore(cu);
+    down_.restore(cd);
   }
 
  private:

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/plc/clock.h>
+#include <indurop/plc/log.h>
 #include <indurop/plc/types.h>
 
 #include <algorithm>

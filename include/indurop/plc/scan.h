@@ -19,6 +19,8 @@ namespace detail {
 class Stopwatch {
  public:
   void start(const Scan& scan) noexcept { start_ns_ = scan.time_ns; }
+  // As if it had started that long ago.
+  void resume(const Scan& scan, Time elapsed) noexcept { start_ns_ = sub(scan.time_ns, elapsed.ns); }
   // Time before the start does not count: a retained block may come from before the last boot.
   [[nodiscard]] Time elapsed(const Scan& scan) noexcept {
     if (scan.time_ns < start_ns_) {
@@ -32,4 +34,13 @@ class Stopwatch {
 };
 
 }  // namespace detail
+
+// Inputs and outputs of the block have the values they had before the program ended: it goes on from there.
+template <class Block>
+void restore(Block& block, const Scan& scan) noexcept {
+  if constexpr (requires { block.restore(scan); }) {
+    block.restore(scan);
+  }
+}
+
 }  // namespace indurop::iec

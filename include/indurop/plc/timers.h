@@ -34,6 +34,10 @@ struct Tp {
       et = {};
     }
   }
+  void restore(const Scan& scan) noexcept {
+    before_ = in;
+    watch_.resume(scan, et);
+  }
 
  private:
   detail::Stopwatch watch_;
@@ -64,6 +68,10 @@ struct Ton {
       q = elapsed >= end;
       et = std::min(elapsed, end);
     }
+  }
+  void restore(const Scan& scan) noexcept {
+    running_ = in;
+    watch_.resume(scan, et);
   }
 
  private:
@@ -96,6 +104,10 @@ struct Tof {
       et = std::min(elapsed, end);
     }
   }
+  void restore(const Scan& scan) noexcept {
+    running_ = q && !in;
+    watch_.resume(scan, et);
+  }
 
  private:
   detail::Stopwatch watch_;
@@ -117,6 +129,11 @@ struct Blink {
       watch_.start(scan);
       out = begins || !out;
     }
+  }
+  // The time at its output begins again.
+  void restore(const Scan& scan) noexcept {
+    running_ = enable;
+    watch_.start(scan);
   }
 
  private:

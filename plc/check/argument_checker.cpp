@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is given to calls as VAR_IN_OUT, as an instance, and to inputs of types such as ANY_NUM.
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+
+#include "plc/check/bare_number.h"
+#include "plc/check/call_checker.h"
+#include "plc/check/generic_functions.h"
+
+namespace indurop::plc {
+namespace {
+
+using ast::Argument;
+using ast::Expression;
+
+// An array of as many dimensions and the same elements, whatever its bounds.
+bool fits_open(const Type& type, const Type& wanted) noexcept {
+  return type.kind == Type::Kind::Array && type.dimensions.size() == wanted.dimensions.size() &&
+         same_type(*type.element, *wanted.element) && in_range_of(*type.element, *wanted.element) &&
+         in_range_of(*wanted.element, *type.element);
+}
+
+// What the argument is for, if that has a type such as ANY_NUM. Values without a name count up `position`.
+const ast::Variable* generic_parameter(const ast::Pou& tree, const Argument& argument, std::size_t& position) {
+  std::size_t at = 0;
+  const std::size_t wanted = argument.name.empty() ? position++ : 0;
+  for (const ast::Variable& one : tree.variables) {
+    const bool given = one.section == ast::Section::Input || one.section == ast::Section::InOut;
+    if (given && (argument.name.empty() ? at++ == wanted : same_name(one.name, argument.name))) {
+      return generic_name(one.type).empty() ? nullptr : &one;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void CallChecker::in_out(const Expression& call, Expression& given, const Variable& parameter) {
+  const Type* type = expressions_.reference(given);
+  if (context_.pou != nullptr && call.operands[0].kind == Expression::Kind::Name) {
+    context_.pou->given[upper(call.operands[0].name + "." + parameter.name)] = given;
+  }
+  const Type& wanted = *parameter.type;
+  if (type != nullptr && wanted.open && fits_open(*type, wanted)) {
+    return;
+  }
+  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type)) &&
+      !(type->kind == Type::Kind::Block && stands_for(*type, wanted))) {
+    context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,
+                                         to_string(wanted), with_article(*type)));
+  }
+}
+
+// An instance as an input: it is copied, as it is at the call.
+void CallChecker::instance_input(Expression& given, const Variable& parameter) {
+  const Type* type = expressions_.typed(given, nullptr);
+  if (type != nullptr && !same_type(*type, *parameter.type)) {
+    context_.error(given.at, fmt::format("{} needs an instance of {}, not {}", parameter.name,
+                                         to_string(*parameter.type), with_article(*type)));
+  }
+}
+
+// The function for the types of the inputs. All of one generic type have one type, as in the library.
+const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree) {
+  std::map<std::string, const Type*> types;
+  for (const bool bare : {false, true}) {  // numbers without a type take that of the others
+    std::size_t position = 0;
+    for (Argument& argument : call.arguments) {
+      const ast::Variable* parameter = generic_parameter(tree, argument, position);
+      if (parameter == nullptr || !argument.value || is_bare(*argument.value, context_.program) != bare) {
+        continue;
+      }
+      const std::string generic = generic_name(parameter->type);
+      Expression looked_at = *argument.value;  // the call itself is checked when its function is known
+      const Type* type = expressions_.value(looked_at, types[generic]);
+      if (type == nullptr) {
+        return nullptr;
+      }
+      const Type*& known = types[generic];
+      const bool adapts_to =
+          known != nullptr && looked_at.resolved->untyped && adapts(*looked_at.resolved->constant, *known);
+      const Type* common = known == nullptr || adapts_to ? known : context_.common_type(*known, *type);
+      if (!adapts_to && ((known != nullptr && common == nullptr) || !generic_takes(generic, *type))) {
+        context_.error(argument.value->at,
+                       fmt::format("{} is {} and does not take {}{}", parameter->name, generic, with_article(*type),
+                                   known != nullptr ? " beside " + with_article(*known) : ""));
+        return nullptr;
+      }
+      known = known == nullptr ? type : common;
+    }
+  }
+  return function_for(context_, tree, types, call.at);
+}
+
+// Whose instance is called: not an input, which is only a copy of what was given.
+bool CallChecker::may_run(const Expression& callee) {
+  const Resolved* root = ExpressionChecker::root_of(callee).resolved.get();
+  const bool copy = root != nullptr && root->variable != nullptr && root->variable->section == ast::Section::Input &&
+                    root->variable->type != nullptr && root->variable->type->kind == Type::Kind::Block &&
+                    root->variable->owner == context_.pou;
+  if (copy && !context_.codesys()) {
+    context_.error(callee.at, fmt::format("'{}' is an input, a copy of the instance that was given; declare it as "
+                                          "VAR_IN_OUT to call that one",
+                                          root->variable->name));
+  }
+  return !copy || context_.codesys();
+}
+
+}  // namespace indurop::plc

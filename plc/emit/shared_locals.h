@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the local variables that are shared, also those inside instances of function blocks.
+
+#pragma once
+
+#include "plc/emit/task_use.h"
+
+namespace indurop::plc {
+
+// Appends them to `use`, whose globals are known.
+void find_shared_locals(const Program& program, const TaskPlan& task, bool show_locals, TaskUse& use);
+
+}  // namespace indurop::plc

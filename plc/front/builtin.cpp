@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/front/builtin.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "plc/library/hidden.h"
+#include "plc/model/elementary.h"
+#include "plc/model/make.h"
+#include "plc/st/parser.h"
+
+namespace indurop::plc {
+namespace {
+
+// HMI_NODE marks a place in the tree of the pictures.
+constexpr std::array<std::string_view, 11> kHmiTypes{"SINT",  "INT",   "DINT", "LINT",   "USINT", "UINT",
+                                                     "UDINT", "ULINT", "REAL", "STRING", "BOOL"};
+
+constexpr std::string_view kLevels = "TYPE LOGLEVEL : (CRITICAL, WARNING, INFO, DEBUG) := INFO; END_TYPE\n";
+constexpr std::string_view kLogger = R"(FUNCTION_BLOCK LOGGER
+VAR_INPUT TRIG : BOOL; MSG : STRING; LEVEL : LOGLEVEL := INFO; END_VAR
+VAR before : BOOL; END_VAR
+END_FUNCTION_BLOCK
+)";
+
+void use(const ast::TypeSpec& type, std::set<std::string>& names) {
+  if (type.kind == ast::TypeSpec::Kind::Named) {
+    names.insert(upper(type.name));
+  }
+  if (type.element) {
+    use(*type.element, names);
+  }
+  for (const ast::Variable& field : type.fields) {
+    use(field.type, names);
+  }
+}
+
+void use(const std::vector<ast::Variable>& variables, std::set<std::string>& names) {
+  for (const ast::Variable& one : variables) {
+    use(one.type, names);
+  }
+}
+
+std::set<std::string> used_types(const Project& project) {
+  std::set<std::string> names;
+  use(project.globals, names);
+  for (const Configuration& configuration : project.configurations) {
+    use(configuration.globals, names);
+    for (const Resource& resource : configuration.resources) {
+      use(resource.globals, names);
+    }
+  }
+  for (const ast::TypeDeclaration& one : project.types) {
+    use(one.type, names);
+  }
+  for (const ast::Pou& pou : project.pous) {
+    use(pou.variables, names);
+    for (const ast::Pou& method : pou.methods) {
+      use(method.variables, names);
+    }
+  }
+  return names;
+}
+
+bool declares(const Project& project, std::string_view name) {
+  const auto same = [&](const auto& one) { return same_name(one.name, name); };
+  return std::any_of(project.types.begin(), project.types.end(), same) ||
+         std::any_of(project.pous.begin(), project.pous.end(), same);
+}
+
+// IF TRIG AND NOT before THEN write the line; END_IF; before := TRIG;
+ast::Body logger_body(const Place& at) {
+  std::vector<ast::Argument> values;
+  std::vector<ast::Argument> level;
+  level.push_back(make::argument("", make::name(at, "LEVEL")));
+  values.push_back(make::argument("", make::call(at, make::name(at, "LOGLEVEL_TO_INT"), std::move(level))));
+  values.push_back(make::argument("", make::name(at, "MSG")));
+  ast::Body write;
+  write.push_back(make::call_statement(make::call(at, make::name(at, std::string(kLogMessage)), std::move(values))));
+  ast::Body out;
+  out.push_back(
+      make::when(make::both(make::name(at, "TRIG"), make::negation(make::name(at, "before"))), std::move(write)));
+  out.push_back(make::assign(make::name(at, "before"), make::name(at, "TRIG")));
+  return out;
+}
+
+}  // namespace
+
+void add_builtin(Project& project) {
+  const std::set<std::string> names = used_types(project);
+  const auto misses = [&](const std::string& name) { return names.contains(name) && !declares(project, name); };
+  std::string text;
+  for (const std::string_view type : kHmiTypes) {
+    if (misses(fmt::format("HMI_{}", type))) {
+      text += fmt::format("TYPE HMI_{0} : {0}; END_TYPE\n", type);
+    }
+  }
+  if (misses("HMI_NODE")) {
+    text += "TYPE HMI_NODE : BOOL; END_TYPE\n";
+  }
+  const bool logger = misses("LOGGER");
+  if ((logger && !declares(project, "LOGLEVEL")) || misses("LOGLEVEL")) {
+    text += kLevels;
+  }
+  text += logger ? kLogger : "";
+  if (text.empty()) {
+    return;
+  }
+  Place at;
+  at.within = std::make_shared<const std::string>("what Beremiz brings along");
+  Diagnostics quiet;
+  std::vector<st::WrittenBody> others;
+  Project made = st::parse_project({text, at}, others, quiet);
+  for (ast::Pou& pou : made.pous) {
+    pou.body = logger_body(pou.at);
+  }
+  append(project, std::move(made));
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types and function blocks that editors bring along without writing them into their files: LOGGER of Beremiz, the
+// types of its SVGHMI.
+
+#pragma once
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+
+namespace indurop::plc {
+
+// Declares those that the project uses and does not declare itself.
+void add_builtin(Project& project);
+
+}  // namespace indurop::plc

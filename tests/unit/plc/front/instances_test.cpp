@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of instances is shared: RETAIN of them and in them, AT %I* in function blocks; instances as inputs; programs
+// that others use by their names.
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/plc/front/compiled.h"
+
+namespace indurop::plc {
+namespace {
+
+using testing::compiled;
+using ::testing::HasSubstr;
+using testing::messages;
+using ::testing::Not;
+using testing::written;
+using testing::wrong;
+
+constexpr const char* kPump = R"(FUNCTION_BLOCK Pump
+VAR_INPUT go : BOOL R_EDGE; END_VAR
+VAR_OUTPUT starts : INT; END_VAR
+VAR RETAIN hours : DINT := 7; END_VAR
+VAR NON_RETAIN last : BOOL; END_VAR
+VAR level AT %IW* : INT; open AT %Q* : BOOL; END_VAR
+  IF go THEN starts := starts + 1; hours := hours + level; END_IF;
+  open := starts > 3;
+  last := go;
+END_FUNCTION_BLOCK
+)";
+
+Compiled codesys(const std::string& text) {
+  CompileOptions options;
+  options.files = {"in.st"};
+  options.name = "sut";
+  options.dialect = Dialect::Codesys;
+  return compile(options, [&](const std::string& name) { return glb2idl::ReadResult{text, name, ""}; });
+}
+
+TEST(PlcInstances, What_is_RETAIN_in_a_function_block_is_kept_for_each_instance) {
+  const Compiled sut = compiled(std::string(kPump) + R"(PROGRAM Main
+VAR one : Pump; more : ARRAY[-1..0] OF Pump; END_VAR
+  one(go := TRUE);
+  more[0](go := one.starts > 3);
+  more[-1](go := FALSE);
+END_PROGRAM
+)");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.glb, HasSubstr("int32_t Main_one_hours @retain = 7;"));
+  EXPECT_THAT(sut.glb, HasSubstr("int32_t Main_more_m1_hours @retain = 7;"));
+  EXPECT_THAT(sut.glb, HasSubstr("int32_t Main_more_0_hours @retain = 7;"));
+  EXPECT_THAT(sut.glb, Not(HasSubstr("starts")));
+  EXPECT_THAT(sut.modules.at(0).cpp,
+              HasSubstr("iec::copy_value(instance_Main.more[0].hours, ::sut::Main_more_m1_hours"));
+}
+
+TEST(PlcInstances, AT_a_place_to_be_given_is_a_shared_variable_of_each_instance) {
+  const Compiled sut = compiled(std::string(kPump) + R"(VAR_GLOBAL all : Pump; END_VAR
+PROGRAM Main
+VAR one : Pump; END_VAR
+  one(go := TRUE);
+  all(go := FALSE);
+END_PROGRAM
+)");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t Main_one_level;  // %I*"));
+  EXPECT_THAT(sut.glb, HasSubstr("bool all_open;  // %Q*"));
+  const std::string& cpp = sut.modules.at(0).cpp;
+  EXPECT_THAT(cpp, HasSubstr("iec::copy_value(plc::all.level, ::sut::all_level.get());"));
+  EXPECT_THAT(cpp,
+              HasSubstr("iec::write_changed(::sut::Main_one_open, instance_Main.one.open, before_Main_one_open);"));
+  EXPECT_THAT(cpp, Not(HasSubstr("iec::write_changed(::sut::Main_one_level")));
+}
+
+TEST(PlcInstances, Inputs_of_instances_are_not_written) {
+  EXPECT_THAT(wrong("FUNCTION_BLOCK F VAR x AT %I* : INT; END_VAR x := 1; END_FUNCTION_BLOCK\n"
+                    "PROGRAM Main VAR f : F; END_VAR f(); END_PROGRAM"),
+              HasSubstr("is an input, which only the world outside changes"));
+}
+
+TEST(PlcInstances, Places_are_refused_where_an_instance_has_none) {
+  EXPECT_THAT(wrong(std::string(kPump) + "FUNCTION_BLOCK F VAR_STAT p : Pump; END_VAR p(); END_FUNCTION_BLOCK\n"
+                                         "PROGRAM Main VAR f : F; END_VAR f(); END_PROGRAM"),
+              HasSubstr("Pump has variables AT %I* or %Q*, which only an instance in VAR"));
+  EXPECT_THAT(wrong("FUNCTION F : INT VAR x AT %I* : INT; END_VAR F := x; END_FUNCTION\n"
+                    "PROGRAM Main VAR k : INT; END_VAR k := F(); END_PROGRAM"),
+              HasSubstr("AT %I* has no place in a call"));
+}
+
+TEST(PlcInstances, Instances_can_be_RETAIN) {
+  const Compiled sut = compiled(std::string(kPump) + R"(VAR_GLOBAL RETAIN meter : CTU := (PV := 9); END_VAR
+PROGRAM Main
+VAR RETAIN timer : TON; pump : Pump; END_VAR
+  timer(IN := TRUE, PT := T#1h);
+  pump(go := timer.Q);
+  meter(CU := pump.starts > 2);
+END_PROGRAM
+)");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.glb, HasSubstr("int64_t Main_timer_ET @unit(\"ns\") @retain;"));
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t meter_PV @retain = 9;"));
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t Main_pump_starts @retain;"));
+  EXPECT_THAT(sut.glb, Not(HasSubstr("last")));
+  const std::string& cpp = sut.modules.at(0).cpp;
+  EXPECT_THAT(cpp, HasSubstr("iec::restore(instance_Main.timer, scan);"));
+  EXPECT_THAT(cpp, HasSubstr("iec::restore(plc::meter, scan);"));
+  EXPECT_THAT(cpp, HasSubstr("instance_Main.pump.go_before = instance_Main.pump.go;"));
+}
+
+TEST(PlcInstances, An_inherited_variable_can_be_RETAIN) {
+  const Compiled sut = compiled(R"(FUNCTION_BLOCK Base
+VAR RETAIN n : INT; END_VAR
+METHOD PUBLIC Go n := n + 1; END_METHOD
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Wide EXTENDS Base
+VAR RETAIN m : INT; END_VAR
+  Go();
+  m := n;
+END_FUNCTION_BLOCK
+PROGRAM Main VAR w : Wide; END_VAR w(); END_PROGRAM
+)");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t Main_w_n @retain;"));
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t Main_w_m @retain;"));
+}
+
+TEST(PlcInstances, What_cannot_be_kept_is_said) {
+  EXPECT_THAT(wrong("PROGRAM Main VAR RETAIN p : POINTER TO INT; END_VAR p := NULL; END_PROGRAM"),
+              HasSubstr("a POINTER TO INT cannot be kept over a restart"));
+  EXPECT_THAT(messages(compiled("PROGRAM Main VAR RETAIN p : PID; END_VAR p(AUTO := TRUE); END_PROGRAM")),
+              HasSubstr("warning: of PID only inputs and outputs are kept over a restart"));
+}
+
+TEST(PlcInstances, An_input_that_is_an_instance_is_not_called) {
+  EXPECT_THAT(wrong("FUNCTION_BLOCK F VAR_INPUT t : TON; END_VAR t(IN := TRUE); END_FUNCTION_BLOCK\n"
+                    "PROGRAM Main VAR f : F; t : TON; END_VAR f(t := t); END_PROGRAM"),
+              HasSubstr("'t' is an input, a copy of the instance that was given"));
+  EXPECT_THAT(wrong("FUNCTION_BLOCK F VAR_INPUT t : TON; END_VAR VAR x : BOOL; END_VAR x := t.Q; END_FUNCTION_BLOCK\n"
+                    "PROGRAM Main VAR f : F; t : TP; END_VAR f(t := t); END_PROGRAM"),
+              HasSubstr("t needs an instance of TON, not a TP"));
+}
+
+constexpr const char* kPrograms = R"(PROGRAM Helper
+VAR_INPUT step : INT; END_VAR
+VAR n : INT; END_VAR
+  n := n + step;
+END_PROGRAM
+PROGRAM Main
+VAR k : INT; END_VAR
+  Helper(step := 2);
+  k := Helper.n;
+END_PROGRAM
+)";
+
+TEST(PlcInstances, A_program_is_called_by_its_name_in_CODESYS) {
+  const Compiled sut = codesys(kPrograms);
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.modules.at(0).cpp, HasSubstr("instance_Main(scan);"));
+  EXPECT_THAT(sut.modules.at(0).cpp, Not(HasSubstr("instance_Helper")));  // Main runs it
+  EXPECT_THAT(wrong(kPrograms), HasSubstr("Helper is not a function"));
+}
+
+TEST(PlcInstances, Programs_of_two_tasks_do_not_use_each_other_by_name) {
+  const Compiled sut =
+      codesys(std::string("PROGRAM Helper VAR n : INT; END_VAR n := n + 1; END_PROGRAM\n"
+                          "PROGRAM Main VAR k : INT; END_VAR k := Helper.n; END_PROGRAM\n"
+                          "CONFIGURATION c RESOURCE r ON pc\n"
+                          "TASK fast (INTERVAL := T#1ms); TASK slow (INTERVAL := T#9ms);\n"
+                          "PROGRAM h WITH fast : Helper; PROGRAM m WITH slow : Main;\n"
+                          "END_RESOURCE END_CONFIGURATION"));
+  EXPECT_FALSE(sut.ok);
+  EXPECT_THAT(messages(sut), HasSubstr("the tasks fast and slow both use the program Helper by its name"));
+}
+
+TEST(PlcInstances, The_end_of_a_POU_may_miss_in_CODESYS) {
+  const std::string text = "PROGRAM Main\nVAR k : INT; END_VAR\nk := k + 1;\n";
+  const Compiled sut = codesys(text);
+  EXPECT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("warning: Main has no END_PROGRAM"));
+  EXPECT_THAT(wrong(text), HasSubstr("expected 'END_PROGRAM'"));
+}
+
+}  // namespace
+}  // namespace indurop::plc
