@@ -46,9 +46,8 @@ std::filesystem::path find_program() {
 
 NodeProcess::NodeProcess(const std::string& node, const std::vector<std::string>& arguments,
                          std::chrono::seconds patience)
-    : node_(node), patience_(patience) {
+    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)) {
   std::array<int, 2> ends{-1, -1};
-  output_ = ::memfd_create("output of a node", MFD_CLOEXEC);
   if (output_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error("cannot make a pipe to a node");
   }

@@ -86,7 +86,7 @@ std::optional<long double> number_in(schema::Base base, const std::vector<std::u
 struct Plant::Impl {
   struct Part {
     schema::Place place;
-    const vars::DirectoryEntry* entry;
+    const vars::DirectoryEntry* entry = nullptr;
   };
 
   Impl(const std::filesystem::path& configuration, const Settings& settings)

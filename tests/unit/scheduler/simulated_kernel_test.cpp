@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -30,7 +31,7 @@ std::vector<std::vector<std::int64_t>> simulate(const std::vector<Job>& jobs, st
   SimulatedKernel kernel(rt::mono_time(0), {&shown}, {});
   std::vector<std::vector<std::int64_t>> ended(jobs.size());
   std::vector<std::unique_ptr<KernelThread>> threads;
-  bool stop = false;
+  std::atomic<bool> stop{false};
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     auto thread = kernel.start({"job", jobs[i].priority, jobs[i].core}, [&, i] {
       const Job& job = jobs[i];
@@ -98,16 +99,14 @@ TEST(SimulatedKernel, Threads_of_one_priority_run_in_the_order_they_became_ready
   SimulatedKernel kernel(rt::mono_time(0), {}, {});
   std::string order;
   std::vector<std::unique_ptr<KernelThread>> threads;
-  for (const auto& [name, start] : {std::pair{'a', 20}, std::pair{'b', 10}, std::pair{'c', 10}}) {
-    threads.push_back(kernel
-                          .start({"t", 5, 0},
-                                 [&, name, start] {
-                                   kernel.sleep_until(rt::mono_time(start));
-                                   order += name;
-                                   kernel.work(30);
-                                   order += name;
-                                 })
-                          .value());
+  for (const std::pair<char, int>& one : {std::pair{'a', 20}, std::pair{'b', 10}, std::pair{'c', 10}}) {
+    auto thread = kernel.start({"t", 5, 0}, [&kernel, &order, name = one.first, begin = one.second] {
+      kernel.sleep_until(rt::mono_time(begin));
+      order += name;
+      kernel.work(30);
+      order += name;
+    });
+    threads.push_back(std::move(thread).value());
   }
   kernel.sleep_until(rt::mono_time(200));
   EXPECT_EQ(order, "bbccaa");
@@ -115,7 +114,7 @@ TEST(SimulatedKernel, Threads_of_one_priority_run_in_the_order_they_became_ready
 
 TEST(SimulatedKernel, Waiting_ends_with_the_wake_up_and_takes_no_time) {
   SimulatedKernel kernel(rt::mono_time(0), {}, {});
-  rt::SignalWord word;
+  rt::SignalWord word{};
   word.init(false);
   std::int64_t woken = -1;
   auto waits = kernel.start({"low", 1, 0}, [&] {
