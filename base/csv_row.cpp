@@ -37,6 +37,20 @@ std::vector<CsvCell> take_csv_row(std::string_view& text, char separator, std::s
   return cells;
 }
 
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    return std::string(text);
+  }
+  std::string field = "\"";
+  for (const char c : text) {
+    field += c;
+    if (c == '"') {
+      field += c;
+    }
+  }
+  return field + '"';
+}
+
 double csv_time_unit(std::string_view name) noexcept {
   constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
       {{"time", 1}, {"time_s", 1}, {"time_ms", 1e-3}, {"time_us", 1e-6}, {"time_ns", 1e-9}}};

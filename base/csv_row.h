@@ -21,6 +21,9 @@ struct CsvCell {
 // becomes that of the next row.
 std::vector<CsvCell> take_csv_row(std::string_view& text, char separator, std::size_t& line);
 
+// A cell as it stands in such a row: in quotes if it has to be, quotes doubled.
+std::string csv_field(std::string_view text);
+
 // Seconds per unit of a column of times by its name: time or time_s, time_ms, time_us, time_ns; 0: it is none.
 double csv_time_unit(std::string_view name) noexcept;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 
+#include <sstream>
+
 #include "base/nearest.h"
 #include "base/utf8.h"
 
@@ -64,6 +66,15 @@ std::string enumerate(const std::vector<std::string>& names, std::size_t most) {
     text += " and " + std::to_string(names.size() - shown) + " more";
   }
   return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(line);
+  }
+  return lines;
 }
 
 std::size_t characters(std::string_view text) noexcept {

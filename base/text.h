@@ -23,6 +23,9 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& kn
 // "a", "a and b", "a, b and c"; beyond `most` "a, b, c and 4 more".
 std::string enumerate(const std::vector<std::string>& names, std::size_t most = 6);
 
+// What stands before each line end, and behind the last.
+std::vector<std::string> lines_of(const std::string& text);
+
 // Number of characters, not bytes.
 std::size_t characters(std::string_view text) noexcept;
 // At most `most` characters, the last an ellipsis if some were cut off.

@@ -54,13 +54,13 @@ void declare_simulation(base::Options& line, Simulation& simulation) {
   line.add("--speed", "max|N", speed, "With --sim: times real time (default: max)").needs(sim);
   line.flag("--step", simulation.step, "With --sim: stand after each tick; Enter goes on, 10 or 20ms goes further")
       .needs(sim);
-  line.add("--times", "FILE", simulation.times,
+  const auto times = [&simulation](const std::string& file) {
+    simulation.times = file;
+    return read_measured_times(file, simulation.measured);
+  };
+  line.add("--times", "FILE", times,
            "With --sim: modules without <wcet> take as long as they took at most in this report of --report")
       .needs(sim)
-      .check([](const std::string& file) {
-        CheckOptions::Times times;
-        return read_measured_times(file, times);
-      })
       .completes(base::Completion::File);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/options.h"
+#include "config/check/check.h"
 #include "config/model/config.h"
 
 namespace indurop::config {
@@ -16,9 +17,10 @@ namespace indurop::config {
 // A run in virtual time.
 struct Simulation {
   bool on = false;
-  bool step = false;  // stands after each tick until standard input says to go on
-  double speed = 0;   // times real time; 0: as fast as the machine allows
-  std::string times;  // report of a run that says how long modules take; empty: only what <wcet> says
+  bool step = false;             // stands after each tick until standard input says to go on
+  double speed = 0;              // times real time; 0: as fast as the machine allows
+  std::string times;             // report of a run that says how long modules take; empty: only what <wcet> says
+  CheckOptions::Times measured;  // what it says
 };
 
 struct RunOptions {

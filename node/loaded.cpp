@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "config/measured_times.h"
 #include "node/setup.h"
 #include "runtime/host.h"
 
@@ -69,11 +68,7 @@ Result<Loaded, Ending> load(const Options& options, const Checked& checked, cons
   }
   loaded.tasks = make_tasks(checked.config, prepared.setup, prepared.rights.core);
   if (options.simulation.on) {
-    config::CheckOptions::Times times;
-    if (!options.simulation.times.empty()) {
-      (void)config::read_measured_times(options.simulation.times, times);  // was looked at with the command line
-    }
-    set_work_times(loaded.tasks, checked.config, times);
+    set_work_times(loaded.tasks, checked.config, options.simulation.measured);
   }
   for (scheduler::Task& task : loaded.tasks) {
     if (task.type == ModuleType::Thread) {

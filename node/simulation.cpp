@@ -18,11 +18,6 @@ namespace {
 constexpr rt::MonoTime kBegin = rt::mono_time(rt::kNanosPerSecond);
 constexpr std::chrono::milliseconds kLook{20};  // for a stop signal, while standard input is waited for
 
-std::string place(std::uint64_t tick, std::int64_t basic_period_ns) {
-  return fmt::format("tick {}, {}", tick,
-                     base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * basic_period_ns)));
-}
-
 }  // namespace
 
 Simulation::Simulation(const config::Simulation& settings, vars::Store& store, scheduler::RunBlock& run,
@@ -31,8 +26,7 @@ Simulation::Simulation(const config::Simulation& settings, vars::Store& store, s
       run_(run),
       signals_(signals),
       kernel_(kBegin, {&store.virtual_time(), &run.virtual_ns}, std::move(watch)),
-      began_(rt::MonoClock::now()),
-      virtual_began_(kBegin) {}
+      began_(rt::MonoClock::now()) {}
 
 int Simulation::pass(std::chrono::nanoseconds look) {
   if (settings_.step) {
@@ -46,7 +40,7 @@ int Simulation::keep_pace() {
   if (settings_.speed == 0) {
     return signals_.wait(std::chrono::nanoseconds{0});
   }
-  const auto virtual_passed = static_cast<double>((kernel_.now() - virtual_began_).count());
+  const auto virtual_passed = static_cast<double>((kernel_.now() - kBegin).count());
   const rt::MonoTime due =
       began_ + std::chrono::nanoseconds(static_cast<std::int64_t>(virtual_passed / settings_.speed));
   const rt::MonoTime now = rt::MonoClock::now();
@@ -108,7 +102,9 @@ bool Simulation::obey(const std::string& line) {
 }
 
 void Simulation::tell_place() {
-  fmt::print("{}\n", place(run_.tick.load(), run_.basic_period_ns));
+  const std::uint64_t tick = run_.tick.load();
+  fmt::print("tick {}, {}\n", tick,
+             base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * run_.basic_period_ns)));
   std::fflush(stdout);
 }
 

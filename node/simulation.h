@@ -39,7 +39,6 @@ class Simulation {
   base::StopSignal& signals_;
   scheduler::SimulatedKernel kernel_;
   rt::MonoTime began_;  // in real time, when virtual time began to pass
-  rt::MonoTime virtual_began_;
   std::string input_;
   rt::MonoTime stands_at_{};
   bool left_ = false;

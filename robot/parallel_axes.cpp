@@ -60,21 +60,11 @@ Solutions ParallelAxes::solve(const Arm& arm, const Pose& pose, const Joints& ne
   const double x = side.dot(reach) - along;
   const double y = across.dot(reach);
   const double offset = side.dot(center_ - a1.point) - along;
-  const double radius = std::hypot(x, y);
-  if (radius < Close::kSingular) {
-    if (std::abs(offset) < Close::kSingular) {  // the point is on axis 1: any angle will do
-      with_first(search, near[0], 0);
-    }
-    return search.found;
+  // At joint angles zero the centre lies on one of the two sides: that one is "in front".
+  const bool front = across.dot(center_ - a1.point) >= 0;
+  for (const FirstTurns::Turn& turn : FirstTurns({x, y}, offset, front, near[0])) {
+    with_first(search, turn.angle, turn.posture);
   }
-  const auto half = angle_with_cosine(offset / radius);
-  if (!half) {
-    return search.found;
-  }
-  const double middle = std::atan2(y, x);
-  const std::uint8_t front = across.dot(center_ - a1.point) >= 0 ? 0 : Solution::kShoulder;
-  with_first(search, middle - *half, front);
-  with_first(search, middle + *half, static_cast<std::uint8_t>(front ^ Solution::kShoulder));
   return search.found;
 }
 

@@ -23,6 +23,21 @@ void Solutions::add(const Arm& arm, const Joints& q, std::uint8_t posture, const
   reach = Reach::Ok;
 }
 
+FirstTurns::FirstTurns(const Eigen::Vector2d& point, double offset, bool front, double near) noexcept {
+  const double radius = std::hypot(point.x(), point.y());
+  if (radius < Close::kSingular) {
+    if (std::abs(offset) < Close::kSingular) {
+      turns_[count_++] = {near, 0};
+    }
+    return;
+  }
+  if (const auto half = angle_with_cosine(offset / radius)) {
+    const double middle = std::atan2(point.y(), point.x());
+    turns_[count_++] = {middle - *half, front ? std::uint8_t{0} : Solution::kShoulder};
+    turns_[count_++] = {middle + *half, front ? Solution::kShoulder : std::uint8_t{0}};
+  }
+}
+
 const Solution* Solutions::nearest(const Joints& near, std::optional<std::uint8_t> posture) const noexcept {
   const Solution* best = nullptr;
   double distance = HUGE_VAL;

@@ -35,4 +35,22 @@ struct Solutions {
   [[nodiscard]] const Solution* nearest(const Joints& near, std::optional<std::uint8_t> posture) const noexcept;
 };
 
+// The angles of the first axis that bring the arm's plane to a point, over the shoulder and over the back.
+class FirstTurns {
+ public:
+  struct Turn {
+    double angle = 0;
+    std::uint8_t posture = 0;
+  };
+  // `point`, in a frame on the axis, has to stand off by `offset` as the plane does. `front`: at joint angles zero the
+  // arm reaches over its shoulder. Where the point is on the axis any angle will do: `near`. None if it is too near.
+  FirstTurns(const Eigen::Vector2d& point, double offset, bool front, double near) noexcept;
+  [[nodiscard]] const Turn* begin() const noexcept { return turns_.data(); }
+  [[nodiscard]] const Turn* end() const noexcept { return turns_.data() + count_; }
+
+ private:
+  std::array<Turn, 2> turns_{};
+  std::size_t count_ = 0;
+};
+
 }  // namespace indurop::robot

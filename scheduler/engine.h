@@ -65,7 +65,7 @@ class Engine {
   // of its runs (a process that handles events, or is woken by a signal). Lives as long as the engine.
   [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return find_band(module); }
 
-  // The tick in which everything is on this core without any thread: for tests and simulation with a virtual clock.
+  // The tick in which everything is on this core without any thread: for tests with a clock of their own.
   void step(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
  private:

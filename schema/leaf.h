@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside schema/: numbers in the bytes of a value.
+// Numbers in the bytes of a value.
 
 #pragma once
 

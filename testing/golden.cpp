@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -13,36 +12,17 @@
 #include "base/file_problem.h"
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "base/text.h"
 
 namespace indurop::testing {
 namespace {
 
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\n") == std::string::npos) {
-    return field;
-  }
-  std::string text = "\"";
-  for (const char c : field) {
-    text += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return text + '"';
-}
-
 std::string line_of(const std::string& first, const std::vector<std::string>& fields) {
   std::string line = first;
   for (const std::string& field : fields) {
-    line += ',' + quoted(field);
+    line += ',' + base::csv_field(field);
   }
   return line + '\n';
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    lines.push_back(line);
-  }
-  return lines;
 }
 
 std::vector<std::string> fields_of(const std::string& line) {
@@ -105,8 +85,8 @@ std::string Trace::difference_to(const std::filesystem::path& file) const {
     throw std::runtime_error(base::cannot_read(file, text.error()) +
                              "; INDUROP_UPDATE_GOLDEN=1 in the environment writes it");
   }
-  const std::vector<std::string> is = lines_of(csv());
-  const std::vector<std::string> was = lines_of(*text);
+  const std::vector<std::string> is = base::lines_of(csv());
+  const std::vector<std::string> was = base::lines_of(*text);
   if (is[0] != (was.empty() ? "" : was[0])) {
     return fmt::format("{} is about other variables: {}", file.string(), was.empty() ? "none" : was[0]);
   }

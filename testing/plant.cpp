@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 
+#include "schema/leaf.h"
 #include "schema/schema.h"
 #include "testing/golden.h"
 #include "testing/node_process.h"
@@ -42,43 +42,19 @@ std::vector<std::string> arguments_of(const std::filesystem::path& configuration
   return words;
 }
 
-template <class T>
-long double as(const std::vector<std::uint8_t>& bytes) {
-  T value{};
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return static_cast<long double>(value);
-}
-
 std::optional<long double> number_in(schema::Base base, const std::vector<std::uint8_t>& bytes) {
   switch (base) {
     case schema::Base::Bool:
-    case schema::Base::UInt8:
     case schema::Base::Char:
-      return as<std::uint8_t>(bytes);
-    case schema::Base::Int8:
-      return as<std::int8_t>(bytes);
-    case schema::Base::Int16:
-      return as<std::int16_t>(bytes);
-    case schema::Base::UInt16:
-      return as<std::uint16_t>(bytes);
-    case schema::Base::Int32:
+      return schema::load<std::uint8_t>(bytes.data());
     case schema::Base::Enum:
-      return as<std::int32_t>(bytes);
-    case schema::Base::UInt32:
-      return as<std::uint32_t>(bytes);
-    case schema::Base::Int64:
-      return as<std::int64_t>(bytes);
-    case schema::Base::UInt64:
-      return as<std::uint64_t>(bytes);
-    case schema::Base::Float:
-      return as<float>(bytes);
-    case schema::Base::Double:
-      return as<double>(bytes);
-    case schema::Base::Text:
-    case schema::Base::Struct:
+      return schema::load<std::int32_t>(bytes.data());
+    default:
       break;
   }
-  return std::nullopt;
+  std::optional<long double> value;
+  schema::with_number(base, bytes.data(), [&value](auto number) { value = static_cast<long double>(number); });
+  return value;
 }
 
 }  // namespace

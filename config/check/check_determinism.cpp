@@ -9,11 +9,14 @@
 #include <span>
 #include <string_view>
 
+#include "base/text.h"
 #include "config/check/check_parts.h"
 #include "config/check/determinism.h"
 
 namespace indurop::config {
 namespace {
+
+constexpr std::size_t kShownVariables = 4;
 
 struct Symbol {
   std::string_view name;  // a whole name, or with a * at the end the begin of one
@@ -70,14 +73,6 @@ bool is(std::string_view import, std::string_view symbol) {
   return symbol.ends_with('*') ? import.starts_with(symbol.substr(0, symbol.size() - 1)) : import == symbol;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  }
-  return text;
-}
-
 // Variables that it may write.
 std::vector<std::string> written_by(const std::string& module, const std::vector<VariableUse>& uses) {
   std::vector<std::string> names;
@@ -87,15 +82,6 @@ std::vector<std::string> written_by(const std::string& module, const std::vector
     }
   }
   return names;
-}
-
-std::string shortened(const std::vector<std::string>& names) {
-  constexpr std::size_t kShown = 4;
-  if (names.size() <= kShown) {
-    return joined(names);
-  }
-  std::vector<std::string> first(names.begin(), names.begin() + kShown);
-  return fmt::format("{} and {} more", fmt::join(first, ", "), names.size() - kShown);
 }
 
 }  // namespace
@@ -127,7 +113,7 @@ void check_determinism(CheckContext& context) {
                                         : "";
     std::vector<std::string> reasons = sources_of_chance(result.facts[i].file.imports);
     if (!reasons.empty()) {
-      reasons = {"it uses " + joined(reasons)};
+      reasons = {"it uses " + base::enumerate(reasons)};
     }
     if (!as_it_likes.empty()) {
       reasons.insert(reasons.begin(), as_it_likes);
@@ -138,8 +124,9 @@ void check_determinism(CheckContext& context) {
     const std::vector<std::string> written = written_by(module.name, result.uses);
     context.report.note(
         module.places.file,
-        fmt::format("module {}: {}; {} may differ from run to run in a simulation{}", module.name, joined(reasons),
-                    written.empty() ? "what it does" : shortened(written),
+        fmt::format("module {}: {}; {} may differ from run to run in a simulation{}", module.name,
+                    base::enumerate(reasons),
+                    written.empty() ? "what it does" : base::enumerate(written, kShownVariables),
                     reasons.back().find("real time (") != std::string::npos ? "; irp::now_ns() is virtual time" : ""));
   }
 }

@@ -14,6 +14,7 @@
 #include "base/diagnostics.h"
 #include "config/check/check.h"
 #include "config/check/uses.h"
+#include "scheduler/task.h"
 
 namespace indurop::config {
 
@@ -37,6 +38,8 @@ struct CheckContext {
 
 // Basic and macro period, --adjust, number of bands, and times. Fills table, periodic, sporadic, non_real, timings.
 void check_schedule(CheckContext& context);
+// What bands are made of: a task for each of CheckResult::periodic, in its order.
+std::vector<scheduler::Task> periodic_tasks(const CheckContext& context);
 // Its last part: whether what says how long it executes ends in time.
 void check_times(CheckContext& context);
 // Cores, time that spinning leaves.

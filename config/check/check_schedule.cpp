@@ -236,20 +236,8 @@ void check_macro_period(CheckContext& context, const std::vector<PeriodicItem>& 
 // Every band beside the one in the tick thread needs a priority level of the operating system on its core.
 void check_bands(CheckContext& context) {
   const Config& config = context.config;
-  std::vector<scheduler::Task> tasks;
-  for (const std::size_t i : context.result.periodic) {
-    const Module& m = config.modules[i];
-    scheduler::Task task;
-    task.type = m.type;
-    task.priority = m.priority;
-    task.core = m.core;
-    task.period_ns = m.period.count();
-    task.offset_ns = m.offset.count();
-    task.overrun = m.overrun;
-    tasks.push_back(task);
-  }
   std::map<int, std::size_t> levels;
-  for (const auto& band : scheduler::make_bands(tasks, context.result.table.basic_period.count())) {
+  for (const auto& band : scheduler::make_bands(periodic_tasks(context), context.result.table.basic_period.count())) {
     if (band.kind != scheduler::BandKind::Inline && ++levels[band.core] == kMaxBands + 1) {
       context.report.error(config.modules[context.result.periodic[band.tasks.front()]].place,
                            "from this module on the schedule needs more than the " + std::to_string(kMaxBands) +
@@ -260,6 +248,22 @@ void check_bands(CheckContext& context) {
 }
 
 }  // namespace
+
+std::vector<scheduler::Task> periodic_tasks(const CheckContext& context) {
+  std::vector<scheduler::Task> tasks;
+  for (const std::size_t i : context.result.periodic) {
+    const Module& module = context.config.modules[i];
+    scheduler::Task task;
+    task.type = module.type;
+    task.priority = module.priority;
+    task.core = module.core;
+    task.period_ns = module.period.count();
+    task.offset_ns = module.offset.count();
+    task.overrun = module.overrun;
+    tasks.push_back(task);
+  }
+  return tasks;
+}
 
 void check_schedule(CheckContext& context) {
   CheckResult& result = context.result;

@@ -88,18 +88,6 @@ class Times {
 
   void make_order() {
     const CheckResult& result = context_.result;
-    std::vector<scheduler::Task> tasks;
-    for (const std::size_t i : result.periodic) {
-      const Module& module = config_.modules[i];
-      scheduler::Task task;
-      task.type = module.type;
-      task.priority = module.priority;
-      task.core = module.core;
-      task.period_ns = module.period.count();
-      task.offset_ns = module.offset.count();
-      task.overrun = module.overrun;
-      tasks.push_back(task);
-    }
     bool after_base_added = false;
     const auto add_after_base = [&] {
       for (const std::size_t i : result.sporadic) {
@@ -109,7 +97,7 @@ class Times {
       }
       after_base_added = true;
     };
-    for (const scheduler::BandPlan& band : scheduler::make_bands(tasks, basic_.count())) {
+    for (const scheduler::BandPlan& band : scheduler::make_bands(periodic_tasks(context_), basic_.count())) {
       if (band.kind != scheduler::BandKind::Inline) {
         add_after_base();
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan for programs: JSON and CSV. Names and order of the fields are a promise, see docs/report.md.
 
+#include "base/csv_row.h"
 #include "base/json.h"
 #include "config/plan/plan_parts.h"
 #include "scheduler/response_time.h"
@@ -16,18 +17,6 @@ Json names_json(const Config& config, const std::vector<std::size_t>& modules) {
     names.push_back(config.modules[i].name);
   }
   return names;
-}
-
-// RFC 4180: in quotes if needed, quotes doubled.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string field = "\"";
-  for (const char c : text) {
-    field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  }
-  return field + "\"";
 }
 
 std::string text(const Json& value) {
@@ -87,7 +76,7 @@ std::string csv_lines(const Config& config, const CheckResult& check, const std:
   for (std::size_t i = 0; i < check.table.slots.size(); ++i) {
     const scheduler::Slot& slot = check.table.slots[i];
     text += first + std::to_string(i) + "," + std::to_string(slot.time.count()) + "," +
-            csv_field(in_order(names_of(config, check, slot))) + "\n";
+            base::csv_field(in_order(names_of(config, check, slot))) + "\n";
   }
   return text;
 }

@@ -9,10 +9,10 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "rt/clock.h"
 #include "schema/schema.h"
 #include "vars/store.h"
@@ -27,15 +27,6 @@ struct Held {
   const vars::DirectoryEntry* entry = nullptr;
   std::vector<std::uint8_t> bytes;
 };
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    lines.push_back(line);
-  }
-  return lines;
-}
 
 Result<vars::Store, Problem> open_store(const std::string& board) {
   auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
@@ -84,7 +75,7 @@ Result<Held, Problem> read(const vars::Store& store, const std::string& assignme
 }  // namespace
 
 Result<void, Problem> force_values(const std::string& board, const std::string& target) {
-  const auto lines = lines_of(target);
+  const auto lines = base::lines_of(target);
   std::int64_t for_ns = -1;
   if (!lines.empty()) {
     (void)std::from_chars(lines[0].data(), lines[0].data() + lines[0].size(), for_ns);
@@ -127,7 +118,7 @@ Result<void, Problem> unforce_values(const std::string& board, const std::string
     return std::move(store).error();
   }
   std::vector<Held> named;
-  for (const std::string& name : target == "*" ? std::vector<std::string>() : lines_of(target)) {
+  for (const std::string& name : target == "*" ? std::vector<std::string>() : base::lines_of(target)) {
     auto found = find(*store, name);
     if (!found) {
       return found.error();

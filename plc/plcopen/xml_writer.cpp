@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/xml_text.h"
+
 namespace indurop::plc::plcopen {
 namespace {
 
@@ -13,27 +15,11 @@ bool is_character(char c) noexcept {
 
 std::string escaped(std::string_view text, bool in_attribute) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-      case '\r':
-      case '\t':
-        out += in_attribute || c == '\r' ? fmt::format("&#{};", static_cast<int>(c)) : std::string(1, c);
-        break;
-      default:
-        out += is_character(c) ? c : ' ';
+  for (const char c : base::xml_text(text)) {
+    if (c == '\r' || (in_attribute && (c == '\n' || c == '\t'))) {
+      out += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      out += is_character(c) ? c : ' ';
     }
   }
   return out;

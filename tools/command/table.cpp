@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/csv_row.h"
 #include "tools/command/units.h"
 
 namespace indurop::tools {
@@ -92,7 +93,7 @@ std::string Table::csv() const {
   const char* separator = "";
   for (const auto& column : columns_) {
     if (!column.key.empty()) {
-      out += separator + csv_field(column.key);
+      out += separator + base::csv_field(column.key);
       separator = ",";
     }
   }
@@ -124,26 +125,12 @@ JsonValue Table::json() const {
   return out;
 }
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-    return std::string(text);
-  }
-  std::string out = "\"";
-  for (const char c : text) {
-    out += c;
-    if (c == '"') {
-      out += '"';
-    }
-  }
-  return out + "\"";
-}
-
 std::string csv_value(const JsonValue& value) {
   if (value.is_null()) {
     return {};
   }
   if (const auto text = value.text()) {
-    return csv_field(*text);
+    return base::csv_field(*text);
   }
   const auto entries = value.values();
   if (value.is_array() && std::all_of(entries.begin(), entries.end(), [](const auto& e) { return e.is_text(); })) {
@@ -151,9 +138,9 @@ std::string csv_value(const JsonValue& value) {
     for (const JsonValue& entry : entries) {
       joined += (joined.empty() ? "" : " ") + *entry.text();
     }
-    return csv_field(joined);
+    return base::csv_field(joined);
   }
-  return csv_field(value.dump());
+  return base::csv_field(value.dump());
 }
 
 }  // namespace indurop::tools

@@ -61,8 +61,6 @@ class Table {
   std::vector<std::vector<Cell>> rows_;
 };
 
-// Quoted if it holds a comma, quote or line break.
-std::string csv_field(std::string_view text);
 // Scalar JSON as CSV text: strings without quotes, null as nothing.
 std::string csv_value(const JsonValue& value);
 

@@ -123,12 +123,17 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
   return true;
 }
 
+// Says what there is to say of it. Unlike a module a library may be without a PROGRAM.
+plc::Compiled compile(Context& context, plc::CompileOptions options, bool library) {
+  options.library = library;
+  plc::Compiled compiled = plc::compile(options);
+  print_diagnostics(context, compiled.diagnostics);
+  return compiled;
+}
+
 // Prints what is wrong, else one line.
 int check_plc(Context& context, const PlcRequest& request) {
-  plc::CompileOptions options = request.compile;
-  options.library = true;
-  const plc::Compiled compiled = plc::compile(options);
-  print_diagnostics(context, compiled.diagnostics);
+  const plc::Compiled compiled = compile(context, request.compile, true);
   if (!compiled.ok) {
     return kCheckFailed;
   }
@@ -140,8 +145,7 @@ int check_plc(Context& context, const PlcRequest& request) {
 
 // Writes <name>.glb and, for each task, .cpp and .so; prints the modules for module.xml.
 int build_plc(Context& context, const PlcRequest& request) {
-  const plc::Compiled compiled = plc::compile(request.compile);
-  print_diagnostics(context, compiled.diagnostics);
+  const plc::Compiled compiled = compile(context, request.compile, false);
   if (!compiled.ok) {
     return kCheckFailed;
   }
@@ -171,10 +175,7 @@ int build_library(Context& context, const PlcRequest& request) {
     context.out.error(fmt::format("'{}' is not a version, write --version 1.2.0", request.version));
     return kUsage;
   }
-  plc::CompileOptions options = request.compile;
-  options.library = true;
-  const plc::Compiled compiled = plc::compile(options);
-  print_diagnostics(context, compiled.diagnostics);
+  const plc::Compiled compiled = compile(context, request.compile, true);
   if (!compiled.ok) {
     return kCheckFailed;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/csv_row.h"
 #include "rt/clock.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
@@ -49,7 +50,7 @@ void print_changes(Context& context, const WatchSource& source, const Rounds& ro
 void print_csv_heading(Context& context, const WatchSource& source) {
   std::string line = "time_ns";
   for (const auto& value : source.values()) {
-    line += "," + csv_field(value.item.name);
+    line += "," + base::csv_field(value.item.name);
   }
   context.out.line(line);
 }

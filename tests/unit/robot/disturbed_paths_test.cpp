@@ -61,15 +61,7 @@ class Disturbed {
 
  private:
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Target pose_near(Joints q, double far) {
-    for (int i = 0; i < kAxes; ++i) {
-      q[i] += in(-far, far);
-    }
-    Target target;
-    target.is_pose = true;
-    target.pose = arm_.forward(q);
-    return target;
-  }
+  Target pose_near(const Joints& q, double far) { return robot::pose_near(arm_, q, far, random_); }
   bool plan(const Joints& from) {
     MoveCommand command;
     const double far = std::exp(in(std::log(0.005), std::log(0.8)));

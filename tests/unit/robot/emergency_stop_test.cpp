@@ -39,18 +39,7 @@ class Emergency_stop : public testing::Test {
   std::mt19937 random{5};
 
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-  Joints near(Joints q, double far) {
-    for (int i = 0; i < kAxes; ++i) {
-      q[i] += in(-far, far);
-    }
-    return q;
-  }
-  Target pose_near(const Joints& q, double far) {
-    Target target;
-    target.is_pose = true;
-    target.pose = arm.forward(near(q, far));
-    return target;
-  }
+  Target pose_near(const Joints& q, double far) { return robot::pose_near(arm, q, far, random); }
 
   void start(const Joints& from) {
     sut.set_hold(false);

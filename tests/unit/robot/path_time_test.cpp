@@ -116,15 +116,7 @@ class Path_time : public testing::Test {
   std::mt19937 random{7};
 
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-  Target pose_near(Joints q, double far) {
-    for (int i = 0; i < kAxes; ++i) {
-      q[i] += in(-far, far);
-    }
-    Target target;
-    target.is_pose = true;
-    target.pose = arm.forward(q);
-    return target;
-  }
+  Target pose_near(const Joints& q, double far) { return robot::pose_near(arm, q, far, random); }
   // A random one that is accepted; false if not.
   bool plan(Move move, const Joints& from) {
     MoveCommand command;

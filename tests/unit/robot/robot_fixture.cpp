@@ -75,6 +75,16 @@ Joints anywhere(const Arm& arm, std::mt19937& random, double margin) {
   return q;
 }
 
+Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random) {
+  for (int i = 0; i < kAxes; ++i) {
+    q[i] += std::uniform_real_distribution<double>(-far, far)(random);
+  }
+  Target target;
+  target.is_pose = true;
+  target.pose = arm.forward(q);
+  return target;
+}
+
 double distance(const Pose& a, const Pose& b) {
   return difference(a, b).norm();
 }

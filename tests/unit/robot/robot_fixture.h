@@ -25,6 +25,8 @@ std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::st
 
 // Somewhere within the limits, `margin` away from them. The same sequence for the same seed.
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin = 0.01);
+// A pose of the arm with each joint at most `far` (rad) from `q`.
+Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random);
 double distance(const Pose& a, const Pose& b);
 
 }  // namespace indurop::robot
