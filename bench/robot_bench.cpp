@@ -34,14 +34,12 @@ const Arm& arm() {
 }
 
 Joints somewhere() {
-  Joints q;
-  q << 0.1, 0.2, 0.1, 0.3, 0.8, 0.2;
-  return q;
+  return joints_of({0.1, 0.2, 0.1, 0.3, 0.8, 0.2});
 }
 
 JointLimits limits() {
   JointLimits all;
-  all.velocity << 3.49, 3.49, 3.49, 6.98, 6.98, 8.72;
+  all.velocity.head<6>() << 3.49, 3.49, 3.49, 6.98, 6.98, 8.72;
   all.acceleration = all.velocity / 0.25;
   all.jerk = all.acceleration / 0.1;
   return all;

@@ -29,12 +29,16 @@ std::optional<double> angle_with_cosine(double cosine) noexcept {
 }
 
 std::optional<double> turn_nearest(const Axis& axis, double angle, double near) noexcept {
+  constexpr double kSlack = 1e-9;
+  if (axis.slides()) {
+    const bool within = angle >= axis.lower - kSlack && angle <= axis.upper + kSlack;
+    return within ? std::optional(std::clamp(angle, axis.lower, axis.upper)) : std::nullopt;
+  }
   const double turn = 2 * kPi;
   double best = angle + turn * std::round((near - angle) / turn);
   if (axis.endless) {
     return best;
   }
-  constexpr double kSlack = 1e-9;
   if (best > axis.upper + kSlack) {
     best -= turn * std::ceil((best - axis.upper - kSlack) / turn);
   } else if (best < axis.lower - kSlack) {

@@ -23,7 +23,8 @@ Eigen::Vector2d turned2(const Eigen::Vector2d& v, double angle) noexcept;
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) noexcept;
 // acos of a cosine that rounding may have put slightly beyond 1; nothing if it is far beyond.
 std::optional<double> angle_with_cosine(double cosine) noexcept;
-// `angle` plus as many turns as bring it nearest to `near` within the axis' limits; nothing if none is within.
+// `angle` plus as many turns as bring it nearest to `near` within the axis' limits; nothing if none is within. What
+// slides does not turn.
 std::optional<double> turn_nearest(const Axis& axis, double angle, double near) noexcept;
 // The point of axis `a` that is nearest to axis `b`; they are not parallel.
 Vec3 nearest_point(const Axis& a, const Axis& b) noexcept;

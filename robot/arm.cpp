@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/arm.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -16,41 +19,102 @@ Mat3 turned(const Vec3& axis, double angle) noexcept {
   return r;
 }
 
+Arm::Arm(Axes axes, const Pose& home, int count) noexcept : axes_(std::move(axes)), home_(home), count_(count) {
+  for (; link_count_ < static_cast<std::size_t>(count); ++link_count_) {
+    const Axis& a = axes_[link_count_];
+    links_[link_count_] = {a.direction, a.point, a.kind, static_cast<int>(link_count_), 1};
+  }
+}
+
+Arm::Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count) noexcept
+    : axes_(std::move(axes)), home_(home), count_(count), link_count_(std::min(link_count, kMostLinks)) {
+  std::copy_n(links, link_count_, links_.begin());
+}
+
+// The tool looks down.
+Arm::Arm(Axes axes, const Delta& delta, int count) noexcept
+    : axes_(std::move(axes)), home_{delta.position(Vec3::Zero()), Quat(0, 1, 0, 0)}, count_(count), delta_(delta) {}
+
+bool Arm::turns_six() const noexcept {
+  return count_ == 6 && link_count_ == 6 && std::all_of(links_.begin(), links_.begin() + 6, [](const Link& l) {
+           return l.kind == AxisKind::Turning && l.ratio == 1;
+         });
+}
+
 Pose Arm::forward(const Joints& q) const noexcept {
+  if (delta_) {
+    const double turn = count_ > 3 ? q[3] / 2 : 0;
+    return {delta_->position(q.head<3>()), home_.orientation * Quat(std::cos(turn), 0, 0, std::sin(turn))};
+  }
   Mat3 rotation = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
-  for (int i = 0; i < kAxes; ++i) {
-    const Axis& a = axis(i);
-    const Mat3 turn = turned(a.direction, q[i]);
-    shift += rotation * (a.point - turn * a.point);
+  for (std::size_t i = 0; i < link_count_; ++i) {
+    const Link& link = links_[i];
+    const double moved = link.ratio * q[link.axis];
+    if (link.kind == AxisKind::Sliding) {
+      shift += rotation * (moved * link.direction);
+      continue;
+    }
+    const Mat3 turn = turned(link.direction, moved);
+    shift += rotation * (link.point - turn * link.point);
     rotation = rotation * turn;
   }
   return {rotation * home_.position + shift, Quat(rotation) * home_.orientation};
 }
 
 Jacobian Arm::jacobian(const Joints& q) const noexcept {
-  Jacobian j;
-  std::array<Vec3, kAxes> points;
+  if (delta_) {
+    Jacobian j = Jacobian::Zero();
+    j.topLeftCorner<3, 3>() = delta_->moving(q.head<3>());
+    j(5, 3) = count_ > 3 ? -1 : 0;
+    return j;
+  }
+  std::array<Vec3, kMostLinks> points;
+  std::array<Vec3, kMostLinks> directions;
   Mat3 rotation = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
-  for (int i = 0; i < kAxes; ++i) {
-    const Axis& a = axis(i);
-    j.block<3, 1>(3, i) = rotation * a.direction;
-    points[static_cast<std::size_t>(i)] = rotation * a.point + shift;
-    const Mat3 turn = turned(a.direction, q[i]);
-    shift += rotation * (a.point - turn * a.point);
+  for (std::size_t i = 0; i < link_count_; ++i) {
+    const Link& link = links_[i];
+    const double moved = link.ratio * q[link.axis];
+    directions[i] = rotation * link.direction;
+    points[i] = rotation * link.point + shift;
+    if (link.kind == AxisKind::Sliding) {
+      shift += moved * directions[i];
+      continue;
+    }
+    const Mat3 turn = turned(link.direction, moved);
+    shift += rotation * (link.point - turn * link.point);
     rotation = rotation * turn;
   }
   const Vec3 tool = rotation * home_.position + shift;
-  for (int i = 0; i < kAxes; ++i) {
-    const Vec3 direction = j.block<3, 1>(3, i);
-    j.block<3, 1>(0, i) = direction.cross(tool - points[static_cast<std::size_t>(i)]);
+  Jacobian j = Jacobian::Zero();
+  for (std::size_t i = 0; i < link_count_; ++i) {
+    const Link& link = links_[i];
+    if (link.kind == AxisKind::Sliding) {
+      j.block<3, 1>(0, link.axis) += link.ratio * directions[i];
+    } else {
+      j.block<3, 1>(0, link.axis) += link.ratio * directions[i].cross(tool - points[i]);
+      j.block<3, 1>(3, link.axis) += link.ratio * directions[i];
+    }
   }
   return j;
 }
 
+double Arm::volume(const Joints& q) const noexcept {
+  const Jacobian j = jacobian(q);
+  if (count_ == 6) {
+    return j.leftCols<6>().determinant();
+  }
+  if (count_ > 6) {
+    return std::sqrt(std::max(0.0, (j * j.transpose()).determinant()));
+  }
+  Eigen::Matrix<double, kAxes, kAxes> normal = j.transpose() * j;
+  normal.diagonal().tail(kAxes - count_).setOnes();
+  return std::sqrt(std::max(0.0, normal.determinant()));
+}
+
 int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);
     const bool inside = a.endless ? std::isfinite(q[i]) : q[i] >= a.lower - slack && q[i] <= a.upper + slack;
     if (!inside) {
@@ -58,6 +122,21 @@ int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
     }
   }
   return -1;
+}
+
+// Additive recurrence.
+Joints Arm::spread(int number) const noexcept {
+  constexpr double kStride[] = {0.8567, 0.7339, 0.6287, 0.5386, 0.4614, 0.3953, 0.3387, 0.2901};
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count_; ++i) {
+    const Axis& a = axis(i);
+    const double part = std::fmod(0.5 + number * kStride[i], 1.0);
+    // A turn is enough.
+    const double lower = a.slides() ? a.lower : a.endless ? -kPi : std::max(a.lower, std::min(-kPi, a.upper - 2 * kPi));
+    const double upper = a.slides() ? a.upper : a.endless ? kPi : std::min(a.upper, lower + 2 * kPi);
+    q[i] = lower + part * (upper - lower);
+  }
+  return q;
 }
 
 }  // namespace indurop::robot

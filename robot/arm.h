@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm of six axes as geometry and limits: where its tool is, and how it moves when the axes do. Axes are kept as
-// lines in the base's frame at joint angles zero (product of exponentials), which any URDF can be brought to.
+// An arm as geometry and limits: where its tool is, and how it moves when the axes do. Axes are kept as lines in the
+// base's frame with all joints at zero (product of exponentials), which any URDF can be brought to.
 
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 
-#include "robot/geometry.h"
+#include "robot/delta.h"
 
 namespace indurop::robot {
+
+enum class AxisKind : std::uint8_t { Turning, Sliding };
 
 struct Axis {
   std::string name;
   Vec3 direction = Vec3::UnitZ();  // unit vector
   Vec3 point = Vec3::Zero();       // on the axis
-  double lower = -kPi;             // rad
-  double upper = kPi;              // rad
-  bool endless = false;            // turns on and on; lower and upper do not count
+  double lower = -kPi;             // rad, or m of sliding ones; so everywhere
+  double upper = kPi;
+  bool endless = false;  // turns on and on; lower and upper do not count
+  AxisKind kind = AxisKind::Turning;
+  [[nodiscard]] bool slides() const noexcept { return kind == AxisKind::Sliding; }
+};
+
+// A joint of the chain: an axis itself, or what a linkage moves with it.
+struct Link {
+  Vec3 direction = Vec3::UnitZ();
+  Vec3 point = Vec3::Zero();
+  AxisKind kind = AxisKind::Turning;
+  int axis = 0;
+  double ratio = 1;  // of the axis' motion
 };
 
 // What the axes can do at most.
@@ -29,21 +44,41 @@ struct JointLimits {
 
 class Arm {
  public:
-  // `home` is the tool's pose with all joints at zero.
-  Arm(std::array<Axis, kAxes> axes, const Pose& home) noexcept : axes_(std::move(axes)), home_(home) {}
+  using Axes = std::array<Axis, kAxes>;
+  static constexpr std::size_t kMostLinks = 16;
 
+  // `home` is the tool's pose with all joints at zero.
+  Arm(Axes axes, const Pose& home, int count = 6) noexcept;
+  // The chain from base to tool is made of `links`, kMostLinks at most.
+  Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count) noexcept;
+
+  // Three arms of a delta, and with four axes the turn of its tool.
+  Arm(Axes axes, const Delta& delta, int count) noexcept;
+
+  [[nodiscard]] int count() const noexcept { return count_; }
   [[nodiscard]] const Axis& axis(int index) const noexcept { return axes_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Axes& axes() const noexcept { return axes_; }
   [[nodiscard]] const Pose& home() const noexcept { return home_; }
+  // Six axes one behind the other, all of which turn.
+  [[nodiscard]] bool turns_six() const noexcept;
   // Real-time safe, as all the rest.
   [[nodiscard]] Pose forward(const Joints& q) const noexcept;
   // Of the tool's point, in the base's frame.
   [[nodiscard]] Jacobian jacobian(const Joints& q) const noexcept;
+  // 0 in singular positions; of six axes with another sign on their other side.
+  [[nodiscard]] double volume(const Joints& q) const noexcept;
   // First axis beyond its limits by more than `slack`, from 0; -1 if none. Values that are no number are beyond.
   [[nodiscard]] int beyond_limits(const Joints& q, double slack = 1e-9) const noexcept;
+  // Places that are evenly spread between the limits, one of each number.
+  [[nodiscard]] Joints spread(int number) const noexcept;
 
  private:
-  std::array<Axis, kAxes> axes_;
+  Axes axes_;
   Pose home_;
+  int count_;
+  std::array<Link, kMostLinks> links_{};
+  std::size_t link_count_ = 0;
+  std::optional<Delta> delta_;  // instead of links
 };
 
 // The rotation by `angle` about the unit vector `axis`.

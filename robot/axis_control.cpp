@@ -33,7 +33,7 @@ LineLimits AxisControl::limits(double hardness) const noexcept {
 }
 
 void AxisControl::sense(const DriveIn& in) noexcept {
-  measured_ = in.position / scale_.counts_per_radian;
+  measured_ = in.position / scale_.counts;
   placed_anew_ = state_ == AxisState::Homing;
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
     motion_.reset({measured_, 0, 0});  // a drive without power is where it is
@@ -145,7 +145,9 @@ ErrorCode AxisControl::begin_motion(const AxisRequest& request, AxisService serv
       state_ == AxisState::Stopping) {
     return ErrorCode::State;
   }
-  const auto chosen = [](double wanted, double most) { return wanted == 0 ? most : std::min(radians(wanted), most); };
+  const auto chosen = [this](double wanted, double most) {
+    return wanted == 0 ? most : std::min(wanted * scale_.unit, most);
+  };
   const bool to_velocity = service == AxisService::MoveVelocity;
   const double speed = to_velocity ? std::abs(request.velocity) : request.velocity;
   if (!std::isfinite(request.position) || !(speed >= 0 && request.acceleration >= 0 && request.jerk >= 0) ||
@@ -163,7 +165,7 @@ ErrorCode AxisControl::begin_motion(const AxisRequest& request, AxisService serv
   if (!relative && !homed_) {
     return ErrorCode::NotHomed;
   }
-  const double target = radians(request.position) + (relative ? motion_.state().position : 0);
+  const double target = request.position * scale_.unit + (relative ? motion_.state().position : 0);
   if (!endless_ && !(target >= lower_ - 1e-9 && target <= upper_ + 1e-9)) {
     return ErrorCode::JointLimit;
   }
@@ -284,7 +286,7 @@ DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
   DriveOut out;
   out.control = drive_.control();
   out.mode = drive_.mode();
-  out.position = counts(motion_.state().position * scale_.counts_per_radian * scale_.gear);
+  out.position = counts(motion_.state().position * scale_.counts * scale_.gear);
   return out;
 }
 
@@ -293,8 +295,8 @@ AxisReport AxisControl::report() const noexcept {
   report.state = state_;
   report.power = drive_.enabled() && !(active_ && service_ == AxisService::PowerOn);
   report.homed = homed_;
-  report.position = degrees(measured_);
-  report.velocity = degrees(motion_.state().velocity);
+  report.position = measured_ / scale_.unit;
+  report.velocity = motion_.state().velocity / scale_.unit;
   return report;
 }
 

@@ -14,8 +14,9 @@ namespace indurop::robot {
 class AxisControl {
  public:
   struct Scale {
-    double counts_per_radian = 1;
+    double counts = 1;  // per radian or metre
     double gear = 1;
+    double unit = kPi / 180;  // what its users count in: degrees or millimetres
   };
   AxisControl() = default;
   void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute) noexcept;
@@ -55,6 +56,7 @@ class AxisControl {
   // In a motion of its own.
   [[nodiscard]] bool busy() const noexcept;
   [[nodiscard]] bool at_rest() const noexcept { return motion_.at_rest(); }
+  [[nodiscard]] double unit() const noexcept { return scale_.unit; }
   [[nodiscard]] double measured() const noexcept { return measured_; }
   [[nodiscard]] const LineState& commanded() const noexcept { return motion_.state(); }
   [[nodiscard]] AxisReport report() const noexcept;

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/geometry.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace indurop::robot {
+
+Joints joints_of(std::initializer_list<double> first) noexcept {
+  Joints joints = Joints::Zero();
+  std::copy_n(first.begin(), std::min(first.size(), static_cast<std::size_t>(kAxes)), joints.data());
+  return joints;
+}
 
 Vec3 rotation_between(const Quat& from, const Quat& to) noexcept {
   Quat turn = from.conjugate() * to;

@@ -6,16 +6,18 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <initializer_list>
 #include <numbers>
 
 namespace indurop::robot {
 
-inline constexpr int kAxes = 6;
+// Room for that many; an arm may have fewer, and what the others stand at counts for nothing.
+inline constexpr int kAxes = 8;
 inline constexpr double kPi = std::numbers::pi;
 
 using Joints = Eigen::Matrix<double, kAxes, 1>;
-using Jacobian = Eigen::Matrix<double, kAxes, kAxes>;  // rows: linear velocity, then angular
-using Twist = Eigen::Matrix<double, 6, 1>;             // linear, then angular
+using Jacobian = Eigen::Matrix<double, 6, kAxes>;  // rows: linear velocity, then angular
+using Twist = Eigen::Matrix<double, 6, 1>;         // linear, then angular
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
@@ -26,6 +28,9 @@ inline constexpr double radians(double degrees) noexcept {
 inline constexpr double degrees(double radians) noexcept {
   return radians * 180 / kPi;
 }
+
+// The first axes; the others are at 0.
+Joints joints_of(std::initializer_list<double> first) noexcept;
 
 struct Pose {
   Vec3 position = Vec3::Zero();

@@ -25,17 +25,18 @@ Group::Group(GroupParts parts)
       desk_(places_, parts_.joints, parts_.tool, parts_.settings) {
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
-  const AxisControl::Scale scale{settings.counts_per_turn / (2 * kPi), settings.gear};
-  for (int i = 0; i < kAxes; ++i) {
+  const AxisControl::Scale turning{settings.counts_per_turn / (2 * kPi), settings.gear, kPi / 180};
+  const AxisControl::Scale sliding{settings.counts_per_mm * 1000, settings.gear, 0.001};
+  for (int i = 0; i < count(); ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
-    axes_[at(i)].set_up(axis, limits, scale, settings.absolute);
+    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute);
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }
 
 bool Group::all_enabled() const noexcept {
-  return std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.drive().enabled(); });
+  return std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.drive().enabled(); });
 }
 
 bool Group::powered() const noexcept {
@@ -43,8 +44,8 @@ bool Group::powered() const noexcept {
 }
 
 Joints Group::commanded() const noexcept {
-  Joints q;
-  for (int i = 0; i < kAxes; ++i) {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < count(); ++i) {
     q[i] = axes_[at(i)].commanded().position;
   }
   return q;
@@ -55,7 +56,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   watch(in);
   if (in.requests_known) {
     serve(in.service, in.edit);
-    for (int i = 0; i < kAxes; ++i) {
+    for (int i = 0; i < count(); ++i) {
       axes_[at(i)].serve(in.axes[at(i)], powered() && state_ != GroupState::Standby);
     }
   }
@@ -63,7 +64,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   desk_.expect_work(powered());
   run_state(signals);
   pass_gates();
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     out.drives[at(i)] = axes_[at(i)].command(in.drives[at(i)], quick_stop_);
   }
   report(out);
@@ -75,13 +76,13 @@ void Group::set_pace(const Inputs& in) noexcept {
   const double part = sane ? in.speed_override / 100 : 0;
   follower_.set_override(part);
   follower_.set_hold(in.hold);
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.set_override(in.hold ? 0 : part);
   }
 }
 
 void Group::sense(const Inputs& in) noexcept {
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     axes_[at(i)].sense(in.drives[at(i)]);
   }
   emergency_ = in.emergency;
@@ -90,7 +91,7 @@ void Group::sense(const Inputs& in) noexcept {
 // What may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
   const bool idle = state_ == GroupState::Disabled && !enabling_ &&
-                    std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.wants_power(); });
+                    std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.wants_power(); });
   if (in.emergency && error_ != ErrorCode::Emergency && !idle) {
     trip(ErrorCode::Emergency, 0, parts_.settings.emergency_factor);
     return;
@@ -98,7 +99,7 @@ void Group::watch(const Inputs& in) noexcept {
   if (!powered() || to_error_) {
     return;
   }
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     const Drive::State drive = Drive::state_of(in.drives[at(i)].status);
     if (drive != Drive::State::OperationEnabled) {
       const bool fault = drive == Drive::State::Fault || drive == Drive::State::FaultReaction;
@@ -107,7 +108,7 @@ void Group::watch(const Inputs& in) noexcept {
     }
     const double behind = std::abs(axes_[at(i)].commanded().position - axes_[at(i)].measured());
     if (state_ != GroupState::Homing && axes_[at(i)].state() != AxisState::Homing &&
-        behind > radians(parts_.settings.following_limit)) {
+        behind > axes_[at(i)].unit() * parts_.settings.following_limit) {
       trip(ErrorCode::Following, i + 1, 1);
       return;
     }
@@ -126,12 +127,12 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   to_error_ = true;
   hardness_ = hardness;
   const bool cut = code == ErrorCode::Emergency && parts_.settings.emergency_category == StopCategory::Category0;
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.power(a.wants_power() && !cut);
   }
   if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency && !cut) {
     follower_.stop_hard(hardness);
-    for (AxisControl& a : axes_) {
+    for (AxisControl& a : axes()) {
       if (a.state() != AxisState::SynchronizedMotion) {
         a.fail(code, hardness);
       }
@@ -147,19 +148,19 @@ void Group::leave_path(ErrorCode code, double hardness) noexcept {
   on_path_ = false;
   braking_ = true;
   hardness_ = hardness;
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.fail(code, hardness);
   }
 }
 
 // Nothing reaches a drive but through here.
 void Group::pass_gates() noexcept {
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     if (axes_[at(i)].placed_anew()) {
       gates_[at(i)].stand(axes_[at(i)].commanded().position);
     }
   }
-  for (int i = 0; i < kAxes && !braking_; ++i) {
+  for (int i = 0; i < count() && !braking_; ++i) {
     const ErrorCode code = gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
     if (code != ErrorCode::Ok && to_error_) {
       leave_path(error_, hardness_);  // the first error is what the user has to know
@@ -167,7 +168,7 @@ void Group::pass_gates() noexcept {
       trip(code, i + 1, 1);
     }
   }
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     if (braking_) {
       gates_[at(i)].brake(hardness_);
       axes_[at(i)].put(gates_[at(i)].state());
@@ -201,7 +202,7 @@ void Group::stop_for(Fault fault) noexcept {
 }
 
 void Group::run_state(Signals& signals) noexcept {
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     if (a.state() != AxisState::SynchronizedMotion) {
       a.move(period_);
     }
@@ -235,7 +236,7 @@ void Group::come_to_standby() noexcept {
   state_ = GroupState::Standby;
   on_path_ = true;
   job_moves_ = false;
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     if (a.state() == AxisState::SynchronizedMotion) {
       a.rest();
       a.reset();
@@ -255,10 +256,10 @@ void Group::run_enabling() noexcept {
   } else if (waited_ > kPowerTime) {
     enabling_ = false;
     int late = 0;
-    while (late < kAxes - 1 && axes_[at(late)].drive().enabled()) {
+    while (late < count() - 1 && axes_[at(late)].drive().enabled()) {
       ++late;
     }
-    for (AxisControl& a : axes_) {
+    for (AxisControl& a : axes()) {
       a.power(false);
     }
     finish_service(axes_[at(late)].drive().faulty() ? ErrorCode::Drive : ErrorCode::Power, late + 1);
@@ -266,13 +267,13 @@ void Group::run_enabling() noexcept {
 }
 
 void Group::run_homing() noexcept {
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     if (axes_[at(i)].state() == AxisState::ErrorStop) {
       trip(ErrorCode::NotHomed, i + 1, 1);
       return;
     }
   }
-  const bool all = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.homed(); });
+  const bool all = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.homed(); });
   if (all) {
     come_to_standby();
     finish_service(ErrorCode::Ok);
@@ -298,7 +299,7 @@ void Group::follow_path() noexcept {
     return;
   }
   const Joints speed = (follower_.joints() - last_command_) / period_;
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     axes_[at(i)].follow({follower_.joints()[i], speed[i], (speed[i] - last_speed_[i]) / period_});
   }
 }
@@ -326,13 +327,13 @@ void Group::run_stopping() noexcept {
   if (on_path_) {
     follow_path();
   }
-  const bool rest = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.at_rest(); });
+  const bool rest = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.at_rest(); });
   if (on_path_ ? !follower_.idle() : !rest) {
     return;
   }
   if (to_error_) {
     state_ = GroupState::ErrorStop;
-    for (AxisControl& a : axes_) {
+    for (AxisControl& a : axes()) {
       a.rest();
       a.fail(error_, 1);
     }
@@ -341,7 +342,7 @@ void Group::run_stopping() noexcept {
     state_ = GroupState::Disabled;
     come_to_standby();
     state_ = GroupState::Disabled;
-    for (AxisControl& a : axes_) {
+    for (AxisControl& a : axes()) {
       a.power(false);
     }
     finish_service(ErrorCode::Ok);

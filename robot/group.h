@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The group of six axes: the state machine behind the services, and the order of work in a period. Reading drives and
+// The group of axes: the state machine behind the services, and the order of work in a period. Reading drives and
 // requests, moving, telling the drives, reporting.
 
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "robot/axis_control.h"
 #include "robot/follower.h"
@@ -31,6 +32,7 @@ class Group final : public Controller, private MotionPort {
 
   void step(const Inputs& in, Signals& signals, Outputs& out) noexcept override;
   [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return parts_.book.signals; }
+  [[nodiscard]] std::size_t axis_count() const noexcept override { return static_cast<std::size_t>(count()); }
   [[nodiscard]] const std::string& kind() const noexcept override { return parts_.kind; }
 
  private:
@@ -80,6 +82,10 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
   [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
   void ask_for_plan(const PlanRequest& request) noexcept;
+
+  [[nodiscard]] int count() const noexcept { return parts_.arm.count(); }
+  [[nodiscard]] std::span<AxisControl> axes() noexcept { return {axes_.data(), axis_count()}; }
+  [[nodiscard]] std::span<const AxisControl> axes() const noexcept { return {axes_.data(), axis_count()}; }
 
   void report(Outputs& out) noexcept;  // group_report.cpp
   void report_motion(Outputs& out) noexcept;

@@ -27,11 +27,12 @@ void Group::report_motion(Outputs& out) noexcept {
   const Pose pose = parts_.arm.forward(now);
   const Twist moved = difference(last_pose_, pose) / period_;
   last_speed_ = (now - last_command_) / period_;
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    out.joints[k] = degrees(axes_[k].measured());
-    out.command[k] = degrees(now[i]);
-    out.speed[k] = degrees(axes_[k].commanded().velocity);
+    const double unit = axes_[k].unit();
+    out.joints[k] = axes_[k].measured() / unit;
+    out.command[k] = now[i] / unit;
+    out.speed[k] = axes_[k].commanded().velocity / unit;
   }
   const Vec3 rpy = to_rpy(pose.orientation);
   for (int i = 0; i < 3; ++i) {

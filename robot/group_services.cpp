@@ -110,7 +110,7 @@ ErrorCode Group::enable() noexcept {
   enabling_ = true;
   quick_stop_ = false;
   waited_ = 0;
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.power(true);
   }
   return ErrorCode::Ok;
@@ -129,7 +129,7 @@ ErrorCode Group::disable() noexcept {
     to_disabled_ = true;
     return ErrorCode::Ok;
   }
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.power(false);
   }
   finish_service(ErrorCode::Ok);
@@ -151,7 +151,7 @@ ErrorCode Group::reset() noexcept {
   }
   constexpr double kTime = 4;  // s
   waited_ += period_;
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < count(); ++i) {
     AxisControl& a = axes_[static_cast<std::size_t>(i)];
     if (a.drive().faulty()) {
       a.reset();
@@ -164,14 +164,14 @@ ErrorCode Group::reset() noexcept {
   // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
   const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
   quick_stop_ = false;
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.reset();
   }
   state_ = GroupState::Disabled;
   if (has_power) {
     come_to_standby();
   } else {
-    for (AxisControl& a : axes_) {
+    for (AxisControl& a : axes()) {
       a.power(false);
     }
   }
@@ -180,11 +180,11 @@ ErrorCode Group::reset() noexcept {
 }
 
 ErrorCode Group::home() noexcept {
-  const bool free = std::all_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.busy(); });
+  const bool free = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.busy(); });
   if (state_ != GroupState::Standby || !free) {
     return ErrorCode::State;
   }
-  for (AxisControl& a : axes_) {
+  for (AxisControl& a : axes()) {
     a.home();
   }
   state_ = GroupState::Homing;
@@ -192,12 +192,12 @@ ErrorCode Group::home() noexcept {
 }
 
 ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
-  const bool free = std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.busy(); });
+  const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   const bool possible = (state_ == GroupState::Standby && free) || (state_ == GroupState::Moving && !job_.running());
   if (!possible || !can_plan()) {
     return ErrorCode::State;
   }
-  if (std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.homed(); })) {
+  if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
     return ErrorCode::NotHomed;
   }
   MoveCommand command;
@@ -210,12 +210,14 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
   command.zone = request.level / 100.0;
   const Eigen::Map<const Joints, Eigen::Unaligned> numbers(request.target.data());
   if (direct) {
-    command.target.joints = numbers * (kPi / 180);
+    for (int i = 0; i < count(); ++i) {
+      command.target.joints[i] = numbers[i] * axes_[static_cast<std::size_t>(i)].unit();
+    }
     command.speed = request.velocity == 0 ? command.speed : request.velocity / 100;
   } else if (linear) {
     command.target.is_pose = true;
     command.target.pose.position = numbers.head<3>() / 1000;
-    command.target.pose.orientation = from_rpy(numbers.tail<3>() * (kPi / 180));
+    command.target.pose.orientation = from_rpy(numbers.segment<3>(3) * (kPi / 180));
     command.tool_speed = request.velocity / 1000;
   } else {
     const int target = parts_.book.numbered_point(request.point);
@@ -232,14 +234,14 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
 }
 
 ErrorCode Group::start_job(std::uint32_t number) noexcept {
-  const bool free = std::none_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return a.busy(); });
+  const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   if (number == 0 || number > parts_.book.jobs.size()) {
     return ErrorCode::Job;
   }
   if (state_ != GroupState::Standby || !free) {
     return ErrorCode::State;
   }
-  if (std::any_of(axes_.begin(), axes_.end(), [](const AxisControl& a) { return !a.homed(); })) {
+  if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
     return ErrorCode::NotHomed;
   }
   job_.start(static_cast<int>(number) - 1);

@@ -45,18 +45,18 @@ Solutions Inverse::all(const Pose& pose, const Joints& near) const noexcept {
   return found;
 }
 
-Solutions Inverse::search(const Pose& pose, const Joints& near, const Starts& starts) const noexcept {
-  return closed_form() ? all(pose, near) : search_numerically(arm_, postures_, pose, near, starts);
+Solutions Inverse::search(const Pose& pose, const Joints& near, const Search& how) const noexcept {
+  return closed_form() ? all(pose, near) : search_numerically(arm_, postures_, pose, near, how);
 }
 
 const char* Inverse::kind() const noexcept {
   if (wrist_) {
-    return "six axes with a spherical wrist, inverse kinematics in closed form";
+    return "spherical wrist, inverse kinematics in closed form";
   }
   if (parallel_) {
-    return "six axes, three of them parallel, inverse kinematics in closed form";
+    return "three of them parallel, inverse kinematics in closed form";
   }
-  return "six axes, inverse kinematics step by step";
+  return "inverse kinematics step by step";
 }
 
 }  // namespace indurop::robot

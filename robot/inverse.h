@@ -26,12 +26,12 @@ class Inverse {
   // All solutions in closed form; of an arm without one only the nearest. Real-time safe.
   [[nodiscard]] Solutions all(const Pose& pose, const Joints& near) const noexcept;
   // All solutions of any arm; without a closed form it takes milliseconds.
-  [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Starts& starts = {}) const noexcept;
+  [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Search& how = {}) const noexcept;
 
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
   // Whether the arm can be held in different ways that have names.
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
-  // "six axes, spherical wrist: all solutions in closed form"
+  // "spherical wrist, inverse kinematics in closed form"
   [[nodiscard]] const char* kind() const noexcept;
 
  private:

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -74,8 +75,13 @@ struct ReadJobs {
   JobBook book;                               // counts only if there are no diagnostics
   std::vector<base::Diagnostic> diagnostics;  // errors, at most 100
 };
+// What a file has to know of the arm.
+struct ArmShape {
+  int axes = 6;
+  std::array<bool, kAxes> slides{};
+};
 // All files together: points and jobs may be used before and beyond the file that declares them. Not real-time safe.
-ReadJobs parse_jobs(const std::vector<JobFile>& files);
+ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape = {});
 
 [[nodiscard]] bool holds(Compare compare, double left, double right) noexcept;
 

@@ -132,9 +132,11 @@ bool JobParser::numbers(int count, double* to, const char* what) {
 
 void JobParser::joint_point(Target& target) {
   double q[kAxes];
-  if (numbers(kAxes, q, "the angles of the six joints in degrees")) {
-    for (int i = 0; i < kAxes; ++i) {
-      target.joints[i] = radians(q[i]);
+  const bool usual = shape_.axes == 6 && shape_.slides == ArmShape{}.slides;
+  if (numbers(shape_.axes, q,
+              usual ? "the angles of the six joints in degrees" : "one of each axis, degrees, mm where it slides")) {
+    for (int i = 0; i < shape_.axes; ++i) {
+      target.joints[i] = axis_value(i, q[i]);
     }
   }
 }
@@ -156,15 +158,41 @@ void JobParser::pose_point(Target& target) {
   target.pose.position = Vec3(position[0], position[1], position[2]) / 1000;
   target.pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
   if (accept("POSTURE")) {
-    double posture = 0;
-    if (!(numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7 &&
-          posture == std::floor(posture))) {
-      error(tokens_[at_ - 1],
-            "a posture is a whole number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
-      return;
-    }
-    target.posture = static_cast<std::uint8_t>(posture);
+    posture(target);
   }
+  while (!failed_ && accept("AXIS")) {
+    held_axis(target);
+  }
+}
+
+void JobParser::posture(Target& target) {
+  double posture = 0;
+  if (!(numbers(1, &posture, "the posture, 0 to 7") && posture >= 0 && posture <= 7 &&
+        posture == std::floor(posture))) {
+    error(tokens_[at_ - 1],
+          "a posture is a whole number from 0 to 7: 1 over the back, 2 other elbow, 4 wrist turned over, added");
+    return;
+  }
+  target.posture = static_cast<std::uint8_t>(posture);
+}
+
+// What a pose leaves open on arms of more than six axes.
+void JobParser::held_axis(Target& target) {
+  double axis = 0;
+  double value = 0;
+  if (!(numbers(1, &axis, "the number of an axis") && axis >= 1 && axis <= shape_.axes && axis == std::floor(axis))) {
+    error(tokens_[at_ - 1], "axes have the numbers 1 to " + std::to_string(shape_.axes));
+    return;
+  }
+  const int index = static_cast<int>(axis) - 1;
+  if (numbers(1, &value, "where the axis is to stand")) {
+    target.joints[index] = axis_value(index, value);
+    target.held |= 1U << static_cast<unsigned>(index);
+  }
+}
+
+double JobParser::axis_value(int axis, double written) const noexcept {
+  return shape_.slides[static_cast<std::size_t>(axis)] ? written / 1000 : radians(written);
 }
 
 void JobParser::point() {

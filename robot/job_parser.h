@@ -30,7 +30,8 @@ struct JobLabel {
 
 class JobParser {
  public:
-  JobParser(JobBook& book, base::Diagnostics& errors) : book_(book), errors_(errors) {}
+  JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& shape)
+      : book_(book), errors_(errors), shape_(shape) {}
 
   // Reads one file as the next job of the book.
   void read(const JobFile& file);
@@ -43,6 +44,9 @@ class JobParser {
   bool numbers(int count, double* to, const char* what);
   void joint_point(Target& target);
   void pose_point(Target& target);
+  void posture(Target& target);
+  void held_axis(Target& target);
+  [[nodiscard]] double axis_value(int axis, double written) const noexcept;
   void move(Move kind);
   void speed();
   void zone();
@@ -70,6 +74,7 @@ class JobParser {
 
   JobBook& book_;
   base::Diagnostics& errors_;
+  const ArmShape shape_;
   std::vector<JobToken> tokens_;
   std::size_t at_ = 0;
   std::size_t line_ = 0;

@@ -81,12 +81,12 @@ void JobParser::resolve() {
   }
 }
 
-ReadJobs parse_jobs(const std::vector<JobFile>& files) {
+ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape) {
   ReadJobs read;
   JobBook& book = read.book;
   constexpr std::size_t kMostErrors = 100;
   base::Diagnostics errors("", read.diagnostics, kMostErrors);
-  JobParser parser(book, errors);
+  JobParser parser(book, errors, shape);
   for (const JobFile& file : files) {
     parser.read(file);
   }

@@ -40,15 +40,7 @@ Diagnostics check_settings(const Settings& s) {
   positive("emergency_factor", s.emergency_factor);
   positive("following_limit", s.following_limit);
   positive("plan_time", s.plan_time);
-  const auto six = [&](const char* name, const std::vector<double>& values) {
-    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
-    if (!values.empty() && (values.size() != kJoints || !sane)) {
-      errors.push_back(
-          error(std::string("property ") + name, {}, "it has to be six numbers above 0, one of each axis"));
-    }
-  };
-  six("acceleration", s.acceleration);
-  six("jerk", s.jerk);
+  positive("counts_per_mm", s.counts_per_mm);
   if (s.emergency_category != StopCategory::Category0 && s.emergency_category != StopCategory::Category1) {
     errors.push_back(
         error("property emergency_category", {}, "it has to be 0 or 1, an emergency stop takes power away"));
@@ -59,18 +51,37 @@ Diagnostics check_settings(const Settings& s) {
   return errors;
 }
 
+// Numbers of which each axis has one.
+Diagnostics check_axes(const Settings& s, const Arm& arm) {
+  Diagnostics errors;
+  const auto each = [&](const char* name, const std::vector<double>& values) {
+    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
+    const auto count = static_cast<std::size_t>(arm.count());
+    if (!values.empty() && (values.size() != count || !sane)) {
+      errors.push_back(error(std::string("property ") + name, {},
+                             "it has to be " + std::to_string(count) + " numbers above 0, one of each axis"));
+    }
+  };
+  each("acceleration", s.acceleration);
+  each("jerk", s.jerk);
+  return errors;
+}
+
+// Of each axis, from deg or mm.
+void take(const std::vector<double>& values, const Arm& arm, Joints& to) {
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+    to[i] = values[static_cast<std::size_t>(i)] * (arm.axis(i).slides() ? 0.001 : kPi / 180);
+  }
+}
+
 GroupParts parts_of(const Settings& settings, ReadFiles files) {
   const ArmModel& model = *files.model;
   GroupParts parts{settings, model.arm, {}, {}, std::move(files.book), std::move(files.kind)};
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
-  if (!settings.acceleration.empty()) {
-    parts.joints.acceleration = Eigen::Map<const Joints>(settings.acceleration.data()) * (kPi / 180);
-  }
+  take(settings.acceleration, parts.arm, parts.joints.acceleration);
   parts.joints.jerk = parts.joints.acceleration / settings.time_to_acceleration;
-  if (!settings.jerk.empty()) {
-    parts.joints.jerk = Eigen::Map<const Joints>(settings.jerk.data()) * (kPi / 180);
-  }
+  take(settings.jerk, parts.arm, parts.joints.jerk);
   ToolLimits& tool = parts.tool;
   tool.velocity = settings.tool_speed / 1000;
   tool.acceleration = tool.velocity / settings.time_to_speed;
@@ -87,6 +98,9 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   Diagnostics wrong = check_settings(settings);
   ReadFiles files = read_files({settings.urdf, settings.jobs});
   take_over(std::move(files.errors), wrong);
+  if (files.model) {
+    take_over(check_axes(settings, files.model->arm), wrong);
+  }
   if (wrong.empty()) {
     return std::make_unique<Group>(parts_of(settings, std::move(files)));
   }

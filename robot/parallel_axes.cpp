@@ -19,6 +19,9 @@ struct ParallelAxes::Search {
 };
 
 std::optional<ParallelAxes> ParallelAxes::of(const Arm& arm) {
+  if (!arm.turns_six()) {
+    return std::nullopt;
+  }
   const Axis& a2 = arm.axis(1);
   const Axis& a3 = arm.axis(2);
   const Axis& a4 = arm.axis(3);
@@ -89,9 +92,9 @@ void ParallelAxes::with_wrist(Search& search, const Wrist::Angles& wrist, std::u
   const Eigen::Vector2d reach = Eigen::Vector2d(plane_x_.dot(before), plane_y_.dot(before)) - origin_;
   for (const int elbow : {0, 1}) {
     if (const auto angles = compass_.reach(reach, elbow != 0)) {
-      Joints q;
-      q << search.q1, angles->first, third_sign_ * angles->second,
-          fourth_sign_ * (wrist.first - angles->first - angles->second), wrist.middle, wrist.last;
+      const double fourth = wrist.first - angles->first - angles->second;
+      const Joints q = joints_of(
+          {search.q1, angles->first, third_sign_ * angles->second, fourth_sign_ * fourth, wrist.middle, wrist.last});
       search.found.add(arm, q, static_cast<std::uint8_t>(posture | elbow * Solution::kElbow), search.near);
     }
   }

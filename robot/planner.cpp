@@ -33,16 +33,8 @@ bool finite(const Target& target) noexcept {
 
 Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool)
     : places_(places), joints_(joints), tool_(tool), search_(places_, joints_), rehearsal_(places_, joints_) {
-  // Somewhere, evenly spread (additive recurrence).
-  constexpr double kStride[] = {0.8567, 0.7339, 0.6287, 0.5386, 0.4614, 0.3953};
   for (int i = 1; i <= 256; ++i) {
-    Joints q;
-    for (int a = 0; a < kAxes; ++a) {
-      const Axis& axis = places.arm().axis(a);
-      const double part = std::fmod(i * kStride[a], 1.0);
-      q[a] = axis.endless ? 2 * kPi * part : axis.lower + part * (axis.upper - axis.lower);
-    }
-    usual_volume_ = std::max(usual_volume_, std::abs(volume(q)));
+    usual_volume_ = std::max(usual_volume_, std::abs(volume(places.arm().spread(i))));
   }
 }
 
@@ -212,7 +204,7 @@ Fault Planner::check_next() noexcept {
 
 // 0 in singular positions, and with another sign on their other side.
 double Planner::volume(const Joints& q) const noexcept {
-  return places_.arm().jacobian(q).determinant();
+  return places_.arm().volume(q);
 }
 
 // What is to be looked at closer: where joints are near a limit, and where their pace grows so fast that it may have a
@@ -321,6 +313,12 @@ Fault Planner::look(int& places) noexcept {
 
 Fault Planner::looked() noexcept {
   segment_.to = samples_[static_cast<std::size_t>(count_)];
+  // What few axes cannot do is told by where they come to.
+  constexpr double kTurned = 2e-3;  // rad
+  const Quat turned_to = places_.arm().forward(segment_.to).orientation;
+  if (places_.arm().count() < 6 && rotation_between(turned_to, segment_.end.orientation).norm() > kTurned) {
+    return {ErrorCode::Unreachable};
+  }
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }

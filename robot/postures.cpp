@@ -16,6 +16,9 @@ bool nearly_parallel(const Axis& a, const Axis& b) noexcept {
 }  // namespace
 
 std::optional<Postures> Postures::of(const Arm& arm) {
+  if (!arm.turns_six()) {
+    return std::nullopt;
+  }
   const Axis& a1 = arm.axis(0);
   const Axis& a2 = arm.axis(1);
   const Axis& a3 = arm.axis(2);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/read_files.h"
 
+#include <cmath>
+#include <iomanip>
 #include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "base/read_file.h"
+#include "robot/abilities.h"
 
 namespace indurop::robot {
 
@@ -57,8 +60,10 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
     const int axis = point.target.is_pose ? -1 : arm.beyond_limits(point.target.joints);
     if (axis >= 0) {
       std::ostringstream text;
-      text << "point '" << point.name << "': joint " << axis + 1 << " is at " << degrees(point.target.joints[axis])
-           << " degrees, its limits are " << degrees(arm.axis(axis).lower) << " to " << degrees(arm.axis(axis).upper);
+      const Axis& a = arm.axis(axis);
+      const double unit = a.slides() ? 0.001 : kPi / 180;
+      text << "point '" << point.name << "': joint " << axis + 1 << " is at " << point.target.joints[axis] / unit
+           << (a.slides() ? " mm" : " degrees") << ", its limits are " << a.lower / unit << " to " << a.upper / unit;
       errors.push_back(error(point.file, point.place, text.str()));
     }
   }
@@ -74,30 +79,87 @@ std::string ways_of(const Solutions& found) {
   return ways;
 }
 
+ArmShape shape_of(const Arm& arm) {
+  ArmShape shape{arm.count(), {}};
+  for (int i = 0; i < arm.count(); ++i) {
+    shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
+  }
+  return shape;
+}
+
+// "RPY 180 0 12.5", what comes nearest to the orientation of a pose where only that is in the way; else nothing.
+std::string nearest_turn(const Arm& arm, const Inverse& inverse, const Pose& pose) {
+  const Solutions found = inverse.search(pose, Joints::Zero(), {64, 64, HUGE_VAL, 0});
+  double least = HUGE_VAL;
+  std::ostringstream text;
+  for (int i = 0; i < found.count; ++i) {
+    const Quat turn = arm.forward(found.list[static_cast<std::size_t>(i)].q).orientation;
+    const double away = rotation_between(turn, pose.orientation).norm();
+    if (away < least - 1e-6) {
+      const Vec3 rpy = to_rpy(turn);
+      least = away;
+      text.str("");
+      text << std::fixed << std::setprecision(2) << "RPY " << degrees(rpy[0]) << " " << degrees(rpy[1]) << " "
+           << degrees(rpy[2]);
+    }
+  }
+  return text.str();
+}
+
+std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& target, Reach reach) {
+  const std::string turn = arm.count() < 6 ? nearest_turn(arm, inverse, target.pose) : "";
+  if (!turn.empty()) {
+    return "an arm of " + std::to_string(arm.count()) + " axes cannot hold its tool like that there; the nearest is " +
+           turn;
+  }
+  return std::string("the arm cannot hold its tool like that there") +
+         (reach == Reach::JointLimit ? " within the limits of its joints" : "") +
+         "; give it a nearer position or another orientation";
+}
+
+// Only where a pose leaves an axis open may a point say where that is.
+std::string wrong_axis(const Arm& arm, const Target& target) {
+  const Held more = target.held & ~redundant_axes(arm);
+  for (unsigned i = 0; i < kAxes; ++i) {
+    if ((more >> i & 1U) != 0) {
+      return "AXIS " + std::to_string(i + 1) + " follows from the pose; leave it out, or use JOINT";
+    }
+  }
+  return "";
+}
+
+std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& target, const Solutions& found) {
+  if (std::string text = wrong_axis(arm, target); !text.empty()) {
+    return text;
+  }
+  if (found.count == 0) {
+    return out_of_reach(arm, inverse, target, found.reach);
+  }
+  if (target.posture && !inverse.has_postures()) {
+    return "this arm has no postures; leave POSTURE out, or use JOINT";
+  }
+  if (target.posture && found.nearest(Joints::Zero(), target.posture) == nullptr) {
+    return "not possible in posture " + std::to_string(*target.posture) + ", but in " + ways_of(found);
+  }
+  return "";
+}
+
 // How an arm without a closed form is held at poses takes a search, which is made here, before anything moves.
-Diagnostics solve_points(JobBook& book, const Inverse& inverse) {
+Diagnostics solve_points(JobBook& book, const Arm& arm, const Inverse& inverse) {
   Diagnostics errors;
   for (Point& point : book.points) {
-    if (!point.target.is_pose || inverse.closed_form()) {
+    Target& target = point.target;
+    if (!target.is_pose || (inverse.closed_form() && target.held == 0)) {
       continue;
     }
-    const auto found = std::make_shared<const Solutions>(inverse.search(point.target.pose, Joints::Zero()));
-    const std::string name = "point '" + point.name + "': ";
-    if (found->count == 0) {
-      errors.push_back(error(point.file, point.place,
-                             name + "the arm cannot hold its tool like that there" +
-                                 (found->reach == Reach::JointLimit ? " within the limits of its joints" : "") +
-                                 "; give it a nearer position or another orientation"));
-    } else if (point.target.posture && !inverse.has_postures()) {
-      errors.push_back(
-          error(point.file, point.place, name + "this arm has no postures; leave POSTURE out, or use JOINT"));
-    } else if (point.target.posture && found->nearest(Joints::Zero(), point.target.posture) == nullptr) {
-      errors.push_back(error(
-          point.file, point.place,
-          name + "not possible in posture " + std::to_string(*point.target.posture) + ", but in " + ways_of(*found)));
+    Search how;
+    how.held = target.held;
+    const auto found = std::make_shared<const Solutions>(inverse.search(target.pose, target.joints, how));
+    if (const std::string text = wrong_pose(arm, inverse, target, *found); !text.empty()) {
+      errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + text));
     }
     book.known.push_back(found);
-    point.target.known = found.get();
+    target.known = found.get();
   }
   return errors;
 }
@@ -113,14 +175,14 @@ ReadFiles read_files(const FileNames& names) {
   } else {
     take_over(std::move(arm).error(), read.errors);
   }
-  ReadJobs jobs = parse_jobs(read_jobs(names, read.errors));
+  ReadJobs jobs = parse_jobs(read_jobs(names, read.errors), read.model ? shape_of(read.model->arm) : ArmShape{});
   take_over(std::move(jobs.diagnostics), read.errors);
   read.book = std::move(jobs.book);
   if (read.model) {
     const Inverse inverse(read.model->arm);
     take_over(check_points(read.book, read.model->arm), read.errors);
-    take_over(solve_points(read.book, inverse), read.errors);
-    read.kind = inverse.kind();
+    take_over(solve_points(read.book, read.model->arm, inverse), read.errors);
+    read.kind = abilities(read.model->arm, inverse);
   }
   return read;
 }

@@ -22,6 +22,7 @@ struct Target {
   Joints joints = Joints::Zero();
   Pose pose;
   std::optional<std::uint8_t> posture;  // of a pose reached by a joint motion; default: the nearest
+  Held held = 0;                        // axes of a pose that are to stand where `joints` says
   const Solutions* known = nullptr;     // of a pose, where they take long to find; their owner keeps them
 };
 

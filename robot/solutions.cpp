@@ -9,7 +9,7 @@ namespace indurop::robot {
 
 void Solutions::add(const Arm& arm, const Joints& q, std::uint8_t posture, const Joints& near) noexcept {
   Solution one{q, posture};
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < arm.count(); ++i) {
     const auto angle = turn_nearest(arm.axis(i), q[i], near[i]);
     if (!angle) {
       reach = count > 0 ? Reach::Ok : Reach::JointLimit;

@@ -17,6 +17,9 @@ struct SphericalWrist::Search {
 };
 
 std::optional<SphericalWrist> SphericalWrist::of(const Arm& arm) {
+  if (!arm.turns_six()) {
+    return std::nullopt;
+  }
   const Axis& a1 = arm.axis(0);
   const Axis& a2 = arm.axis(1);
   const Axis& a3 = arm.axis(2);
@@ -84,8 +87,8 @@ void SphericalWrist::with_arm(Search& search, const Eigen::Vector3d& first_three
   }
   for (const int turn : {0, 1}) {
     if (const auto wrist = wrist_.turn(before.transpose() * search.rotation, turn != 0, {true, search.near[3]})) {
-      Joints q;
-      q << first_three, wrist->first, wrist->middle, wrist->last;
+      const Joints q =
+          joints_of({first_three[0], first_three[1], first_three[2], wrist->first, wrist->middle, wrist->last});
       search.found.add(search.arm, q, static_cast<std::uint8_t>(posture | turn * Solution::kWrist), search.near);
     }
   }

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -38,14 +41,30 @@ class Reader {
   [[nodiscard]] static std::vector<urdf::JointConstSharedPtr> chain_to(const urdf::LinkConstSharedPtr& tip);
   [[nodiscard]] static urdf::LinkConstSharedPtr tip_of(const urdf::ModelInterface& model);
   void limits_of(const urdf::Joint& joint, Axis& axis, double& velocity);
+  Result<ArmModel, std::vector<base::Diagnostic>> read_delta(const urdf::ModelInterface& model);
+  [[nodiscard]] std::string attribute(std::size_t at, const std::string& name) const;
+  void take_chain(const std::vector<urdf::JointConstSharedPtr>& chain);
+  void follow(const urdf::JointMimic& mimic, const Link& link);
+  void take_axis(const urdf::Joint& joint, const Link& link);
+  void connect();
 
   const std::string& file_;
   const std::string& text_;
   std::vector<base::Diagnostic> errors_;
+  Arm::Axes axes_;
+  Joints velocity_ = Joints::Ones();
+  Pose frame_;  // behind the joint that was read last
+  int count_ = 0;
+  std::vector<Link> links_;
+  std::vector<urdf::JointConstSharedPtr> driven_by_;  // the joint of a linkage; else none
 };
 
-bool turns(const urdf::Joint& joint) noexcept {
-  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+bool slides(const urdf::Joint& joint) noexcept {
+  return joint.type == urdf::Joint::PRISMATIC;
+}
+
+bool moves(const urdf::Joint& joint) noexcept {
+  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS || slides(joint);
 }
 
 Pose pose_of(const urdf::Pose& pose) noexcept {
@@ -90,7 +109,7 @@ std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSha
   return chain;
 }
 
-// The named tool, else the link with the most turning joints before it, among these the farthest.
+// The named tool, else the link with the most moving joints before it, among these the farthest.
 urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   for (const char* name : {"tool0", "tcp"}) {
     if (auto link = model.getLink(name)) {
@@ -101,9 +120,9 @@ urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   std::pair<std::ptrdiff_t, std::size_t> most{0, 0};
   for (const auto& [name, link] : model.links_) {
     const auto chain = chain_to(link);
-    const auto turning = std::count_if(chain.begin(), chain.end(), [](const auto& j) { return turns(*j); });
-    if (std::pair(turning, chain.size()) > most) {
-      most = {turning, chain.size()};
+    const auto moving = std::count_if(chain.begin(), chain.end(), [](const auto& j) { return moves(*j); });
+    if (std::pair(moving, chain.size()) > most) {
+      most = {moving, chain.size()};
       best = link;
     }
   }
@@ -112,8 +131,10 @@ urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
 
 void Reader::limits_of(const urdf::Joint& joint, Axis& axis, double& velocity) {
   axis.endless = joint.type == urdf::Joint::CONTINUOUS;
+  axis.kind = slides(joint) ? AxisKind::Sliding : AxisKind::Turning;
   if (joint.limits == nullptr || !(joint.limits->velocity > 0)) {
-    error(place_of(joint.name), "joint '" + joint.name + "' has no <limit> with a velocity above 0 (rad/s)");
+    error(place_of(joint.name),
+          "joint '" + joint.name + "' has no <limit> with a velocity above 0 (" + (slides(joint) ? "m/s)" : "rad/s)"));
     return;
   }
   velocity = joint.limits->velocity;
@@ -136,40 +157,133 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
     error(0, "this is not the URDF of a robot: " + (said.empty() ? "it cannot be read" : said));
     return std::move(errors_);
   }
-  std::array<Axis, kAxes> axes;
-  Joints velocity = Joints::Ones();
-  Pose frame;
-  std::size_t found = 0;
-  for (const auto& joint : chain_to(tip_of(*model))) {
-    frame = after(frame, pose_of(joint->parent_to_joint_origin_transform));
-    if (joint->type == urdf::Joint::FIXED) {
-      continue;
-    }
-    if (!turns(*joint) || joint->mimic != nullptr) {
-      error(place_of(joint->name),
-            "joint '" + joint->name + "' does not turn by itself; the arm has revolute joints only");
-      continue;
-    }
-    if (++found > kAxes) {
-      continue;
-    }
-    Axis& axis = axes[found - 1];
-    axis.name = joint->name;
-    const Vec3 direction(joint->axis.x, joint->axis.y, joint->axis.z);
-    if (!(direction.norm() > 1e-6)) {
-      error(place_of(joint->name), "joint '" + joint->name + "' has no direction; write <axis xyz=\"0 0 1\"/>");
-    }
-    axis.direction = frame.orientation * direction.normalized();
-    axis.point = frame.position;
-    limits_of(*joint, axis, velocity[static_cast<Eigen::Index>(found) - 1]);
+  if (text_.find("<delta") != std::string::npos) {
+    return read_delta(*model);
   }
-  if (found != kAxes) {
-    error(0, "the arm has " + std::to_string(found) + " turning joints between root and tool, it needs six");
+  take_chain(chain_to(tip_of(*model)));
+  if (count_ == 0 || count_ > kAxes) {
+    error(0, "the arm has " + std::to_string(count_) + " axes between root and tool; 1 to " + std::to_string(kAxes) +
+                 " are possible");
+  }
+  connect();
+  if (!errors_.empty()) {
+    return std::move(errors_);
+  }
+  return ArmModel{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_};
+}
+
+// What URDF has no words for, since its chains have no loops: <delta arms="a1 a2 a3" turn="a4" base="0.2" upper="0.24"
+// lower="0.8" platform="0.05" tool="0.03"/>, and the limits of the joints that it names.
+Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::ModelInterface& model) {
+  const std::size_t at = text_.find("<delta");
+  Delta delta;
+  for (const auto& [name, value] : {std::pair("base", &delta.base), std::pair("upper", &delta.upper),
+                                    std::pair("lower", &delta.lower), std::pair("platform", &delta.platform)}) {
+    *value = std::strtod(attribute(at, name).c_str(), nullptr);
+    if (!(std::isfinite(*value) && *value > 0)) {
+      error(at, std::string("<delta> needs ") + name + "=\"...\", a length above 0 (m)");
+    }
+  }
+  delta.tool = std::strtod(attribute(at, "tool").c_str(), nullptr);
+  std::istringstream names(attribute(at, "arms") + " " + attribute(at, "turn"));
+  for (std::string name; names >> name; ++count_) {
+    const auto joint = model.getJoint(name);
+    if (joint == nullptr || !moves(*joint) || slides(*joint)) {
+      error(at, "<delta> names the joint '" + name + "', which does not turn or is not there");
+    } else if (count_ < 4) {
+      take_axis(*joint, {Vec3::UnitZ(), Vec3::Zero(), AxisKind::Turning, count_, 1});
+    }
+  }
+  if (count_ != 3 && count_ != 4) {
+    error(at, "<delta> needs arms=\"...\", the names of three joints, and may have turn=\"...\"");
+  }
+  if (errors_.empty() && !delta.position(Vec3::Zero()).allFinite()) {
+    error(at, "<delta>: with the arms level the rods do not meet; lower has to be longer");
   }
   if (!errors_.empty()) {
     return std::move(errors_);
   }
-  return ArmModel{Arm(std::move(axes), frame), velocity};
+  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_};
+}
+
+// Of the element at `at`; empty if it has none of that name.
+std::string Reader::attribute(std::size_t at, const std::string& name) const {
+  const std::string element = text_.substr(at, text_.find('>', at) - at);
+  for (const char quote : {'"', '\''}) {
+    const std::size_t begin = element.find(" " + name + "=" + quote);
+    if (begin != std::string::npos) {
+      const std::size_t value = begin + name.size() + 3;
+      return element.substr(value, element.find(quote, value) - value);
+    }
+  }
+  return "";
+}
+
+void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
+  for (const auto& joint : chain) {
+    frame_ = after(frame_, pose_of(joint->parent_to_joint_origin_transform));
+    if (joint->type == urdf::Joint::FIXED) {
+      continue;
+    }
+    if (!moves(*joint)) {
+      error(place_of(joint->name),
+            "joint '" + joint->name + "' has to be revolute, continuous, prismatic or fixed between root and tool");
+      continue;
+    }
+    const Vec3 direction(joint->axis.x, joint->axis.y, joint->axis.z);
+    if (!(direction.norm() > 1e-6)) {
+      error(place_of(joint->name), "joint '" + joint->name + "' has no direction; write <axis xyz=\"0 0 1\"/>");
+      continue;
+    }
+    Link link{frame_.orientation * direction.normalized(), frame_.position,
+              slides(*joint) ? AxisKind::Sliding : AxisKind::Turning, count_, 1};
+    if (joint->mimic != nullptr) {
+      link.ratio = joint->mimic->multiplier;
+      follow(*joint->mimic, link);
+    } else if (count_++ < kAxes) {
+      take_axis(*joint, link);
+    }
+    links_.push_back(link);
+    driven_by_.push_back(joint->mimic == nullptr ? nullptr : joint);
+  }
+}
+
+// Where a linkage stands when all axes are at zero.
+void Reader::follow(const urdf::JointMimic& mimic, const Link& link) {
+  const Vec3 local = frame_.orientation.conjugate() * link.direction;
+  if (link.kind == AxisKind::Sliding) {
+    frame_.position += mimic.offset * link.direction;
+  } else {
+    frame_.orientation = frame_.orientation * Quat(Eigen::AngleAxisd(mimic.offset, local));
+  }
+}
+
+void Reader::take_axis(const urdf::Joint& joint, const Link& link) {
+  Axis& axis = axes_[static_cast<std::size_t>(link.axis)];
+  axis.name = joint.name;
+  axis.direction = link.direction;
+  axis.point = link.point;
+  limits_of(joint, axis, velocity_[link.axis]);
+}
+
+// Joints of linkages find the axis that moves them.
+void Reader::connect() {
+  if (links_.size() > Arm::kMostLinks) {
+    error(0, "the chain has more than " + std::to_string(Arm::kMostLinks) + " moving joints");
+  }
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (driven_by_[i] == nullptr) {
+      continue;
+    }
+    const std::string& wanted = driven_by_[i]->mimic->joint_name;
+    const auto found = std::find_if(axes_.begin(), axes_.end(), [&](const Axis& a) { return a.name == wanted; });
+    if (found == axes_.end()) {
+      error(place_of(driven_by_[i]->name),
+            "joint '" + driven_by_[i]->name + "' follows '" + wanted + "', which is no axis between root and tool");
+    } else {
+      links_[i].axis = static_cast<int>(found - axes_.begin());
+    }
+  }
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ namespace indurop::robot {
 
 struct ArmModel {
   Arm arm;
-  Joints velocity;  // rad/s, the most of each axis
+  Joints velocity;  // rad/s or m/s, the most of each axis
 };
 
-// The six turning joints between the root link and the tool: the link called tool0 or tcp if there is one, else the end
-// of the chain. Errors: all that is wrong with the text of `file`.
+// The moving joints between the root link and the tool: the link called tool0 or tcp if there is one, else the end of
+// the chain. Joints that mimic one of them are a linkage. Errors: all that is wrong with the text of `file`.
 Result<ArmModel, std::vector<base::Diagnostic>> arm_from_urdf(const std::string& file, const std::string& text);
 
 }  // namespace indurop::robot

@@ -87,7 +87,7 @@ unsigned long bits(double thousandths) {
 
 void write_state() {
   auto state = lock(ROBOT_MODULE_STATE);
-  state->nAXESGROUP = MAX_JOINTS;
+  state->nAXESGROUP = static_cast<unsigned short>(plcRobot->axis_count());
   state->MotionDone = out.motion_done;
   state->Busy = out.busy;
   state->eState = static_cast<short>(out.state);
@@ -158,6 +158,7 @@ void start() {
   settings.urdf = irp::file_beside_config(irp::property("urdf", "robot.urdf"));
   settings.jobs = files(irp::property("jobs", ""));
   settings.period = irp::period();
+  settings.counts_per_mm = irp::property("counts_per_mm", settings.counts_per_mm);
   settings.gear = irp::property("gear", settings.gear);
   settings.absolute = irp::property("absolute", settings.absolute);
   settings.time_to_speed = irp::property("time_to_speed", settings.time_to_speed);
@@ -182,6 +183,11 @@ void start() {
     throw std::runtime_error("the robot cannot be started, see the messages above");
   }
   irp::printf("the arm: %s\n", plcRobot->kind().c_str());
+  if (plcRobot->axis_count() > MAX_JOINTS) {
+    throw std::runtime_error("the arm has " + std::to_string(plcRobot->axis_count()) +
+                             " axes, the .glb has variables of " + std::to_string(MAX_JOINTS) +
+                             ": it needs a larger MAX_JOINTS");
+  }
   signals = std::make_unique<JobSignals>(plcRobot->signals());
   ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;
   for (std::size_t k = 0; k < 6; k++) {
@@ -203,4 +209,4 @@ void run() {
   write_axis_states();
 }
 
-INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "six-axis robot task")
+INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "robot task")

@@ -6,17 +6,37 @@
 
 #include <indurop/robot/words.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace indurop::robot {
 
-inline constexpr std::size_t kJoints = 6;
-using SixNumbers = std::array<double, kJoints>;
+inline constexpr std::size_t kJoints = 8;  // there is room for that many axes
+
+// A number of each axis, from and to arrays that are as long as the arm has axes.
+struct AxisNumbers : std::array<double, kJoints> {
+  AxisNumbers() noexcept : array{} {}
+  AxisNumbers(std::initializer_list<double> first) noexcept : AxisNumbers() { take(first.begin(), first.size()); }
+  template <std::size_t N>
+  AxisNumbers(const std::array<double, N>& first) noexcept : AxisNumbers() {
+    take(first.data(), N);
+  }
+  template <std::size_t N>
+  operator std::array<double, N>() const noexcept {
+    std::array<double, N> first{};
+    std::copy_n(data(), std::min(N, kJoints), first.data());
+    return first;
+  }
+
+ private:
+  void take(const double* first, std::size_t count) noexcept { std::copy_n(first, std::min(count, kJoints), data()); }
+};
 
 // A CiA 402 drive: what it says and what it is told. Positions are counts.
 struct DriveIn {
@@ -40,8 +60,8 @@ struct ServiceRequest {
   std::uint32_t point = 0;
   std::uint32_t mid = 0;
   std::uint32_t job = 0;
-  SixNumbers target{};  // deg; or mm and deg
-  double velocity = 0;  // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
+  AxisNumbers target{};  // deg, mm of sliding axes; or a pose: mm and deg
+  double velocity = 0;   // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
 };
 
 // As AXIS_SERVICE[n]. Zeros in velocity, acceleration and jerk stand for the most the axis can.
@@ -116,9 +136,9 @@ struct Outputs {
   std::uint32_t done = 0;
   ErrorCode error = ErrorCode::Ok;
   std::uint32_t error_axis = 0;
-  SixNumbers joints{};                  // deg, measured
-  SixNumbers command{};                 // deg
-  SixNumbers speed{};                   // deg/s, commanded
+  AxisNumbers joints{};                 // deg, measured
+  AxisNumbers command{};                // deg
+  AxisNumbers speed{};                  // deg/s, commanded
   std::array<double, 3> position{};     // mm, of the tool, commanded
   std::array<double, 3> orientation{};  // deg, roll pitch yaw
   std::array<double, 3> velocity{};     // mm/s, of the tool, commanded
@@ -136,17 +156,18 @@ struct Settings {
   std::vector<std::string> jobs;  // files; a job's number is its place here, from 1
   std::chrono::nanoseconds period{10'000'000};
   double counts_per_turn = 1'320'000;  // of a joint, in DriveIn and DriveOut
+  double counts_per_mm = 1000;         // of one that slides
   double gear = 1;                     // DriveOut counts this many times more
   bool absolute = true;                // the drives know where they are without homing
   double time_to_speed = 0.25;         // s, from rest to full speed of an axis with full acceleration
   double time_to_acceleration = 0.1;   // s, from none to full acceleration
-  // deg/s^2 and deg/s^3 of each axis, six numbers; empty: by time_to_speed and time_to_acceleration.
+  // deg/s^2 and deg/s^3 of each axis, mm of sliding ones; empty: by time_to_speed and time_to_acceleration.
   std::vector<double> acceleration;
   std::vector<double> jerk;
   double tool_speed = 1000;       // mm/s, full speed on lines and circles
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // of the accelerations, in an emergency stop
-  double following_limit = 10;    // deg an axis may be behind
+  double following_limit = 10;    // deg or mm an axis may be behind
   // s from asking for a motion to its beginning, if the robot stands: what planning it has time for. More for many
   // short lines, as much again for each second that they take.
   double plan_time = 0.02;
@@ -155,8 +176,8 @@ struct Settings {
   StopCategory emergency_category = StopCategory::Category1;
 };
 
-// One robot of six axes: planner, jobs, state machines of PLCopen Motion Control parts 1 and 4, drives of CiA 402. Used
-// by one thread at a time.
+// One robot of up to eight axes: planner, jobs, state machines of PLCopen Motion Control parts 1 and 4, drives of CiA
+// 402. Degrees are millimetres where an axis slides. Used by one thread at a time.
 class Controller {
  public:
   // Reads robot and jobs. Returns null with everything that is wrong in `errors`, "file:line:col: error: text". Not
@@ -172,6 +193,8 @@ class Controller {
   virtual void step(const Inputs& in, Signals& signals, Outputs& out) noexcept = 0;
   // Names of the variables that jobs set or wait for, each once; Signals count in this order.
   [[nodiscard]] virtual const std::vector<std::string>& signals() const noexcept = 0;
+  // So many drives it has; the others stay without power.
+  [[nodiscard]] virtual std::size_t axis_count() const noexcept = 0;
   // What this arm can do, in words.
   [[nodiscard]] virtual const std::string& kind() const noexcept = 0;
 

@@ -5,9 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <vector>
 
@@ -50,11 +47,6 @@ const Known kCobots[] = {
       {0, 0, 0.0921}}},
 };
 
-int poses(int usual) {
-  const char* wanted = std::getenv("INDUROP_ROBOT_POSES");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
 Pose by_kdl(const Known& known, const Joints& q) {
   KDL::Chain chain;
   for (const Row& row : known.rows) {
@@ -62,7 +54,7 @@ Pose by_kdl(const Known& known, const Joints& q) {
   }
   KDL::JntArray joints(static_cast<unsigned>(known.rows.size()));
   for (unsigned i = 0; i < known.rows.size(); ++i) {
-    joints(i) = q[i];
+    joints(i) = q[static_cast<int>(i)];
   }
   KDL::Frame frame;
   EXPECT_GE(KDL::ChainFkSolverPos_recursive(chain).JntToCart(joints, frame), 0);
@@ -95,7 +87,7 @@ double turns_away(const Joints& a, const Joints& b) {
   return (a - b).unaryExpr([](double v) { return std::remainder(v, 2 * kPi); }).cwiseAbs().maxCoeff();
 }
 
-Found find_again(const Arm& arm, int count, const Starts& starts = {}) {
+Found find_again(const Arm& arm, int count, const Search& how = {}) {
   const Inverse sut(arm);
   std::mt19937 random(2);
   Found all;
@@ -103,7 +95,7 @@ Found find_again(const Arm& arm, int count, const Starts& starts = {}) {
     const Joints q = anywhere(arm, random);
     const Pose pose = arm.forward(q);
     const Joints near = anywhere(arm, random);
-    const Solutions found = sut.search(pose, near, starts);
+    const Solutions found = sut.search(pose, near, how);
     all.reached += found.count > 0 ? 1 : 0;
     bool same = false;
     for (int k = 0; k < found.count; ++k) {

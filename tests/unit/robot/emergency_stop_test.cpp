@@ -205,8 +205,7 @@ TEST_F(Emergency_stop, Anywhere_keeps_the_limits_and_the_path) {
 
 // The job: a line with an ordinary stop, then an emergency in the middle of it.
 TEST_F(Emergency_stop, After_an_ordinary_stop_keeps_to_its_factor) {
-  Joints from;
-  from << 0, 0.2, 0.1, 0, 0.8, 0;
+  const Joints from = joints_of({0, 0.2, 0.1, 0, 0.8, 0});
   for (const int periods : {1, 10, 40, 80, 120}) {
     start(from);
     MoveCommand command;

@@ -15,7 +15,7 @@ namespace {
 class Watched {
  public:
   explicit Watched(double period = 0.001) : period_(period) {
-    q_ << 0, 0.2, 0.1, 0, 0.8, 0;
+    q_ = joints_of({0, 0.2, 0.1, 0, 0.8, 0});
     sut.reset(q_);
   }
 

@@ -14,17 +14,16 @@
 
 namespace indurop::robot {
 
-// Six drives that do at once what they are told.
+// With drives that do at once what they are told. An arm of another URDF has only the points of its job.
 class Cell final : public Signals {
  public:
   explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true,
-                Settings settings = {}) {
+                Settings settings = {}, const std::string& urdf = "") {
     settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
-    sut = controller_of(cell_urdf(),
-                        "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
-                        "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n" +
-                            job,
-                        settings);
+    const std::string points =
+        "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
+        "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n";
+    sut = urdf.empty() ? controller_of(cell_urdf(), points + job, settings) : controller_of(urdf, job, settings);
     for (DriveIn& drive : in.drives) {
       drive.status = kSwitchOnDisabled;
     }

@@ -31,7 +31,7 @@ TEST(Group, From_disabled_to_a_motion_and_back) {
   EXPECT_EQ(cell.out.done, cell.out.acknowledged);
   EXPECT_NEAR(cell.out.command[0], 20, 1e-9);
   EXPECT_NEAR(cell.in.drives[2].position, -20 * 1320000.0 / 360, 1);
-  const SixNumbers there = cell.out.command;
+  const AxisNumbers there = cell.out.command;
   for (int i = 0; i < 200; ++i) {
     cell.step();
   }
@@ -173,7 +173,7 @@ TEST(Group, Emergency_stop_brakes_on_the_path_then_takes_power_away) {
   }));
   EXPECT_EQ(cell.out.drives[0].control, 0x02);
   EXPECT_LT(cell.out.command[0], 99);
-  EXPECT_EQ(cell.out.speed, SixNumbers{});
+  EXPECT_EQ(cell.out.speed, AxisNumbers{});
   EXPECT_FALSE(cell.serve(Service::GroupReset));
   EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
   cell.in.emergency = false;
@@ -291,7 +291,7 @@ TEST(Group, A_reset_waits_until_an_error_stop_has_come_to_rest) {
   EXPECT_EQ(cell.out.state, GroupState::Stopping);
   EXPECT_EQ(cell.out.error, ErrorCode::Emergency);  // still what it stops for
   ASSERT_TRUE(cell.until([&] { return cell.out.done == cell.in.service.number; }));
-  EXPECT_EQ(cell.out.speed, SixNumbers{});
+  EXPECT_EQ(cell.out.speed, AxisNumbers{});
   EXPECT_EQ(cell.out.error, ErrorCode::Ok);
   for (int i = 0; i < 100; ++i) {
     EXPECT_NE(cell.out.state, GroupState::ErrorStop);

@@ -49,8 +49,7 @@ TEST(Inverse, Eight_postures_where_limits_allow_them) {
   }
   arm = Arm(axes, arm.home());
   const Inverse sut(arm);
-  Joints q;
-  q << 0.4, 0.5, -0.3, 0.6, 0.8, -0.2;
+  const Joints q = joints_of({0.4, 0.5, -0.3, 0.6, 0.8, -0.2});
   const Solutions found = sut.all(arm.forward(q), q);
   ASSERT_EQ(found.count, 8);
   unsigned seen = 0;
@@ -82,8 +81,7 @@ TEST(Inverse, The_solution_nearest_to_where_the_arm_is) {
 TEST(Inverse, Posture_can_be_chosen) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
-  Joints q;
-  q << 0.2, 0.4, 0.1, 0.3, 0.7, 0.1;
+  const Joints q = joints_of({0.2, 0.4, 0.1, 0.3, 0.7, 0.1});
   const Pose pose = arm.forward(q);
   const auto here = sut.nearest(pose, q);
   const auto flipped = sut.nearest(pose, q, static_cast<std::uint8_t>(here.solution.posture ^ Solution::kWrist));
@@ -95,8 +93,7 @@ TEST(Inverse, Posture_can_be_chosen) {
 TEST(Inverse, Singular_wrist_keeps_the_joint_as_it_is) {
   const Arm arm = cell_arm();
   const Inverse sut(arm);
-  Joints q;
-  q << 0.3, 0.5, -0.2, 0.9, 0, 0.4;
+  const Joints q = joints_of({0.3, 0.5, -0.2, 0.9, 0, 0.4});
   const auto found = sut.nearest(arm.forward(q), q);
   ASSERT_EQ(found.reach, Reach::Ok);
   EXPECT_NEAR(found.solution.q[3], 0.9, 1e-6);
@@ -118,8 +115,7 @@ TEST(Inverse, Says_whether_reach_or_limits_are_in_the_way) {
   axes[0].lower = -1;
   axes[0].upper = 1;
   const Arm narrow(axes, arm.home());
-  Joints q;
-  q << 1.5, 0.3, 0.2, 0, 1.0, 0;
+  const Joints q = joints_of({1.5, 0.3, 0.2, 0, 1.0, 0});
   EXPECT_EQ(Inverse(narrow).nearest(arm.forward(q), near).reach, Reach::JointLimit);
 }
 

@@ -87,7 +87,7 @@ std::string random_job(std::mt19937& random) {
   for (int i = 0; i < points; ++i) {
     Joints q = place;
     for (int tries = 0; tries < 50; ++tries) {
-      for (int k = 0; k < kAxes; ++k) {
+      for (int k = 0; k < arm.count(); ++k) {
         q[k] = place[k] + in(-spread, spread);
       }
       if (arm.beyond_limits(q) < 0) {

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -33,9 +34,13 @@ Arm odd_arm() {
   return {axes, arm.home()};
 }
 
-Arm arm_of(const std::string& name) {
+std::string urdf_of(const std::string& name) {
   std::ifstream file(std::string(ROBOT_ARMS) + "/" + name + ".urdf");
-  auto model = arm_from_urdf(name + ".urdf", {std::istreambuf_iterator<char>(file), {}});
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Arm arm_of(const std::string& name) {
+  auto model = arm_from_urdf(name + ".urdf", urdf_of(name));
   if (!model) {
     throw std::runtime_error(base::to_text(model.error()));
   }
@@ -61,28 +66,33 @@ std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::st
 
 JointLimits cell_limits() {
   JointLimits limits;
-  limits.velocity << 3.49, 3.49, 3.49, 6.98, 6.98, 8.72;
+  limits.velocity.head<6>() << 3.49, 3.49, 3.49, 6.98, 6.98, 8.72;
   limits.acceleration = limits.velocity / 0.25;
   limits.jerk = limits.acceleration / 0.1;
   return limits;
 }
 
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin) {
-  Joints q;
-  for (int i = 0; i < kAxes; ++i) {
+  Joints q = Joints::Zero();
+  for (int i = 0; i < arm.count(); ++i) {
     q[i] = std::uniform_real_distribution<double>(arm.axis(i).lower + margin, arm.axis(i).upper - margin)(random);
   }
   return q;
 }
 
 Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random) {
-  for (int i = 0; i < kAxes; ++i) {
+  for (int i = 0; i < arm.count(); ++i) {
     q[i] += std::uniform_real_distribution<double>(-far, far)(random);
   }
   Target target;
   target.is_pose = true;
   target.pose = arm.forward(q);
   return target;
+}
+
+int poses(int usual) {
+  const char* wanted = std::getenv("INDUROP_ROBOT_POSES");
+  return wanted != nullptr ? std::atoi(wanted) : usual;
 }
 
 double distance(const Pose& a, const Pose& b) {

@@ -17,7 +17,8 @@ std::string cell_urdf();
 Arm cell_arm();
 // Wrist axes that do not meet: no closed form.
 Arm odd_arm();
-// Of the file in tests/unit/robot/arms. Throws what is wrong with it.
+// The text of a file in tests/unit/robot/arms, and its arm; throws what is wrong with it.
+std::string urdf_of(const std::string& name);
 Arm arm_of(const std::string& name);
 JointLimits cell_limits();
 // One that has read both texts as files. Throws what it says of them.
@@ -27,6 +28,8 @@ std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::st
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin = 0.01);
 // A pose of the arm with each joint at most `far` (rad) from `q`.
 Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random);
+// How many poses of each arm: INDUROP_ROBOT_POSES, if that is set.
+int poses(int usual);
 double distance(const Pose& a, const Pose& b);
 
 }  // namespace indurop::robot

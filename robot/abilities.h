@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an arm can be asked for, in words. Not real-time safe.
+
+#pragma once
+
+#include <string>
+
+#include "robot/inverse.h"
+
+namespace indurop::robot {
+
+// "4 axes; poses: x y z and turns about the base's (0 0 1); inverse kinematics step by step; no postures"
+std::string abilities(const Arm& arm, const Inverse& inverse);
+
+}  // namespace indurop::robot
