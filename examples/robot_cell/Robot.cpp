@@ -16,7 +16,11 @@
 
 #include "job_signals.h"
 
-using namespace PLC_ROBOT;
+// A second robot of the node is this file again, built with the namespace of its own variables: ROBOT_GROUP=PLC_ROBOT2.
+#ifndef ROBOT_GROUP
+#define ROBOT_GROUP PLC_ROBOT
+#endif
+using namespace ROBOT_GROUP;
 namespace robot = indurop::robot;
 
 namespace {
@@ -76,8 +80,8 @@ void read_requests() {
   }
   in.speed_override = ROBOT_OVERRIDE;
   in.hold = ROBOT_HOLD != 0;
-  // Who cannot hear the emergency stop stops.
-  in.emergency = EMERGENCY_STOP.bActive != 0 || !valid(EMERGENCY_STOP);
+  // Who cannot hear the emergency stop, which is the cell's, stops.
+  in.emergency = PLC_ROBOT::EMERGENCY_STOP.bActive != 0 || !valid(PLC_ROBOT::EMERGENCY_STOP);
 }
 
 // Figure 11's fields have no sign: what is negative is stored as its bits.

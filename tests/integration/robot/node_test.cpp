@@ -11,15 +11,17 @@ namespace {
 
 class RobotNode : public NodeTest {
  protected:
-  std::vector<Module> modules(const std::string& job) {
+  std::vector<Module> modules(const std::string& job, const std::vector<std::string>& robots = {"PLC_ROBOT"}) {
     std::ifstream urdf(std::string(CELL_SOURCE) + "/robot.urdf");
     write("robot.urdf", {std::istreambuf_iterator<char>(urdf), {}});
     write("test.job", job);
     std::string devices = "<ioconfig>";
-    for (const char axis : std::string("123456")) {
-      const std::string name = std::string("PLC_ROBOT::AXIS") + axis;
-      devices += std::string("<device name='axis") + axis + "' driver='cia402' speed='540' following='30' in='" + name +
-                 "_IN' out='" + name + "_OUT'/>\n";
+    for (const std::string& robot : robots) {
+      for (const char axis : std::string("123456")) {
+        const std::string name = robot + "::AXIS" + axis;
+        devices += "<device name='" + robot + axis + "' driver='cia402' speed='540' following='30' in='" + name +
+                   "_IN' out='" + name + "_OUT'/>\n";
+      }
     }
     write("ioconfig.xml", devices + "</ioconfig>\n");
     const std::string cell = CELL_BUILD;
@@ -36,6 +38,17 @@ class RobotNode : public NodeTest {
          .period = "1ms",
          .priority = 1,
          .more = "<position>after-base</position>"}};
+  }
+
+  std::vector<Module> two_robots() {
+    auto all = modules("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\n", {"PLC_ROBOT", "PLC_ROBOT2"});
+    write("second.job", "POINT A = JOINT -45 0 0 0 30 0\nMOVJ A\nSET PLC_ROBOT2::O8 ON\n");
+    all.push_back({.file = SECOND_ROBOT,
+                   .name = "robot2",
+                   .period = "5ms",
+                   .priority = 3,
+                   .properties = {{"urdf", "robot.urdf"}, {"jobs", "second.job"}, {"following_limit", "30"}}});
+    return all;
   }
 
   void begin(const std::string& job) {
@@ -136,6 +149,44 @@ TEST_F(RobotNode, Every_motion_block_of_a_PLC_program) {
   }
   EXPECT_EQ(number("motion_blocks::limit_error"), 7);
   EXPECT_EQ(number("motion_blocks::linear_error"), 6);
+}
+
+TEST_F(RobotNode, Two_robots_in_one_node_move_by_themselves) {
+  start_and_wait(two_robots());
+  set("PLC_ROBOT::I14", "1");
+  set("PLC_ROBOT::I15", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0; }));
+  const std::string service = "::ROBOT_MODULE_SERVICE";
+  for (const std::string robot : {"PLC_ROBOT", "PLC_ROBOT2"}) {
+    set(robot + service, "{eOpCode: 1, nRequest: 1}");
+    ASSERT_TRUE(wait_until([&] { return number(robot + "::ROBOT_MODULE_STATE.eState") == 1; })) << robot;
+  }
+  set("PLC_ROBOT2" + service, "{eOpCode: 11, nJob: 1, nRequest: 2}");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT2::O8") == 1; }));
+  EXPECT_NEAR(number("PLC_ROBOT2::AXIS1_IN.position"), -45 * 1320000 / 360.0, 50);
+  EXPECT_EQ(number("PLC_ROBOT::AXIS1_IN.position"), 0) << "the other one has not moved";
+  set("PLC_ROBOT" + service, "{eOpCode: 11, nJob: 1, nRequest: 2}");
+  EXPECT_TRUE(wait_until([&] { return std::abs(joint(1) - 30) < 0.01; }));
+  set("PLC_ROBOT::I14", "0");
+  for (const std::string robot : {"PLC_ROBOT", "PLC_ROBOT2"}) {
+    EXPECT_TRUE(wait_until([&] { return number(robot + "::ROBOT_MODULE_STATE.eState") == 5; })) << robot;
+  }
+}
+
+TEST_F(RobotNode, Two_robots_in_a_simulation_are_the_same_on_every_run) {
+  auto all = two_robots();
+  all.push_back({.file = BOTH_ROBOTS, .name = "plc", .period = "10ms", .priority = 4});
+  const auto everything = [&] {
+    const Outcome outcome = run_to_end(all, {"--sim", "--until", "5s"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return indurop({"vars", "-o", "json"}).out;
+  };
+  const std::string first = everything();
+  EXPECT_NEAR(joint(1), 30, 0.01);
+  EXPECT_NEAR(number("PLC_ROBOT2::AXIS1_IN.position"), -45 * 1320000 / 360.0, 50);
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOB.nCycles"), 1);
+  EXPECT_EQ(number("PLC_ROBOT2::ROBOT_JOB.nCycles"), 1);
+  EXPECT_EQ(first, everything());
 }
 
 TEST_F(RobotNode, What_is_wrong_with_robot_and_jobs_is_said_before_the_start) {
