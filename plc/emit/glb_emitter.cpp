@@ -12,6 +12,7 @@
 #include "plc/check/value_tree.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/task_use.h"
+#include "plc/emit/watch_layout.h"
 
 namespace indurop::plc {
 namespace {
@@ -64,7 +65,7 @@ class GlbEmitter {
     }
   }
 
-  GlbFile run(bool show_locals) {
+  GlbFile run(bool show_locals, bool watch) {
     for (const Global& global : program_.globals) {
       if (global.kind == Global::Kind::Own) {
         need(*global.type);
@@ -78,6 +79,12 @@ class GlbEmitter {
       for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
         need(*one.type);
         variable(std::string(last_name(one.shared_name)), *one.type, one.initial, one.retain, one.comment, one.at);
+      }
+      for (std::size_t i = 0; watch && i < task.programs.size(); ++i) {
+        const WatchLayout layout = watch_layout(task.programs[i]);
+        line(fmt::format("uint8_t {}[{}];  // of {}, for indurop plc watch", layout.variable, layout.bytes,
+                         task.programs[i].instance),
+             task.programs[i].pou->tree->at);
       }
     }
     return std::move(out_);
@@ -200,8 +207,8 @@ class GlbEmitter {
 
 }  // namespace
 
-GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals) {
-  return GlbEmitter(program, sources).run(show_locals);
+GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals, bool watch) {
+  return GlbEmitter(program, sources).run(show_locals, watch);
 }
 
 }  // namespace indurop::plc

@@ -15,6 +15,8 @@ struct GlbFile {
   std::vector<Place> places;  // of each line, from line 1; not known for lines of its own
 };
 
-[[nodiscard]] GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals);
+// `watch`: what modules tell a running view, too.
+[[nodiscard]] GlbFile emit_glb(const Program& program, const std::string& sources, bool show_locals,
+                               bool watch = false);
 
 }  // namespace indurop::plc

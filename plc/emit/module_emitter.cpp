@@ -9,6 +9,7 @@
 #include "plc/emit/pou_emitter.h"
 #include "plc/emit/task_use.h"
 #include "plc/emit/text_writer.h"
+#include "plc/emit/watch_emitter.h"
 
 namespace indurop::plc {
 namespace {
@@ -36,6 +37,9 @@ class ModuleEmitter {
     out_.line("#include <indurop/indurop.h>");
     out_.line("#include <indurop/plc/library.h>");
     out_.line("#include <indurop/plc/program.h>");
+    if (options_.watch) {
+      out_.line("#include <indurop/plc/watch.h>");
+    }
     out_.line("#include <indurop/generated.h>");
     out_.line();
     out_.line("#include <array>");
@@ -59,9 +63,15 @@ class ModuleEmitter {
     for (const Pou* pou : use_.pous) {
       define_pou(*pou, out_);
     }
+    if (options_.watch) {
+      emit_watched(use_.pous, out_);
+    }
     out_.line("}  // namespace plc");
     out_.line();
     instances();
+    if (options_.watch) {
+      emit_watch(task_, program_.space, out_);
+    }
     exchange();
     out_.line("}  // namespace");
     out_.line();
@@ -250,6 +260,9 @@ class ModuleEmitter {
       out_.line(instance_of(one) + "(scan);");
     }
     out_.line("write_shared();");
+    if (options_.watch) {
+      out_.line("watch();");
+    }
     out_.close();
     out_.line();
     out_.line("void run() { POU_PROGRAM(); }");

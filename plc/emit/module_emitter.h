@@ -13,6 +13,7 @@ struct ModuleOptions {
   std::string name;          // of the module
   std::string sources;       // "prog.st, more.st", for the comment
   bool show_locals = false;  // variables of programs are shared variables too
+  bool watch = false;        // tells a running view about all variables
 };
 
 [[nodiscard]] std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options);

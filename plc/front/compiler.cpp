@@ -7,43 +7,12 @@
 #include <filesystem>
 
 #include "glb2idl/compiler.h"
-#include "plc/check/checker.h"
-#include "plc/check/shared_names.h"
 #include "plc/emit/glb_emitter.h"
 #include "plc/emit/module_emitter.h"
-#include "plc/front/reader.h"
+#include "plc/front/check_files.h"
 
 namespace indurop::plc {
 namespace {
-
-bool is_name(std::string_view name) noexcept {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !name.empty() && is_letter(name[0]) &&
-         std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
-}
-
-// "prog" of ".../prog.st"; what C++ cannot have in a name becomes '_'.
-std::string name_from(const std::string& file) {
-  std::string name = std::filesystem::path(file).stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !is_name(std::string("a") + c); }, '_');
-  for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) {
-    name.erase(at, 1);  // C++ keeps it for itself
-  }
-  return is_name(name) ? name : "plc_" + name;
-}
-
-std::vector<schema::Variable> variables_of(const glb2idl::Program& program) {
-  std::vector<schema::Variable> out;
-  for (const glb2idl::GlbFile& unit : program.units) {
-    for (const glb2idl::Item& item : unit.items) {
-      if (const auto* variable = std::get_if<schema::Variable>(&item)) {
-        out.push_back(*variable);
-      }
-    }
-  }
-  return out;
-}
 
 std::string file_names(const std::vector<std::string>& files) {
   std::string out;
@@ -72,11 +41,11 @@ void check_glb(const std::string& name, const GlbFile& glb, const std::vector<st
 class Compiler {
  public:
   Compiler(const CompileOptions& options, const glb2idl::FileReader& read) : options_(options), read_(read) {
-    out_.name = options.name.empty() && !options.files.empty() ? name_from(options.files[0]) : options.name;
+    out_.name = module_name(options);
   }
 
   Compiled run() {
-    if (!is_name(out_.name)) {
+    if (!is_module_name(out_.name)) {
       diagnostics_.error(
           {}, fmt::format("'{}' names the module and its variables, use letters, digits and '_'", out_.name));
     } else {
@@ -90,39 +59,20 @@ class Compiler {
 
  private:
   void translate() {
-    CheckOptions check_options;
-    check_options.library = options_.library;
-    check_options.infinite_division = options_.infinite_division;
-    check_options.space = !options_.space.empty() ? options_.space : name_of_space(out_.name);
-    if (!options_.glb_files.empty()) {
-      auto foreign = glb2idl::compile(options_.glb_files, read_);
-      if (!foreign.ok) {
-        out_.diagnostics = std::move(foreign.diagnostics);
-        diagnostics_.error({}, "the .glb files above have errors, correct them first");
-        return;
-      }
-      check_options.foreign = variables_of(foreign.program);
-    }
-    Project project = read_project(options_.files, options_.libraries,
-                                   {options_.watch, options_.dialect == Dialect::Codesys}, read_, diagnostics_);
-    project.dialect = options_.dialect.value_or(project.dialect);
-    out_.dialect = project.dialect;
-    if (project.incomplete) {
-      return;  // what is left out would be missed everywhere
-    }
-    const auto program = check(std::move(project), std::move(check_options), diagnostics_);
-    if (diagnostics_.failed()) {
+    const auto program = check_files(options_, out_.name, read_, diagnostics_, out_.diagnostics);
+    if (diagnostics_.failed() || program == nullptr) {
       return;
     }
+    out_.dialect = program->project.dialect;
     const std::string sources = file_names(options_.files);
-    const GlbFile glb = emit_glb(*program, sources, options_.show_locals);
+    const GlbFile glb = emit_glb(*program, sources, options_.show_locals, options_.watch);
     check_glb(out_.name, glb, options_.glb_files, read_, diagnostics_);
     out_.glb = glb.text;
     for (const TaskPlan& task : program->tasks) {
       const bool only = program->tasks.size() == 1;
       ModuleText module;
       module.name = only ? out_.name : out_.name + "_" + (task.name.empty() ? "default" : task.name);
-      module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals});
+      module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals, options_.watch});
       module.period_ns = task.interval_ns;
       module.priority = task.priority;
       out_.modules.push_back(std::move(module));

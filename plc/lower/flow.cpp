@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/lower/flow.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <utility>
 
@@ -13,8 +11,8 @@ namespace {
 
 using Kind = FlowPoint::Kind;
 
+const std::string kFlow = "_flow";
 constexpr const char* kEnd = "_flow_end";
-constexpr std::size_t kBits = 8;
 
 ast::Expression number(const Place& at, std::uint64_t value) {
   ast::Expression literal;
@@ -23,18 +21,13 @@ ast::Expression number(const Place& at, std::uint64_t value) {
   return literal;
 }
 
-// main_flow[3].5
-ast::Expression bit_of(const Place& at, const std::string& variable, std::size_t bit) {
-  ast::Expression byte;
-  byte.kind = ast::Expression::Kind::Index;
-  byte.at = at;
-  byte.operands.push_back(make::name(at, variable));
-  byte.operands.push_back(number(at, bit / kBits));
+// _flow[43]
+ast::Expression point_of(const Place& at, const std::string& variable, std::size_t number_of_point) {
   ast::Expression made;
-  made.kind = ast::Expression::Kind::Bit;
+  made.kind = ast::Expression::Kind::Index;
   made.at = at;
-  made.bit = static_cast<unsigned>(bit % kBits);
-  made.operands.push_back(std::move(byte));
+  made.operands.push_back(make::name(at, variable));
+  made.operands.push_back(number(at, number_of_point));
   return made;
 }
 
@@ -56,39 +49,30 @@ bool leave_through_end(ast::Body& body, const Place& at) {
 
 }  // namespace
 
-std::string flow_variable(const std::string& pou) {
-  return pou + "_flow";
+std::string flow_variable(const std::string& action) {
+  return kFlow + (action.empty() ? "" : "_" + action);
 }
 
-std::string value_variable(const std::string& pou, const Source& source) {
-  return fmt::format("{}_value_{}_{}", pou, source.element->id, source.pin->name);
+bool is_flow(std::string_view variable) {
+  return variable == kFlow || variable.starts_with(std::string(kFlow) + "_");
 }
 
-void add_flow(LoweredNetworks& lowered, const ast::Pou& pou, std::vector<ast::Variable>& globals) {
-  const auto declare = [&](std::string name, ast::TypeSpec type) {
-    globals.push_back(make::variable(ast::Section::Global, name, type));
-    lowered.variables.push_back(make::variable(ast::Section::External, std::move(name), std::move(type)));
-  };
-  leave_through_end(lowered.body, pou.at);
-  const std::string flow = flow_variable(pou.name);
-  std::size_t bits = 0;
+void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place& at, bool declare) {
+  leave_through_end(lowered.body, at);
+  std::size_t points = 0;
   for (FlowPoint& point : lowered.flow) {
-    const Place at = point.value.at;
-    if (point.kind == Kind::Value) {
-      const std::string name = value_variable(pou.name, point.source);
-      declare(name, make::type(pou.at, point.type));
-      lowered.body.push_back(make::assign(make::name(at, name), std::move(point.value)));
-    } else {
-      lowered.body.push_back(make::assign(bit_of(at, flow, bits++), std::move(point.value)));
+    if (point.kind != Kind::Value) {
+      const Place place = point.value.at;
+      lowered.body.push_back(make::assign(point_of(place, variable, points++), std::move(point.value)));
     }
   }
-  if (bits > 0) {
-    ast::TypeSpec bytes;
-    bytes.kind = ast::TypeSpec::Kind::Array;
-    bytes.at = pou.at;
-    bytes.dimensions.push_back({number(pou.at, 0), number(pou.at, (bits - 1) / kBits)});
-    bytes.element = std::make_shared<ast::TypeSpec>(make::type(pou.at, Elementary::Byte));
-    declare(flow, std::move(bytes));
+  if (points > 0 && declare) {
+    ast::TypeSpec flags;
+    flags.kind = ast::TypeSpec::Kind::Array;
+    flags.at = at;
+    flags.dimensions.push_back({number(at, 0), number(at, points - 1)});
+    flags.element = std::make_shared<ast::TypeSpec>(make::type(at, Elementary::Bool));
+    lowered.variables.push_back(make::variable(ast::Section::Local, variable, std::move(flags)));
   }
 }
 

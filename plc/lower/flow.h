@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a program tell a running view about the power in its networks: shared variables that it writes once per scan.
+// Makes a body keep the power in its networks: a hidden variable of its POU that it writes once per call.
 
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "plc/lower/networks.h"
-#include "plc/model/project.h"
 
 namespace indurop::plc::lower {
 
-// "main_flow": an array of bytes, a bit per point in their order that is BOOL.
-[[nodiscard]] std::string flow_variable(const std::string& pou);
-// "main_value_12_ET": an output of an instance that is no BOOL.
-[[nodiscard]] std::string value_variable(const std::string& pou, const Source& source);
+// "_flow" of a POU's own body, "_flow_Open" of its action: a BOOL per point that is no value, in their order.
+[[nodiscard]] std::string flow_variable(const std::string& action);
+[[nodiscard]] bool is_flow(std::string_view variable);
 
-// Declares the variables and writes them behind `lowered.body`.
-void add_flow(LoweredNetworks& lowered, const ast::Pou& pou, std::vector<ast::Variable>& globals);
+// Writes it behind `lowered.body`. `declare`: the first time; what several steps run is there several times.
+void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place& at, bool declare);
 
 }  // namespace indurop::plc::lower

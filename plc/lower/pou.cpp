@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <unordered_set>
 
 #include "plc/library/standard.h"
@@ -99,7 +100,9 @@ class PouLowering {
     {
       Diagnostics& said = known ? again : diagnostics_;
       PouLowering inner(pou_code_, read_options_, project_, pou_, said);
+      inner.shown_ = shown_;
       code = inner.action(named.body, prefix);
+      shown_ = std::move(inner.shown_);
     }
     ast::Pou made;
     made.kind = ast::Pou::Kind::Method;
@@ -107,6 +110,10 @@ class PouLowering {
     made.name = named.name;
     made.body = std::move(code.body);
     for (ast::Variable& one : code.variables) {
+      if (is_flow(one.name)) {  // one for all its callers
+        pou_.variables.push_back(std::move(one));
+        continue;
+      }
       one.of_instance = one.section == ast::Section::Local;  // kept from call to call
       made.variables.push_back(std::move(one));
     }
@@ -134,10 +141,11 @@ class PouLowering {
         NetworkOptions options;
         options.prefix = prefix;
         options.project = &project_;
-        options.flow = read_options_.watch && &body == &pou_code_.body && pou_.kind == ast::Pou::Kind::Program;
+        const std::optional<std::string> shown = watched_as(body);
+        options.flow = shown.has_value();
         LoweredNetworks lowered = lower_networks(sheet, options, diagnostics_);
-        if (options.flow) {
-          add_flow(lowered, pou_, project_.globals);
+        if (shown) {
+          add_flow(lowered, *shown, pou_.at, shown_.insert(&body).second);
         }
         code = {std::move(lowered.body), std::move(lowered.variables), std::nullopt};
         break;
@@ -147,6 +155,22 @@ class PouLowering {
         break;
     }
     return code;
+  }
+
+  // The variable with the power in its networks, of what has a name and keeps its variables.
+  [[nodiscard]] std::optional<std::string> watched_as(const Body& body) const {
+    if (!read_options_.watch || pou_.kind == ast::Pou::Kind::Function) {
+      return std::nullopt;
+    }
+    if (&body == &pou_code_.body) {
+      return flow_variable("");
+    }
+    for (const NamedBody& one : pou_code_.actions) {
+      if (&one.body == &body) {
+        return flow_variable(one.name);
+      }
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] bool has_input(std::string_view instance, std::string_view input) const {
@@ -293,6 +317,7 @@ class PouLowering {
   std::unordered_set<std::string> conditions_;
   std::unordered_set<const Body*> open_actions_;
   std::unordered_set<const Body*> lowered_actions_;
+  std::unordered_set<const Body*> shown_;
   int calls_ = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace indurop::plc::lower {
 
-// Adds statements and hidden variables to `pou`, which is one of `project`; with ReadOptions::watch also globals.
+// Adds statements and hidden variables to `pou`, which is one of `project`.
 void lower_pou(network::PouCode& pou_code, const ReadOptions& options, Project& project, ast::Pou& pou,
                Diagnostics& diagnostics);
 

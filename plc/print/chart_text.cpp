@@ -33,7 +33,8 @@ std::string action_line(const network::ActionLine& line) {
 }
 
 std::string transition_line(const network::Chart& chart, std::size_t step, const network::Transition& transition,
-                            bool unicode) {
+                            bool unicode, const ChartMarks& marks) {
+  const std::string values = marks.condition ? marks.condition(condition_text(*transition.element)) : std::string();
   std::string text = fmt::format("    {} {}", unicode ? "┼" : "+", condition_text(*transition.element));
   std::vector<std::size_t> others;
   for (const std::size_t from : transition.from) {
@@ -44,7 +45,7 @@ std::string transition_line(const network::Chart& chart, std::size_t step, const
   if (!others.empty()) {
     text += fmt::format("   (together with {})", names_of(chart, others));
   }
-  return text + fmt::format("  {} {}\n", unicode ? "──>" : "-->", names_of(chart, transition.to));
+  return text + fmt::format("  {} {}{}\n", unicode ? "──>" : "-->", names_of(chart, transition.to), values);
 }
 
 }  // namespace
@@ -62,17 +63,18 @@ std::string condition_text(const network::Element& transition) {
   return transition.text.empty() ? "(drawn)" : transition.text;
 }
 
-std::string chart_text(const network::Chart& chart, bool unicode) {
+std::string chart_text(const network::Chart& chart, bool unicode, const ChartMarks& marks) {
   std::string text;
   for (std::size_t i = 0; i < chart.steps.size(); ++i) {
     const network::Step& step = chart.steps[i];
-    text += step.initial ? fmt::format("  [[{}]]\n", step.name) : fmt::format("  [{}]\n", step.name);
+    text += fmt::format("  {0}{2}{1}{3}\n", step.initial ? "[[" : "[", step.initial ? "]]" : "]", step.name,
+                        marks.step ? marks.step(step) : "");
     for (const network::Association& association : chart.actions) {
       text += association.step == i ? action_line(*association.line) : "";
     }
     for (const network::Transition& transition : chart.transitions) {
       const bool first = !transition.from.empty() && transition.from.front() == i;
-      text += first ? transition_line(chart, i, transition, unicode) : "";
+      text += first ? transition_line(chart, i, transition, unicode, marks) : "";
     }
   }
   return text + "\n";

@@ -3,13 +3,19 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "plc/network/chart.h"
 
 namespace indurop::plc {
 
-[[nodiscard]] std::string chart_text(const network::Chart& chart, bool unicode);
+// What stands behind a step and a condition: of a running program whether it is active, and values.
+struct ChartMarks {
+  std::function<std::string(const network::Step& step)> step;
+  std::function<std::string(const std::string& text)> condition;
+};
+[[nodiscard]] std::string chart_text(const network::Chart& chart, bool unicode, const ChartMarks& marks = {});
 
 // The name of an action, or its code in one line.
 [[nodiscard]] std::string action_text(const network::ActionLine& line);

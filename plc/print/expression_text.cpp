@@ -44,36 +44,12 @@ const Spelling& spelling(Operator op) {
   return found == kSpellings.end() ? kOr : *found;
 }
 
-// D#2024-01-31, T#1m30s; what is no millisecond is not lost.
-std::string time_text(std::int64_t ns, Elementary type) {
-  switch (type) {
-    case Elementary::Date:
-      return std::string(iec::to_string(iec::Date{ns}).view());
-    case Elementary::TimeOfDay:
-      return std::string(iec::to_string(iec::TimeOfDay{ns}).view());
-    case Elementary::DateAndTime:
-      return std::string(iec::to_string(iec::DateTime{ns}).view());
-    default:
-      return duration_text(ns);
-  }
-}
-
 std::string real_text(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find('.') == std::string::npos) {
     text.insert(std::min(text.find('e'), text.size()), ".0");
   }
   return text;
-}
-
-std::string quoted_text(const std::string& value) {
-  std::string text = "'";
-  for (const char c : value) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool shown = byte >= 0x20 && byte < 0x7F;
-    text += c == '$' || c == '\'' ? std::string{'$', c} : shown ? std::string{c} : fmt::format("${:02X}", byte);
-  }
-  return text + "'";
 }
 
 std::string literal_text(const Expression& expression) {
@@ -157,6 +133,29 @@ std::string text_of(const Expression& expression, int around) {
 
 std::string expression_text(const Expression& expression) {
   return text_of(expression);
+}
+
+std::string time_text(std::int64_t ns, Elementary type) {
+  switch (type) {
+    case Elementary::Date:
+      return std::string(iec::to_string(iec::Date{ns}).view());
+    case Elementary::TimeOfDay:
+      return std::string(iec::to_string(iec::TimeOfDay{ns}).view());
+    case Elementary::DateAndTime:
+      return std::string(iec::to_string(iec::DateTime{ns}).view());
+    default:
+      return duration_text(ns);
+  }
+}
+
+std::string quoted_text(std::string_view value) {
+  std::string text = "'";
+  for (const char c : value) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool shown = byte >= 0x20 && byte < 0x7F;
+    text += c == '$' || c == '\'' ? std::string{'$', c} : shown ? std::string{c} : fmt::format("${:02X}", byte);
+  }
+  return text + "'";
 }
 
 std::string duration_text(std::int64_t ns) {

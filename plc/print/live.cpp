@@ -2,67 +2,83 @@
 #include "plc/print/live.h"
 
 #include "plc/lower/flow.h"
-#include "plc/print/print.h"
 
 namespace indurop::plc {
 namespace {
 
 using Language = network::Body::Language;
+using Kind = lower::FlowPoint::Kind;
 
-void number_points(const lower::LoweredNetworks& lowered, LiveProgram& program) {
-  std::size_t bit = 0;
+void number_points(const lower::LoweredNetworks& lowered, LiveBody& body) {
+  std::size_t next = 0;
   for (const lower::FlowPoint& point : lowered.flow) {
-    switch (point.kind) {
-      case lower::FlowPoint::Kind::Power:
-        program.power.emplace(LiveProgram::Key(point.source.element, point.source.pin), bit++);
-        break;
-      case lower::FlowPoint::Kind::Closed:
-        program.closed.emplace(point.source.element, bit++);
-        break;
-      case lower::FlowPoint::Kind::Value:
-        program.values.push_back({point.source, lower::value_variable(program.pou, point.source), point.type});
-        break;
+    if (point.kind == Kind::Power) {
+      body.power.emplace(LiveBody::Key(point.source.element, point.source.pin), next++);
+    } else if (point.kind == Kind::Closed) {
+      body.closed.emplace(point.source.element, next++);
     }
   }
-  constexpr std::size_t kBits = 8;
-  program.flow_bytes = (bit + kBits - 1) / kBits;
-  program.flow_variable = bit == 0 ? std::string() : lower::flow_variable(program.pou);
+  body.flow_variable = next == 0 ? std::string() : lower::flow_variable(body.action);
 }
+
+class Reader {
+ public:
+  Reader(const Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
+
+  void add(const std::string& pou, const std::string& action, network::Body& body) {
+    LiveBody made;
+    made.pou = pou;
+    made.action = action;
+    made.body = &body;
+    const std::string what = "POU " + pou + (action.empty() ? "" : ", action " + action);
+    if (body.language == Language::Ld || body.language == Language::Fbd) {
+      draw(what, made);
+    } else if (body.language == Language::Sfc) {
+      made.sheet = network::make_sheet(body, what, diagnostics_);
+      made.chart = network::read_chart(body.diagram, diagnostics_);
+    }
+    bodies_.push_back(std::move(made));
+  }
+
+  std::vector<LiveBody> take() { return std::move(bodies_); }
+
+ private:
+  void draw(const std::string& what, LiveBody& made) {
+    made.sheet = network::make_sheet(*made.body, what, diagnostics_);
+    if (diagnostics_.failed()) {
+      return;
+    }
+    lower::NetworkOptions options;
+    options.project = &project_;
+    options.flow = true;
+    number_points(lower::lower_networks(*made.sheet, options, diagnostics_), made);
+    made.pictures = draw::lay_out(*made.sheet, made.body->language);
+  }
+
+  const Project& project_;
+  Diagnostics& diagnostics_;
+  std::vector<LiveBody> bodies_;
+};
 
 }  // namespace
 
-std::vector<LiveProgram> live_programs(plcopen::Document& document, const std::string& pou, Diagnostics& diagnostics) {
+std::vector<LiveBody> live_bodies(plcopen::Document& document, const std::string& pou, Diagnostics& diagnostics) {
   Project declared;
   for (const plcopen::PouDocument& each : document.pous) {
     declared.pous.push_back(each.pou);
   }
-  std::vector<LiveProgram> programs;
+  Reader reader(declared, diagnostics);
   for (plcopen::PouDocument& each : document.pous) {
-    const bool drawn = each.code.body.language == Language::Ld || each.code.body.language == Language::Fbd;
-    if (!drawn || each.pou.kind != ast::Pou::Kind::Program || (!pou.empty() && !same_name(pou, each.pou.name))) {
+    const bool keeps = each.pou.kind == ast::Pou::Kind::Program || each.pou.kind == ast::Pou::Kind::FunctionBlock;
+    if (!keeps || (!pou.empty() && !same_name(pou, each.pou.name))) {
       continue;
     }
-    LiveProgram program{each.pou.name,
-                        {},
-                        each.code.body.language,
-                        network::make_sheet(each.code.body, "POU " + each.pou.name, diagnostics),
-                        {},
-                        {},
-                        0,
-                        {},
-                        {},
-                        {}};
-    if (diagnostics.failed()) {
-      continue;
+    reader.add(each.pou.name, "", each.code.body);
+    for (network::NamedBody& action : each.code.actions) {
+      reader.add(each.pou.name, action.name, action.body);
     }
-    lower::NetworkOptions options;
-    options.project = &declared;
-    options.flow = true;
-    number_points(lower::lower_networks(program.sheet, options, diagnostics), program);
-    program.pictures = draw::lay_out(program.sheet, program.language);
-    programs.push_back(std::move(program));
   }
-  return programs;
+  return reader.take();
 }
 
 }  // namespace indurop::plc

@@ -12,6 +12,7 @@
 #include "tools/command/self.h"
 #include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
+#include "tools/plc/plc_sources.h"
 
 namespace indurop::tools {
 namespace {
@@ -206,34 +207,6 @@ int build_library(Context& context, const PlcRequest& request) {
   return kOk;
 }
 
-void add_sources(base::Options& app, PlcRequest& request) {
-  app.add("files", "FILE", request.compile.files, "The program: .st, PLCopen .xml, TwinCAT .plcproj or .TcPOU files")
-      .required();
-  app.add("--lib", "FILE", request.compile.libraries,
-          "A library the program uses, motors-1.2.0.plclib; FILE@1.2 asks for at least this version (repeatable)")
-      .one_at_a_time();
-  app.add("--glb", "FILE", request.compile.glb_files,
-          "A .glb file whose shared variables the program uses (repeatable)")
-      .one_at_a_time();
-  app.add("--name", "NAME", request.compile.name, "Name of the module (default: the first file's)");
-  app.add("--namespace", "NAME", request.compile.space,
-          "Namespace of its shared variables (default: the module's name)");
-  const base::Take take = [&request](const std::string& text) {
-    request.compile.dialect = text == "codesys" ? plc::Dialect::Codesys : plc::Dialect::Iec;
-    return std::string();
-  };
-  app.add("--dialect", "DIALECT", take,
-          "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
-      .choices({"iec", "codesys"});
-  const base::Take divide = [&request](const std::string& text) {
-    request.compile.infinite_division = text == "infinity";
-    return std::string();
-  };
-  app.add("--real-division", "RESULT", divide, "What a REAL divided by zero is: fault or infinity (default: fault)")
-      .choices({"fault", "infinity"});
-  app.flag("--show-locals", request.compile.show_locals, "Make the variables of programs shared variables too");
-}
-
 }  // namespace
 
 void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
@@ -242,12 +215,13 @@ void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
     base::Options& made = app.command(name, help, [request, chosen, action] {
       *chosen = [request, action](Context& c) { return action(c, *request); };
     });
-    add_sources(made, *request);
+    add_plc_sources(made, request->compile);
     return &made;
   };
   base::Options* build = verb("build", "Make modules (.so) of a program, and its shared variables (.glb)", &build_plc);
   build->add("-o,--output", "DIR", request->folder, "Where to write them (default: here)");
-  build->flag("--watch", request->compile.watch, "Let `indurop plc watch` see the power in drawn programs");
+  build->flag("--watch", request->compile.watch,
+              "Let `indurop plc watch` see its variables and the power in its networks");
   build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
   verb("check", "Say what is wrong with a program", &check_plc);
   base::Options* lib = verb("lib", "Make a library (.plclib) of files without a PROGRAM, for --lib", &build_library);

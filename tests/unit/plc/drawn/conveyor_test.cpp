@@ -6,9 +6,7 @@
 #include <gtest/gtest.h>
 #include <plc_test_conveyor.glb.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "plc/front/watch_plan.h"
 #include "plc/print/live.h"
 #include "tests/unit/plc/program/module.h"
 
@@ -84,18 +82,19 @@ TEST_F(PlcConveyor, A_jam_stops_it_until_acknowledged) {
   EXPECT_TRUE(belt::motor.get());
 }
 
-TEST_F(PlcConveyor, Every_power_of_the_drawing_is_a_bit_of_the_flow) {
-  std::ifstream in(PLC_CONVEYOR);
-  std::ostringstream xml;
-  xml << in.rdbuf();
+TEST_F(PlcConveyor, Every_power_of_the_drawing_is_told) {
+  plc::CompileOptions options;
+  options.files = {PLC_CONVEYOR};
+  options.name = "belt";
+  plc::WatchPlan plan = plc::watch_plan(options);
+  ASSERT_TRUE(plan.ok);
   plc::Diagnostics diagnostics;
-  auto document = plc::plcopen::read_document(xml.str(), "conveyor.xml", diagnostics);
-  const auto programs = plc::live_programs(document, "", diagnostics);
-  ASSERT_EQ(programs.size(), 1U);
-  const plc::LiveProgram& program = programs.front();
-  const auto bit = [&](std::size_t number) {
-    return (static_cast<unsigned>(belt::conveyor_flow[number / 8].get()) >> (number % 8) & 1U) != 0;
-  };
+  const auto bodies = plc::live_bodies(plan.document, "", diagnostics);
+  ASSERT_EQ(bodies.size(), 1U);
+  const plc::LiveBody& program = bodies.front();
+  const plc::WatchedVariable* flow = plan.layouts.front().find(plc::upper(program.flow_variable));
+  ASSERT_NE(flow, nullptr);
+  const auto bit = [&](std::size_t number) { return belt::instance_watch[flow->offset + number].get() != 0; };
   belt::start = true;
   scan(5);
   std::size_t contacts = 0;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a PLC program built with --watch tells `indurop plc watch` at the end of a scan: the values of its variables,
+// one behind the other without gaps. Real-time safe.
+
+#pragma once
+
+#include <indurop/plc/types.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace indurop::iec {
+
+class Watch {
+ public:
+  // `to` has room for everything that is put.
+  explicit Watch(std::uint8_t* to) noexcept : to_(to) {}
+
+  template <class T>
+  void put(const T& value) noexcept {
+    if constexpr (Timelike<T>) {
+      bytes(&value.ns, sizeof value.ns);
+    } else {
+      static_assert(std::is_scalar_v<T> || Text<T>);
+      bytes(&value, sizeof value);
+    }
+  }
+  template <class T, std::size_t N>
+  void put(const std::array<T, N>& values) noexcept {
+    if constexpr (std::is_scalar_v<T>) {
+      bytes(values.data(), sizeof values);
+    } else {
+      for (const T& one : values) {
+        put(one);
+      }
+    }
+  }
+
+ private:
+  void bytes(const void* from, std::size_t size) noexcept {
+    std::memcpy(to_, from, size);
+    to_ += size;
+  }
+  std::uint8_t* to_;
+};
+
+}  // namespace indurop::iec

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the values of a program's variables lie in what a module built with --watch tells about it. The module that
+// writes them and the view that reads them both follow it.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plc/check/program.h"
+
+namespace indurop::plc {
+
+struct WatchedVariable {
+  std::string path;  // "MOTOR.DELAY.ET", in capitals
+  const Type* type = nullptr;
+  std::size_t offset = 0;
+};
+
+// An instance of a function block in it, or ("") the program itself.
+struct WatchedInstance {
+  std::string path;  // "MOTOR.DELAY"
+  std::string name;  // as it is written: "Motor.delay"
+  const Pou* pou = nullptr;
+};
+
+struct WatchLayout {
+  std::string variable;    // its name in the .glb: bytes
+  std::size_t bytes = 0;   // of all of them
+  std::uint64_t mark = 0;  // the first 8 bytes: of another program it is another number
+  std::vector<WatchedVariable> variables;
+  std::vector<WatchedInstance> instances;
+
+  // Null if there is none.
+  [[nodiscard]] const WatchedVariable* find(std::string_view path) const;
+};
+
+// What is told of a variable of a POU: neither temporary ones, nor constants, nor what leads elsewhere.
+[[nodiscard]] bool is_watched(const Variable& variable);
+// Bytes of a value without gaps.
+[[nodiscard]] std::size_t packed_size(const Type& type);
+[[nodiscard]] WatchLayout watch_layout(const TaskProgram& program);
+
+}  // namespace indurop::plc

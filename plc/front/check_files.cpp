@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/front/check_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "glb2idl/compiler.h"
+#include "plc/check/checker.h"
+#include "plc/check/shared_names.h"
+#include "plc/front/reader.h"
+
+namespace indurop::plc {
+namespace {
+
+bool is_name(std::string_view name) noexcept {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+  return !name.empty() && is_letter(name[0]) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
+}
+
+// "prog" of ".../prog.st"; what C++ cannot have in a name becomes '_'.
+std::string name_from(const std::string& file) {
+  std::string name = std::filesystem::path(file).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !is_name(std::string("a") + c); }, '_');
+  for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) {
+    name.erase(at, 1);  // C++ keeps it for itself
+  }
+  return is_name(name) ? name : "plc_" + name;
+}
+
+std::vector<schema::Variable> variables_of(const glb2idl::Program& program) {
+  std::vector<schema::Variable> out;
+  for (const glb2idl::GlbFile& unit : program.units) {
+    for (const glb2idl::Item& item : unit.items) {
+      if (const auto* variable = std::get_if<schema::Variable>(&item)) {
+        out.push_back(*variable);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+bool is_module_name(std::string_view name) noexcept {
+  return is_name(name);
+}
+
+std::string module_name(const CompileOptions& options) {
+  return options.name.empty() && !options.files.empty() ? name_from(options.files[0]) : options.name;
+}
+
+std::unique_ptr<Program> check_files(const CompileOptions& options, const std::string& name,
+                                     const glb2idl::FileReader& read, Diagnostics& diagnostics,
+                                     std::vector<base::Diagnostic>& of_glb) {
+  CheckOptions check_options;
+  check_options.library = options.library;
+  check_options.infinite_division = options.infinite_division;
+  check_options.space = !options.space.empty() ? options.space : name_of_space(name);
+  if (!options.glb_files.empty()) {
+    auto foreign = glb2idl::compile(options.glb_files, read);
+    if (!foreign.ok) {
+      of_glb = std::move(foreign.diagnostics);
+      diagnostics.error({}, "the .glb files above have errors, correct them first");
+      return nullptr;
+    }
+    check_options.foreign = variables_of(foreign.program);
+  }
+  Project project = read_project(options.files, options.libraries, {options.watch, options.dialect == Dialect::Codesys},
+                                 read, diagnostics);
+  project.dialect = options.dialect.value_or(project.dialect);
+  if (project.incomplete) {
+    return nullptr;  // what is left out would be missed everywhere
+  }
+  return check(std::move(project), std::move(check_options), diagnostics);
+}
+
+}  // namespace indurop::plc

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of a running program as its programmer writes them.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "plc/check/type.h"
+
+namespace indurop::plc {
+
+// T#100ms, Red, 'text', (x := 1, y := 2); of arrays the bounds and the first elements: [1..3] 5, 6, 7. `bytes`: the
+// packed value (watch_layout.h), "?" if there are fewer.
+[[nodiscard]] std::string value_text(const Type& type, std::span<const std::uint8_t> bytes);
+
+}  // namespace indurop::plc

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments that say which PLC program is meant, and how it is read: the same for all verbs that compile it.
+
+#pragma once
+
+#include "plc/front/compiler.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+// `request` must live as long as the options.
+void add_plc_sources(base::Options& app, plc::CompileOptions& request);
+
+}  // namespace indurop::tools
