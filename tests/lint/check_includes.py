@@ -18,6 +18,7 @@ THIRD_PARTY = {
     "dds": ("dds/", "ddsc/", "dds.h", "idl/", "org/eclipse/cyclonedds/"),
     "openssl": ("openssl/",),
     "modbus": ("modbus/",),
+    "websockets": ("libwebsockets.h",),
     "zstd": ("zstd.h",),
     "lz4": ("lz4frame.h",),
     "eigen": ("Eigen/",),

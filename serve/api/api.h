@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all answers have at hand: the boards, who may write, what the server is.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "serve/door/gate.h"
+
+namespace indurop::serve {
+
+inline constexpr const char* kApiVersion = "1.0.0";
+inline constexpr double kMostRateHz = 100;
+
+// A client of the stream, for /api/v1/status.
+struct ClientFigures {
+  std::uint64_t id = 0;
+  std::string address;
+  std::int64_t since_ns = 0;  // CLOCK_MONOTONIC
+  std::uint64_t streams = 0;
+  std::uint64_t sent = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t sent_bytes = 0;
+};
+
+struct ServerFacts {
+  std::string version;
+  std::size_t most_clients = 0;
+  bool web = false;
+  std::int64_t started_wall_ns = 0;
+  std::int64_t started_ns = 0;
+  std::function<std::vector<ClientFigures>()> clients;
+};
+
+class Api {
+ public:
+  Api(const Gate& gate, ServerFacts facts) : gate_(&gate), facts_(std::move(facts)) {}
+
+  [[nodiscard]] const Gate& gate() const noexcept { return *gate_; }
+  [[nodiscard]] const ServerFacts& facts() const noexcept { return facts_; }
+
+ private:
+  const Gate* gate_;
+  ServerFacts facts_;
+};
+
+// The OpenAPI description, as it was built in.
+std::string_view api_description() noexcept;
+
+}  // namespace indurop::serve

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which answer belongs to a path. The paths are those of serve/openapi.json, which a test compares with this.
+
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "serve/door/request.h"
+
+namespace indurop::serve {
+
+class Api;
+
+// A request whose path was understood.
+struct Call {
+  const Request* request = nullptr;
+  std::string who;                                       // as the gate knows the client
+  std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
+};
+
+enum class Pace { Quick, Slow };  // Slow: by the second thread, it may wait or read files
+
+struct Route {
+  Method method;
+  std::string_view pattern;  // "/api/v1/boards/{board}/set"
+  Pace pace;
+  Reply (*answer)(Api& api, const Call& call);
+};
+
+std::span<const Route> all_routes();
+
+struct Match {
+  const Route* route = nullptr;  // null: see `other_method`
+  bool other_method = false;     // the path is known, with another method
+  Call call;
+};
+Match match_route(std::span<const Route> routes, const Request& request);
+
+// The parts of a path that a pattern names; nothing if it does not fit.
+std::optional<std::map<std::string, std::string, std::less<>>> match_path(std::string_view pattern,
+                                                                          std::string_view path);
+
+}  // namespace indurop::serve

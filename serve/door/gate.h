@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who may come in and who may write, decided from a request's headers alone, before its body is read.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "serve/door/request.h"
+
+namespace indurop::serve {
+
+struct Token {
+  std::string name;  // for the audit log
+  std::string value;
+};
+
+struct GateSettings {
+  bool loopback = true;  // only this machine can reach us
+  bool tls = false;
+  bool write = false;
+  std::vector<std::string> hosts;  // lower-case names and addresses by which we may be called
+  std::vector<Token> tokens;
+};
+
+class Gate {
+ public:
+  explicit Gate(GateSettings settings) : settings_(std::move(settings)) {}
+
+  // Why the request is not answered, or nothing.
+  [[nodiscard]] std::optional<Reply> refuse(const Request& request) const;
+  // Name of the token's or certificate's holder; empty: nobody known.
+  [[nodiscard]] std::string who(const Request& request) const;
+  [[nodiscard]] bool may_write(const Request& request) const { return settings_.write && !who(request).empty(); }
+  [[nodiscard]] const GateSettings& settings() const noexcept { return settings_; }
+
+ private:
+  [[nodiscard]] bool host_known(std::string_view host) const;
+  [[nodiscard]] bool same_origin(const Request& request) const;
+
+  GateSettings settings_;
+};
+
+// Takes the same time wherever the two differ.
+bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;
+
+}  // namespace indurop::serve

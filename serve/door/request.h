@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// A request and its reply as plain data: nothing here knows the library that speaks HTTP.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/json.h"
+
+namespace indurop::serve {
+
+enum class Method { Get, Post, Other };
+
+struct Request {
+  Method method = Method::Get;
+  std::string path;  // decoded
+  std::vector<std::pair<std::string, std::string>> query;
+  std::string host;
+  std::string origin;         // empty: none was sent
+  std::string fetch_site;     // Sec-Fetch-Site
+  std::string authorization;  // whole header
+  std::string subprotocols;   // Sec-WebSocket-Protocol
+  std::string content_type;
+  std::string certificate;  // name in the client's certificate, if an authority we trust signed it
+  std::string from;         // address
+  std::string body;
+  bool has_body = false;
+  bool stream = false;  // asks for a WebSocket
+};
+
+struct Reply {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+  std::string allow;       // header Allow, of 405
+  bool immutable = false;  // may be kept by browsers for a year
+  bool close = false;      // end the connection afterwards
+};
+
+namespace status {
+inline constexpr int kOk = 200;
+inline constexpr int kBadRequest = 400;
+inline constexpr int kUnauthorized = 401;
+inline constexpr int kForbidden = 403;
+inline constexpr int kNotFound = 404;
+inline constexpr int kMethodNotAllowed = 405;
+inline constexpr int kTimeout = 408;
+inline constexpr int kConflict = 409;
+inline constexpr int kTooLarge = 413;
+inline constexpr int kNotJson = 415;
+inline constexpr int kMisdirected = 421;
+inline constexpr int kWrongValue = 422;
+inline constexpr int kFailed = 500;
+inline constexpr int kUnavailable = 503;
+inline constexpr int kNoAnswer = 504;
+}  // namespace status
+
+// The word for programs that belongs to a status: "not_found".
+std::string_view word_of(int status) noexcept;
+
+Reply json_reply(const base::Json& value);
+// {"error", "message", "details"}; `details` is left out if there are none.
+Reply refusal(int status, std::string message, const std::vector<std::string>& details = {});
+
+// First value of a name; nothing if there is none.
+std::optional<std::string> query_value(const Request& request, std::string_view name);
+
+}  // namespace indurop::serve

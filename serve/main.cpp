@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// `indurop-serve`: boards of this host over HTTP and WebSocket. Only looks at a node's memory unless --write.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "base/exit_code.h"
+#include "serve/admission.h"
+#include "serve/server.h"
+#include "tools/command/interrupt.h"
+
+namespace indurop::serve {
+namespace {
+
+constexpr const char* kDetails = R"(What 'indurop serve' becomes. Prints its address, then serves until SIGTERM.
+  indurop-serve --write
+  indurop-serve --bind 0.0.0.0 --token-file tokens --cert board.pem --key board.key
+)";
+
+int run(const tools::ServeOptions& options) {
+  auto gate = admission_of(options);
+  if (!gate) {
+    fmt::print(stderr, "indurop-serve: error: {}\n", gate.error().text);
+    return gate.error().code;
+  }
+  return Server(options, std::move(gate).value(), INDUROP_VERSION).run();
+}
+
+}  // namespace
+}  // namespace indurop::serve
+
+int main(int argc, char** argv) {
+  using namespace indurop;
+  tools::catch_interrupts();
+  base::Options app("indurop-serve", "Show boards of this host over HTTP and WebSocket");
+  app.version(INDUROP_VERSION);
+  tools::ServeOptions options;
+  tools::declare_serve_options(app, options);
+  app.flag("-q,--quiet", options.quiet, "Print errors only");
+  app.details(serve::kDetails);
+  app.exit_codes({kOk, kFailed, kUsage, kInterrupted, kTerminated});
+  if (const auto code = app.parse_program(argc, argv)) {
+    return *code;
+  }
+  return serve::run(options);
+}

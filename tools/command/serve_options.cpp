@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/command/serve_options.h"
+
+namespace indurop::tools {
+
+void declare_serve_options(base::Options& app, ServeOptions& options) {
+  constexpr double kMostPort = 65535;
+  constexpr double kMostClients = 1000;
+  app.add("--node", "NAME", options.node, "Show this node only (default: all of this host)")
+      .completes(base::Completion::Node);
+  app.add("--port", "PORT", options.port, "Listen on this port (default 8080; 0: any that is free)")
+      .range(0, kMostPort);
+  app.add("--bind", "ADDRESS", options.bind,
+          "Listen on this address (default 127.0.0.1); others need --cert and --key");
+  app.flag("--write", options.write, "Let those with a token or a certificate set, force, start and stop");
+  app.add("--token-file", "FILE", options.token_file,
+          "Tokens, one 'NAME TOKEN' per line; made with one token if it is not there")
+      .completes(base::Completion::File);
+  app.add("--cert", "FILE", options.cert, "Certificate for TLS (PEM)").completes(base::Completion::File);
+  app.add("--key", "FILE", options.key, "Private key of --cert (PEM)").completes(base::Completion::File);
+  app.add("--client-ca", "FILE", options.client_ca,
+          "Authority whose certificates count like a token (a plant's ca.pem)")
+      .completes(base::Completion::File);
+  app.add("--host", "NAME", options.hosts, "Another name under which clients may call this server").one_at_a_time();
+  app.add("--web", "DIR", options.web, "Folder of the page (default: the installed one)")
+      .completes(base::Completion::Folder);
+  app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
+      .completes(base::Completion::File);
+  app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
+      .range(1, kMostClients);
+}
+
+std::vector<std::string> words_of(const ServeOptions& options) {
+  std::vector<std::string> words;
+  const auto value = [&words](const char* name, const std::string& text) {
+    if (!text.empty()) {
+      words.insert(words.end(), {name, text});
+    }
+  };
+  value("--node", options.node);
+  value("--port", std::to_string(options.port));
+  value("--bind", options.bind);
+  if (options.write) {
+    words.emplace_back("--write");
+  }
+  value("--token-file", options.token_file.string());
+  value("--cert", options.cert.string());
+  value("--key", options.key.string());
+  value("--client-ca", options.client_ca.string());
+  for (const std::string& host : options.hosts) {
+    value("--host", host);
+  }
+  value("--web", options.web.string());
+  value("--audit", options.audit.string());
+  value("--clients", std::to_string(options.clients));
+  if (options.quiet) {
+    words.emplace_back("--quiet");
+  }
+  return words;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of `indurop serve`, which are those of the program indurop-serve that it becomes.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/options.h"
+
+namespace indurop::tools {
+
+struct ServeOptions {
+  std::string node;  // empty: all of this host
+  std::string bind = "127.0.0.1";
+  std::uint64_t port = 8080;
+  bool write = false;
+  std::filesystem::path token_file;
+  std::filesystem::path cert;
+  std::filesystem::path key;
+  std::filesystem::path client_ca;
+  std::filesystem::path web;
+  std::filesystem::path audit;
+  std::vector<std::string> hosts;
+  std::uint64_t clients = 64;
+  bool quiet = false;
+};
+
+void declare_serve_options(base::Options& app, ServeOptions& options);
+// Which give the same options again.
+std::vector<std::string> words_of(const ServeOptions& options);
+
+}  // namespace indurop::tools

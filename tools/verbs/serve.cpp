@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop serve: becomes indurop-serve.
+#include <fmt/format.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <cerrno>
+#include <cstring>
+
+#include "tools/command/self.h"
+#include "tools/command/serve_options.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr const char* kProgram = "indurop-serve";
+
+int become_server(Context& context, ServeOptions& options) {
+  const auto program = program_folder() / kProgram;
+  if (access(program.c_str(), X_OK) != 0) {
+    context.out.error(
+        fmt::format("{} is not there; it is built where Debian's libwebsockets-dev is", program.string()));
+    return kFailed;
+  }
+  options.quiet = context.out.quiet();
+  std::vector<std::string> words = words_of(options);
+  words.insert(words.begin(), program.string());
+  std::vector<char*> raw;
+  for (std::string& word : words) {
+    raw.push_back(word.data());
+  }
+  raw.push_back(nullptr);
+  context.out.flush();
+  signal(SIGPIPE, SIG_DFL);  // ignoring it would be inherited
+  execv(program.c_str(), raw.data());
+  context.out.error(fmt::format("cannot start {}: {}", program.string(), std::strerror(errno)));
+  return kFailed;
+}
+
+Action declare(base::Options& app, Context& /*context*/) {
+  auto options = std::make_shared<ServeOptions>();
+  declare_serve_options(app, *options);
+  return [options](Context& c) { return become_server(c, *options); };
+}
+
+}  // namespace
+
+const Verb kServeVerb{
+    "serve", "A running node", "Show boards of this host to browsers and programs, over HTTP and WebSocket",
+    "Becomes indurop-serve and prints its address. Shows the nodes that run and those that come; no tick notices it.\n"
+    "Without options it can be reached from this machine only, and nothing can be written. With --write it prints a\n"
+    "token: who has it may set, force, start and stop. The interface is described in docs/serve.md.\n"
+    "Examples:\n"
+    "  indurop serve\n"
+    "  indurop serve --write --port 9000\n"
+    "  indurop serve --bind 0.0.0.0 --write --token-file tokens --cert board.pem --key board.key\n",
+    &declare};
+
+}  // namespace indurop::tools
