@@ -132,13 +132,14 @@ bool known(const Arm& arm, const Solutions& found, const Joints& q) noexcept {
   return false;
 }
 
-// From q on, which is near to a solution.
-bool reached(const Arm& arm, const Pose& pose, const Search& how, Joints& q) noexcept {
+// From q on, which is near to a solution. Returns by how much the orientation is missed, as a square; all of it where
+// the position is.
+double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) noexcept {
   if (arm.count() >= 6) {
-    return descend(arm, pose, {kSteps, true, how.held}, q) < kExact * kExact;
+    return descend(arm, pose, {kSteps, true, how.held}, q) < kExact * kExact ? 0 : HUGE_VAL;
   }
   const auto [place, turn] = place_first(arm, pose, q);
-  return place < kExact * kExact && turn < how.turned * how.turned;
+  return place < kExact * kExact ? turn : HUGE_VAL;
 }
 
 }  // namespace
@@ -180,6 +181,7 @@ Solutions search_numerically(const Arm& arm, const std::optional<Postures>& post
   constexpr int kFew = 40;  // steps: a start that is no use shows it early
   const double close = std::max(kClose, arm.count() < 6 ? 2 * how.turned : 0.0);
   Solutions found;
+  bool exact = false;  // what was found; then what a limit keeps from it does not count
   for (int i = 0; i < how.least || (found.count == 0 && i < how.most); ++i) {
     Joints q = i == 0 ? near : arm.spread(i);
     for (int a = 0; a < arm.count(); ++a) {
@@ -191,9 +193,16 @@ Solutions search_numerically(const Arm& arm, const std::optional<Postures>& post
     }
     if (!turn_back(arm, near, q)) {
       found.reach = found.count > 0 ? Reach::Ok : Reach::JointLimit;
-    } else if (reached(arm, pose, how, q) && !known(arm, found, q)) {
-      found.add(arm, q, postures ? postures->at(arm, q) : std::uint8_t{0}, near);
+      continue;
     }
+    const double left = missed(arm, pose, how, q);
+    const bool good = left < kExact * kExact;
+    if (!(left < how.turned * how.turned) || (exact && !good) || known(arm, found, q)) {
+      continue;
+    }
+    found.count = good && !exact ? 0 : found.count;
+    exact = good;
+    found.add(arm, q, postures ? postures->at(arm, q) : std::uint8_t{0}, near);
   }
   return found;
 }
