@@ -53,8 +53,18 @@ AXIS1_OUT_t to(const robot::DriveOut& drive) {
   return {drive.control, drive.mode, drive.position};
 }
 
+// A .glb of an arm with more axes has variables of these names, which are found before these.
+const AXIS1_IN_t AXIS7_IN, AXIS8_IN;
+AXIS1_OUT_t AXIS7_OUT, AXIS8_OUT;
+
+}  // namespace
+
+namespace ROBOT_GROUP {
+namespace {
+
 void read_axes() {
-  in.drives = {from(AXIS1_IN), from(AXIS2_IN), from(AXIS3_IN), from(AXIS4_IN), from(AXIS5_IN), from(AXIS6_IN)};
+  in.drives = {from(AXIS1_IN), from(AXIS2_IN), from(AXIS3_IN), from(AXIS4_IN),
+               from(AXIS5_IN), from(AXIS6_IN), from(AXIS7_IN), from(AXIS8_IN)};
 }
 
 void write_axes() {
@@ -64,7 +74,14 @@ void write_axes() {
   AXIS4_OUT = to(out.drives[3]);
   AXIS5_OUT = to(out.drives[4]);
   AXIS6_OUT = to(out.drives[5]);
+  AXIS7_OUT = to(out.drives[6]);
+  AXIS8_OUT = to(out.drives[7]);
 }
+
+}  // namespace
+}  // namespace ROBOT_GROUP
+
+namespace {
 
 void read_requests() {
   const ROBOT_MODULE_SERVICE_t service = ROBOT_MODULE_SERVICE;
@@ -97,10 +114,12 @@ void write_state() {
   state->eState = static_cast<short>(out.state);
   state->bRuntimeService = out.acknowledged != out.done;
   state->bJob_RobotMoving = out.moving_by_job;
-  for (std::size_t k = 0; k < MAX_JOINTS; ++k) {
+  for (std::size_t k = 0; k < state->dCurJoint.size(); ++k) {
     state->dCurJoint[k] = bits(1000 * out.joints[k]);
     state->dCmdJoint[k] = bits(1000 * out.command[k]);
     state->dJointSpeed[k] = bits(1000 * out.speed[k]);
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
     const double place = k < 3 ? out.position[k] : out.orientation[k - 3];
     const double speed = k < 3 ? out.velocity[k] : out.turning[k - 3];
     state->dWorldPos[k] = state->dUserPos[k] = state->dBasePos[k] = bits(1000 * place);
@@ -190,7 +209,7 @@ void start() {
   if (plcRobot->axis_count() > MAX_JOINTS) {
     throw std::runtime_error("the arm has " + std::to_string(plcRobot->axis_count()) +
                              " axes, the .glb has variables of " + std::to_string(MAX_JOINTS) +
-                             ": it needs a larger MAX_JOINTS");
+                             ": raise MAX_JOINTS and add AXIS7_IN, AXIS7_OUT");
   }
   signals = std::make_unique<JobSignals>(plcRobot->signals());
   ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "node_fixture.h"
 
@@ -11,13 +12,18 @@ namespace {
 
 class RobotNode : public NodeTest {
  protected:
-  std::vector<Module> modules(const std::string& job, const std::vector<std::string>& robots = {"PLC_ROBOT"}) {
-    std::ifstream urdf(std::string(CELL_SOURCE) + "/robot.urdf");
-    write("robot.urdf", {std::istreambuf_iterator<char>(urdf), {}});
+  void copy(const std::string& from, const std::string& to) {
+    std::ifstream file(from);
+    write(to, {std::istreambuf_iterator<char>(file), {}});
+  }
+  // `robots`: the namespace of each, and its axes.
+  std::vector<Module> modules(const std::string& job,
+                              const std::map<std::string, std::string>& robots = {{"PLC_ROBOT", "123456"}}) {
+    copy(std::string(CELL_SOURCE) + "/robot.urdf", "robot.urdf");
     write("test.job", job);
     std::string devices = "<ioconfig>";
-    for (const std::string& robot : robots) {
-      for (const char axis : std::string("123456")) {
+    for (const auto& [robot, axes] : robots) {
+      for (const char axis : axes) {
         const std::string name = robot + "::AXIS" + axis;
         devices += "<device name='" + robot + axis + "' driver='cia402' speed='540' following='30' in='" + name +
                    "_IN' out='" + name + "_OUT'/>\n";
@@ -40,14 +46,19 @@ class RobotNode : public NodeTest {
          .more = "<position>after-base</position>"}};
   }
 
+  // The second one has seven axes.
   std::vector<Module> two_robots() {
-    auto all = modules("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\n", {"PLC_ROBOT", "PLC_ROBOT2"});
-    write("second.job", "POINT A = JOINT -45 0 0 0 30 0\nMOVJ A\nSET PLC_ROBOT2::O8 ON\n");
+    auto all =
+        modules("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\n", {{"PLC_ROBOT", "123456"}, {"PLC_ROBOT2", "1234567"}});
+    copy(SEVEN_AXES, "seven.urdf");
+    write("second.job",
+          "POINT A = JOINT -45 30 0 -70 0 60 25\nPOINT B = POSE 500 -100 600 RPY 180 0 180 AXIS 3 20\n"
+          "MOVJ B\nMOVJ A\nSET PLC_ROBOT2::O8 ON\n");
     all.push_back({.file = SECOND_ROBOT,
                    .name = "robot2",
                    .period = "5ms",
                    .priority = 3,
-                   .properties = {{"urdf", "robot.urdf"}, {"jobs", "second.job"}, {"following_limit", "30"}}});
+                   .properties = {{"urdf", "seven.urdf"}, {"jobs", "second.job"}, {"following_limit", "30"}}});
     return all;
   }
 
@@ -163,7 +174,8 @@ TEST_F(RobotNode, Two_robots_in_one_node_move_by_themselves) {
   }
   set("PLC_ROBOT2" + service, "{eOpCode: 11, nJob: 1, nRequest: 2}");
   ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT2::O8") == 1; }));
-  EXPECT_NEAR(number("PLC_ROBOT2::AXIS1_IN.position"), -45 * 1320000 / 360.0, 50);
+  EXPECT_NEAR(number("PLC_ROBOT2::AXIS7_IN.position"), 25 * 1320000 / 360.0, 50);
+  EXPECT_EQ(number("PLC_ROBOT2::ROBOT_MODULE_STATE.nAXESGROUP"), 7);
   EXPECT_EQ(number("PLC_ROBOT::AXIS1_IN.position"), 0) << "the other one has not moved";
   set("PLC_ROBOT" + service, "{eOpCode: 11, nJob: 1, nRequest: 2}");
   EXPECT_TRUE(wait_until([&] { return std::abs(joint(1) - 30) < 0.01; }));
@@ -177,16 +189,24 @@ TEST_F(RobotNode, Two_robots_in_a_simulation_are_the_same_on_every_run) {
   auto all = two_robots();
   all.push_back({.file = BOTH_ROBOTS, .name = "plc", .period = "10ms", .priority = 4});
   const auto everything = [&] {
-    const Outcome outcome = run_to_end(all, {"--sim", "--until", "5s"});
+    const Outcome outcome = run_to_end(all, {"--sim", "--until", "10s"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return indurop({"vars", "-o", "json"}).out;
   };
   const std::string first = everything();
   EXPECT_NEAR(joint(1), 30, 0.01);
-  EXPECT_NEAR(number("PLC_ROBOT2::AXIS1_IN.position"), -45 * 1320000 / 360.0, 50);
+  EXPECT_NEAR(number("PLC_ROBOT2::AXIS7_IN.position"), 25 * 1320000 / 360.0, 50);
   EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOB.nCycles"), 1);
   EXPECT_EQ(number("PLC_ROBOT2::ROBOT_JOB.nCycles"), 1);
   EXPECT_EQ(first, everything());
+}
+
+TEST_F(RobotNode, More_axes_than_variables_are_said_before_the_start) {
+  auto wrong = modules("POINT A = JOINT 0 0 0 0 0 0 0\n");
+  copy(SEVEN_AXES, "robot.urdf");
+  const Outcome outcome = run_to_end(wrong, {});
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("the arm has 7 axes, the .glb has variables of 6"), std::string::npos) << outcome.err;
 }
 
 TEST_F(RobotNode, What_is_wrong_with_robot_and_jobs_is_said_before_the_start) {
