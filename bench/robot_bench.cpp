@@ -180,7 +180,7 @@ void controller_steps(benchmark::State& state) {
   const auto job = std::filesystem::temp_directory_path() / "robot_bench.job";
   std::ofstream(job) << "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
                         "POINT C = POSE 500 -100 500 RPY 180 0 180\nPOINT D = POSE 450 0 450 RPY 180 0 180\n"
-                        "LOOP\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nZONE 0\nMOVL D\nMOVC A B\nEND\n";
+                        "LOOP\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nZONE 0\nMOVL D\nMOVC B C\nEND\n";
   Settings settings;
   settings.urdf = ROBOT_URDF;
   settings.jobs = {job.string()};
@@ -210,6 +210,9 @@ void controller_steps(benchmark::State& state) {
       next += settings.period;
       std::this_thread::sleep_until(next);
     }
+  }
+  if (out.job.state == JobState::Failed) {
+    state.SkipWithError(out.job.message);
   }
   std::sort(took.begin(), took.end());
   const auto part = [&](double p) { return took[static_cast<std::size_t>(p * static_cast<double>(took.size() - 1))]; };
