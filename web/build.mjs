@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bundles the page: node build.mjs [FOLDER]. File names carry a hash of their content, so a browser may keep them for
+// ever; only index.html has to be asked for again.
+import { mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
+import { basename, join } from "node:path";
+import { gzipSync } from "node:zlib";
+import esbuild from "esbuild";
+
+const most = 600_000;  // bytes, compressed, all files together
+const folder = process.argv[2] ?? "dist";
+
+await rm(folder, { recursive: true, force: true });
+await mkdir(folder, { recursive: true });
+const { metafile } = await esbuild.build({
+  entryPoints: { page: "src/main.tsx" },
+  outdir: folder,
+  entryNames: "[name]-[hash]",
+  chunkNames: "part-[hash]",
+  bundle: true,
+  splitting: true,
+  format: "esm",
+  target: ["es2022"],
+  minify: true,
+  legalComments: "linked",
+  jsx: "automatic",
+  jsxImportSource: "preact",
+  metafile: true,
+  logLevel: "warning",
+});
+const script = Object.entries(metafile.outputs).find(([, made]) => made.entryPoint === "src/main.tsx");
+const page = (await readFile("src/index.html", "utf8"))
+  .replace("page.css", basename(script[1].cssBundle))
+  .replace("page.js", basename(script[0]));
+await writeFile(join(folder, "index.html"), page);
+
+let sum = 0;
+for (const name of await readdir(folder)) {
+  sum += gzipSync(await readFile(join(folder, name)), { level: 9 }).length;
+}
+console.log(`the page: ${Math.ceil(sum / 1000)} kB compressed, of ${most / 1000} kB allowed`);
+if (sum > most) process.exit(1);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Questions and orders over HTTP. What the server refuses becomes a Refusal with the server's words.
+
+const TOKEN_KEY = "indurop.token";
+const PATIENCE_MS = 8000;
+
+export class Refusal extends Error {
+  constructor(readonly status: number, message: string, readonly details: string[] = []) {
+    super(message);
+  }
+}
+
+// `#token=...` of the address is kept for this tab and taken out of the address, which people copy and photograph.
+export function take_token_from_address(): void {
+  const found = /(?:^#|&)token=([A-Za-z0-9_-]+)/.exec(location.hash);
+  if (!found) return;
+  sessionStorage.setItem(TOKEN_KEY, found[1]);
+  const rest = location.hash.replace(/(^#|&)token=[A-Za-z0-9_-]+/, "").replace(/^&/, "");
+  history.replaceState(null, "", location.pathname + (rest ? (rest.startsWith("#") ? rest : `#${rest}`) : ""));
+}
+
+export function token(): string {
+  return sessionStorage.getItem(TOKEN_KEY) ?? "";
+}
+
+async function ask<T>(path: string, more: RequestInit): Promise<T> {
+  const headers: Record<string, string> = { Accept: "application/json" };
+  if (token()) headers.Authorization = `Bearer ${token()}`;
+  if (more.body) headers["Content-Type"] = "application/json";
+  let answer: Response;
+  try {
+    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(PATIENCE_MS) });
+  } catch {
+    throw new Refusal(0, "The server does not answer.");
+  }
+  const text = await answer.text();
+  let body: any;
+  try {
+    body = JSON.parse(text);
+  } catch {
+    throw new Refusal(answer.status, `The server's answer is no JSON (status ${answer.status}).`);
+  }
+  if (!answer.ok) throw new Refusal(answer.status, body.message ?? `Refused (status ${answer.status}).`, body.details ?? []);
+  return body as T;
+}
+
+export function get<T>(path: string): Promise<T> {
+  return ask<T>(path, { method: "GET" });
+}
+
+export function post<T>(path: string, body?: unknown): Promise<T> {
+  return ask<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) });
+}
+
+export function board_path(board: string, rest = ""): string {
+  return `boards/${encodeURIComponent(board)}${rest}`;
+}
+
+export function words(error: unknown): string {
+  if (error instanceof Refusal) return [error.message, ...error.details].join(" ");
+  return error instanceof Error ? error.message : String(error);
+}

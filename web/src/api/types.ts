@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the server says, as serve/openapi.json and docs/serve.md describe it; fields the page does not use are left out.
+
+export type Quality = "good" | "stale" | "silent" | "unread";
+
+export interface ServerStatus {
+  version: string;
+  api: string;
+  write: boolean;
+  may_write: boolean;
+  who: string;
+  max_rate_hz: number;
+}
+
+export interface BoardSummary {
+  board: string;
+  here: boolean;
+  alive: boolean;
+  state: string;
+  deployment: string;
+  config_file: string;
+  modules: number;
+  overruns: number;
+  faults: number;
+  forces: number;
+  trouble: string[];
+  layout: string;
+}
+
+export interface Force {
+  name: string;
+  value: unknown;
+  left_ns: number | null;
+}
+
+// Fields beyond these are those of `indurop status -o json`.
+export interface Board {
+  node: string;
+  alive: boolean;
+  state: string;
+  forces: Force[];
+  trouble: string[];
+  [more: string]: unknown;
+}
+
+export interface Module {
+  name: string;
+  type: string;
+  operation: string;
+  period_ns: number;
+  priority: number;
+  core?: number;
+  offset_ns?: number;
+  deadline_ns?: number;
+  state: string;
+  runs: number;
+  skipped: number;
+  overruns: number;
+  deadline_misses: number;
+  restarts: number;
+  last_exec_ns?: number;
+  mean_exec_ns?: number;
+  max_exec_ns?: number;
+  jitter_p50_ns?: number;
+  jitter_p99_ns?: number;
+  jitter_max_ns?: number;
+  last_fault: string;
+}
+
+export interface Fault {
+  severity: "error" | "warning" | "note";
+  module: string;
+  text: string;
+  tick?: number;
+}
+
+export interface Range {
+  min: number | null;
+  max: number | null;
+}
+
+export interface Field {
+  name: string;
+  offset: number;
+  type: Form;
+  unit?: string;
+  description?: string;
+  range?: Range | null;
+}
+
+// Form of a variable's bytes.
+export interface Form {
+  kind: string;
+  name?: string;
+  size: number;
+  dims?: number[];
+  fields?: Field[];
+  enumerators?: Record<string, number>;
+}
+
+export interface Variable {
+  name: string;
+  type: string;
+  form: Form;
+  value?: unknown;
+  text?: string;
+  unit: string;
+  range: Range | null;
+  retain: boolean;
+  writers: string[] | null;
+  readers: string[] | null;
+  description: string;
+  source: string;
+  age_ns: number | null;
+  quality: Quality;
+  forced: string[];
+}
+
+export interface Variables {
+  board: string;
+  layout: string;
+  alive: boolean;
+  uses_known: boolean;
+  variables: Variable[];
+}
+
+export interface Run {
+  number: number;
+  tick: number;
+  slot: number;
+  module: string;
+  release_ns: number;
+  start_ns: number;
+  end_ns: number;
+}
+
+export interface Runs {
+  epoch_ns: number;
+  now_ns: number;
+  next: number;
+  runs: Run[];
+}
+
+export interface Overrun {
+  number: number;
+  tick: number;
+  slot: number;
+  module: string;
+  own_ns: number;
+  latency_ns: number;
+  previous: string;
+  previous_ns: number;
+  started: boolean;
+}
+
+export interface Schedule {
+  basic_period_ns: number;
+  macro_period_ns: number;
+  slots: number;
+  epoch_ns: number;
+  message: string;
+}
+
+export interface Histogram {
+  count: number;
+  min_ns: number;
+  max_ns: number;
+  mean_ns: number;
+  p50_ns: number;
+  p99_ns: number;
+  bins: [number, number, number][];
+}
+
+export interface Robot {
+  module: string;
+  name: string;
+  urdf: string;
+  scope?: string;
+  joints?: string[];
+}
+
+export interface StreamVariable {
+  name: string;
+  type: string;
+  form: Form;
+  offset: number;
+  unit: string;
+}
+
+export interface Subscribed {
+  type: "subscribed";
+  id: number;
+  stream: number;
+  board: string;
+  layout: string;
+  rate_hz: number;
+  binary: boolean;
+  record_size: number;
+  quality_offset: number;
+  variables: StreamVariable[];
+  missing?: { name: string; message: string }[];
+}
+
+export interface ValuesFrame {
+  type: "values";
+  stream: number;
+  seq: number;
+  time_ns: number;
+  wall_ns: number;
+  alive: boolean;
+  full?: boolean;
+  values: Record<string, unknown>;
+  quality?: Record<string, Quality>;
+  forced?: string[];
+}
+
+export interface StreamBoard {
+  board: string;
+  alive: boolean;
+  state: string;
+  layout: string;
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Start of the page: which views there are, and the one the address names.
+
+import "./style.css";
+import { render } from "preact";
+import { take_token_from_address } from "./api/http";
+import { start_looking } from "./shell/plant";
+import { Shell, type View } from "./shell/shell";
+import { place } from "./ui/address";
+import { useStore } from "./ui/store";
+import { Overview } from "./views/overview";
+
+const VIEWS: (View & { show: () => preact.JSX.Element | null })[] = [
+  { name: "overview", title: "Overview", icon: "M3 3h8v8H3zM13 3h8v5h-8zM13 10h8v11h-8zM3 13h8v8H3z", show: Overview },
+];
+
+function Page() {
+  const { view } = useStore(place);
+  const shown = VIEWS.find(({ name }) => name === view) ?? VIEWS[0];
+  return <Shell views={VIEWS} title={shown.title}><shown.show key={shown.name} /></Shell>;
+}
+
+take_token_from_address();
+start_looking();
+render(<Page />, document.getElementById("page")!);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every view needs to know: is the server there, which boards are there, which one is looked at.
+
+import { get, words } from "../api/http";
+import { stream, type Link } from "../api/stream";
+import type { BoardSummary, ServerStatus } from "../api/types";
+import { place } from "../ui/address";
+import { Store, useStore } from "../ui/store";
+
+const LOOK_MS = 2000;
+
+export interface Plant {
+  link: Link;
+  status: ServerStatus | null;
+  boards: BoardSummary[] | null;
+  error: string;
+}
+
+export const plant = new Store<Plant>({ link: "connecting", status: null, boards: null, error: "" });
+
+function update(part: Partial<Plant>): void {
+  plant.set({ ...plant.get(), ...part });
+}
+
+async function look(): Promise<void> {
+  try {
+    const [status, { boards }] = await Promise.all([
+      get<ServerStatus>("status"), get<{ boards: BoardSummary[] }>("boards")]);
+    update({ status, boards, error: "" });
+  } catch (error) {
+    update({ error: words(error) });
+  }
+}
+
+export function start_looking(): void {
+  stream.on_link = (link) => {
+    update({ link });
+    if (link === "open") void look();
+  };
+  stream.on_boards = (seen) => {
+    const boards = plant.get().boards;
+    const known = seen.every(({ board }) => boards?.some((one) => one.board === board)) && boards?.length === seen.length;
+    if (!boards || !known) return void look();
+    update({ boards: boards.map((one) => ({ ...one, ...seen.find(({ board }) => board === one.board) })) });
+  };
+  stream.open();
+  const again = async () => {
+    if (!document.hidden) await look();
+    setTimeout(again, LOOK_MS);
+  };
+  void again();
+}
+
+// The board the address names, else the first that runs, else the first.
+export function useBoard(): BoardSummary | null {
+  const { boards } = useStore(plant);
+  const named = useStore(place).query.get("board");
+  if (!boards) return null;
+  return boards.find(({ board }) => board === named) ?? boards.find(({ alive }) => alive) ?? boards[0] ?? null;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light or dark: as the system says, until somebody chooses. Kept in the browser.
+
+import { Store } from "../ui/store";
+
+const KEY = "indurop.theme";
+export const THEMES = ["auto", "light", "dark"] as const;
+export type Theme = (typeof THEMES)[number];
+
+const system = matchMedia("(prefers-color-scheme: dark)");
+const chosen = localStorage.getItem(KEY) as Theme | null;
+export const theme = new Store<Theme>(chosen && THEMES.includes(chosen) ? chosen : "auto");
+// Counts changes, for what is drawn with colours taken from the style sheet.
+export const colours_changed = new Store(0);
+
+function apply(): void {
+  const dark = theme.get() === "dark" || (theme.get() === "auto" && system.matches);
+  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  colours_changed.set(colours_changed.get() + 1);
+}
+
+export function choose_theme(next: Theme): void {
+  localStorage.setItem(KEY, next);
+  theme.set(next);
+  apply();
+}
+
+export function colour(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+system.addEventListener("change", apply);
+apply();

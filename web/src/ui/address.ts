@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page shows is in its address, after '#', so a link or a reload brings it back: #/plots?board=cell&c=a,b
+
+import { Store } from "./store";
+
+export interface Place {
+  view: string;
+  query: URLSearchParams;
+}
+
+function read(): Place {
+  const [view, query] = location.hash.replace(/^#\/?/, "").split("?");
+  return { view: view || "overview", query: new URLSearchParams(query ?? "") };
+}
+
+export const place = new Store<Place>(read());
+window.addEventListener("hashchange", () => place.set(read()));
+
+export function address(view: string, query: URLSearchParams | Record<string, string> = {}): string {
+  const text = new URLSearchParams(query).toString()
+    .replaceAll("%3A", ":").replaceAll("%2C", ",").replaceAll("%5B", "[").replaceAll("%5D", "]");
+  return `#/${view}${text ? `?${text}` : ""}`;
+}
+
+// Changes the query of the present view; empty values take a word out of it. Not a step of the browser's history.
+export function change_query(changes: Record<string, string | string[]>): void {
+  const { view, query } = place.get();
+  const next = new URLSearchParams(query);
+  for (const [name, value] of Object.entries(changes)) {
+    next.delete(name);
+    for (const one of Array.isArray(value) ? value : [value]) if (one !== "") next.append(name, one);
+  }
+  history.replaceState(null, "", address(view, next));
+  place.set(read());
+}

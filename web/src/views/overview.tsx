@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// All boards at a glance: first what is wrong, in words, then how each board and its modules do.
+
+import { useState } from "preact/hooks";
+import { board_path, get, post, words } from "../api/http";
+import type { Board, BoardSummary, Fault, Module } from "../api/types";
+import { plant } from "../shell/plant";
+import { address } from "../ui/address";
+import { count, percent, plural, span } from "../ui/format";
+import { useAsked, useStore } from "../ui/store";
+import { Figure, Panel, Waiting } from "../ui/parts";
+
+const EVERY_MS = 2000;
+
+interface Look {
+  board: Board;
+  modules: Module[];
+  faults: Fault[];
+}
+
+async function look(board: string): Promise<Look> {
+  const [state, { modules }, { faults }] = await Promise.all([
+    get<Board>(board_path(board)),
+    get<{ modules: Module[] }>(board_path(board, "/modules")),
+    get<{ faults: Fault[] }>(board_path(board, "/faults")),
+  ]);
+  return { board: state, modules, faults };
+}
+
+// Share of its time each core spends in modules, by their mean execution times.
+export function core_loads(modules: Module[]): [number, number][] {
+  const loads = new Map<number, number>();
+  for (const { core, period_ns, mean_exec_ns } of modules) {
+    if (period_ns > 0 && mean_exec_ns) loads.set(core ?? 0, (loads.get(core ?? 0) ?? 0) + mean_exec_ns / period_ns);
+  }
+  return [...loads].sort(([a], [b]) => a - b);
+}
+
+function load_text(modules: Module[]): string {
+  const loads = core_loads(modules);
+  if (loads.length === 0) return "-";
+  if (loads.length === 1) return percent(loads[0][1]);
+  return loads.map(([core, load]) => `core ${core}: ${percent(load)}`).join(", ");
+}
+
+function number_of(board: Board, name: string): number | null {
+  const value = board[name];
+  return typeof value === "number" ? value : null;
+}
+
+function Orders({ board, module, done }: { board: string; module: Module; done: () => void }) {
+  const [said, say] = useState("");
+  const order = async (what: string) => {
+    try {
+      await post(board_path(board, `/modules/${encodeURIComponent(module.name)}/${what}`));
+      say("");
+    } catch (error) {
+      say(words(error));
+    }
+    done();
+  };
+  const stopped = !["running", "starting"].includes(module.state);
+  return (
+    <span class="orders">
+      <button type="button" onClick={() => order(stopped ? "start" : "stop")} aria-label={`${stopped ? "Start" : "Stop"} ${module.name}`}>
+        {stopped ? "start" : "stop"}</button>
+      <button type="button" onClick={() => order("restart")} aria-label={`Restart ${module.name}`}>restart</button>
+      {said && <span class="bad" role="alert">{said}</span>}
+    </span>);
+}
+
+function Modules({ board, modules, may_write, done }: { board: string; modules: Module[]; may_write: boolean; done: () => void }) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label={`Modules of ${board}`}>
+      <table class="figures">
+        <thead>
+          <tr><th scope="col">Module</th><th scope="col">State</th><th scope="col">Released</th><th scope="col" class="number">Runs</th>
+            <th scope="col" class="number">Skipped</th><th scope="col" class="number">Overruns</th><th scope="col" class="number">Takes (mean)</th>
+            <th scope="col" class="number">At most</th><th scope="col" class="number">Jitter (99 %)</th>{may_write && <th scope="col">Orders</th>}</tr>
+        </thead>
+        <tbody>
+          {modules.map((module) => (
+            <tr key={module.name}>
+              <th scope="row">{module.name}{module.last_fault && <span class="fault-text">{module.last_fault}</span>}</th>
+              <td class={module.state === "running" ? "" : "warn"}>{module.state}</td>
+              <td>{module.period_ns ? `every ${span(module.period_ns)}` : module.operation}</td>
+              <td class="number">{count(module.runs)}</td>
+              <td class={`number ${module.skipped ? "warn" : ""}`}>{count(module.skipped)}</td>
+              <td class={`number ${module.overruns ? "bad" : ""}`}>{count(module.overruns)}</td>
+              <td class="number">{module.runs ? span(module.mean_exec_ns) : "-"}</td>
+              <td class="number">{module.runs ? span(module.max_exec_ns) : "-"}</td>
+              <td class="number">{module.period_ns && module.runs ? span(module.jitter_p99_ns) : "-"}</td>
+              {may_write && <td><Orders board={board} module={module} done={done} /></td>}
+            </tr>))}
+        </tbody>
+      </table>
+    </div>);
+}
+
+function Troubles({ summary, faults }: { summary: BoardSummary; faults: Fault[] }) {
+  const said = new Set(faults.map(({ text }) => text));
+  const lines = [
+    ...summary.trouble.filter((text) => !said.has(text)).map((text) => ({ severity: "error", text, module: "" })), ...faults];
+  if (lines.length === 0) return null;
+  return (
+    <ul class="troubles">
+      {lines.map(({ severity, text, module }) => (
+        <li class={severity} key={severity + text}><strong>{severity}</strong> {module && `${module}: `}{text}</li>))}
+    </ul>);
+}
+
+function BoardCard({ summary }: { summary: BoardSummary }) {
+  const { status } = useStore(plant);
+  const { value, error, again } = useAsked(summary.board, EVERY_MS, () => look(summary.board), words);
+  const board = value?.board;
+  const lost = board && number_of(board, "lost_ticks");
+  const ticks = board && number_of(board, "ticks");
+  const uptime = board && number_of(board, "uptime_ns");
+  const not_exact = (board?.rt as { why?: string } | undefined)?.why;
+  return (
+    <Panel title={summary.board} state={summary.alive ? summary.state : `gone (${summary.state})`} good={summary.alive && summary.state === "running"}>
+      <Troubles summary={summary} faults={value?.faults ?? []} />
+      {error && <p class="bad">{error}</p>}
+      {!value && !error && <Waiting />}
+      {board && value && <>
+        <dl class="facts">
+          <Figure name="Up for" value={uptime ? span(uptime) : "-"} />
+          <Figure name="Load" value={load_text(value.modules)} hint="time in modules, by their mean execution times" />
+          <Figure name="Ticks" value={ticks === null || ticks === undefined ? "-" : count(ticks)} />
+          <Figure name="Lost ticks" value={lost === null || lost === undefined ? "-" : count(lost)} bad={!!lost} />
+          <Figure name="Overruns" value={count(summary.overruns)} bad={summary.overruns > 0} />
+          <Figure name="Faults" value={count(summary.faults)} bad={summary.faults > 0} />
+          <Figure name="Forced" value={count(summary.forces)} warn={summary.forces > 0} />
+          <Figure name="Deployment" value={summary.deployment || "started by hand"} />
+        </dl>
+        {not_exact && <p class="warn">Not real time: {not_exact}</p>}
+        <Modules board={summary.board} modules={value.modules} may_write={!!status?.may_write} done={again} />
+        <p class="links">
+          <a href={address("variables", { board: summary.board })}>Variables</a>{" "}
+          <a href={address("schedule", { board: summary.board })}>Schedule</a>
+        </p>
+      </>}
+    </Panel>);
+}
+
+// One sentence for the whole plant.
+function Headline({ boards }: { boards: BoardSummary[] }) {
+  const running = boards.filter(({ alive }) => alive);
+  const wrong = running.filter(({ trouble, faults, overruns }) => trouble.length > 0 || faults > 0 || overruns > 0);
+  const gone = boards.length - running.length;
+  const forced = running.reduce((sum, { forces }) => sum + forces, 0);
+  const parts = [];
+  if (wrong.length > 0) parts.push(`Something is wrong on ${wrong.map(({ board }) => board).join(", ")}.`);
+  else if (running.length > 0) parts.push(running.length === 1 ? "The board runs, nothing is wrong." : `All ${running.length} boards that run are well.`);
+  else parts.push("No board runs.");
+  if (gone > 0 && running.length > 0) parts.push(`${plural(gone, "board does", "boards do")} not run.`);
+  if (forced > 0) parts.push(`${plural(forced, "value is", "values are")} forced.`);
+  return <p class={`headline ${wrong.length > 0 || running.length === 0 ? "is-bad" : gone > 0 || forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
+}
+
+export function Overview() {
+  const { boards } = useStore(plant);
+  if (!boards) return <Waiting />;
+  const rank = ({ alive, trouble }: BoardSummary) => (alive ? (trouble.length ? 0 : 1) : 2);
+  const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
+  const gone = sorted.filter(({ alive }) => !alive);
+  const shown = gone.length > 3 ? sorted.filter(({ alive }) => alive) : sorted;
+  return (
+    <>
+      {boards.length > 0 && <Headline boards={boards} />}
+      <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
+      {shown.length < sorted.length && (
+        <details class="panel">
+          <summary>{plural(gone.length, "board")} that ended and left their last values</summary>
+          <ul class="plain">{gone.map(({ board, state, trouble }) => (
+            <li key={board}><a href={address("variables", { board })}>{board}</a>: {trouble[0] ?? state}</li>))}</ul>
+        </details>)}
+    </>);
+}
