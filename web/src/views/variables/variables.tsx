@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// All variables of a board as a tree, with their values as they change.
+
+import "./variables.css";
+import { useMemo, useState } from "preact/hooks";
+import { board_path, get, post, words } from "../../api/http";
+import type { Force, Variables as Answer } from "../../api/types";
+import { plant, useBoard } from "../../shell/plant";
+import { change_query, place } from "../../ui/address";
+import { plural, span, value_text } from "../../ui/format";
+import { Waiting } from "../../ui/parts";
+import { part_named } from "../../ui/paths";
+import { useAsked, useStore } from "../../ui/store";
+import { Detail } from "./detail";
+import { useLive } from "./live";
+import { matching, rows_of, type Row } from "./rows";
+import { Tree } from "./tree";
+
+const OFTEN_MS = 3000;
+const SELDOM_MS = 20000;
+const MANY = 500;
+const FORCES_MS = 2000;
+
+function with_change(set: Set<string>, key: string, inside: boolean): Set<string> {
+  const next = new Set(set);
+  if (inside) next.add(key);
+  else next.delete(key);
+  return next;
+}
+
+function Forces({ board }: { board: string }) {
+  const { status } = useStore(plant);
+  const { value, again } = useAsked(board, FORCES_MS,
+    () => get<{ forces: Force[] }>(board_path(board, "/forces")), words);
+  const [said, say] = useState("");
+  if (!value?.forces.length) return null;
+  const release = async (body: object) => {
+    try {
+      await post(board_path(board, "/release"), body);
+      say("");
+    } catch (error) {
+      say(words(error));
+    }
+    again();
+  };
+  return (
+    <section class="panel forces" aria-label="Forced values">
+      <h2>{plural(value.forces.length, "value is", "values are")} forced</h2>
+      <ul class="plain">
+        {value.forces.map(({ name, value: held, left_ns }) => (
+          <li key={name}>
+            <a href={`#${name}`} onClick={(event) => { event.preventDefault(); change_query({ v: name }); }}>{name}</a> at {value_text(held)},{" "}
+            {left_ns === null ? "until released" : `for ${span(left_ns)} more`}{" "}
+            {status?.may_write && <button type="button" onClick={() => release({ names: [name] })} aria-label={`Release ${name}`}>release</button>}
+          </li>))}
+      </ul>
+      {status?.may_write && value.forces.length > 1 && <button type="button" onClick={() => release({ all: true })}>Release all</button>}
+      {said && <p class="bad" role="alert">{said}</p>}
+    </section>);
+}
+
+export function Variables() {
+  const board = useBoard();
+  const { query } = useStore(place);
+  const search = query.get("q") ?? "";
+  const chosen = query.get("v") ?? "";
+  const [open, set_open] = useState(new Set<string>());
+  const [shut, set_shut] = useState(new Set<string>());
+  const [seen, see] = useState<string[]>([]);
+  const [every_ms, pace] = useState(OFTEN_MS);
+  const key = board ? `${board.board} ${board.layout}` : "";
+  const { value, error, again } = useAsked(key, every_ms, async () => {
+    const answer = await get<Answer>(board_path(board!.board, "/variables?values=false"));
+    pace(answer.variables.length > MANY ? SELDOM_MS : OFTEN_MS);
+    return answer;
+  }, words);
+  const variables = value?.variables ?? [];
+  const rows = useMemo(() => rows_of(variables, search, open, shut), [variables, search, open, shut]);
+  const found = useMemo(() => matching(variables, search).length, [variables, search]);
+  const chosen_part = useMemo(() => (chosen ? part_named(variables, chosen) : null), [variables, chosen]);
+  const wanted = chosen_part && !seen.includes(chosen_part.variable.name) ? [...seen, chosen_part.variable.name] : seen;
+  const live = useLive(board?.board ?? "", wanted);
+  const ages = useMemo(() => new Map(variables.map(({ name, age_ns }) => [name, age_ns])), [variables]);
+  if (!board) return <Waiting />;
+  const age = (name: string) => ages.get(name) ?? null;
+  const toggle = (row: Row, to: boolean) => {
+    if (row.part) set_open(with_change(open, row.key, to));
+    else set_shut(with_change(shut, row.key, !to));
+  };
+  const choose = (row: Row) => {
+    if (row.part) change_query({ v: row.key });
+    else set_shut(with_change(shut, row.key, row.open));
+  };
+  return (
+    <>
+      <Forces board={board.board} />
+      <div class="bar">
+        <label class="search"><span class="hidden">Search variables</span>
+          <input type="search" placeholder="Search names, fields, descriptions, units" value={search}
+            onInput={(event) => change_query({ q: event.currentTarget.value })} /></label>
+        <span class="quiet" role="status">{value ? (search ? `${found} of ${plural(variables.length, "variable")}` : plural(variables.length, "variable")) : ""}</span>
+      </div>
+      {error && <p class="bad">{error}</p>}
+      {live.refused && <p class="bad">{live.refused}</p>}
+      {!value && !error && <Waiting />}
+      {value && variables.length === 0 && <p>This board shares no variables.</p>}
+      {value && variables.length > 0 && found === 0 && <p>No variable matches '{search}'.</p>}
+      {rows.length > 0 && (
+        <div class={`variables ${chosen_part ? "with-detail" : ""}`}>
+          <Tree rows={rows} chosen={chosen} live={live} ages={age} choose={choose} toggle={toggle} seen={see} />
+          {chosen_part && <Detail board={board.board} part={chosen_part} live={live} close={() => change_query({ v: "" })} changed={again} />}
+        </div>)}
+    </>);
+}
