@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which charts there are, as the address has it: c=a,b&c=d are two charts, w the window in seconds, hz the rate.
+
+import { change_query } from "../../ui/address";
+
+export interface Layout {
+  charts: string[][];
+  window_s: number;
+  rate_hz: number;
+}
+
+export const WINDOWS_S = [5, 10, 30, 60, 300, 1200];
+export const RATES_HZ = [1, 5, 10, 25, 50, 100];
+
+function one_of(value: string | null, of: number[], otherwise: number): number {
+  return of.includes(Number(value)) ? Number(value) : otherwise;
+}
+
+export function layout_of(query: URLSearchParams): Layout {
+  return {
+    charts: query.getAll("c").map((names) => [...new Set(names.split(",").filter(Boolean))]),
+    window_s: one_of(query.get("w"), WINDOWS_S, 30),
+    rate_hz: one_of(query.get("hz"), RATES_HZ, 25),
+  };
+}
+
+export function show_charts(charts: string[][]): void {
+  // An empty chart has no name to keep its place in the address.
+  change_query({ c: charts.filter((names) => names.length > 0).map((names) => names.join(",")) });
+}
