@@ -10,12 +10,14 @@ import { place } from "./ui/address";
 import { useStore } from "./ui/store";
 import { Overview } from "./views/overview";
 import { Plots } from "./views/plots/plots";
+import { Schedule } from "./views/schedule/schedule";
 import { Variables } from "./views/variables/variables";
 
 const VIEWS: (View & { show: () => preact.JSX.Element | null })[] = [
   { name: "overview", title: "Overview", icon: "M3 3h8v8H3zM13 3h8v5h-8zM13 10h8v11h-8zM3 13h8v8H3z", show: Overview },
   { name: "variables", title: "Variables", icon: "M4 4h6v4H4zM12 5h8v2h-8zM8 10h6v4H8zM16 11h4v2h-4zM8 16h6v4H8zM16 17h4v2h-4zM5 8h1v11h2v-1H6v-6h2v-1H6V8z", show: Variables },
   { name: "plots", title: "Plots", icon: "M3 3h2v16h16v2H3zM7 16l4-6 4 3 5-8 1.6 1-6 10-4-3-3 4.5z", show: Plots },
+  { name: "schedule", title: "Schedule", icon: "M3 4h7v4H3zM9 10h9v4H9zM5 16h6v4H5zM14 4h7v4h-7zM15 16h6v4h-6z", show: Schedule },
 ];
 
 function Page() {

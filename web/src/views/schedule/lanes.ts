@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs of modules as bars: a lane per module, grouped by core; when each was preempted, which ones were late.
+
+import type { Module, Overrun, Run } from "../../api/types";
+import { span } from "../../ui/format";
+
+export interface Bar {
+  run: Run;
+  late: boolean;
+  preempted: [number, number][];  // by others on its core, ns
+  before: Run | null;  // ran before it on its core, in the same tick
+  overrun: Overrun | null;
+}
+
+export interface Lane {
+  module: string;
+  core: number;
+  bars: Bar[];
+}
+
+export function lanes_of(runs: Run[], modules: Module[], overruns: Overrun[]): Lane[] {
+  const known = new Map(modules.map((module) => [module.name, module]));
+  const core_of = (name: string) => known.get(name)?.core ?? 0;
+  const recorded = new Map(overruns.map((overrun) => [`${overrun.module} ${overrun.tick}`, overrun]));
+  const by_core = new Map<number, Run[]>();
+  for (const run of runs) by_core.set(core_of(run.module), [...(by_core.get(core_of(run.module)) ?? []), run]);
+  for (const list of by_core.values()) list.sort((a, b) => a.start_ns - b.start_ns);
+  const lanes = new Map<string, Lane>();
+  for (const module of modules) {
+    if (module.operation === "non-real" && !runs.some((run) => run.module === module.name)) continue;
+    lanes.set(module.name, { module: module.name, core: core_of(module.name), bars: [] });
+  }
+  for (const [core, list] of by_core) {
+    list.forEach((run, i) => {
+      const preempted: [number, number][] = [];
+      for (let j = i + 1; j < list.length && list[j].start_ns < run.end_ns; j++) {
+        if (list[j].end_ns <= run.end_ns) preempted.push([list[j].start_ns, list[j].end_ns]);
+      }
+      const module = known.get(run.module);
+      const allowed = module?.deadline_ns || module?.period_ns || 0;
+      const overrun = recorded.get(`${run.module} ${run.tick}`) ?? null;
+      const before = i > 0 && list[i - 1].tick === run.tick ? list[i - 1] : null;
+      const late = overrun !== null || (allowed > 0 && run.end_ns - run.release_ns > allowed);
+      const lane = lanes.get(run.module) ?? { module: run.module, core, bars: [] };
+      lane.bars.push({ run, late, preempted, before, overrun });
+      lanes.set(run.module, lane);
+    });
+  }
+  const rank = (name: string) => known.get(name)?.priority ?? 0;
+  return [...lanes.values()].sort((a, b) => a.core - b.core || rank(a.module) - rank(b.module) || a.module.localeCompare(b.module));
+}
+
+export function overrun_text({ module, tick, own_ns, latency_ns, previous, previous_ns, started }: Overrun): string {
+  const who = previous ? ` Before it ran ${previous}, for ${span(previous_ns)}.` : "";
+  if (!started) return `${module} could not start in tick ${tick}: its run before had not ended.${who}`;
+  return `${module} overran in tick ${tick}: it started ${span(latency_ns)} late and took ${span(own_ns)}.${who}`;
+}
+
+// Why a run was when it was, in sentences.
+export function explain({ run, late, preempted, before, overrun }: Bar, module: Module | undefined, epoch_ns: number): string[] {
+  const latency = run.start_ns - run.release_ns;
+  const lines = [
+    `Due in tick ${run.tick}, at ${((run.release_ns - epoch_ns) / 1e9).toFixed(6)} s after tick 0.`,
+    `It started ${span(latency)} later and ended ${span(run.end_ns - run.release_ns)} after it was due.`,
+  ];
+  if (before) lines.push(`Before it, on the same core, ran ${before.module}, for ${span(before.end_ns - before.start_ns)}.`);
+  else if (latency > 0) lines.push("No other module ran before it in this tick: the delay is the timer's and the system's.");
+  const taken = preempted.reduce((sum, [from, to]) => sum + to - from, 0);
+  lines.push(`It took ${span(run.end_ns - run.start_ns)}${taken ? `, of which others ran ${span(taken)}` : ""}.`);
+  if (module?.mean_exec_ns) lines.push(`On average it takes ${span(module.mean_exec_ns)}, at most it took ${span(module.max_exec_ns)}.`);
+  if (overrun) lines.push(overrun_text(overrun));
+  else if (late) lines.push("That is beyond its deadline.");
+  return lines;
+}

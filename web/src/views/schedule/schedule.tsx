@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which module ran when, as measured; what was late, and why.
+
+import "./schedule.css";
+import { useMemo, useState } from "preact/hooks";
+import { board_path, get, words } from "../../api/http";
+import type { Module, Overrun, Runs, Schedule as Plan } from "../../api/types";
+import { useBoard } from "../../shell/plant";
+import { change_query, place } from "../../ui/address";
+import { count, span } from "../../ui/format";
+import { Figure, Waiting } from "../../ui/parts";
+import { useAsked, useStore } from "../../ui/store";
+import { Gantt } from "./gantt";
+import { Histograms } from "./histograms";
+import { explain, lanes_of, overrun_text, type Bar } from "./lanes";
+
+const EVERY_MS = 1000;
+const PERIODS = [1, 2, 3, 5, 10, 20];
+const ZOOMS = [1, 4, 16, 64];
+const MOST_RUNS = 1500;
+const MOST_OVERRUNS = 50;
+
+interface Look {
+  plan: Plan;
+  runs: Runs;
+  modules: Module[];
+  overruns: Overrun[];
+}
+
+async function look(board: string): Promise<Look> {
+  const [plan, runs, { modules }, { overruns }] = await Promise.all([
+    get<Plan>(board_path(board, "/schedule")),
+    get<Runs>(board_path(board, `/runs?count=${MOST_RUNS}`)),
+    get<{ modules: Module[] }>(board_path(board, "/modules")),
+    get<{ overruns: Overrun[] }>(board_path(board, `/overruns?count=${MOST_OVERRUNS}`)),
+  ]);
+  return { plan, runs, modules, overruns };
+}
+
+function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Times of the modules">
+      <table class="figures">
+        <thead>
+          <tr><th scope="col">Module</th><th scope="col" class="number">Core</th><th scope="col" class="number">Priority</th><th scope="col">Released</th>
+            <th scope="col" class="number">Takes (mean)</th><th scope="col" class="number">At most</th><th scope="col" class="number">Jitter: half below</th>
+            <th scope="col" class="number">99 % below</th><th scope="col" class="number">At most</th><th scope="col" class="number">Overruns</th></tr>
+        </thead>
+        <tbody>
+          {modules.map((module) => (
+            <tr key={module.name} class={module.name === chosen ? "chosen" : ""}>
+              <th scope="row"><button type="button" class="link-button" aria-pressed={module.name === chosen}
+                onClick={() => change_query({ m: module.name === chosen ? "" : module.name })}>{module.name}</button></th>
+              <td class="number">{module.core ?? "-"}</td><td class="number">{module.priority}</td>
+              <td>{module.period_ns ? `every ${span(module.period_ns)}` : module.operation}</td>
+              <td class="number">{module.runs ? span(module.mean_exec_ns) : "-"}</td><td class="number">{module.runs ? span(module.max_exec_ns) : "-"}</td>
+              <td class="number">{module.period_ns ? span(module.jitter_p50_ns) : "-"}</td><td class="number">{module.period_ns ? span(module.jitter_p99_ns) : "-"}</td>
+              <td class="number">{module.period_ns ? span(module.jitter_max_ns) : "-"}</td>
+              <td class={`number ${module.overruns ? "bad" : ""}`}>{count(module.overruns)}</td>
+            </tr>))}
+        </tbody>
+      </table>
+    </div>);
+}
+
+function Overruns({ overruns }: { overruns: Overrun[] }) {
+  if (overruns.length === 0) return <p class="good">No overrun was recorded.</p>;
+  return (
+    <ul class="troubles">
+      {[...overruns].reverse().slice(0, 10).map((overrun) => <li class="error" key={overrun.number}>{overrun_text(overrun)}</li>)}
+    </ul>);
+}
+
+function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
+  return (
+    <details class="panel">
+      <summary>The newest runs as a table</summary>
+      <table class="figures">
+        <thead><tr><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col" class="number">Started late by</th><th scope="col" class="number">Took</th><th scope="col">Late</th></tr></thead>
+        <tbody>
+          {bars.map((bar) => (
+            <tr key={bar.run.number}>
+              <td class="number">{bar.run.tick}</td>
+              <th scope="row"><button type="button" class="link-button" onClick={() => choose(bar)}>{bar.run.module}</button></th>
+              <td class="number">{span(bar.run.start_ns - bar.run.release_ns)}</td><td class="number">{span(bar.run.end_ns - bar.run.start_ns)}</td>
+              <td class={bar.late ? "bad" : ""}>{bar.late ? "yes" : "no"}</td>
+            </tr>))}
+        </tbody>
+      </table>
+    </details>);
+}
+
+export function Schedule() {
+  const board = useBoard();
+  const { query } = useStore(place);
+  const periods = Number(query.get("n")) || 2;
+  const zoom = Number(query.get("z")) || 1;
+  const module = query.get("m") ?? "";
+  const [held, hold] = useState<Look | null>(null);
+  const [bar, choose] = useState<Bar | null>(null);
+  const { value, error } = useAsked(board?.board ?? "", EVERY_MS, () => look(board!.board), words);
+  const now = held ?? value;
+  const lanes = useMemo(() => (now ? lanes_of(now.runs.runs, now.modules, now.overruns) : []), [now]);
+  if (!now) return error ? <p class="bad">{error}</p> : <Waiting />;
+  const { plan, runs, modules, overruns } = now;
+  const epoch = runs.epoch_ns;
+  const last_release = Math.max(epoch, ...runs.runs.map(({ release_ns }) => release_ns));
+  // Whole macro periods, the last one begun being the last that is shown.
+  const macro = plan.macro_period_ns || 1e9;
+  const to = epoch + (Math.floor((last_release - epoch) / macro) + 1) * macro;
+  const from = Math.max(epoch, to - periods * macro);
+  const newest = lanes.flatMap(({ bars }) => bars).sort((a, b) => b.run.number - a.run.number).slice(0, 20);
+  const show = (chosen: Bar) => {
+    choose(chosen);
+    hold(now);
+  };
+  return (
+    <>
+      <dl class="facts">
+        <Figure name="Basic period" value={span(plan.basic_period_ns)} hint="greatest common divisor of all periods" />
+        <Figure name="Macro period" value={span(plan.macro_period_ns)} hint="least common multiple of all periods" />
+        <Figure name="Slots" value={count(plan.slots)} hint="basic periods in a macro period" />
+        <Figure name="Runs seen" value={count(runs.runs.length)} />
+      </dl>
+      {plan.message && <p class="warn">{plan.message}</p>}
+      {error && <p class="bad">{error}</p>}
+      <section class="panel" aria-label="Newest macro periods">
+        <div class="bar">
+          <button type="button" aria-pressed={!!held} onClick={() => { hold(held ? null : value); if (held) choose(null); }}>{held ? "Go on" : "Pause"}</button>
+          <label class="choice">Show{" "}
+            <select value={periods} onChange={(event) => change_query({ n: event.currentTarget.value })}>
+              {PERIODS.map((n) => <option key={n} value={n}>{n} macro period{n === 1 ? "" : "s"}</option>)}
+            </select></label>
+          <label class="choice">Zoom{" "}
+            <select value={zoom} onChange={(event) => change_query({ z: event.currentTarget.value })}>
+              {ZOOMS.map((n) => <option key={n} value={n}>{n} x</option>)}
+            </select></label>
+          <span class="quiet">Click a bar to know why it was when it was. Red is late.</span>
+        </div>
+        {runs.runs.length === 0 ? <p>No run was recorded yet.</p> :
+          <Gantt lanes={lanes} from_ns={from} to_ns={to} epoch_ns={epoch} basic_ns={plan.basic_period_ns || macro} macro_ns={macro} zoom={zoom}
+            chosen={bar?.run.number ?? null} choose={show} />}
+        {bar && (
+          <div class="explained" role="status">
+            <h3>{bar.run.module}</h3>
+            <ul>{explain(bar, modules.find(({ name }) => name === bar.run.module), epoch).map((line) => <li key={line}>{line}</li>)}</ul>
+          </div>)}
+      </section>
+      <section class="panel" aria-label="Overruns"><h2>Overruns</h2><Overruns overruns={overruns} /></section>
+      <section class="panel" aria-label="Modules"><h2>Modules</h2><Figures modules={modules} chosen={module} />
+        {!module && <p class="quiet">Choose a module to see how its times are distributed.</p>}</section>
+      {module && board && <Histograms board={board.board} module={module} />}
+      <Newest bars={newest} choose={show} />
+    </>);
+}
