@@ -63,6 +63,8 @@ class Json {
   [[nodiscard]] bool is_object() const noexcept { return type_ == Type::Object; }
   // Elements of an array, values of an object, else none.
   [[nodiscard]] std::span<const Json> values() const noexcept { return values_; }
+  // Names of an object's members, in the order of values(); else none.
+  [[nodiscard]] std::span<const std::string> keys() const noexcept { return keys_; }
   // Null if this is no object or has no such member.
   [[nodiscard]] const Json* find(std::string_view key) const noexcept;
   // The member, or null.

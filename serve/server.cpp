@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 
 #include "base/exit_code.h"
 #include "rt/clock.h"
-#include "serve/api/router.h"
 #include "tools/command/interrupt.h"
 
 namespace indurop::serve {
@@ -25,26 +25,69 @@ ServerFacts facts_of(const tools::ServeOptions& options, std::string version) {
   facts.started_wall_ns = wall_ns();
   facts.started_ns = rt::now_ns();
   facts.clients = [] { return std::vector<ClientFigures>(); };
+  facts.web = Page(options.web).there();
   return facts;
 }
 
 }  // namespace
 
 Server::Server(tools::ServeOptions options, GateSettings gate, std::string version)
-    : options_(std::move(options)), gate_(std::move(gate)), api_(gate_, facts_of(options_, std::move(version))) {}
+    : options_(std::move(options)),
+      gate_(std::move(gate)),
+      audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
+      api_(gate_, audit_, facts_of(options_, std::move(version))),
+      page_(options_.web),
+      boards_(options_.node),
+      files_(options_.node),
+      orders_(options_.node) {}
 
-std::optional<Reply> Server::answer(const Request& request, Ticket /*ticket*/) {
+std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
+  if (!request.path.starts_with("/api/")) {
+    return request.method == Method::Get ? page_.answer(request.path)
+                                         : refusal(status::kMethodNotAllowed, "files can only be read");
+  }
   Match match = match_route(all_routes(), request);
   if (match.route == nullptr) {
     return match.other_method ? refusal(status::kMethodNotAllowed, "this path is for another method")
-                              : refusal(status::kNotFound, "there is nothing at this path");
+                              : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
   }
   match.call.who = gate_.who(request);
+  switch (match.route->pace) {
+    case Pace::Files:
+      return hand_over(files_, std::move(match), ticket);
+    case Pace::Orders:
+      return hand_over(orders_, std::move(match), ticket);
+    case Pace::Quick:
+      break;
+  }
+  match.call.boards = &boards_;
   return match.route->answer(api_, match.call);
+}
+
+std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
+  match.call.boards = &helper.boards;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  const bool taken = helper.worker.add([this, request, match = std::move(match), ticket] {
+    door_->reply(ticket, match.route->answer(api_, match.call));
+  });
+  if (!taken) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
 }
 
 std::unique_ptr<Visitor> Server::receive(const Request& /*request*/, Line& /*line*/) {
   return nullptr;
+}
+
+void Server::announce() const {
+  const GateSettings& gate = gate_.settings();
+  // A token that is in no file can be had from here only.
+  const bool told = !gate.tokens.empty() && options_.token_file.empty();
+  fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
+             told ? "#token=" + gate.tokens.front().value : "");
+  (void)std::fflush(stdout);
 }
 
 int Server::run() {
@@ -61,11 +104,7 @@ int Server::run() {
     return kFailed;
   }
   door_ = std::move(opened).value();
-  const std::string token = gate_.settings().tokens.empty() || !options_.token_file.empty()
-                                ? ""
-                                : "#token=" + gate_.settings().tokens[0].value;
-  fmt::print("{}://{}:{}/{}\n", gate_.settings().tls ? "https" : "http", options_.bind, door_->port(), token);
-  (void)std::fflush(stdout);
+  announce();
   Door::Alarm housekeeping(*door_, [] {});
   constexpr std::int64_t kHousekeepingNs = 500'000'000;
   door_->serve([&] {

@@ -6,7 +6,12 @@
 #include <memory>
 
 #include "serve/api/api.h"
+#include "serve/api/audit.h"
+#include "serve/api/router.h"
+#include "serve/api/worker.h"
+#include "serve/boards/board.h"
 #include "serve/door/door.h"
+#include "serve/page.h"
 #include "tools/command/serve_options.h"
 
 namespace indurop::serve {
@@ -23,10 +28,24 @@ class Server final : public House {
   std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
 
  private:
+  // Boards and jobs of one more thread. The worker ends first.
+  struct Helper {
+    explicit Helper(const std::string& node) : boards(node) {}
+    Boards boards;
+    Worker worker;
+  };
+  std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
+  void announce() const;
+
   tools::ServeOptions options_;
   Gate gate_;
+  Audit audit_;
   Api api_;
+  Page page_;
+  Boards boards_;
   std::unique_ptr<Door> door_;
+  Helper files_;
+  Helper orders_;
 };
 
 }  // namespace indurop::serve

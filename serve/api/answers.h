@@ -6,9 +6,46 @@
 #include "serve/api/api.h"
 #include "serve/api/router.h"
 
-namespace indurop::serve::answers {
+namespace indurop::serve {
+
+class Board;
+
+namespace answers {
 
 Reply description(Api& api, const Call& call);
 Reply server_status(Api& api, const Call& call);
+Reply audit(Api& api, const Call& call);
 
-}  // namespace indurop::serve::answers
+Reply boards(Api& api, const Call& call);
+Reply board(Api& api, const Call& call);
+Reply modules(Api& api, const Call& call);
+Reply faults(Api& api, const Call& call);
+Reply forces(Api& api, const Call& call);
+Reply deployments(Api& api, const Call& call);
+
+Reply histograms(Api& api, const Call& call);
+Reply schedule(Api& api, const Call& call);
+Reply runs(Api& api, const Call& call);
+Reply overruns(Api& api, const Call& call);
+
+Reply variables(Api& api, const Call& call);
+Reply variable(Api& api, const Call& call);
+
+Reply set(Api& api, const Call& call);
+Reply force(Api& api, const Call& call);
+Reply release(Api& api, const Call& call);
+Reply start_module(Api& api, const Call& call);
+Reply stop_module(Api& api, const Call& call);
+Reply restart_module(Api& api, const Call& call);
+
+}  // namespace answers
+
+// The board a path names, or why there is none.
+Result<Board*, Reply> board_of(const Call& call);
+// "board": its name.
+base::Json about(const Board& board);
+// A number of the query, `usual` if it is not there; nothing if it is none or outside least..most.
+std::optional<std::uint64_t> query_number(const Call& call, std::string_view name, std::uint64_t usual,
+                                          std::uint64_t least, std::uint64_t most);
+
+}  // namespace indurop::serve

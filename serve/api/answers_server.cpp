@@ -42,4 +42,20 @@ Reply server_status(Api& api, const Call& call) {
   return json_reply(body);
 }
 
+Reply audit(Api& api, const Call& call) {
+  constexpr std::uint64_t kUsual = 100;
+  constexpr std::uint64_t kMost = 1000;
+  const auto count = query_number(call, "count", kUsual, 1, kMost);
+  if (!count) {
+    return refusal(status::kBadRequest, "count is a number of 1 to 1000");
+  }
+  base::Json list = base::Json::array();
+  for (const AuditEntry& entry : read_audit(api.audit().file(), *count)) {
+    list.push_back(json_of(entry));
+  }
+  base::Json body = base::Json::object();
+  body["audit"] = std::move(list);
+  return json_reply(body);
+}
+
 }  // namespace indurop::serve::answers

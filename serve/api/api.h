@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/json.h"
+#include "serve/api/audit.h"
 #include "serve/door/gate.h"
+#include "tools/values/known_uses.h"
 
 namespace indurop::serve {
 
@@ -37,16 +40,28 @@ struct ServerFacts {
   std::function<std::vector<ClientFigures>()> clients;
 };
 
+class Board;
+
 class Api {
  public:
-  Api(const Gate& gate, ServerFacts facts) : gate_(&gate), facts_(std::move(facts)) {}
+  Api(const Gate& gate, Audit& audit, ServerFacts facts) : gate_(&gate), audit_(&audit), facts_(std::move(facts)) {}
 
   [[nodiscard]] const Gate& gate() const noexcept { return *gate_; }
   [[nodiscard]] const ServerFacts& facts() const noexcept { return facts_; }
+  [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
+  // Writers and readers by variable; read once per run of the board. For the thread that reads files.
+  const tools::KnownUses& uses_of(const Board& board);
 
  private:
+  struct Cached {
+    std::int64_t started_wall_ns = 0;
+    tools::KnownUses uses;
+  };
+
   const Gate* gate_;
+  Audit* audit_;
   ServerFacts facts_;
+  std::map<std::string, Cached, std::less<>> uses_;
 };
 
 // The OpenAPI description, as it was built in.

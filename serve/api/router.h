@@ -15,14 +15,18 @@ namespace indurop::serve {
 
 class Api;
 
+class Boards;
+
 // A request whose path was understood.
 struct Call {
   const Request* request = nullptr;
+  Boards* boards = nullptr;                              // of the thread that answers
   std::string who;                                       // as the gate knows the client
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
-enum class Pace { Quick, Slow };  // Slow: by the second thread, it may wait or read files
+// Which thread answers: the door's; one that may read files; one that may wait for a node.
+enum class Pace { Quick, Files, Orders };
 
 struct Route {
   Method method;

@@ -7,9 +7,30 @@
 namespace indurop::serve {
 
 std::span<const Route> all_routes() {
+  constexpr Method kGet = Method::Get;
+  constexpr Method kPost = Method::Post;
   static constexpr std::array kRoutes{
-      Route{Method::Get, "/api/v1/openapi.json", Pace::Quick, &answers::description},
-      Route{Method::Get, "/api/v1/status", Pace::Quick, &answers::server_status},
+      Route{kGet, "/api/v1/openapi.json", Pace::Quick, &answers::description},
+      Route{kGet, "/api/v1/status", Pace::Quick, &answers::server_status},
+      Route{kGet, "/api/v1/boards", Pace::Quick, &answers::boards},
+      Route{kGet, "/api/v1/boards/{board}", Pace::Quick, &answers::board},
+      Route{kGet, "/api/v1/boards/{board}/modules", Pace::Quick, &answers::modules},
+      Route{kGet, "/api/v1/boards/{board}/modules/{module}/histograms", Pace::Quick, &answers::histograms},
+      Route{kPost, "/api/v1/boards/{board}/modules/{module}/start", Pace::Orders, &answers::start_module},
+      Route{kPost, "/api/v1/boards/{board}/modules/{module}/stop", Pace::Orders, &answers::stop_module},
+      Route{kPost, "/api/v1/boards/{board}/modules/{module}/restart", Pace::Orders, &answers::restart_module},
+      Route{kGet, "/api/v1/boards/{board}/schedule", Pace::Files, &answers::schedule},
+      Route{kGet, "/api/v1/boards/{board}/runs", Pace::Files, &answers::runs},
+      Route{kGet, "/api/v1/boards/{board}/overruns", Pace::Files, &answers::overruns},
+      Route{kGet, "/api/v1/boards/{board}/faults", Pace::Quick, &answers::faults},
+      Route{kGet, "/api/v1/boards/{board}/variables", Pace::Files, &answers::variables},
+      Route{kGet, "/api/v1/boards/{board}/variables/{name}", Pace::Files, &answers::variable},
+      Route{kPost, "/api/v1/boards/{board}/set", Pace::Orders, &answers::set},
+      Route{kGet, "/api/v1/boards/{board}/forces", Pace::Quick, &answers::forces},
+      Route{kPost, "/api/v1/boards/{board}/force", Pace::Orders, &answers::force},
+      Route{kPost, "/api/v1/boards/{board}/release", Pace::Orders, &answers::release},
+      Route{kGet, "/api/v1/deployments", Pace::Quick, &answers::deployments},
+      Route{kGet, "/api/v1/audit", Pace::Files, &answers::audit},
   };
   return kRoutes;
 }

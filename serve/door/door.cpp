@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/door/door.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,14 +89,18 @@ Door::~Door() = default;
 
 Result<std::unique_ptr<Door>, base::Problem> Door::open(const DoorSettings& settings, House& house) {
   constexpr std::size_t kSpareFiles = 64;
-  auto impl = std::make_unique<Impl>(settings, house);
+  auto listener = Listener::open(settings.bind, settings.port);
+  if (!listener) {
+    return std::move(listener).error();
+  }
+  auto impl = std::make_unique<Impl>(settings, house, std::move(listener).value());
   const auto rx = static_cast<std::size_t>(kMostHeaders);
   impl->protocols[0] = {"http", &Impl::on_http, 0, rx, 0, nullptr, 0};
   impl->protocols[1] = {"indurop.v1", &Impl::on_stream, 0, rx, 0, nullptr, 0};
+  impl->protocols[2] = {"listener", &Impl::on_listener, 0, rx, 0, nullptr, 0};
   lws_set_log_level(LLL_ERR, &say);
   lws_context_creation_info info{};
-  info.port = settings.port;
-  info.iface = impl->settings.bind.c_str();
+  info.port = CONTEXT_PORT_NO_LISTEN_SERVER;
   info.protocols = impl->protocols.data();
   info.user = impl.get();
   info.gid = static_cast<decltype(info.gid)>(-1);
@@ -112,18 +117,48 @@ Result<std::unique_ptr<Door>, base::Problem> Door::open(const DoorSettings& sett
   }
   impl->context = lws_create_context(&info);
   auto door = std::unique_ptr<Door>(new Door(std::move(impl)));
-  if (door->impl_->context == nullptr || door->port() <= 0) {
-    return base::Problem{fmt::format(
-        "cannot listen on {} port {}: the address is not this machine's, the port is taken (another: --port), or the "
-        "files of --cert and --key do not fit",
-        settings.bind, settings.port)};
+  if (!door->impl_->adopt_listener()) {
+    return base::Problem{
+        settings.cert.empty()
+            ? "libwebsockets cannot start"
+            : fmt::format("{} and {} cannot be used for TLS: they do not belong together, or cannot be read",
+                          settings.cert.string(), settings.key.string())};
   }
   return door;
 }
 
+bool Door::Impl::adopt_listener() {
+  lws_vhost* const host = context != nullptr ? lws_get_vhost_by_name(context, "default") : nullptr;
+  if (host == nullptr) {
+    return false;
+  }
+  // The library closes what it is given.
+  lws_sock_file_fd_type file{};
+  file.filefd = fcntl(listener.file(), F_DUPFD_CLOEXEC, 0);
+  return file.filefd >= 0 &&
+         lws_adopt_descriptor_vhost(host, LWS_ADOPT_RAW_FILE_DESC, file, "listener", nullptr) != nullptr;
+}
+
+void Door::Impl::let_in() {
+  lws_vhost* const host = lws_get_vhost_by_name(context, "default");
+  constexpr int kAtOnce = 16;
+  for (int i = 0; i < kAtOnce; ++i) {
+    const int file = listener.take();
+    if (file < 0 || lws_adopt_socket_vhost(host, file) == nullptr) {
+      return;
+    }
+  }
+}
+
+int Door::Impl::on_listener(lws* wsi, lws_callback_reasons reason, void* /*user*/, void* /*in*/, std::size_t /*size*/) {
+  if (reason == LWS_CALLBACK_RAW_RX_FILE) {
+    of(wsi).let_in();
+  }
+  return 0;
+}
+
 int Door::port() const {
-  lws_vhost* const host = lws_get_vhost_by_name(impl_->context, "default");
-  return host != nullptr ? lws_get_vhost_listen_port(host) : 0;
+  return impl_->listener.port();
 }
 
 void Door::serve(const std::function<bool()>& ended) {

@@ -28,7 +28,7 @@ struct DoorSettings {
   std::size_t most_connections = 256;
 };
 
-inline constexpr std::size_t kMostBody = 1U << 20;
+inline constexpr std::size_t kMostBody = 256U << 10;
 inline constexpr std::size_t kMostMessage = 64U << 10;
 
 class Door {

@@ -27,7 +27,7 @@ int Door::Impl::requested(lws* wsi, std::string path) {
   auto& exchange = exchanges[wsi];
   exchange = std::make_unique<Exchange>(wsi, ++last_ticket, std::move(request));
   if (length.bytes > 0) {
-    exchange->request().body.reserve(length.bytes);
+    exchange->expect_body();
     lws_set_timer_usecs(wsi, kBodyMicroseconds);
     return 0;
   }
@@ -48,18 +48,18 @@ int Door::Impl::body_came(lws* wsi, std::string_view part) {
 }
 
 int Door::Impl::answer(Exchange& exchange) {
+  exchange.body_is_here();
   auto reply = house->answer(exchange.request(), exchange.ticket());
   if (reply) {
     return exchange.begin(std::move(*reply));
   }
-  lws_set_timer_usecs(exchange.wsi(), LWS_SET_TIMER_USEC_CANCEL);
   lws_set_timeout(exchange.wsi(), NO_PENDING_TIMEOUT, 0);  // however long it takes
   return 0;
 }
 
 int Door::Impl::too_slow(lws* wsi) {
   const auto found = exchanges.find(wsi);
-  if (found == exchanges.end() || found->second->replying()) {
+  if (found == exchanges.end() || !found->second->waits_for_body()) {
     return 0;
   }
   return Exchange::refuse(wsi, refusal(status::kTimeout, "the body did not come in time"));

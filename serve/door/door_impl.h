@@ -16,6 +16,7 @@
 #include "serve/door/door.h"
 #include "serve/door/exchange.h"
 #include "serve/door/house.h"
+#include "serve/door/listener.h"
 
 namespace indurop::serve {
 
@@ -31,15 +32,19 @@ class Stream final : public Line {
 };
 
 struct Door::Impl {
-  Impl(DoorSettings door_settings, House& owner) : settings(std::move(door_settings)), house(&owner) {}
+  Impl(DoorSettings door_settings, House& owner, Listener own_listener)
+      : settings(std::move(door_settings)), house(&owner), listener(std::move(own_listener)) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   ~Impl();
 
   static int on_http(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
   static int on_stream(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
+  static int on_listener(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t size);
   static Impl& of(lws* wsi);
 
+  bool adopt_listener();
+  void let_in();
   int requested(lws* wsi, std::string path);
   int body_came(lws* wsi, std::string_view part);
   int answer(Exchange& exchange);
@@ -52,8 +57,9 @@ struct Door::Impl {
 
   DoorSettings settings;
   House* house;
+  Listener listener;
   lws_context* context = nullptr;
-  std::array<lws_protocols, 3> protocols{};
+  std::array<lws_protocols, 4> protocols{};
   std::unordered_map<lws*, std::unique_ptr<Exchange>> exchanges;
   std::unordered_map<lws*, std::unique_ptr<Stream>> streams;
   std::unordered_map<lws*, Request> admitted;  // to a WebSocket that is being set up

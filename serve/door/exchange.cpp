@@ -129,7 +129,9 @@ Request read_request(lws* wsi, std::string path) {
   request.certificate = certificate_of(wsi);
   std::array<char, kLongestAddress> address{};
   lws_get_peer_simple(wsi, address.data(), address.size());
-  request.from = address.data();
+  const std::string_view from = address.data();
+  constexpr std::string_view kMapped = "::ffff:";  // an IPv4 address, as an IPv6 socket shows it
+  request.from = from.starts_with(kMapped) ? from.substr(kMapped.size()) : from;
   return request;
 }
 
@@ -160,7 +162,6 @@ int Exchange::begin(Reply reply) {
   if (!write_head(wsi_, reply_, head)) {
     return 1;
   }
-  lws_set_timer_usecs(wsi_, LWS_SET_TIMER_USEC_CANCEL);
   lws_set_timeout(wsi_, PENDING_TIMEOUT_HTTP_CONTENT, kSendSeconds);
   lws_callback_on_writable(wsi_);
   return 0;

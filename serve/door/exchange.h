@@ -29,7 +29,9 @@ class Exchange {
   [[nodiscard]] lws* wsi() const noexcept { return wsi_; }
   [[nodiscard]] Ticket ticket() const noexcept { return ticket_; }
   Request& request() noexcept { return request_; }
-  [[nodiscard]] bool replying() const noexcept { return replying_; }
+  void expect_body() noexcept { waits_for_body_ = true; }
+  void body_is_here() noexcept { waits_for_body_ = false; }
+  [[nodiscard]] bool waits_for_body() const noexcept { return waits_for_body_; }
 
   // Results as a callback of libwebsockets returns them: other than 0 ends the connection.
   // The head goes out at once, the body when the client can take it.
@@ -45,6 +47,7 @@ class Exchange {
   Reply reply_;
   std::size_t sent_ = 0;
   bool replying_ = false;
+  bool waits_for_body_ = false;
 };
 
 }  // namespace indurop::serve

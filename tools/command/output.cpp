@@ -103,12 +103,17 @@ bool Output::flush() {
 }
 
 void Output::message_line(std::string_view text) {
+  if (diverted_ != nullptr) {
+    diverted_->emplace_back(text);
+    return;
+  }
   flush();
   static_cast<void>(write_all(STDERR_FILENO, std::string(text) + '\n'));  // nowhere left to say that stderr is broken
 }
 
 void Output::message(std::string_view kind, Style style, std::string_view text) {
-  message_line("indurop: " + painted(color_messages_, style, kind) + std::string(text));
+  message_line(diverted_ != nullptr ? std::string(text)
+                                    : "indurop: " + painted(color_messages_, style, kind) + std::string(text));
 }
 
 void Output::error(std::string_view text) {

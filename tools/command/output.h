@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace indurop::tools {
 
@@ -44,6 +45,9 @@ class Output {
   void note(std::string_view text);          // silent with -q
   void message_line(std::string_view text);  // on stderr as it is
 
+  // Messages are kept in `to` instead, without a word in front; null: on stderr again.
+  void divert(std::vector<std::string>* to) noexcept { diverted_ = to; }
+
   [[nodiscard]] bool terminal() const noexcept { return terminal_; }
   [[nodiscard]] bool unicode() const noexcept { return unicode_; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
@@ -53,6 +57,7 @@ class Output {
  private:
   void message(std::string_view kind, Style style, std::string_view text);
 
+  std::vector<std::string>* diverted_ = nullptr;
   std::string pending_;
   bool terminal_ = false;
   bool unicode_ = false;

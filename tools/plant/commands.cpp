@@ -50,7 +50,7 @@ int carry_out(Context& context, ModuleCommand command, CommandOptions& options) 
     }
   }
   for (const std::string& module : here) {
-    if (const int code = command_here(context, command, module, options.timeout_ns); code != kOk) {
+    if (const int code = command_here(context, command, module, options.timeout_ns).code; code != kOk) {
       return code;
     }
   }

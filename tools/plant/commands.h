@@ -36,8 +36,13 @@ Action declare_command(base::Options& app, Context& context, scheduler::ModuleCo
 int carry_out(Context& context, scheduler::ModuleCommand command, CommandOptions& options);
 
 // The two ways (commands_here.cpp, commands_remote.cpp).
-int command_here(Context& context, scheduler::ModuleCommand command, const std::string& module,
-                 std::int64_t timeout_ns);
+struct Commanded {
+  int code = kFailed;
+  scheduler::CommandResult result = scheduler::CommandResult::None;
+  std::int64_t took_ns = 0;
+};
+Commanded command_here(Context& context, scheduler::ModuleCommand command, const std::string& module,
+                       std::int64_t timeout_ns);
 int command_remote(Context& context, scheduler::ModuleCommand what, const std::vector<CommandTarget>& targets,
                    CommandOptions& options);
 

@@ -65,24 +65,24 @@ int conclude(Context& context, ModuleCommand command, const scheduler::ModuleRec
 
 }  // namespace
 
-int command_here(Context& context, ModuleCommand command, const std::string& module, std::int64_t timeout_ns) {
+Commanded command_here(Context& context, ModuleCommand command, const std::string& module, std::int64_t timeout_ns) {
   const auto node = choose_node(context.node);
   if (!node) {
-    return report(context.out, node.error());
+    return {report(context.out, node.error())};
   }
   auto run = RunView::open(*node, vars::Mode::ReadWrite);
   if (!run.ok()) {
     context.out.error(run.error().code == Errc::NotFound ? fmt::format("node '{}' does not run", *node)
                                                          : explain_open_error(run.error(), *node, true));
-    return exit_code_of(run.error());
+    return {exit_code_of(run.error())};
   }
   if (!run.value().node_alive() || run.value().block().state.load() != scheduler::NodeState::Running) {
     context.out.error(fmt::format("node '{}' does not run, so there is no module to be {}", *node, past_of(command)));
-    return kUnreachable;
+    return {kUnreachable};
   }
   scheduler::ModuleRecord* record = find_module(context, run.value(), *node, module);
   if (record == nullptr) {
-    return kFailed;
+    return {};
   }
   const std::int64_t begin = rt::now_ns();
   std::optional<scheduler::CommandTicket> ticket;
@@ -90,18 +90,19 @@ int command_here(Context& context, ModuleCommand command, const std::string& mod
     if (!ticket) {
       ticket = scheduler::place_command(*record, command);
     } else if (const auto result = scheduler::result_of(*record, *ticket); result != CommandResult::None) {
-      return conclude(context, command, *record, result, rt::now_ns() - begin);
+      const std::int64_t took = rt::now_ns() - begin;
+      return {conclude(context, command, *record, result, took), result, took};
     }
     wait_until(rt::now_ns() + kLookNs);
   }
   if (interrupted()) {
-    return interrupt_code();
+    return {interrupt_code()};
   }
   context.out.error(run.value().node_alive()
                         ? fmt::format("module '{}' was not {} within {}; the node is still at it (indurop status)",
                                       printable(module), past_of(command), human_age(timeout_ns))
                         : fmt::format("node '{}' has ended meanwhile", *node));
-  return kUnreachable;
+  return {kUnreachable};
 }
 
 }  // namespace indurop::tools

@@ -2,13 +2,11 @@
 // indurop force, unforce, forces: values that hold whoever writes them.
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
 #include "tools/values/force_view.h"
+#include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
@@ -24,19 +22,6 @@ Result<vars::Store, Failure> open_running(Context& context) {
     }
   }
   return store;
-}
-
-std::string what_failed(const Error& error) {
-  if (error.code == Errc::NoSpace) {
-    return fmt::format("{} values are forced already, which is the most; let some go: indurop unforce",
-                       vars::kMostForces);
-  }
-  return error.code == Errc::Busy ? fmt::format("{}: somebody who has it is stopped; try again", error.where)
-                                  : fmt::format("{} ({})", error.where, to_string(error.code));
-}
-
-bool is_number(const schema::Type& type) {
-  return type.dims.empty() && type.base != schema::Base::Struct && type.base != schema::Base::Text;
 }
 
 struct ForceOptions {
@@ -57,27 +42,7 @@ int force(Context& context, ForceOptions& options) {
   if (!assignments) {
     return report(context.out, assignments.error());
   }
-  int code = kOk;
-  for (const Assignment& one : *assignments) {
-    if (!is_number(one.item.place.type)) {
-      context.out.error(fmt::format("{} is a {}; force its numbers one by one", one.item.name,
-                                    schema::display_name(one.item.place.type)));
-      code = kFailed;
-    }
-  }
-  if (code != kOk) {
-    return code;
-  }
-  const rt::MonoTime until =
-      options.for_ns > 0 ? store->now() + std::chrono::nanoseconds(options.for_ns) : vars::kForever;
-  for (const auto& [item, bytes] : *assignments) {
-    const Status forced = store->force(*item.entry, item.place.offset, bytes, until);
-    if (!forced.ok()) {
-      context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
-      return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
-    }
-  }
-  return kOk;
+  return hold_values(context, *store, *assignments, options.for_ns);
 }
 
 struct UnforceOptions {
@@ -85,11 +50,6 @@ struct UnforceOptions {
   std::vector<std::string> names;
   bool all = false;
 };
-
-bool lies_in(const vars::Force& force, const Item& item) {
-  const std::uint64_t begin = item.place.offset;
-  return force.variable == item.entry && force.offset >= begin && force.offset < begin + item.place.type.size();
-}
 
 int unforce(Context& context, UnforceOptions& options) {
   if (options.names.empty() != options.all) {
@@ -107,22 +67,12 @@ int unforce(Context& context, UnforceOptions& options) {
   if (const int code = options.all ? kOk : select_items(context, *store, options.names, items); code != kOk) {
     return code;
   }
-  std::size_t gone = 0;
-  for (const vars::Force& one : store->forces()) {
-    if (!options.all && std::none_of(items.begin(), items.end(), [&](const Item& i) { return lies_in(one, i); })) {
-      continue;
-    }
-    const Status status = store->let_go(*one.variable, one.offset);
-    if (!status.ok() && status.error().code != Errc::NotFound) {
-      context.out.error(what_failed(status.error()));
-      return kUnreachable;
-    }
-    ++gone;
-  }
-  if (gone == 0) {
+  std::vector<std::string> gone;
+  const int code = options.all ? let_all_go(context, *store, gone) : let_values_go(context, *store, items, gone);
+  if (code == kOk && gone.empty()) {
     context.out.note("none of these is forced");
   }
-  return kOk;
+  return code;
 }
 
 Result<std::vector<ForceView>, Failure> forces_of(Context& context, BoardChoice& board) {

@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop set: writes values once, after all of them were found good.
-#include <fmt/format.h>
-
 #include "tools/values/assignment.h"
+#include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
-
-// Writing to a forced value would be for nothing.
-bool any_forced(Context& context, const vars::Store& store, const std::vector<Assignment>& assignments) {
-  bool any = false;
-  for (const vars::Force& force : store.forces()) {
-    for (const auto& [item, bytes] : assignments) {
-      const std::uint64_t begin = item.place.offset;
-      if (force.variable == item.entry && force.offset < begin + bytes.size() && begin < force.offset + force.size) {
-        context.out.error(fmt::format("{} is forced; release it first: indurop unforce '{}'", item.name, item.name));
-        any = true;
-      }
-    }
-  }
-  return any;
-}
 
 int set(Context& context, const std::vector<std::string>& words) {
   std::vector<std::string> names;

@@ -4,12 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 
-#include "config/check/uses.h"
-#include "config/xml/plant_reader.h"
-#include "tools/command/config_file.h"
 #include "tools/command/units.h"
+#include "tools/values/known_uses.h"
 #include "tools/values/node_choice.h"
 #include "tools/values/variables.h"
 #include "tools/verbs/verbs.h"
@@ -25,35 +22,6 @@ struct Options {
   std::string type;
   bool names = false;
 };
-
-using Uses = std::map<std::string, config::VariableUse>;
-
-// Modules of all boards, "control@sensor".
-std::vector<config::VariableUse> uses_in(const CheckedPlant& checked) {
-  const auto boards = config::views_of(checked.plant, checked.check);
-  const config::Uses uses(boards);
-  std::vector<config::VariableUse> all;
-  for (const auto& [name, users] : uses.variables()) {
-    all.push_back({name, uses.names(users.readers), uses.names(users.writers)});
-  }
-  return all;
-}
-
-// From the module files of the configuration the node runs: no question is put to the node. Empty if it cannot be had.
-Uses known_uses(const std::string& node) {
-  Uses uses;
-  const auto run = RunView::open(node);
-  if (!run.ok()) {
-    return uses;
-  }
-  const std::string file = fixed_text(run.value().block().config_file);
-  const config::CheckOptions options{.files = true, .adjust = true};
-  for (const config::VariableUse& use :
-       config::is_plant_file(file) ? uses_in(load_plant(file, options)) : load_config(file, options).check.uses) {
-    uses.emplace(use.name, use);
-  }
-  return uses;
-}
 
 std::string shortened(const std::string& text) {
   return text.size() <= kLongestValue ? text : fmt::format("{:.{}}...", text, kLongestValue - 3);
@@ -115,7 +83,7 @@ int list(Context& context, const Options& options) {
     }
     return kOk;
   }
-  const Uses uses = context.values->here() ? known_uses(context.node) : Uses{};
+  const KnownUses uses = context.values->here() ? known_uses(context.node) : KnownUses{};
   Table table({{"NAME", "name"},
                {"TYPE", "type"},
                {"VALUE", "value", Align::Right, 0, kAlignedValue},

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers that change something: values, forces, modules. The store is opened to write for that moment only.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "serve/api/answers.h"
+#include "serve/boards/board.h"
+#include "serve/boards/variable.h"
+#include "tools/plant/commands.h"
+#include "tools/values/forcing.h"
+#include "tools/values/node_choice.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+// What a body asks for, after it was understood.
+struct Wish {
+  std::vector<std::pair<std::string, std::string>> values;  // name, value as `indurop set` takes it
+  std::vector<std::string> names;
+  std::string reason;
+  std::int64_t for_ns = 0;
+  bool all = false;
+};
+
+// One write of a client, from its body to the note in the audit log.
+class Write {
+ public:
+  Write(Api& api, const Call& call, std::string action) : api_(&api) {
+    entry_.who = call.who;
+    entry_.from = call.request->from;
+    entry_.board = call.part.find("board")->second;
+    entry_.action = std::move(action);
+    context_.out.divert(&messages_);
+  }
+  tools::Context& context() noexcept { return context_; }
+  [[nodiscard]] std::string message() const { return messages_.empty() ? std::string() : messages_.back(); }
+
+  // Opens the board's store to write; it has to run if `running`.
+  Result<vars::Store, Reply> open(bool running) {
+    context_.node = entry_.board;
+    auto source = std::make_shared<tools::HereSource>(entry_.board, vars::Mode::ReadWrite);
+    auto store = source->attach();
+    if (!store.ok()) {
+      const bool denied = store.error().code == Errc::PermissionDenied;
+      return failed(denied ? status::kForbidden : status::kConflict,
+                    tools::explain_open_error(store.error(), entry_.board, true));
+    }
+    if (const std::string absence = source->absence(&store.value()); running && !absence.empty()) {
+      return failed(status::kConflict, source->gone(absence) + ": forces are for a node that runs");
+    }
+    context_.values = std::move(source);
+    return std::move(store).value();
+  }
+
+  void about(std::string what, std::string reason) {
+    entry_.what = std::move(what);
+    entry_.reason = std::move(reason);
+  }
+
+  Reply failed(int code, std::string why) {
+    entry_.outcome = why;
+    static_cast<void>(api_->audit().note(entry_));  // nothing was written, so there is nothing to hide
+    return refusal(code, std::move(why), messages_.size() > 1 ? messages_ : std::vector<std::string>());
+  }
+  Reply failed_with(int exit_code) {
+    std::string why = messages_.empty() ? "it failed" : messages_.front();
+    return failed(exit_code == kUnreachable ? status::kNoAnswer : status::kWrongValue, std::move(why));
+  }
+  // Before anything is changed: without a note nothing is written.
+  std::optional<Reply> begin() {
+    entry_.outcome = "begun";
+    const std::string problem = api_->audit().note(entry_);
+    if (problem.empty()) {
+      return std::nullopt;
+    }
+    return refusal(status::kFailed, fmt::format("nothing was written, because it cannot be noted down in {}: {}",
+                                                api_->audit().file().string(), problem));
+  }
+  Reply done(const base::Json& body) {
+    entry_.outcome = "done";
+    static_cast<void>(api_->audit().note(entry_));  // that it was begun is noted already
+    return json_reply(body);
+  }
+
+ private:
+  Api* api_;
+  AuditEntry entry_;
+  std::vector<std::string> messages_;
+  tools::Context context_;
+};
+
+Result<Wish, std::string> read_wish(const std::string& body) {
+  const auto json = base::Json::parse(body);
+  if (!json || !json->is_object()) {
+    return std::string("the body is no JSON object");
+  }
+  Wish wish;
+  base::read(*json, "reason", wish.reason);
+  base::read(*json, "names", wish.names);
+  base::read(*json, "all", wish.all);
+  if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", wish.for_ns) || wish.for_ns <= 0)) {
+    return std::string("for_ns is a number of nanoseconds greater than 0");
+  }
+  if (const base::Json* const values = json->find("values")) {
+    if (!values->is_object() || values->values().empty()) {
+      return std::string("values is an object of NAME: value");
+    }
+    std::size_t i = 0;
+    for (const std::string& name : values->keys()) {
+      const base::Json& value = values->values()[i++];
+      wish.values.emplace_back(name, value.is_text() ? *value.text() : value.dump());
+    }
+  }
+  return wish;
+}
+
+std::string text_of(const Wish& wish) {
+  std::string text;
+  for (const auto& [name, value] : wish.values) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
+  }
+  return text.empty() ? fmt::format("{}", fmt::join(wish.names, " ")) : text;
+}
+
+// All values found good, or none.
+std::optional<std::vector<tools::Assignment>> check_values(Write& write, const vars::Store& store, const Wish& wish,
+                                                           const char* verb) {
+  std::vector<tools::Assignment> all;
+  bool fine = true;
+  for (const auto& [name, value] : wish.values) {
+    if (name.empty() || name.find('=') != std::string::npos) {
+      write.context().out.error(fmt::format("'{}' is no name of a variable", name));
+      fine = false;
+      continue;
+    }
+    auto one = tools::read_assignments(write.context(), store, verb, {name, value});
+    if (one) {
+      all.push_back(std::move(one->front()));
+    }
+    fine = fine && one.ok();
+  }
+  return fine ? std::optional(std::move(all)) : std::nullopt;
+}
+
+base::Json names_of(const std::vector<tools::Assignment>& all) {
+  base::Json names = base::Json::array();
+  for (const tools::Assignment& one : all) {
+    names.push_back(one.item.name);
+  }
+  return names;
+}
+
+Reply write_values(Api& api, const Call& call, bool hold) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  Write write(api, call, hold ? "force" : "set");
+  const auto wish = read_wish(call.request->body);
+  if (!wish || wish->values.empty()) {
+    return write.failed(status::kBadRequest, wish ? "values is an object of NAME: value" : wish.error());
+  }
+  write.about(text_of(*wish), wish->reason);
+  auto store = write.open(hold);
+  if (!store) {
+    return store.error();
+  }
+  const auto values = check_values(write, *store, *wish, hold ? "force" : "set");
+  if (!values || (!hold && tools::any_forced(write.context(), *store, *values))) {
+    return write.failed_with(kFailed);
+  }
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  if (hold) {
+    if (const int code = tools::hold_values(write.context(), *store, *values, wish->for_ns); code != kOk) {
+      return write.failed_with(code);
+    }
+  }
+  for (const auto& [item, bytes] : hold ? std::vector<tools::Assignment>() : *values) {
+    if (const auto set = write.context().values->set(*store, item.name, *item.entry, item.place, bytes); !set) {
+      return write.failed(status::kNoAnswer, set.error().text);
+    }
+  }
+  base::Json body = about(**found);
+  body[hold ? "forced" : "written"] = names_of(*values);
+  return write.done(body);
+}
+
+Reply command(Api& api, const Call& call, scheduler::ModuleCommand what, std::string word) {
+  constexpr std::int64_t kLongestNs = 10'000'000'000;
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const std::string& module = call.part.find("module")->second;
+  const auto run = (*found)->run();
+  bool known = false;
+  for (std::uint32_t i = 0; run && i < run->module_count(); ++i) {
+    known = known || tools::fixed_text(run->module(i).name) == module;
+  }
+  if (!known) {
+    return refusal(status::kNotFound, fmt::format("board {} has no module '{}'", (*found)->name(), module));
+  }
+  Write write(api, call, std::move(word));
+  write.about(module, query_value(*call.request, "reason").value_or(""));
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  write.context().node = (*found)->name();
+  const tools::Commanded done = tools::command_here(write.context(), what, module, kLongestNs);
+  if (done.code != kOk) {
+    const bool ran = (*found)->alive();
+    return write.failed(done.code == kUnreachable && ran ? status::kNoAnswer : status::kConflict, write.message());
+  }
+  base::Json body = about(**found);
+  body["module"] = module;
+  body["result"] = done.result == scheduler::CommandResult::Unchanged ? "unchanged"
+                   : done.result == scheduler::CommandResult::OldCode ? "old code"
+                                                                      : "done";
+  body["took_ns"] = done.took_ns;
+  body["message"] = write.message();
+  return write.done(body);
+}
+
+}  // namespace
+
+Reply set(Api& api, const Call& call) {
+  return write_values(api, call, false);
+}
+
+Reply force(Api& api, const Call& call) {
+  return write_values(api, call, true);
+}
+
+Reply release(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  Write write(api, call, "release");
+  const auto wish = read_wish(call.request->body);
+  if (!wish || wish->names.empty() != wish->all) {
+    return write.failed(status::kBadRequest, wish ? "name what to release: names, or all" : wish.error());
+  }
+  write.about(wish->all ? "all" : text_of(*wish), wish->reason);
+  auto store = write.open(false);
+  if (!store) {
+    return store.error();
+  }
+  std::vector<tools::Item> items;
+  const bool fine = wish->all || tools::select_items(write.context(), *store, wish->names, items) == kOk;
+  if (!fine) {
+    return write.failed_with(kFailed);
+  }
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  std::vector<std::string> gone;
+  const int code = wish->all ? tools::let_all_go(write.context(), *store, gone)
+                             : tools::let_values_go(write.context(), *store, items, gone);
+  if (code != kOk) {
+    return write.failed_with(code);
+  }
+  base::Json body = about(**found);
+  body["released"] = gone;
+  return write.done(body);
+}
+
+Reply start_module(Api& api, const Call& call) {
+  return command(api, call, scheduler::ModuleCommand::Start, "start");
+}
+
+Reply stop_module(Api& api, const Call& call) {
+  return command(api, call, scheduler::ModuleCommand::Stop, "stop");
+}
+
+Reply restart_module(Api& api, const Call& call) {
+  return command(api, call, scheduler::ModuleCommand::Restart, "restart");
+}
+
+}  // namespace indurop::serve::answers

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/boards/trouble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tools/command/units.h"
+#include "tools/values/force_view.h"
+#include "tools/values/mirror_view.h"
+
+namespace indurop::serve {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+
+void add_module(std::vector<Trouble>& all, const scheduler::ModuleRecord& module) {
+  const std::string name = tools::fixed_text(module.name);
+  const auto kind = static_cast<scheduler::FaultKind>(module.fault_kind.load(std::memory_order_acquire));
+  const auto state = module.state.load(kRelaxed);
+  if (kind != scheduler::FaultKind::None) {
+    const bool down = state == scheduler::ModuleState::Faulted;
+    all.push_back({down ? Severity::Error : Severity::Warning, name,
+                   fmt::format("module {} {}: {}", name, down ? "is out of service" : "had a fault",
+                               tools::printable(tools::fixed_text(module.last_fault))),
+                   module.fault_tick.load(kRelaxed)});
+  } else if (state == scheduler::ModuleState::Restarting) {
+    all.push_back({Severity::Warning, name, fmt::format("module {} waits for its restart", name), {}});
+  } else if (state == scheduler::ModuleState::Stopped) {
+    all.push_back({Severity::Note, name, fmt::format("module {} is stopped", name), {}});
+  }
+  if (const auto count = module.overruns.load(kRelaxed); count > 0) {
+    all.push_back({Severity::Warning, name, fmt::format("module {} had {} overruns", name, count), {}});
+  }
+  if (const auto count = module.deadline_misses.load(kRelaxed); count > 0) {
+    all.push_back({Severity::Warning, name, fmt::format("module {} missed {} deadlines", name, count), {}});
+  }
+}
+
+void add_node(std::vector<Trouble>& all, const Board& board, const tools::RunView& run) {
+  const auto& block = run.block();
+  if (const std::string why = tools::printable(tools::fixed_text(block.stop_reason)); !why.empty()) {
+    all.push_back({Severity::Error, "", fmt::format("the node ended: {}", why), {}});
+  }
+  if (const auto lost = block.lost_ticks.load(kRelaxed); lost > 0) {
+    all.push_back({Severity::Warning, "", fmt::format("{} ticks were lost", lost), {}});
+  }
+  if (const std::string why = tools::printable(tools::fixed_text(block.obtained.why)); !why.empty()) {
+    all.push_back({Severity::Note, "", fmt::format("not in real time: {}", why), {}});
+  }
+  const auto mirror = tools::view_mirror(board.name());
+  if (mirror && !mirror->problem.empty()) {
+    all.push_back({Severity::Error, "", fmt::format("not connected with other boards: {}", mirror->problem), {}});
+  }
+  for (const auto& peer : mirror ? mirror->peers : std::vector<tools::PeerView>()) {
+    if (!peer.problem.empty()) {
+      all.push_back({Severity::Warning, "", fmt::format("board {}: {}", peer.name, peer.problem), {}});
+    }
+  }
+}
+
+}  // namespace
+
+const char* word_of(Severity severity) noexcept {
+  constexpr std::array kWords{"error", "warning", "note"};
+  return kWords.at(static_cast<std::size_t>(severity));
+}
+
+std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::RunView>& run) {
+  std::vector<Trouble> all;
+  if (!board.alive()) {
+    all.push_back({Severity::Error, "", fmt::format("board {} is {}", board.name(), board.state()), {}});
+  }
+  if (run) {
+    add_node(all, board, *run);
+    for (std::uint32_t i = 0; i < run->module_count(); ++i) {
+      add_module(all, run->module(i));
+    }
+  }
+  if (const auto* store = board.store(); store != nullptr && board.alive()) {
+    for (const auto& force : tools::view_forces(*store)) {
+      all.push_back({Severity::Note, "", fmt::format("{} is forced to {}", force.name, force.value), {}});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Trouble& a, const Trouble& b) { return a.severity < b.severity; });
+  return all;
+}
+
+}  // namespace indurop::serve

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The socket the door listens on. Ours, not the library's: it has to be bound to exactly the address that was asked
+// for, or to none.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <string>
+
+#include "base/descriptor.h"
+#include "base/problem.h"
+
+namespace indurop::serve {
+
+class Listener {
+ public:
+  // `address`: of this machine, numeric or "localhost"; `port` 0: any that is free.
+  static Result<Listener, base::Problem> open(const std::string& address, int port);
+
+  [[nodiscard]] int file() const noexcept { return file_.get(); }
+  [[nodiscard]] int port() const noexcept { return port_; }
+  // The next connection, or -1. Never blocks.
+  [[nodiscard]] int take() const noexcept;
+
+ private:
+  Listener(base::Descriptor file, int port) noexcept : file_(std::move(file)), port_(port) {}
+
+  base::Descriptor file_;
+  int port_ = 0;
+};
+
+}  // namespace indurop::serve

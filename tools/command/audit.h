@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who wrote what, and from where: a file of JSON lines that `indurop serve` appends to and `indurop log --audit` shows.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+
+namespace indurop::tools {
+
+struct AuditEntry {
+  std::int64_t wall_ns = 0;  // CLOCK_REALTIME
+  std::string who;
+  std::string from;
+  std::string board;
+  std::string action;   // "set", "force", "release", "stop"
+  std::string what;     // "gain=2.5 mode=AUTO"
+  std::string outcome;  // "done", else why not
+  std::string reason;
+};
+
+base::Json json_of(const AuditEntry& entry);
+// Nothing if the line is none of ours.
+std::optional<AuditEntry> parse_audit_line(std::string_view line);
+
+// In the state folder: all servers of this user write to the same file.
+std::filesystem::path usual_audit_file();
+// Appends one line, whole, and brings it to the disk. A file that has grown beyond 8 MiB is put aside as FILE.1 first.
+// Returns why that failed, else nothing.
+std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry);
+// The newest `most`, oldest first; also of FILE.1. Empty if there is no such file.
+std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most);
+
+}  // namespace indurop::tools

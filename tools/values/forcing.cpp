@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/values/forcing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rt/clock.h"
+
+namespace indurop::tools {
+namespace {
+
+std::string what_failed(const Error& error) {
+  if (error.code == Errc::NoSpace) {
+    return fmt::format("{} values are forced already, which is the most; let some go: indurop unforce",
+                       vars::kMostForces);
+  }
+  return error.code == Errc::Busy ? fmt::format("{}: somebody who has it is stopped; try again", error.where)
+                                  : fmt::format("{} ({})", error.where, to_string(error.code));
+}
+
+bool is_number(const schema::Type& type) {
+  return type.dims.empty() && type.base != schema::Base::Struct && type.base != schema::Base::Text;
+}
+
+bool lies_in(const vars::Force& force, const Item& item) {
+  const std::uint64_t begin = item.place.offset;
+  return force.variable == item.entry && force.offset >= begin && force.offset < begin + item.place.type.size();
+}
+
+template <class Wanted>
+int let_go_if(Context& context, vars::Store& store, std::vector<std::string>& gone, Wanted wanted) {
+  for (const vars::Force& one : store.forces()) {
+    if (!wanted(one)) {
+      continue;
+    }
+    const std::string name = schema::part_at(store.schema().variables[one.variable->schema_index], one.offset).name;
+    const Status status = store.let_go(*one.variable, one.offset);
+    if (!status.ok() && status.error().code != Errc::NotFound) {
+      context.out.error(what_failed(status.error()));
+      return kUnreachable;
+    }
+    gone.push_back(name);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+int hold_values(Context& context, vars::Store& store, const std::vector<Assignment>& assignments, std::int64_t for_ns) {
+  int code = kOk;
+  for (const Assignment& one : assignments) {
+    if (!is_number(one.item.place.type)) {
+      context.out.error(fmt::format("{} is a {}; force its numbers one by one", one.item.name,
+                                    schema::display_name(one.item.place.type)));
+      code = kFailed;
+    }
+  }
+  if (code != kOk) {
+    return code;
+  }
+  const rt::MonoTime until = for_ns > 0 ? store.now() + std::chrono::nanoseconds(for_ns) : vars::kForever;
+  for (const auto& [item, bytes] : assignments) {
+    const Status forced = store.force(*item.entry, item.place.offset, bytes, until);
+    if (!forced.ok()) {
+      context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
+      return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
+    }
+  }
+  return kOk;
+}
+
+int let_values_go(Context& context, vars::Store& store, const std::vector<Item>& items,
+                  std::vector<std::string>& gone) {
+  return let_go_if(context, store, gone, [&items](const vars::Force& one) {
+    return std::any_of(items.begin(), items.end(), [&one](const Item& item) { return lies_in(one, item); });
+  });
+}
+
+int let_all_go(Context& context, vars::Store& store, std::vector<std::string>& gone) {
+  return let_go_if(context, store, gone, [](const vars::Force& /*one*/) { return true; });
+}
+
+// Writing to a forced value would be for nothing.
+bool any_forced(Context& context, const vars::Store& store, const std::vector<Assignment>& assignments) {
+  bool any = false;
+  for (const vars::Force& force : store.forces()) {
+    for (const auto& [item, bytes] : assignments) {
+      const std::uint64_t begin = item.place.offset;
+      if (force.variable == item.entry && force.offset < begin + bytes.size() && begin < force.offset + force.size) {
+        context.out.error(fmt::format("{} is forced; release it first: indurop unforce '{}'", item.name, item.name));
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+}  // namespace indurop::tools

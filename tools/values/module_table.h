@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modules of a run with their counters and times, for `status`.
+
+#pragma once
+
+#include <string>
+
+#include "tools/command/table.h"
+#include "tools/values/run_view.h"
+
+namespace indurop::tools {
+
+// `alive`: the node runs; else the states are the last ones.
+Table module_table(const RunView& run, bool alive);
+// "SIGSEGV at address 0x0 (tick 12)"; empty: none.
+std::string fault_text(const scheduler::ModuleRecord& module);
+
+}  // namespace indurop::tools
