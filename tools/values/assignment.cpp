@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "tools/plc/plc_literal.h"
+
 namespace indurop::tools {
 namespace {
 
@@ -45,8 +47,8 @@ int parse_one(Context& context, const vars::Store& store, const char* verb, cons
     assignment.bytes = std::move(*bytes);
   }
   std::string message;
-  const Status parsed = schema::parse_value(place.type, text, assignment.bytes, message);
-  if (!parsed.ok()) {
+  if (!parse_plc_literal(place.type, text, assignment.bytes) &&
+      !schema::parse_value(place.type, text, assignment.bytes, message).ok()) {
     context.out.error(fmt::format(
         "{}: {}", assignment.item.name,
         message.empty() ? fmt::format("'{}' is not a valid {}", text, schema::display_name(place.type)) : message));

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/values/variables.h"
@@ -11,10 +14,19 @@ namespace indurop::tools {
 
 std::vector<ForceView> view_forces(const vars::Store& store) {
   std::vector<ForceView> views;
+  std::map<std::string, std::vector<std::uint8_t>> texts;  // they are forced word by word
   const rt::MonoTime now = store.now();
   for (const vars::Force& force : store.forces()) {
     const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
-    views.push_back({part.name, schema::format_value(part.type, force.bytes()), raw_value(part.type, force.bytes()),
+    std::vector<std::uint8_t> bytes(force.bytes().begin(), force.bytes().end());
+    if (part.type.base == schema::Base::Text) {
+      std::vector<std::uint8_t>& text = texts[part.name];
+      text.insert(text.end(), bytes.begin(), bytes.end());
+      bytes = text;
+      bytes.resize(part.type.size());
+      std::erase_if(views, [&](const ForceView& one) { return one.name == part.name; });
+    }
+    views.push_back({part.name, schema::format_value(part.type, bytes), raw_value(part.type, bytes),
                      force.until == vars::kForever ? std::nullopt : std::optional((force.until - now).count())});
   }
   return views;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <span>
 
 #include "rt/clock.h"
 
@@ -19,13 +21,36 @@ std::string what_failed(const Error& error) {
                                   : fmt::format("{} ({})", error.where, to_string(error.code));
 }
 
-bool is_number(const schema::Type& type) {
-  return type.dims.empty() && type.base != schema::Base::Struct && type.base != schema::Base::Text;
+bool can_be_forced(const schema::Type& type) {
+  return type.dims.empty() && type.base != schema::Base::Struct;
 }
 
 bool lies_in(const vars::Force& force, const Item& item) {
   const std::uint64_t begin = item.place.offset;
   return force.variable == item.entry && force.offset >= begin && force.offset < begin + item.place.type.size();
+}
+
+// A text is forced word by word, up to its end.
+Status force_text(vars::Store& store, const Assignment& one, rt::MonoTime until) {
+  for (const vars::Force& known : store.forces()) {
+    if (const Status gone = lies_in(known, one.item) ? store.let_go(*known.variable, known.offset) : Status(); !gone) {
+      return gone;
+    }
+  }
+  const auto end = std::find(one.bytes.begin(), one.bytes.end(), std::uint8_t{0});
+  std::size_t left = static_cast<std::size_t>(end - one.bytes.begin()) + (end == one.bytes.end() ? 0 : 1);
+  std::span<const std::uint8_t> bytes(one.bytes);
+  for (std::uint32_t offset = one.item.place.offset; left > 0;) {
+    constexpr std::size_t kWord = 8;
+    const std::size_t size = std::min(kWord, std::bit_floor(left));
+    if (const Status forced = store.force(*one.item.entry, offset, bytes.first(size), until); !forced) {
+      return forced;
+    }
+    bytes = bytes.subspan(size);
+    offset += static_cast<std::uint32_t>(size);
+    left -= size;
+  }
+  return {};
 }
 
 template <class Wanted>
@@ -50,7 +75,7 @@ int let_go_if(Context& context, vars::Store& store, std::vector<std::string>& go
 int hold_values(Context& context, vars::Store& store, const std::vector<Assignment>& assignments, std::int64_t for_ns) {
   int code = kOk;
   for (const Assignment& one : assignments) {
-    if (!is_number(one.item.place.type)) {
+    if (!can_be_forced(one.item.place.type)) {
       context.out.error(fmt::format("{} is a {}; force its numbers one by one", one.item.name,
                                     schema::display_name(one.item.place.type)));
       code = kFailed;
@@ -60,8 +85,11 @@ int hold_values(Context& context, vars::Store& store, const std::vector<Assignme
     return code;
   }
   const rt::MonoTime until = for_ns > 0 ? store.now() + std::chrono::nanoseconds(for_ns) : vars::kForever;
-  for (const auto& [item, bytes] : assignments) {
-    const Status forced = store.force(*item.entry, item.place.offset, bytes, until);
+  for (const Assignment& one : assignments) {
+    const Item& item = one.item;
+    const Status forced = item.place.type.base == schema::Base::Text
+                              ? force_text(store, one, until)
+                              : store.force(*item.entry, item.place.offset, one.bytes, until);
     if (!forced.ok()) {
       context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
       return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
