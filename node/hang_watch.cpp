@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 
 #include "rt/clock.h"
@@ -22,6 +23,11 @@ bool end_is_wanted() {
          ::sigismember(&pending, SIGHUP) == 1;
 }
 
+// A program that stands for `indurop plc debug` hangs for its user only.
+bool is_debugged() {
+  return std::getenv("INDUROP_PLC_DEBUG") != nullptr;  // NOLINT(concurrency-mt-unsafe): nobody sets it
+}
+
 }  // namespace
 
 HangWatch::HangWatch(const scheduler::SimulatedKernel& kernel, scheduler::Engine& engine)
@@ -38,6 +44,7 @@ HangWatch::~HangWatch() {
 }
 
 void HangWatch::loop() {
+  const bool debugged = is_debugged();
   std::uint64_t before = kernel_.resumptions();
   rt::MonoTime since = rt::MonoClock::now();
   while (!stop_.load()) {
@@ -46,7 +53,8 @@ void HangWatch::loop() {
     if (now != before) {
       before = now;
       since = rt::MonoClock::now();
-    } else if (rt::MonoClock::now() - since > (end_is_wanted() ? kPatienceAtEnd : kPatience)) {
+    } else if (const bool ends = end_is_wanted();
+               (ends || !debugged) && rt::MonoClock::now() - since > (ends ? kPatienceAtEnd : kPatience)) {
       engine_.end_runs_in_progress();  // none if the node only stands
     }
   }

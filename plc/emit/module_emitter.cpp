@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <indurop/detail/abi.h>
+
 #include <algorithm>
 
 #include "plc/emit/cpp_text.h"
@@ -40,6 +42,9 @@ class ModuleEmitter {
     if (options_.watch) {
       out_.line("#include <indurop/plc/watch.h>");
     }
+    if (options_.debug != nullptr) {
+      out_.line("#include <indurop/plc/debug.h>");
+    }
     out_.line("#include <indurop/generated.h>");
     out_.line();
     out_.line("#include <array>");
@@ -60,11 +65,14 @@ class ModuleEmitter {
     if (std::any_of(use_.pous.begin(), use_.pous.end(), [](const Pou* one) { return one->called_unseen; })) {
       out_.line("int calls_inside = 0;  // of methods, where a call may lead to itself");
     }
-    for (const Pou* pou : use_.pous) {
-      define_pou(*pou, out_);
-    }
-    if (options_.watch) {
+    if (options_.watch || options_.debug != nullptr) {
       emit_watched(use_.pous, out_);
+    }
+    if (options_.debug != nullptr) {
+      out_.line("extern iec::Debugger debugger;");
+    }
+    for (const Pou* pou : use_.pous) {
+      define_pou(*pou, out_, options_.debug);
     }
     out_.line("}  // namespace plc");
     out_.line();
@@ -72,6 +80,7 @@ class ModuleEmitter {
     if (options_.watch) {
       emit_watch(task_, program_.space, out_);
     }
+    debugger();
     exchange();
     out_.line("}  // namespace");
     out_.line();
@@ -248,6 +257,42 @@ class ModuleEmitter {
     }
   }
 
+  void debugger() {
+    if (options_.debug == nullptr) {
+      return;
+    }
+    DebugTable& table = *options_.debug;
+    emit_globals(globals_, table, out_);
+    std::string text;
+    for (const DebugTable::Line& one : table.lines) {
+      text += to_string(one.at) + one.pou->title() + "\n";
+    }
+    for (const DebugTable::Frame& one : table.frames) {
+      for (const WatchedVariable& variable : one.layout.variables) {
+        text += variable.path + to_string(*variable.type) + "\n";
+      }
+    }
+    table.mark = abi::fnv1a64(text.data(), text.size());
+    out_.line(fmt::format("iec::Debugger plc::debugger{{{}, {}U}};", quoted(options_.name), table.mark));
+    out_.line();
+  }
+
+  void run_programs() {
+    const bool debug = options_.debug != nullptr;
+    if (debug) {
+      out_.open("try");
+    }
+    for (const TaskProgram& one : task_.programs) {
+      out_.line(instance_of(one) + "(scan);");
+    }
+    if (debug) {
+      out_.reopen("catch (const std::exception& fault)");
+      out_.line("plc::debugger.fault(fault.what());");
+      out_.line("throw;");
+      out_.close();
+    }
+  }
+
   void entry() {
     out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
     out_.open("void POU_PROGRAM()");
@@ -256,9 +301,10 @@ class ModuleEmitter {
     if (!use_.restored.empty()) {
       out_.line("restore(scan);");
     }
-    for (const TaskProgram& one : task_.programs) {
-      out_.line(instance_of(one) + "(scan);");
+    if (options_.debug != nullptr) {
+      out_.line(fmt::format("plc::debugger.begin(scan.time_ns, {}, &debug_globals);", options_.debug->globals.bytes));
     }
+    run_programs();
     out_.line("write_shared();");
     if (options_.watch) {
       out_.line("watch();");

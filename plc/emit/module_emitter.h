@@ -6,14 +6,16 @@
 #include <string>
 
 #include "plc/check/program.h"
+#include "plc/emit/debug_table.h"
 
 namespace indurop::plc {
 
 struct ModuleOptions {
-  std::string name;          // of the module
-  std::string sources;       // "prog.st, more.st", for the comment
-  bool show_locals = false;  // variables of programs are shared variables too
-  bool watch = false;        // tells a running view about all variables
+  std::string name;             // of the module
+  std::string sources;          // "prog.st, more.st", for the comment
+  bool show_locals = false;     // variables of programs are shared variables too
+  bool watch = false;           // tells a running view about all variables
+  DebugTable* debug = nullptr;  // tells a debugger where it is; what its numbers mean goes in here
 };
 
 [[nodiscard]] std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options);

@@ -6,6 +6,7 @@
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/object_emitter.h"
 #include "plc/emit/statement_emitter.h"
+#include "plc/emit/watch_emitter.h"
 
 namespace indurop::plc {
 namespace {
@@ -85,10 +86,18 @@ void declare_block(const Pou& pou, TextWriter& out) {
   out.close(";");
 }
 
-void define_block(const Pou& pou, TextWriter& out) {
+// Statements, from the place on where all variables are known.
+void code(const Pou& pou, TextWriter& out, DebugTable* debug) {
+  if (debug != nullptr) {
+    emit_frame(pou, *debug, out);
+  }
+  StatementEmitter(pou, out, debug).list(pou.tree->body);
+}
+
+void define_block(const Pou& pou, TextWriter& out, DebugTable* debug) {
   out.open(fmt::format("inline void {}::operator()([[maybe_unused]] const iec::Scan& scan)", cpp_name_of(pou)));
   locals(pou, out);
-  StatementEmitter(pou, out).list(pou.tree->body);
+  code(pou, out, debug);
   out.close();
 }
 
@@ -99,7 +108,7 @@ std::string head(const Pou& pou) {
 }
 
 // Functions and methods: their variables are those of the call.
-void define_callable(const Pou& pou, TextWriter& out) {
+void define_callable(const Pou& pou, TextWriter& out, DebugTable* debug) {
   out.open((pou.owner != nullptr ? "inline " : "") + head(pou));
   if (pou.called_unseen) {
     out.line(fmt::format("const iec::Call guard_call(calls_inside, {});", cpp_place(pou.tree->at, pou.title())));
@@ -122,7 +131,7 @@ void define_callable(const Pou& pou, TextWriter& out) {
                (one.is_constant ? "const " : "") + declaration(one));
     }
   }
-  StatementEmitter(pou, out).list(pou.tree->body);
+  code(pou, out, debug);
   if (pou.result != nullptr) {
     out.line(fmt::format("return {};", ExpressionEmitter::result_name(pou)));
   }
@@ -141,17 +150,17 @@ void declare_pou(const Pou& pou, TextWriter& out) {
   }
 }
 
-void define_pou(const Pou& pou, TextWriter& out) {
+void define_pou(const Pou& pou, TextWriter& out, DebugTable* debug) {
   const bool inside = pou.owner != nullptr && pou.owner->tree->kind == ast::Pou::Kind::Interface;
   const bool has_body = !pou.tree->is_abstract && !inside;
   if (pou.is_callable()) {
     if (has_body) {
       out.line();
-      define_callable(pou, out);
+      define_callable(pou, out, debug);
     }
   } else if (pou.tree->kind != ast::Pou::Kind::Interface && pou.tree->kind != ast::Pou::Kind::Class) {
     out.line();
-    define_block(pou, out);
+    define_block(pou, out, debug);
   }
 }
 

@@ -33,7 +33,15 @@ Type without_range(const Type& type) {
 void StatementEmitter::list(const ast::Body& body) {
   for (const Statement& one : body) {
     comment(one.comment);
+    tell_line(one);
     statement(one);
+  }
+}
+
+void StatementEmitter::tell_line(const Statement& one) {
+  if (debug_ != nullptr && one.kind != Statement::Kind::Empty && one.kind != Statement::Kind::Label) {
+    out_.line(fmt::format("debugger.line({});", debug_->lines.size()));
+    debug_->lines.push_back({one.at, &pou_});
   }
 }
 
@@ -237,7 +245,7 @@ void StatementEmitter::for_statement(const Statement& one) {
   const bool narrow = bits_of(one.target->type->elementary) < 64;
   const bool plain = resolved.meaning == Resolved::Meaning::Variable && !one.target->type->range &&
                      resolved.variable->section != ast::Section::InOut;
-  if (step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
+  if (debug_ == nullptr && step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
     counted_loop(one, step);
   } else {
     general_loop(one);

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "plc/emit/debug_table.h"
 #include "plc/emit/expression_emitter.h"
 #include "plc/emit/text_writer.h"
 
@@ -12,11 +13,13 @@ namespace indurop::plc {
 
 class StatementEmitter {
  public:
-  StatementEmitter(const Pou& pou, TextWriter& out) : pou_(pou), out_(out), expressions_(pou) {}
+  StatementEmitter(const Pou& pou, TextWriter& out, DebugTable* debug)
+      : pou_(pou), out_(out), debug_(debug), expressions_(pou) {}
 
   void list(const ast::Body& body);
 
  private:
+  void tell_line(const ast::Statement& one);
   void statement(const ast::Statement& one);
   void assign(const ast::Statement& one);
   void call(const ast::Expression& call);
@@ -35,6 +38,7 @@ class StatementEmitter {
 
   const Pou& pou_;
   TextWriter& out_;
+  DebugTable* debug_;
   ExpressionEmitter expressions_;
   int loops_ = 0;  // numbers their helpers
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/emit/cpp_text.h"
+#include "plc/emit/expression_emitter.h"
 #include "plc/emit/task_use.h"
 #include "plc/emit/watch_layout.h"
 #include "plc/library/standard.h"
@@ -17,7 +18,7 @@ std::string name_of(const Pou& pou) {
 
 class Emitter {
  public:
-  explicit Emitter(TextWriter& out) : out_(out) {}
+  explicit Emitter(TextWriter& out, std::string to = "out") : out_(out), to_(std::move(to)) {}
 
   // In the order of watch_layout().
   void pou(const Pou& pou) {
@@ -34,7 +35,6 @@ class Emitter {
     out_.close();
   }
 
- private:
   void value(const std::string& expression, const Type& type) {
     if (type.kind == Type::Kind::Array && type.element->kind > Type::Kind::Enum) {
       elements(expression, type);
@@ -43,14 +43,15 @@ class Emitter {
         value(expression + "." + field.member(), *field.type);
       }
     } else if (type.kind == Type::Kind::Block && type.pou != nullptr) {
-      out_.line(fmt::format("show(out, {});", expression));
+      out_.line(fmt::format("plc::show({}, {});", to_, expression));
     } else if (type.kind == Type::Kind::Block) {
       library(expression, *type.block);
     } else {
-      out_.line(fmt::format("out.put({});", expression));
+      out_.line(fmt::format("{}.put({});", to_, expression));
     }
   }
 
+ private:
   void elements(const std::string& expression, const Type& array) {
     std::string inner = expression;
     for (std::size_t i = 0; i < array.dimensions.size(); ++i) {
@@ -69,13 +70,14 @@ class Emitter {
       for (const LibraryParameter& pin : *pins) {
         const auto* known = std::get_if<Elementary>(&pin.type);
         if (known != nullptr && *known != Elementary::String) {
-          out_.line(fmt::format("out.put({}.{});", expression, pin.cpp));
+          out_.line(fmt::format("{}.put({}.{});", to_, expression, pin.cpp));
         }
       }
     }
   }
 
   TextWriter& out_;
+  std::string to_;
   int loops_ = 0;
 };
 
@@ -88,6 +90,39 @@ void emit_watched(const std::vector<const Pou*>& pous, TextWriter& out) {
       Emitter(out).pou(*one);
     }
   }
+}
+
+void emit_frame(const Pou& pou, DebugTable& table, TextWriter& out) {
+  DebugTable::Frame frame{&pou, frame_layout(pou)};
+  out.open("const auto debug_show = [&]([[maybe_unused]] iec::Watch& debug_out)");
+  if (const Pou* holder = holder_of(pou)) {
+    out.line(fmt::format("plc::show(debug_out, static_cast<const plc::{}&>(*this));", name_of(*holder)));
+  }
+  Emitter emitter(out, "debug_out");
+  for (const Variable* one : variables_of_call(pou)) {
+    const std::string name = cpp_name(std::string_view(one->name));
+    emitter.value(one->section == ast::Section::InOut && !pou.is_callable() ? "(*" + name + ")" : name, *one->type);
+  }
+  if (is_result_told(pou)) {
+    emitter.value(ExpressionEmitter::result_name(pou), *pou.result);
+  }
+  out.close(";");
+  out.line(fmt::format("const iec::DebugFrame debug_frame(debugger, {}, {}, debug_show);", table.frames.size(),
+                       frame.layout.bytes));
+  table.frames.push_back(std::move(frame));
+}
+
+void emit_globals(const std::vector<const Global*>& globals, DebugTable& table, TextWriter& out) {
+  table.globals = globals_layout(globals);
+  out.open("void debug_globals([[maybe_unused]] iec::Watch& debug_out)");
+  Emitter emitter(out, "debug_out");
+  for (const Global* one : globals) {
+    if (is_global_told(*one)) {
+      emitter.value((one->kind == Global::Kind::Private ? "plc::" : "shared.") + cpp_name(*one), *one->type);
+    }
+  }
+  out.close();
+  out.line();
 }
 
 void emit_watch(const TaskPlan& task, const std::string& space, TextWriter& out) {

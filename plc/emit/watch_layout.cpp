@@ -58,6 +58,28 @@ class Layout {
     return std::move(out_);
   }
 
+  FrameLayout frame(const Pou& pou) {
+    if (const Pou* holder = holder_of(pou)) {
+      members(*holder, {});
+    }
+    for (const Variable* one : variables_of_call(pou)) {
+      variable(*one->type, one->name);
+    }
+    if (is_result_told(pou)) {
+      variable(*pou.result, pou.name);
+    }
+    return {out_.bytes, std::move(out_.variables)};
+  }
+
+  FrameLayout globals(const std::vector<const Global*>& globals) {
+    for (const Global* one : globals) {
+      if (is_global_told(*one)) {
+        variable(*one->type, one->name);
+      }
+    }
+    return {out_.bytes, std::move(out_.variables)};
+  }
+
  private:
   // As it is written: "Motor.delay".
   using Name = std::string;
@@ -83,12 +105,12 @@ class Layout {
     if (type.kind == Type::Kind::Array && holds_blocks(type)) {
       elements(type, name, 0, "");
     } else if (type.kind != Type::Kind::Block) {
-      out_.variables.push_back({upper(name), &type, out_.bytes});
+      out_.variables.push_back({upper(name), &type, out_.bytes, name});
       out_.bytes += packed_size(type);
     } else if (type.pou != nullptr) {
       pou(*type.pou, name);
     } else {
-      library(*type.block, upper(name));
+      library(*type.block, name);
     }
   }
 
@@ -103,11 +125,12 @@ class Layout {
     }
   }
 
-  void library(const LibraryBlock& block, const std::string& path) {
+  void library(const LibraryBlock& block, const Name& name) {
     for (const auto* pins : {&block.inputs, &block.outputs}) {
       for (const LibraryParameter& pin : *pins) {
         if (const Type* type = type_of(pin)) {
-          out_.variables.push_back({path + "." + pin.name, type, out_.bytes});
+          const Name of_pin = name + "." + pin.name;
+          out_.variables.push_back({upper(of_pin), type, out_.bytes, of_pin});
           out_.bytes += packed_size(*type);
         }
       }
@@ -171,6 +194,41 @@ std::size_t packed_size(const Type& type) {
 
 WatchLayout watch_layout(const TaskProgram& program) {
   return Layout().run(program);
+}
+
+FrameLayout frame_layout(const Pou& pou) {
+  return Layout().frame(pou);
+}
+
+FrameLayout globals_layout(const std::vector<const Global*>& globals) {
+  return Layout().globals(globals);
+}
+
+const Pou* holder_of(const Pou& pou) {
+  return pou.owner != nullptr ? pou.owner : pou.is_callable() ? nullptr : &pou;
+}
+
+std::vector<const Variable*> variables_of_call(const Pou& pou) {
+  using ast::Section;
+  std::vector<const Variable*> out;
+  for (const Variable& one : pou.variables) {
+    const bool of_call = pou.is_callable() || one.section == Section::Temp || one.section == Section::InOut;
+    const bool elsewhere = one.section == Section::External || one.global != nullptr || one.is_constant ||
+                           one.declared->of_instance || one.type->open;
+    if (of_call && !elsewhere && is_told(*one.type) && !holds_blocks(*one.type) &&
+        packed_size(*one.type) <= kMostBytes) {
+      out.push_back(&one);
+    }
+  }
+  return out;
+}
+
+bool is_result_told(const Pou& pou) {
+  return pou.result != nullptr && is_told(*pou.result) && packed_size(*pou.result) <= kMostBytes;
+}
+
+bool is_global_told(const Global& global) {
+  return global.kind != Global::Kind::Fixed && is_told(*global.type) && packed_size(*global.type) <= kMostBytes;
 }
 
 }  // namespace indurop::plc

@@ -17,6 +17,7 @@ struct WatchedVariable {
   std::string path;  // "MOTOR.DELAY.ET", in capitals
   const Type* type = nullptr;
   std::size_t offset = 0;
+  std::string name;  // as it is written: "Motor.delay.ET"
 };
 
 // An instance of a function block in it, or ("") the program itself.
@@ -42,5 +43,20 @@ struct WatchLayout {
 // Bytes of a value without gaps.
 [[nodiscard]] std::size_t packed_size(const Type& type);
 [[nodiscard]] WatchLayout watch_layout(const TaskProgram& program);
+
+// The values a debugger sees while a body runs: those of its instance, and those of the call.
+struct FrameLayout {
+  std::size_t bytes = 0;
+  std::vector<WatchedVariable> variables;
+};
+[[nodiscard]] FrameLayout frame_layout(const Pou& pou);
+[[nodiscard]] FrameLayout globals_layout(const std::vector<const Global*>& globals);
+// Whose variables a body sees as its own: itself, of a method its owner; null: a function.
+[[nodiscard]] const Pou* holder_of(const Pou& pou);
+// Of the call: parameters, VAR_TEMP, VAR_IN_OUT.
+[[nodiscard]] std::vector<const Variable*> variables_of_call(const Pou& pou);
+[[nodiscard]] bool is_result_told(const Pou& pou);
+// Shared ones and instances.
+[[nodiscard]] bool is_global_told(const Global& global);
 
 }  // namespace indurop::plc

@@ -59,7 +59,8 @@ class Compiler {
 
  private:
   void translate() {
-    const auto program = check_files(options_, out_.name, read_, diagnostics_, out_.diagnostics);
+    const std::shared_ptr<const Program> program =
+        check_files(options_, out_.name, read_, diagnostics_, out_.diagnostics);
     if (diagnostics_.failed() || program == nullptr) {
       return;
     }
@@ -72,10 +73,15 @@ class Compiler {
       const bool only = program->tasks.size() == 1;
       ModuleText module;
       module.name = only ? out_.name : out_.name + "_" + (task.name.empty() ? "default" : task.name);
-      module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals, options_.watch});
+      module.cpp = emit_module(
+          *program, task,
+          {module.name, sources, options_.show_locals, options_.watch, options_.debug ? &module.debug : nullptr});
       module.period_ns = task.interval_ns;
       module.priority = task.priority;
       out_.modules.push_back(std::move(module));
+    }
+    if (options_.debug) {
+      out_.program = program;
     }
   }
 

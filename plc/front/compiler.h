@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
 #include "glb2idl/source.h"
+#include "plc/emit/debug_table.h"
 #include "plc/model/dialect.h"
 
 namespace indurop::plc {
@@ -23,7 +25,8 @@ struct CompileOptions {
   bool show_locals = false;
   bool library = false;            // there may be no PROGRAM, then there are no modules
   bool infinite_division = false;  // a REAL divided by zero is infinite or NaN, else a fault
-  bool watch = false;              // drawn programs tell `indurop plc watch` about their power flow
+  bool watch = false;              // modules tell `indurop plc watch` about their variables
+  bool debug = false;              // modules can be stopped by `indurop plc debug`
 };
 
 struct ModuleText {
@@ -31,6 +34,7 @@ struct ModuleText {
   std::string cpp;
   std::int64_t period_ns = 0;
   std::int32_t priority = 1;
+  DebugTable debug;
 };
 
 struct Compiled {
@@ -40,6 +44,7 @@ struct Compiled {
   std::string name;
   std::string glb;  // text of <name>.glb, with includes of the other files
   std::vector<ModuleText> modules;
+  std::shared_ptr<const Program> program;  // with CompileOptions::debug: what `debug` of the modules refers to
 };
 
 [[nodiscard]] Compiled compile(const CompileOptions& options,

@@ -82,17 +82,17 @@ std::string names_of(const std::vector<std::string>& files) {
   return out;
 }
 
-bool build_modules(Context& context, const PlcRequest& request, const plc::Compiled& compiled) {
+bool build_modules(Context& context, const plc::CompileOptions& options, const plc::Compiled& compiled,
+                   const fs::path& folder) {
   Parts parts;
   if (!find_parts(context, parts)) {
     return false;
   }
-  const fs::path folder = request.folder;
   const fs::path generated = folder / (compiled.name + ".generated");
   std::vector<std::string> glb{parts.glb2idl.string(), "-o", generated.string()};
-  glb.insert(glb.end(), request.compile.glb_files.begin(), request.compile.glb_files.end());
+  glb.insert(glb.end(), options.glb_files.begin(), options.glb_files.end());
   glb.push_back((folder / (compiled.name + ".glb")).string());
-  const std::string sources = names_of(request.compile.files);
+  const std::string sources = names_of(options.files);
   if (!run_compiler(context, glb, folder / (compiled.name + ".glb"), sources)) {
     return false;
   }
@@ -102,7 +102,7 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
     // The flags of indurop_add_module().
     const std::vector<std::string> arguments{compiler(),
                                              "-std=c++20",
-                                             "-O2",
+                                             options.debug ? "-O1" : "-O2",
                                              "-g1",
                                              "-fPIC",
                                              "-fno-gnu-unique",
@@ -119,7 +119,6 @@ bool build_modules(Context& context, const PlcRequest& request, const plc::Compi
     if (!run_compiler(context, arguments, code, sources)) {
       return false;
     }
-    context.out.note("made " + module.string());
   }
   return true;
 }
@@ -150,19 +149,13 @@ int build_plc(Context& context, const PlcRequest& request) {
   if (!compiled.ok) {
     return kCheckFailed;
   }
-  const fs::path folder = request.folder;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    context.out.error(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+  if (!write_modules(context, request.compile, compiled, request.folder, request.only_sources)) {
     return kFailed;
   }
-  bool saved = save(context, folder / (compiled.name + ".glb"), compiled.glb);
   for (const plc::ModuleText& one : compiled.modules) {
-    saved = saved && save(context, folder / (one.name + ".cpp"), one.cpp);
-  }
-  if (!saved || (!request.only_sources && !build_modules(context, request, compiled))) {
-    return kFailed;
+    if (!request.only_sources) {
+      context.out.note("made " + (fs::path(request.folder) / (one.name + ".so")).string());
+    }
   }
   if (!context.out.quiet()) {
     context.out.write(plc::module_xml(compiled.modules));
@@ -209,6 +202,21 @@ int build_library(Context& context, const PlcRequest& request) {
 
 }  // namespace
 
+bool write_modules(Context& context, const plc::CompileOptions& options, const plc::Compiled& compiled,
+                   const fs::path& folder, bool only_sources) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    context.out.error(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+    return false;
+  }
+  bool saved = save(context, folder / (compiled.name + ".glb"), compiled.glb);
+  for (const plc::ModuleText& one : compiled.modules) {
+    saved = saved && save(context, folder / (one.name + ".cpp"), one.cpp);
+  }
+  return saved && (only_sources || build_modules(context, options, compiled, folder));
+}
+
 void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
   const auto request = std::make_shared<PlcRequest>();
   const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const PlcRequest&)) {
@@ -222,6 +230,8 @@ void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
   build->add("-o,--output", "DIR", request->folder, "Where to write them (default: here)");
   build->flag("--watch", request->compile.watch,
               "Let `indurop plc watch` see its variables and the power in its networks");
+  build->flag("--debug", request->compile.debug,
+              "Let `indurop plc debug` stop it at any line; only for simulations, it is slow");
   build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
   verb("check", "Say what is wrong with a program", &check_plc);
   base::Options* lib = verb("lib", "Make a library (.plclib) of files without a PROGRAM, for --lib", &build_library);

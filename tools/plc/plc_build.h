@@ -3,11 +3,18 @@
 
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
+#include "plc/front/compiler.h"
 #include "tools/command/verb.h"
 
 namespace indurop::tools {
+
+// Writes <name>.glb and, for each task, .cpp and, unless only the sources are wanted, .so. False after an error, which
+// was then told.
+[[nodiscard]] bool write_modules(Context& context, const plc::CompileOptions& options, const plc::Compiled& compiled,
+                                 const std::filesystem::path& folder, bool only_sources);
 
 // Adds the subcommands; once one was parsed, `chosen` is what to do.
 void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen);

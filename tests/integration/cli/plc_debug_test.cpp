@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// plc debug: a program in simulation that stands, line by line, driven by a script.
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using ::testing::AllOf;
+
+constexpr const char* kProgram =
+    "VAR_GLOBAL\n"
+    "  go : BOOL;\n"
+    "  total : INT;\n"
+    "END_VAR\n"
+    "FUNCTION Twice : INT\n"
+    "VAR_INPUT x : INT; END_VAR\n"
+    "VAR y : INT; END_VAR\n"
+    "  y := x + x;\n"
+    "  Twice := y;\n"
+    "END_FUNCTION\n"
+    "FUNCTION_BLOCK Motor\n"
+    "VAR_INPUT on : BOOL; END_VAR\n"
+    "VAR_OUTPUT run : BOOL; n : INT; END_VAR\n"
+    "VAR t : TON; END_VAR\n"
+    "  t(IN := on, PT := T#20ms);\n"
+    "  run := t.Q; n := n + 1;\n"
+    "END_FUNCTION_BLOCK\n"
+    "PROGRAM main\n"
+    "VAR_EXTERNAL go : BOOL; total : INT; END_VAR\n"
+    "VAR m : Motor; i : INT; list : ARRAY[1..3] OF INT; END_VAR\n"
+    "  m(on := go);\n"
+    "  FOR i := 1 TO 3 DO\n"
+    "    list[i] := Twice(x := i);\n"
+    "  END_FOR;\n"
+    "  total := total / (5 - m.n);\n"
+    "END_PROGRAM\n";
+
+class PlcDebug : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    if (IsSkipped()) {
+      return;
+    }
+    put(file("d.st"), kProgram);
+    static const Outcome built = indurop({"plc", "build", file("d.st"), "-o", file("out"), "--debug"});
+    ASSERT_EQ(built.code, 0) << built.err;
+    put(config(), "<root>\n" + built.out + "</root>\n");
+  }
+  static std::string config() { return file("out/module.xml"); }
+  static std::string file(const std::string& name) { return (scratch() / name).string(); }
+  // With what it says on stderr.
+  static Outcome debug(const std::string& script, const std::vector<std::string>& more = {"--run", config()}) {
+    std::vector<std::string> command{"plc", "debug", file("d.st"), "--until", "1s"};
+    command.insert(command.end(), more.begin(), more.end());
+    Program program(indurop_command(command), background());
+    program.input(script);
+    return program.finish();
+  }
+};
+
+TEST_F(PlcDebug, It_goes_line_by_line_into_calls_over_them_and_out_again) {
+  const Outcome sut = debug("s\np on t.ET\nwhere\no\nn\nn\ns\np x\nup\np i\nq\n");
+  EXPECT_EQ(sut.code, 0) << sut.out;
+  EXPECT_THAT(sut.out, AllOf(HasSubstr("T#0s  d.st:21 in main  m(on := go);\n"
+                                       "T#0s  d.st:15 in Motor  t(IN := on, PT := T#20ms);\n"
+                                       "on = FALSE\nt.ET = T#0s\n> Motor\n  main\n"
+                                       "T#0s  d.st:22 in main  FOR i := 1 TO 3 DO\n"
+                                       "T#0s  d.st:23 in main  list[i] := Twice(x := i);\n"
+                                       "T#0s  d.st:23 in main  list[i] := Twice(x := i);\n"
+                                       "T#0s  d.st:8 in Twice  y := x + x;\n"
+                                       "x = 2\n  Twice\n> main\ni = 2\n")));
+}
+
+TEST_F(PlcDebug, Time_stands_while_it_stands_and_scans_pass_one_by_one) {
+  const Outcome sut = debug("set go TRUE\nscan\np go m.t.ET\nscan 2\np m.t.ET m.run\nglobals\nq\n");
+  EXPECT_EQ(sut.code, 0) << sut.out;
+  EXPECT_THAT(sut.out, HasSubstr("T#10ms  d.st:21 in main  m(on := go);\ngo = TRUE\nm.t.ET = T#0s\n"
+                                 "T#30ms  d.st:21 in main  m(on := go);\nm.t.ET = T#10ms\nm.run = FALSE\n"
+                                 "go = TRUE\ntotal = 0\n"));
+}
+
+TEST_F(PlcDebug, It_stands_at_breakpoints_and_where_it_was_sent) {
+  const Outcome sut = debug("b 24\nbreaks\nb nowhere\nc\nc\nd\nuntil Motor\np n\nb d.st:16\nc\np n list\nq\n");
+  EXPECT_EQ(sut.code, 0) << sut.out;
+  EXPECT_THAT(sut.out, AllOf(HasSubstr("there is no code at 'nowhere'"),
+                             HasSubstr("T#0s  d.st:25 in main  total := total / (5 - m.n);\n"
+                                       "T#10ms  d.st:25 in main  total := total / (5 - m.n);\n"
+                                       "T#20ms  d.st:15 in Motor  t(IN := on, PT := T#20ms);\nn = 2\n"),
+                             HasSubstr("T#20ms  d.st:16 in Motor  run := t.Q; n := n + 1;\nn = 2\n")));
+}
+
+TEST_F(PlcDebug, A_fault_shows_its_line_and_the_values_that_led_there) {
+  const Outcome sut = debug("c\np m.n list\nc\n");
+  EXPECT_EQ(sut.code, 1) << "that of the node";
+  EXPECT_THAT(sut.out, HasSubstr("d.st:25:18: division by zero in main\n"
+                                 "T#40ms  d.st:25 in main  total := total / (5 - m.n);\n"
+                                 "m.n = 5\nlist = [1..3] 2, 4, 6\n"));
+}
+
+TEST_F(PlcDebug, Without_a_configuration_the_program_runs_alone) {
+  EXPECT_THAT(debug("scan\nq\n", {}).out, HasSubstr("T#10ms  d.st:21 in main"));
+}
+
+TEST_F(PlcDebug, A_configuration_needs_a_module_built_from_these_files) {
+  put(file("d.st"), std::string("\n") + kProgram);
+  EXPECT_THAT(debug("scan\nq\n").out, HasSubstr("is not of these files"));
+}
+
+}  // namespace
+}  // namespace indurop::test

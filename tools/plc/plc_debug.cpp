@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/plc/plc_debug.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include "base/replace_file.h"
+#include "base/spawn.h"
+#include "plc/front/compiler.h"
+#include "tools/command/child.h"
+#include "tools/command/self.h"
+#include "tools/plc/debug_link.h"
+#include "tools/plc/debug_session.h"
+#include "tools/plc/plc_build.h"
+#include "tools/plc/plc_file.h"
+#include "tools/plc/plc_sources.h"
+
+namespace indurop::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  plc::CompileOptions compile;
+  std::string config;
+  std::string until;
+};
+
+// Gone at the end, with all that is in it.
+class Folder {
+ public:
+  Folder() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "indurop-debug-XXXXXX").string();
+    path_ = ::mkdtemp(name.data()) == nullptr ? "" : name;
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    std::error_code error;
+    if (!path_.empty()) {
+      fs::remove_all(path_, error);
+    }
+  }
+  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// The program alone, as a configuration of its own.
+bool build(Context& context, Request& request, const plc::Compiled& compiled, const fs::path& folder) {
+  if (!write_modules(context, request.compile, compiled, folder, false)) {
+    return false;
+  }
+  request.config = (folder / "module.xml").string();
+  const auto saved = base::replace_file(request.config, "<root>\n" + plc::module_xml(compiled.modules) + "</root>\n",
+                                        base::Durable::No);
+  if (!saved) {
+    context.out.error(base::cannot_write(request.config, saved.error()));
+  }
+  return saved.ok();
+}
+
+void end(pid_t process) {
+  ::kill(process, SIGTERM);
+  constexpr int kLooks = 500;
+  for (int i = 0; i < kLooks; ++i) {
+    if (::waitpid(process, nullptr, WNOHANG) != 0) {
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ::kill(process, SIGKILL);
+  (void)::waitpid(process, nullptr, 0);
+}
+
+int debug(Context& context, Request& request) {
+  request.compile.debug = true;
+  const plc::Compiled compiled = plc::compile(request.compile);
+  print_diagnostics(context, compiled.diagnostics);
+  if (!compiled.ok) {
+    return kCheckFailed;
+  }
+  const Folder folder;
+  if (folder.path().empty()) {
+    context.out.error("cannot make a folder for temporary files");
+    return kFailed;
+  }
+  if (request.config.empty() && !build(context, request, compiled, folder.path())) {
+    return kFailed;
+  }
+  const fs::path socket = folder.path() / "socket";
+  DebugLink link(socket);
+  if (!link.is_open()) {
+    context.out.error("cannot make a socket in " + folder.path().string());
+    return kFailed;
+  }
+  ::setenv("INDUROP_PLC_DEBUG", socket.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::string node = fmt::format("debug{}", ::getpid());
+  base::Launch launch;
+  launch.program = program_folder() / "indurop";
+  launch.words = {"indurop", "run", request.config, "--sim", "-q", "--node", node};
+  if (!request.until.empty()) {
+    launch.words.insert(launch.words.end(), {"--until", request.until});
+  }
+  launch.fresh_signals = true;
+  launch.group = base::Launch::Group::Own;
+  const auto started = base::spawn(launch);
+  if (!started) {
+    context.out.error(fmt::format("cannot start {}", launch.program.string()));
+    return kFailed;
+  }
+  context.node = node;
+  const int code = DebugSession(context, compiled, link, node, started.value()).run();
+  link.close();
+  end(started.value());
+  (void)run_child({launch.program.string(), "clean", "--node", node, "-q"});
+  return code;
+}
+
+}  // namespace
+
+void add_plc_debug(base::Options& app, const std::shared_ptr<Action>& chosen) {
+  const auto request = std::make_shared<Request>();
+  base::Options& made =
+      app.command("debug", "Run a program in simulation, with breakpoints and line by line",
+                  [request, chosen] { *chosen = [request](Context& c) { return debug(c, *request); }; });
+  add_plc_sources(made, request->compile);
+  made.add("--run", "FILE", request->config,
+           "The configuration to run, with modules built with --debug (default: the program alone)");
+  made.add("--until", "TIME", request->until, "End the simulation then");
+}
+
+}  // namespace indurop::tools
