@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arm in 3-D: floor, light, camera, the way of the tool. Drawn only when something has changed.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { colour } from "../../shell/theme";
+import { arm_of, type Arm } from "./arm";
+
+const PATH_POINTS = 3000;
+const LINKS = "#5b9bd9";  // stand out from light and dark ground
+const HUBS = "#8d98a6";
+export const LOOKS: Record<string, [number, number, number]> = {
+  Corner: [1.0, -1.05, 0.65], Front: [1.8, 0, 0.25], Side: [0, -1.8, 0.25], Top: [0.001, 0, 2.2],
+};
+
+export class Scene {
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 200);
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly controls: OrbitControls;
+  private readonly links = new THREE.MeshStandardMaterial({ roughness: 0.5, metalness: 0.1 });
+  private readonly hubs = new THREE.MeshStandardMaterial({ roughness: 0.6, metalness: 0.2 });
+  private readonly points = new Float32Array(PATH_POINTS * 3);
+  private readonly path: THREE.Line;
+  private grid: THREE.GridHelper | null = null;
+  private arm: Arm | null = null;
+  private used = 0;
+  private asked = 0;
+  private readonly watch: ResizeObserver;
+
+  constructor(private readonly box: HTMLElement) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    box.append(this.renderer.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.draw());
+    const sun = new THREE.DirectionalLight(0xffffff, 2);
+    sun.position.set(2, -3, 5);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x556070, 1.8), sun);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(this.points, 3));
+    this.path = new THREE.Line(geometry, new THREE.LineBasicMaterial());
+    this.path.frustumCulled = false;
+    this.scene.add(this.path);
+    this.watch = new ResizeObserver(() => this.resize());
+    this.watch.observe(box);
+  }
+
+  load(urdf: string): Arm {
+    if (this.arm) this.scene.remove(this.arm.robot);
+    this.arm = arm_of(urdf, this.links, this.hubs);
+    this.scene.add(this.arm.robot);
+    this.forget_path();
+    this.recolour();
+    this.look("Corner");
+    return this.arm;
+  }
+
+  // rad and m, in the order of the axes; the tool's way grows with each call.
+  move(values: number[]): void {
+    if (!this.arm) return;
+    this.arm.axes.forEach((joint, i) => { if (Number.isFinite(values[i])) joint.setJointValue(values[i]); });
+    this.arm.robot.updateMatrixWorld(true);
+    const at = this.arm.tool.getWorldPosition(new THREE.Vector3());
+    const last = this.used > 0 ? new THREE.Vector3().fromArray(this.points, (this.used - 1) * 3) : null;
+    if (!last || last.distanceTo(at) > this.arm.size * 5e-4) this.add_point(at);
+    this.draw();
+  }
+
+  forget_path(): void {
+    this.used = 0;
+    this.path.geometry.setDrawRange(0, 0);
+    this.draw();
+  }
+
+  look(from: string): void {
+    const reach = this.arm?.size ?? 1;
+    const middle = new THREE.Vector3(reach * 0.15, 0, reach * 0.4);
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).add(new THREE.Vector3(...(LOOKS[from] ?? LOOKS.Corner)).multiplyScalar(reach));
+    this.controls.update();
+    this.draw();
+  }
+
+  nearer(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+
+  recolour(): void {
+    this.scene.background = new THREE.Color(colour("panel"));
+    this.links.color.set(LINKS);
+    this.hubs.color.set(HUBS);
+    (this.path.material as THREE.LineBasicMaterial).color.set(colour("c1"));
+    if (this.grid) this.scene.remove(this.grid);
+    this.grid = new THREE.GridHelper((this.arm?.size ?? 1) * 3, 24, colour("quiet"), colour("line"));
+    this.grid.rotateX(Math.PI / 2);
+    this.scene.add(this.grid);
+    this.draw();
+  }
+
+  end(): void {
+    cancelAnimationFrame(this.asked);
+    this.watch.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.domElement.remove();
+  }
+
+  private add_point(at: THREE.Vector3): void {
+    if (this.used === PATH_POINTS) {
+      this.points.copyWithin(0, 3 * PATH_POINTS / 2);
+      this.used = PATH_POINTS / 2;
+    }
+    at.toArray(this.points, this.used * 3);
+    this.used++;
+    this.path.geometry.attributes.position.needsUpdate = true;
+    this.path.geometry.setDrawRange(0, this.used);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.box;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.renderer.setSize(clientWidth, clientHeight);
+    this.draw();
+  }
+
+  private draw(): void {
+    if (this.asked) return;
+    this.asked = requestAnimationFrame(() => {
+      this.asked = 0;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the robot task says of itself, as the .glb of every robot declares it (docs/robot.md).
+
+import { useEffect, useState } from "preact/hooks";
+import { decode } from "../../api/decode";
+import { stream } from "../../api/stream";
+import type { Variable } from "../../api/types";
+
+const RATE_HZ = 25;
+const GROUP_STATES = ["no power", "standing by", "moving", "homing", "stopping", "stopped by an error"];
+const JOB_STATES = ["idle", "runs", "waits", "has ended", "failed"];
+
+export interface RobotState {
+  joint: number[];
+  command: number[];
+  speed: number[];
+  position: number[];
+  orientation: number[];
+  tool_speed: number;
+  override_now: number;
+  to_go: number;
+  group: string;
+  error: number;
+  job: string;
+  job_line: number;
+  job_state: string;
+  job_message: string;
+}
+
+// Namespaces that have a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM.
+export function scopes_of(variables: Variable[]): string[] {
+  return variables.filter(({ name, form }) => /(^|::)ROBOT_ARM$/.test(name) && form.kind === "struct")
+    .map(({ name }) => name.replace(/(::)?ROBOT_ARM$/, ""));
+}
+
+function words_of(list: string[], state: unknown): string {
+  return list[Number(state)] ?? `state ${state}`;
+}
+
+function state_of(values: Record<string, any>): RobotState {
+  const { arm = {}, module = {}, job = {} } = values;
+  return {
+    joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
+    orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, to_go: arm.to_go ?? NaN,
+    group: words_of(GROUP_STATES, module.eState), error: module.nError ?? 0,
+    job: job.name ?? "", job_line: job.nLine ?? 0, job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
+  };
+}
+
+// `each` gets the joints of every frame, also those the page does not write as numbers.
+export function useRobotState(board: string, scope: string | null, each: (state: RobotState) => void): RobotState | null {
+  const [state, set] = useState<RobotState | null>(null);
+  useEffect(() => {
+    set(null);
+    if (scope === null || !board) return;
+    const prefix = scope ? `${scope}::` : "";
+    const names: Record<string, string> = {
+      [`${prefix}ROBOT_ARM`]: "arm", [`${prefix}ROBOT_MODULE_STATE`]: "module", [`${prefix}ROBOT_JOB`]: "job",
+    };
+    let written = 0;
+    return stream.subscribe({
+      board, names: Object.keys(names), rate_hz: RATE_HZ, binary: true,
+      frame: (frame, of) => {
+        const next = state_of(Object.fromEntries(of.variables.map(({ name, offset, form }) => [names[name], decode(frame.view, offset, form)])));
+        each(next);
+        if (Date.now() - written < 100) return;
+        written = Date.now();
+        set(next);
+      },
+    });
+  }, [board, scope]);
+  return state;
+}
