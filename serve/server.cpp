@@ -8,6 +8,7 @@
 
 #include "base/exit_code.h"
 #include "rt/clock.h"
+#include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 
 namespace indurop::serve {
@@ -18,13 +19,14 @@ std::int64_t wall_ns() {
       .count();
 }
 
-ServerFacts facts_of(const tools::ServeOptions& options, std::string version) {
+ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version,
+                     std::function<std::vector<ClientFigures>()> clients) {
   ServerFacts facts;
-  facts.version = std::move(version);
+  facts.version = version;
+  facts.clients = std::move(clients);
   facts.most_clients = options.clients;
   facts.started_wall_ns = wall_ns();
   facts.started_ns = rt::now_ns();
-  facts.clients = [] { return std::vector<ClientFigures>(); };
   facts.web = Page(options.web).there();
   return facts;
 }
@@ -35,9 +37,10 @@ Server::Server(tools::ServeOptions options, GateSettings gate, std::string versi
     : options_(std::move(options)),
       gate_(std::move(gate)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
-      api_(gate_, audit_, facts_of(options_, std::move(version))),
+      api_(gate_, audit_, facts_of(options_, version, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node),
+      hub_(boards_, version, [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
       orders_(options_.node) {}
 
@@ -77,8 +80,8 @@ std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticke
   return std::nullopt;
 }
 
-std::unique_ptr<Visitor> Server::receive(const Request& /*request*/, Line& /*line*/) {
-  return nullptr;
+std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {
+  return hub_.receive(request, line);
 }
 
 void Server::announce() const {
@@ -105,12 +108,19 @@ int Server::run() {
   }
   door_ = std::move(opened).value();
   announce();
-  Door::Alarm housekeeping(*door_, [] {});
-  constexpr std::int64_t kHousekeepingNs = 500'000'000;
-  door_->serve([&] {
-    housekeeping.set(kHousekeepingNs);
-    return tools::interrupted();
+  tools::be_gentle(options_.node);
+  sampling_ = std::make_unique<Door::Alarm>(*door_, [this] { hub_.run(rt::now_ns()); });
+  // Also what makes a signal noticed that came while nothing else happened.
+  constexpr std::int64_t kLookNs = 500'000'000;
+  std::unique_ptr<Door::Alarm> looking;
+  looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
+    hub_.look_around();
+    looking->set(kLookNs);
   });
+  looking->set(kLookNs);
+  door_->serve([] { return tools::interrupted(); });
+  looking.reset();
+  sampling_.reset();
   return tools::interrupt_code();
 }
 

@@ -12,6 +12,7 @@
 #include "serve/boards/board.h"
 #include "serve/door/door.h"
 #include "serve/page.h"
+#include "serve/stream/hub.h"
 #include "tools/command/serve_options.h"
 
 namespace indurop::serve {
@@ -43,7 +44,9 @@ class Server final : public House {
   Api api_;
   Page page_;
   Boards boards_;
-  std::unique_ptr<Door> door_;
+  Hub hub_;
+  std::unique_ptr<Door> door_;  // after all that its connections use
+  std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
   Helper orders_;
 };

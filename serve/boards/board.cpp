@@ -43,22 +43,17 @@ std::string Board::state() const {
                                     : "starting";
 }
 
-void Boards::refresh() {
-  const std::vector<std::string> there = names();
-  std::erase_if(boards_, [&there](const std::unique_ptr<Board>& board) {
-    return std::find(there.begin(), there.end(), board->name()) == there.end();
-  });
-  for (const std::string& name : there) {
-    find(name);
-  }
-}
-
 std::vector<std::string> Boards::names() const {
   std::vector<std::string> all = vars::list_nodes();
   if (!only_.empty()) {
     std::erase_if(all, [this](const std::string& name) { return name != only_; });
   }
   return all;
+}
+
+bool Boards::listed(const std::string& name) const {
+  const auto there = names();
+  return std::find(there.begin(), there.end(), name) != there.end();
 }
 
 Board* Boards::find(const std::string& name) {
@@ -70,10 +65,9 @@ Board* Boards::find(const std::string& name) {
                                   [&name](const std::unique_ptr<Board>& board) { return board->name() == name; });
   if (known != boards_.end()) {
     (*known)->refresh();
-    return known->get();
+    return (*known)->store() != nullptr || listed(name) ? known->get() : nullptr;
   }
-  const auto there = names();
-  if (std::find(there.begin(), there.end(), name) == there.end()) {
+  if (!listed(name)) {
     return nullptr;
   }
   boards_.push_back(std::make_unique<Board>(name));

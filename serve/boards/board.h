@@ -47,15 +47,16 @@ class Boards {
  public:
   explicit Boards(std::string only) : only_(std::move(only)) {}
 
-  // Looks for nodes that came and went, and refreshes all.
-  void refresh();
   // Names of all that are there now.
   [[nodiscard]] std::vector<std::string> names() const;
-  // Refreshed; null if there is no such node. `name` empty: the only one. It lives until the next refresh() of all.
+  // Refreshed; null if there is no such node. `name` empty: the only one. A board lives as long as
+  // this, so that its attachments are never confused with those of another one.
   Board* find(const std::string& name);
   [[nodiscard]] const std::string& only() const noexcept { return only_; }
 
  private:
+  [[nodiscard]] bool listed(const std::string& name) const;
+
   std::string only_;
   std::vector<std::unique_ptr<Board>> boards_;  // those that were asked for
 };

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is looked at: names of a board at a rate, sampled once and encoded once for all clients that want the same.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "serve/boards/board.h"
+#include "serve/boards/variable.h"
+#include "serve/door/house.h"
+#include "serve/stream/record.h"
+
+namespace indurop::serve {
+
+class Feed {
+ public:
+  Feed(std::uint32_t number, std::string board, std::vector<std::string> names, double rate_hz);
+
+  [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
+  [[nodiscard]] const std::string& board() const noexcept { return board_; }
+  [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
+  [[nodiscard]] std::uint64_t seq() const noexcept { return seq_; }
+  [[nodiscard]] bool due(std::int64_t now_ns) const noexcept { return now_ns >= due_ns_; }
+  [[nodiscard]] std::int64_t due_ns() const noexcept { return due_ns_; }
+
+  // Finds the names in the board's store. Once, before anything else.
+  void attach(const Board& board);
+  // The next sample, and when the one after it is due. `board`: refreshed, null if there is none. False: the layout has
+  // changed, this feed is at its end.
+  bool sample(const Board* board, std::int64_t now_ns);
+
+  // The sample as a message; made when it is first asked for. Changes are against the sample before.
+  SharedMessage binary();
+  SharedMessage everything();
+  SharedMessage changes();
+  // {"type": "subscribed", ...}
+  [[nodiscard]] base::Json told(std::uint32_t id, bool binary) const;
+
+ private:
+  void find_items(const vars::Store& store);
+  void read(const vars::Store& store);
+  [[nodiscard]] std::string json(bool all) const;
+
+  std::uint32_t number_;
+  std::string board_;
+  std::vector<std::string> names_;
+  double rate_hz_;
+  std::int64_t interval_ns_;
+  std::int64_t due_ns_ = 0;
+  std::string layout_;
+  std::uint64_t attachment_ = 0;
+  std::vector<tools::Item> items_;
+  std::vector<std::string> keys_;                             // names as JSON: "\"tick\":"
+  std::vector<std::pair<std::string, std::string>> missing_;  // name, why
+  Record record_;
+  RecordHead head_;
+  std::vector<bool> changed_;
+  std::vector<Quality> quality_;
+  std::vector<bool> forced_;
+  std::uint64_t seq_ = 0;
+  SharedMessage binary_;
+  SharedMessage everything_;
+  SharedMessage changes_;
+};
+
+}  // namespace indurop::serve

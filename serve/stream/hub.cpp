@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/stream/hub.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "rt/clock.h"
+#include "serve/stream/client.h"
+
+namespace indurop::serve {
+
+std::unique_ptr<Visitor> Hub::receive(const Request& request, Line& line) {
+  if (boards_word_.empty()) {
+    look_around();
+  }
+  auto client = std::make_unique<StreamClient>(*this, line, ++last_client_, request.from);
+  clients_.push_back(client.get());
+  return client;
+}
+
+void Hub::leave(StreamClient& client) {
+  std::erase(clients_, &client);
+}
+
+std::string Hub::hello() const {
+  base::Json out = base::Json::object();
+  out["type"] = "hello";
+  out["api"] = kApiVersion;
+  out["version"] = version_;
+  out["max_rate_hz"] = kHighestRateHz;
+  out["max_variables"] = kMostVariables;
+  out["max_streams"] = kMostStreams;
+  return out.dump();
+}
+
+Result<std::shared_ptr<Feed>, Refusal> Hub::feed_for(const ClientWord& word) {
+  const Board* const board = boards_->find(word.board);
+  if (board == nullptr) {
+    const auto names = boards_->names();
+    return Refusal{"not_found", word.board.empty() ? fmt::format("name the board: there are {}", names.size())
+                                                   : fmt::format("there is no board '{}'{}", word.board,
+                                                                 base::suggestion(word.board, names))};
+  }
+  if (board->store() == nullptr) {
+    return Refusal{"unavailable", fmt::format("the variables of board {} cannot be read", board->name())};
+  }
+  const std::string key =
+      fmt::format("{} {} {} {}", board->name(), board->layout(), word.rate_hz, fmt::join(word.names, " "));
+  std::erase_if(feeds_, [](const auto& entry) { return entry.second.expired(); });
+  if (const auto known = feeds_.find(key); known != feeds_.end()) {
+    return known->second.lock();
+  }
+  auto feed = std::make_shared<Feed>(++last_feed_, board->name(), word.names, word.rate_hz);
+  feed->attach(*board);
+  feed->sample(board, rt::now_ns());
+  feeds_[key] = feed;
+  wake();
+  return feed;
+}
+
+void Hub::run(std::int64_t now_ns) {
+  std::vector<std::shared_ptr<Feed>> all;
+  for (const auto& [key, weak] : feeds_) {
+    if (auto feed = weak.lock(); feed && feed->due(now_ns)) {
+      all.push_back(std::move(feed));
+    }
+  }
+  std::map<std::string, const Board*, std::less<>> looked_at;
+  for (const auto& feed : all) {
+    auto [board, fresh] = looked_at.try_emplace(feed->board(), nullptr);
+    if (fresh) {
+      board->second = boards_->find(feed->board());
+    }
+    if (!feed->sample(board->second, now_ns)) {
+      end(*feed);
+      continue;
+    }
+    for (StreamClient* const client : clients_) {
+      client->sampled(*feed);
+    }
+  }
+  wake();
+}
+
+void Hub::end(const Feed& feed) {
+  const Board* const board = boards_->find(feed.board());
+  for (StreamClient* const client : clients_) {
+    if (const auto ids = client->ended(feed); !ids.empty()) {
+      client->tell(fmt::format(R"({{"type":"layout_changed","board":{},"layout":"{}","ids":[{}]}})",
+                               base::Json(feed.board()).dump(), board != nullptr ? board->layout() : "",
+                               fmt::join(ids, ",")));
+    }
+  }
+}
+
+void Hub::wake() {
+  std::erase_if(feeds_, [](const auto& entry) { return entry.second.expired(); });
+  std::int64_t next = INT64_MAX;
+  for (const auto& [key, weak] : feeds_) {
+    next = std::min(next, weak.lock()->due_ns());
+  }
+  if (next != INT64_MAX) {
+    wake_at_(std::max<std::int64_t>(next - rt::now_ns(), 1));
+  }
+}
+
+void Hub::look_around() {
+  base::Json list = base::Json::array();
+  for (const std::string& name : boards_->names()) {
+    const Board* const board = boards_->find(name);
+    if (board == nullptr) {
+      continue;
+    }
+    base::Json one = base::Json::object();
+    one["board"] = name;
+    one["alive"] = board->alive();
+    one["state"] = board->alive() ? board->state() : "not running";
+    one["layout"] = board->layout();
+    list.push_back(std::move(one));
+  }
+  base::Json word = base::Json::object();
+  word["type"] = "boards";
+  word["boards"] = std::move(list);
+  std::string text = word.dump();
+  if (text == boards_word_) {
+    return;
+  }
+  boards_word_ = std::move(text);
+  for (StreamClient* const client : clients_) {
+    client->tell(boards_word_);
+  }
+}
+
+std::vector<ClientFigures> Hub::clients() const {
+  std::vector<ClientFigures> all;
+  for (const StreamClient* const client : clients_) {
+    all.push_back(client->figures());
+  }
+  return all;
+}
+
+}  // namespace indurop::serve
