@@ -17,6 +17,7 @@ export function take_token_from_address(): void {
   sessionStorage.setItem(TOKEN_KEY, found[1]);
   const rest = location.hash.replace(/(^#|&)token=[A-Za-z0-9_-]+/, "").replace(/^&/, "");
   history.replaceState(null, "", location.pathname + (rest ? (rest.startsWith("#") ? rest : `#${rest}`) : ""));
+  window.dispatchEvent(new HashChangeEvent("hashchange"));  // which replaceState does not say
 }
 
 export function token(): string {

@@ -29,5 +29,10 @@ export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
+// Size of letters in pixels, for what is drawn: it grows with the screen.
+export function letter_px(): number {
+  return parseFloat(getComputedStyle(document.documentElement).fontSize);
+}
+
 system.addEventListener("change", apply);
 apply();

@@ -3,7 +3,7 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
-import { colour, colours_changed } from "../../shell/theme";
+import { colour, colours_changed, letter_px } from "../../shell/theme";
 import { short, value_text } from "../../ui/format";
 import { is_number, type Part } from "../../ui/paths";
 import { useStore } from "../../ui/store";
@@ -74,7 +74,9 @@ function values_at({ recorder, lines }: Props, time: number | null): number[] {
 function options(props: () => Props, size: { width: number; height: number }, cursor: (time: number | null) => void): uPlot.Options {
   const { lines } = props();
   const units = [...new Set(lines.map(unit_of))];
-  const axis = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { stroke: colour("grid"), width: 1 } };
+  const letter = letter_px();
+  const font = `${Math.round(letter * 0.75)}px system-ui, sans-serif`;
+  const axis = { font, labelFont: font, stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { stroke: colour("grid"), width: 1 } };
   return {
     ...size,
     legend: { show: false },
@@ -83,8 +85,8 @@ function options(props: () => Props, size: { width: number; height: number }, cu
       x: { time: true, range: () => [props().shown().from, props().shown().to] },
       ...Object.fromEntries(units.map((unit) => [unit, { range: uPlotRange }])),
     },
-    axes: [{ ...axis, values: times, space: 90 }, ...units.slice(0, 2).map((unit, i) => ({
-      ...axis, scale: unit, side: (i === 0 ? 3 : 1) as uPlot.Axis.Side, label: unit === "-" ? undefined : unit, labelSize: 18, size: 62,
+    axes: [{ ...axis, values: times, space: letter * 6, size: letter * 2.2 }, ...units.slice(0, 2).map((unit, i) => ({
+      ...axis, scale: unit, side: (i === 0 ? 3 : 1) as uPlot.Axis.Side, label: unit === "-" ? undefined : unit, labelSize: letter * 1.2, size: letter * 4,
       grid: { ...axis.grid, show: i === 0 },
     }))],
     series: [{}, ...lines.map((line, i) => ({

@@ -34,7 +34,9 @@ async function ask(board: string): Promise<Known> {
 }
 
 function fixed(value: number | undefined, digits: number, unit: string): string {
-  return value === undefined || !Number.isFinite(value) ? "-" : `${value.toFixed(digits)} ${unit}`;
+  if (value === undefined || !Number.isFinite(value)) return "-";
+  const text = value.toFixed(digits);
+  return `${Number(text) === 0 ? text.replace("-", "") : text} ${unit}`;
 }
 
 function Numbers({ state, names }: { state: RobotState; names: string[] }) {
@@ -51,14 +53,14 @@ function Numbers({ state, names }: { state: RobotState; names: string[] }) {
         {["roll", "pitch", "yaw"].map((name, i) => <Figure key={name} name={`Tool ${name}`} value={fixed(orientation[i], 1, "deg")} />)}
       </dl>
       {state.error !== 0 && <p class="bad">Error {state.error}{state.job_message && `: ${state.job_message}`}</p>}
-      <table class="figures">
+      <div class="scroll" tabIndex={0} role="region" aria-label="Axes"><table class="figures">
         <thead><tr><th scope="col">Axis</th><th scope="col" class="number">Measured</th><th scope="col" class="number">Commanded</th><th scope="col" class="number">Speed</th></tr></thead>
         <tbody>
           {state.joint.map((joint, i) => (
             <tr key={i}><th scope="row">{names[i] ?? `axis ${i + 1}`}</th><td class="number">{fixed(joint, 2, "deg")}</td>
               <td class="number">{fixed(state.command[i], 2, "deg")}</td><td class="number">{fixed(state.speed[i], 1, "deg/s")}</td></tr>))}
         </tbody>
-      </table>
+      </table></div>
     </>);
 }
 

@@ -75,7 +75,7 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
   return (
     <details class="panel">
       <summary>The newest runs as a table</summary>
-      <table class="figures">
+      <div class="scroll" tabIndex={0} role="region" aria-label="The newest runs"><table class="figures">
         <thead><tr><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col" class="number">Started late by</th><th scope="col" class="number">Took</th><th scope="col">Late</th></tr></thead>
         <tbody>
           {bars.map((bar) => (
@@ -86,7 +86,7 @@ function Newest({ bars, choose }: { bars: Bar[]; choose: (bar: Bar) => void }) {
               <td class={bar.late ? "bad" : ""}>{bar.late ? "yes" : "no"}</td>
             </tr>))}
         </tbody>
-      </table>
+      </table></div>
     </details>);
 }
 

@@ -3,6 +3,7 @@
 
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Quality } from "../../api/types";
+import { letter_px } from "../../shell/theme";
 import { span, value_text } from "../../ui/format";
 import { value_in } from "../../ui/paths";
 import type { Live } from "./live";
@@ -51,7 +52,7 @@ export function Tree({ rows, chosen, live, ages, choose, toggle, seen }: Props) 
   const [row_px, set_row_px] = useState(32);
   useLayoutEffect(() => {
     const measure = () => {
-      set_row_px(ROW_REM * parseFloat(getComputedStyle(document.documentElement).fontSize));
+      set_row_px(ROW_REM * letter_px());
       set_height(box.current?.clientHeight ?? 600);
     };
     measure();
