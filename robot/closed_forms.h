@@ -18,8 +18,9 @@ class SphericalWrist {
   static std::optional<SphericalWrist> of(const Arm& arm);
 
   // All solutions within the joint limits, each angle the turn nearest to that of `near`. In singular positions, where
-  // there are infinitely many, those that keep the joints of `near`.
-  [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near) const noexcept;
+  // there are infinitely many, those that keep the joints of `near`. What::Nearest: no others but the nearest count.
+  [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near,
+                                Gathered::What what = Gathered::What::All) const noexcept;
 
  private:
   struct Search;
@@ -42,7 +43,8 @@ class ParallelAxes {
   static std::optional<ParallelAxes> of(const Arm& arm);
 
   // As of SphericalWrist.
-  [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near) const noexcept;
+  [[nodiscard]] Solutions solve(const Arm& arm, const Pose& pose, const Joints& near,
+                                Gathered::What what = Gathered::What::All) const noexcept;
 
  private:
   struct Search;

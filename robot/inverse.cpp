@@ -11,7 +11,8 @@ Inverse::Inverse(const Arm& arm) : arm_(arm), wrist_(SphericalWrist::of(arm)), p
 
 Inverse::Result Inverse::nearest(const Pose& pose, const Joints& near,
                                  std::optional<std::uint8_t> posture) const noexcept {
-  const Solutions found = all(pose, near);
+  // One that is asked for by its posture may be any of them.
+  const Solutions found = solve(pose, near, posture ? Gathered::What::All : Gathered::What::Nearest);
   if (const Solution* best = found.nearest(near, posture)) {
     return {Reach::Ok, *best};
   }
@@ -31,11 +32,15 @@ Inverse::Result Inverse::nearest(const Solutions& known, const Joints& near,
 }
 
 Solutions Inverse::all(const Pose& pose, const Joints& near) const noexcept {
+  return solve(pose, near, Gathered::What::All);
+}
+
+Solutions Inverse::solve(const Pose& pose, const Joints& near, Gathered::What what) const noexcept {
   if (wrist_) {
-    return wrist_->solve(arm_, pose, near);
+    return wrist_->solve(arm_, pose, near, what);
   }
   if (parallel_) {
-    return parallel_->solve(arm_, pose, near);
+    return parallel_->solve(arm_, pose, near, what);
   }
   const NumericSolution one = solve_numerically(arm_, pose, near);
   Solutions found;

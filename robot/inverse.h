@@ -35,6 +35,8 @@ class Inverse {
   [[nodiscard]] const char* kind() const noexcept;
 
  private:
+  [[nodiscard]] Solutions solve(const Pose& pose, const Joints& near, Gathered::What what) const noexcept;
+
   const Arm& arm_;
   std::optional<SphericalWrist> wrist_;
   std::optional<ParallelAxes> parallel_;

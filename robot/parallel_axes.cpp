@@ -10,12 +10,10 @@
 namespace indurop::robot {
 
 struct ParallelAxes::Search {
-  const Arm& arm;
-  const Joints& near;
+  Gathered gathered;
   Mat3 rotation;  // of all six axes together
   Vec3 shift;     // the same
   double q1 = 0;
-  Solutions found{};
 };
 
 std::optional<ParallelAxes> ParallelAxes::of(const Arm& arm) {
@@ -50,8 +48,10 @@ std::optional<ParallelAxes> ParallelAxes::of(const Arm& arm) {
   return form;
 }
 
-Solutions ParallelAxes::solve(const Arm& arm, const Pose& pose, const Joints& near) const noexcept {
-  Search search{arm, near, (pose.orientation * arm.home().orientation.conjugate()).toRotationMatrix(), Vec3::Zero()};
+Solutions ParallelAxes::solve(const Arm& arm, const Pose& pose, const Joints& near,
+                              Gathered::What what) const noexcept {
+  Search search{
+      {arm, near, what}, (pose.orientation * arm.home().orientation.conjugate()).toRotationMatrix(), Vec3::Zero()};
   search.shift = pose.position - search.rotation * arm.home().position;
 
   // side * (reach turned back about axis 1) = offset
@@ -66,23 +66,28 @@ Solutions ParallelAxes::solve(const Arm& arm, const Pose& pose, const Joints& ne
   // At joint angles zero the centre lies on one of the two sides: that one is "in front".
   const bool front = across.dot(center_ - a1.point) >= 0;
   for (const FirstTurns::Turn& turn : FirstTurns({x, y}, offset, front, near[0])) {
-    with_first(search, turn.angle, turn.posture);
+    if (search.gathered.wants(search.gathered.away(0, turn.angle))) {
+      with_first(search, turn.angle, turn.posture);
+    }
   }
-  return search.found;
+  return search.gathered.found();
 }
 
 void ParallelAxes::with_first(Search& search, double q1, std::uint8_t posture) const noexcept {
   search.q1 = q1;
-  const Mat3 rotation = turned(search.arm.axis(0).direction, -q1) * search.rotation;
+  const Gathered& gathered = search.gathered;
+  const Mat3 rotation = turned(gathered.arm().axis(0).direction, -q1) * search.rotation;
   for (const int turn : {0, 1}) {
-    if (const auto wrist = wrist_.turn(rotation, turn != 0, {false, search.near[5]})) {
+    const auto wrist = wrist_.turn(rotation, turn != 0, {false, gathered.near()[5]});
+    if (wrist &&
+        gathered.wants(gathered.away(0, q1) + gathered.away(4, wrist->middle) + gathered.away(5, wrist->last))) {
       with_wrist(search, *wrist, static_cast<std::uint8_t>(posture | turn * Solution::kWrist));
     }
   }
 }
 
 void ParallelAxes::with_wrist(Search& search, const Wrist::Angles& wrist, std::uint8_t posture) const noexcept {
-  const Arm& arm = search.arm;
+  const Arm& arm = search.gathered.arm();
   const Axis& a1 = arm.axis(0);
   const Mat3 wrist_turn = turned(arm.axis(4).direction, wrist.middle) * turned(arm.axis(5).direction, wrist.last);
   // Where axis 4 has to be: behind the wrist in the tool's frame, then before axis 1.
@@ -95,7 +100,7 @@ void ParallelAxes::with_wrist(Search& search, const Wrist::Angles& wrist, std::u
       const double fourth = wrist.first - angles->first - angles->second;
       const Joints q = joints_of(
           {search.q1, angles->first, third_sign_ * angles->second, fourth_sign_ * fourth, wrist.middle, wrist.last});
-      search.found.add(arm, q, static_cast<std::uint8_t>(posture | elbow * Solution::kElbow), search.near);
+      search.gathered.add(q, static_cast<std::uint8_t>(posture | elbow * Solution::kElbow));
     }
   }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/solutions.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "robot/angles.h"
 
@@ -35,6 +37,24 @@ FirstTurns::FirstTurns(const Eigen::Vector2d& point, double offset, bool front, 
     const double middle = std::atan2(point.y(), point.x());
     turns_[count_++] = {middle - *half, front ? std::uint8_t{0} : Solution::kShoulder};
     turns_[count_++] = {middle + *half, front ? Solution::kShoulder : std::uint8_t{0}};
+    const auto away = [&](const Turn& turn) { return std::abs(std::remainder(turn.angle - near, 2 * kPi)); };
+    if (away(turns_[1]) < away(turns_[0])) {
+      std::swap(turns_[0], turns_[1]);
+    }
+  }
+}
+
+double Gathered::away(int axis, double angle) const noexcept {
+  const double off = std::remainder(angle - near_[axis], 2 * kPi);
+  return off * off;
+}
+
+void Gathered::add(const Joints& q, std::uint8_t posture) noexcept {
+  const int before = found_.count;
+  found_.add(arm_, q, posture, near_);
+  if (what_ == What::Nearest && found_.count > before) {
+    const Solution& one = found_.list[static_cast<std::size_t>(before)];
+    nearest_ = std::min(nearest_, (one.q - near_).squaredNorm());
   }
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -35,6 +36,31 @@ struct Solutions {
   [[nodiscard]] const Solution* nearest(const Joints& near, std::optional<std::uint8_t> posture) const noexcept;
 };
 
+// What a closed form finds on its way through all solutions: all of them, or no more than it takes to know the nearest.
+// Real-time safe.
+class Gathered {
+ public:
+  enum class What { All, Nearest };
+  Gathered(const Arm& arm, const Joints& near, What what) noexcept : arm_(arm), near_(near), what_(what) {}
+
+  [[nodiscard]] const Arm& arm() const noexcept { return arm_; }
+  [[nodiscard]] const Joints& near() const noexcept { return near_; }
+  // The square of how far that angle of an axis is from `near` at least.
+  [[nodiscard]] double away(int axis, double angle) const noexcept;
+  // Whether what is so far away at least may still be wanted.
+  [[nodiscard]] bool wants(double away) const noexcept { return what_ == What::All || away < nearest_ + kSlack; }
+  void add(const Joints& q, std::uint8_t posture) noexcept;
+  [[nodiscard]] const Solutions& found() const noexcept { return found_; }
+
+ private:
+  static constexpr double kSlack = 1e-7;  // of limits, which may be missed by rounding
+  const Arm& arm_;
+  const Joints& near_;
+  What what_;
+  double nearest_ = HUGE_VAL;
+  Solutions found_;
+};
+
 // The angles of the first axis that bring the arm's plane to a point, over the shoulder and over the back.
 class FirstTurns {
  public:
@@ -44,6 +70,7 @@ class FirstTurns {
   };
   // `point`, in a frame on the axis, has to stand off by `offset` as the plane does. `front`: at joint angles zero the
   // arm reaches over its shoulder. Where the point is on the axis any angle will do: `near`. None if it is too near.
+  // The one nearer to `near` comes first.
   FirstTurns(const Eigen::Vector2d& point, double offset, bool front, double near) noexcept;
   [[nodiscard]] const Turn* begin() const noexcept { return turns_.data(); }
   [[nodiscard]] const Turn* end() const noexcept { return turns_.data() + count_; }

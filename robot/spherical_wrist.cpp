@@ -2,18 +2,18 @@
 // The closed form: the wrist's center depends on the first three axes alone. Axis 1 turns the center into the plane of
 // axes 2 and 3 (two ways), these reach it like a compass (two ways), and the wrist makes up the orientation (two ways).
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "robot/closed_forms.h"
 
 namespace indurop::robot {
 
 struct SphericalWrist::Search {
-  const Arm& arm;
-  const Joints& near;
+  Gathered gathered;
   Mat3 rotation;  // of all six axes together
   Vec3 center;    // where the wrist has to be
-  Solutions found{};
 };
 
 std::optional<SphericalWrist> SphericalWrist::of(const Arm& arm) {
@@ -48,8 +48,10 @@ std::optional<SphericalWrist> SphericalWrist::of(const Arm& arm) {
   return form;
 }
 
-Solutions SphericalWrist::solve(const Arm& arm, const Pose& pose, const Joints& near) const noexcept {
-  Search search{arm, near, (pose.orientation * arm.home().orientation.conjugate()).toRotationMatrix(), Vec3::Zero()};
+Solutions SphericalWrist::solve(const Arm& arm, const Pose& pose, const Joints& near,
+                                Gathered::What what) const noexcept {
+  Search search{
+      {arm, near, what}, (pose.orientation * arm.home().orientation.conjugate()).toRotationMatrix(), Vec3::Zero()};
   search.center = pose.position + search.rotation * (center_ - arm.home().position);
 
   // In a frame on axis 1 the plane of the arm stands off by `offset`, whatever axes 2 and 3 do.
@@ -63,19 +65,38 @@ Solutions SphericalWrist::solve(const Arm& arm, const Pose& pose, const Joints& 
   // At joint angles zero the centre lies on one of the two sides: that one is "in front".
   const bool front = across.dot(center_ - a1.point) >= 0;
   for (const FirstTurns::Turn& turn : FirstTurns({x, y}, offset, front, near[0])) {
-    with_first(search, turn.angle, turn.posture);
+    if (search.gathered.wants(search.gathered.away(0, turn.angle))) {
+      with_first(search, turn.angle, turn.posture);
+    }
   }
-  return search.found;
+  return search.gathered.found();
 }
 
 void SphericalWrist::with_first(Search& search, double q1, std::uint8_t posture) const noexcept {
-  const Axis& a1 = search.arm.axis(0);
+  const Gathered& gathered = search.gathered;
+  const Axis& a1 = gathered.arm().axis(0);
   const Vec3 center = turned(a1.direction, -q1) * (search.center - a1.point) + a1.point;
   const Eigen::Vector2d reach = Eigen::Vector2d(plane_x_.dot(center), plane_y_.dot(center)) - origin_;
+  struct Way {
+    Vec3 angles;
+    std::uint8_t posture;
+    double away;
+  };
+  std::array<Way, 2> ways;
+  std::size_t count = 0;
   for (const int elbow : {0, 1}) {
     if (const auto angles = compass_.reach(reach, elbow != 0)) {
-      with_arm(search, {q1, angles->first, third_sign_ * angles->second},
-               static_cast<std::uint8_t>(posture | elbow * Solution::kElbow));
+      const Vec3 three(q1, angles->first, third_sign_ * angles->second);
+      ways[count++] = {three, static_cast<std::uint8_t>(posture | elbow * Solution::kElbow),
+                       gathered.away(0, three[0]) + gathered.away(1, three[1]) + gathered.away(2, three[2])};
+    }
+  }
+  if (count == 2 && ways[1].away < ways[0].away) {
+    std::swap(ways[0], ways[1]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (gathered.wants(ways[i].away)) {
+      with_arm(search, ways[i].angles, ways[i].posture);
     }
   }
 }
@@ -83,13 +104,14 @@ void SphericalWrist::with_first(Search& search, double q1, std::uint8_t posture)
 void SphericalWrist::with_arm(Search& search, const Eigen::Vector3d& first_three, std::uint8_t posture) const noexcept {
   Mat3 before = Mat3::Identity();
   for (int i = 0; i < 3; ++i) {
-    before = before * turned(search.arm.axis(i).direction, first_three[i]);
+    before = before * turned(search.gathered.arm().axis(i).direction, first_three[i]);
   }
   for (const int turn : {0, 1}) {
-    if (const auto wrist = wrist_.turn(before.transpose() * search.rotation, turn != 0, {true, search.near[3]})) {
+    if (const auto wrist =
+            wrist_.turn(before.transpose() * search.rotation, turn != 0, {true, search.gathered.near()[3]})) {
       const Joints q =
           joints_of({first_three[0], first_three[1], first_three[2], wrist->first, wrist->middle, wrist->last});
-      search.found.add(search.arm, q, static_cast<std::uint8_t>(posture | turn * Solution::kWrist), search.near);
+      search.gathered.add(q, static_cast<std::uint8_t>(posture | turn * Solution::kWrist));
     }
   }
 }

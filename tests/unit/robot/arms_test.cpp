@@ -130,6 +130,29 @@ TEST(Arms, Closed_forms_find_every_pose) {
   }
 }
 
+// Most are left out on the way to the nearest one.
+TEST(Arms, The_nearest_solution_is_the_nearest_of_all) {
+  for (const Arm& arm : {cell_arm(), arm_of("ur5"), arm_of("ur3e")}) {
+    const Inverse sut(arm);
+    std::mt19937 random(6);
+    for (int i = 0; i < poses(2000); ++i) {
+      Joints q = anywhere(arm, random);
+      const bool straight = i % 10 == 0;  // the wrist of both kinds
+      q[4] = straight ? 0 : q[4];
+      const Joints near = i % 2 == 0 ? anywhere(arm, random) : q + 0.01 * Joints::Random();
+      const Pose pose = arm.forward(q);
+      const Solutions all = sut.all(pose, near);
+      const Solution* wanted = all.nearest(near, std::nullopt);
+      const auto found = sut.nearest(pose, near);
+      ASSERT_EQ(found.reach == Reach::Ok, wanted != nullptr);
+      if (wanted != nullptr) {
+        ASSERT_NEAR((found.solution.q - near).norm(), (wanted->q - near).norm(), 1e-9);
+        ASSERT_LT(distance(arm.forward(found.solution.q), pose), straight ? 1e-6 : 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Arms, Eight_postures_of_parallel_axes_are_told_apart) {
   const Arm arm = arm_of("ur5");
   const Inverse sut(arm);
