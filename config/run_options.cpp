@@ -97,6 +97,16 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.flag("--adjust", options.adjust, "Use the nearest periods that work instead of refusing too small ones");
   line.add("--core", "N", options.core, "Core of all modules that name none");
   line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");
+  line.add("--tape", "MB", options.tape_megabytes,
+           "Memory for what the last runs saw and wrote, in MB (default: 8); 0: none, then nothing can be recorded");
+  line.add("--replay", "FILE", options.replay.file,
+           "Run what this recording of --record tells once more, and compare what modules leave")
+      .completes(base::Completion::File);
+  line.add("--with", "FILE.so", options.replay.with,
+           "With --replay: use this file for the module of its name; may be given several times")
+      .completes(base::Completion::File);
+  line.add("--record", "FILE", options.record, "Record every run of every module to this MCAP file")
+      .completes(base::Completion::File);
   declare_simulation(line, options.simulation);
 }
 
@@ -122,6 +132,12 @@ std::vector<std::string> words_of(const RunOptions& options) {
   flag("--adjust", options.adjust);
   value("--core", options.core ? std::to_string(*options.core) : "");
   value("--spin", options.spin ? spin_word(*options.spin) : "");
+  value("--tape", options.tape_megabytes != kTapeMegabytes ? std::to_string(options.tape_megabytes) : "");
+  value("--record", options.record.string());
+  value("--replay", options.replay.file.string());
+  for (const std::string& file : options.replay.with) {
+    value("--with", file);
+  }
   flag("--sim", options.simulation.on);
   flag("--step", options.simulation.step);
   value("--speed", options.simulation.speed > 0 ? fmt::format("{}", options.simulation.speed) : "");

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,6 +24,14 @@ struct Simulation {
   CheckOptions::Times measured;  // what it says
 };
 
+inline constexpr std::uint64_t kTapeMegabytes = 8;
+
+// The runs of a recording once more, instead of a run of its own.
+struct Replay {
+  std::filesystem::path file;     // empty: none
+  std::vector<std::string> with;  // module files that take the place of those of the configuration
+};
+
 struct RunOptions {
   std::filesystem::path config;
   std::string node;                     // empty: that of the board, else "local"
@@ -36,7 +45,10 @@ struct RunOptions {
   bool quiet = false;  // no summary, no messages of the node but warnings and errors
   std::optional<int> core;
   std::optional<SpinSetting> spin;
+  std::uint64_t tape_megabytes = kTapeMegabytes;
+  std::filesystem::path record;  // empty: no recording
   Simulation simulation;
+  Replay replay;
 };
 
 // Declares all but --quiet, which verbs have anyway; `options` must outlive the parsing.

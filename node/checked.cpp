@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/checked.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 #include "node/plant_part.h"
@@ -19,6 +22,27 @@ struct Reading {
   }
 };
 
+// Files that take the place of a module's, by its name or that of its file. False: one fits no module.
+bool take_files(const std::vector<std::string>& files, config::Config& config,
+                std::vector<base::Diagnostic>& diagnostics) {
+  bool ok = true;
+  for (const std::filesystem::path file : files) {
+    const auto module = std::find_if(config.modules.begin(), config.modules.end(), [&](const config::Module& one) {
+      return one.name == file.stem() || one.file.filename() == file.filename();
+    });
+    if (module == config.modules.end()) {
+      ok = false;
+      diagnostics.push_back({base::Diagnostic::Severity::Error,
+                             file.string(),
+                             {},
+                             "no module has this name or such a file; rename the file"});
+    } else {
+      module->file = std::filesystem::absolute(file);
+    }
+  }
+  return ok;
+}
+
 Reading read_modules(const Options& options) {
   Reading out;
   config::ReadResult read = config::read_config(options.config);
@@ -28,6 +52,9 @@ Reading read_modules(const Options& options) {
   }
   Checked& checked = out.checked;
   checked.config = std::move(read.config);
+  if (!take_files(options.replay.with, checked.config, out.diagnostics)) {
+    return out;
+  }
   checked.check = config::check_config(checked.config, {.adjust = options.adjust, .machine = !options.simulation.on});
   out.add(checked.check.diagnostics);
   checked.external.configure(checked.config, checked.check);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/node.h"
 
+#include "node/replay.h"
 #include "node/report.h"
 #include "node/running.h"
 #include "rt/clock.h"
@@ -12,16 +13,25 @@ namespace {
 
 using scheduler::ModuleState;
 
+bool replays(const Options& options) {
+  return !options.replay.file.empty();
+}
+
 Ending run_modules(const Options& options, Console& console, base::StopSignal& signals, Checked& checked,
                    Prepared& prepared) {
   auto loaded = load(options, checked, prepared, console, signals);
   if (!loaded) {
     return std::move(loaded).error();
   }
+  if (replays(options)) {
+    return Replay(options, console, signals, checked, prepared, *loaded).run();
+  }
   Running running(options, console, signals, checked, prepared, *loaded);
   const auto started = running.start();
   Ending ending = started ? running.supervise() : started.error();
-  running.stop();
+  if (!running.stop() && ending.code == kOk) {
+    ending.code = kFailed;
+  }
   return ending;
 }
 
@@ -56,6 +66,10 @@ bool tell_statistics(const Options& options, const scheduler::RunBlock& run, con
 
 // Says how the run went and writes it into the run block; returns the exit code.
 int conclude(const Options& options, Console& console, scheduler::RunBlock& run, Ending ending) {
+  if (replays(options)) {
+    run.state.store(ending.code == kOk ? scheduler::NodeState::Stopped : scheduler::NodeState::Failed);
+    return ending.code;  // told by itself; its times are those of the recording
+  }
   console.report(rt::MonoClock::now(), true);
   if (run.tick.load() == 0 && !ending.reason.empty() && ending.code == kFailed) {
     console.error("stopped before the first tick: {}", ending.reason);

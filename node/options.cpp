@@ -28,6 +28,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   exit_code = kUsage;
+  if (!options.replay.file.empty()) {
+    options.simulation.on = true;  // it has nothing to do with this machine, and leaves nothing
+    options.tape_megabytes = 0;
+  }
   if (options.config.empty()) {
     std::fputs("indurop-node: error: name a module.xml or a plant's manifest with --board\n", stderr);
     return std::nullopt;
@@ -36,6 +40,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     options.node = options.board.empty() ? vars::default_node() : options.board;
     if (options.simulation.on) {
       options.node = options.board.empty() ? "sim" : options.board + "-sim";  // beside the real one
+      options.node = options.replay.file.empty() ? options.node
+                     : options.board.empty()     ? "replay"
+                                                 : options.board + "-replay";
     } else if (const std::string owner = vars::other_owner("local");
                options.board.empty() && !owner.empty() && !options.quiet) {
       std::fprintf(stderr, "indurop-node: note: the name 'local' is in use by user %s: this node is '%s'\n",

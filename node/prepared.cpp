@@ -7,7 +7,9 @@
 #include <chrono>
 #include <utility>
 
+#include "node/black_box.h"
 #include "node/setup.h"
+#include "node/tape_part.h"
 #include "rt/clock.h"
 #include "vars/node_lock.h"
 #include "vars/process.h"
@@ -105,6 +107,9 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (!rights) {
     return std::move(rights).error();
   }
+  if (!options.simulation.on) {
+    keep_box_of_crash(options.node, console);
+  }
   const bool previous_run_ended_well = ended_well(options.node);
   forget_old_nodes();
   auto made = vars::Store::create(options.node, checked.check.schema);
@@ -136,9 +141,13 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     retainer = std::make_unique<Retainer>(*store, options.node);
     begin_values(*store, *retainer, previous_run_ended_well, console);
   }
+  auto tape = make_tape(options, checked, setup.basic_period_ns, *store);
+  if (!tape) {
+    return no_memory("the tape", tape.error(), console);
+  }
   console.watch(run);
-  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),   std::move(store),
-                  std::move(file).value(), std::move(failsafe),       std::move(retainer)};
+  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),    std::move(store),
+                  std::move(file).value(), std::move(failsafe),       std::move(retainer), std::move(tape).value()};
 }
 
 }  // namespace indurop::node

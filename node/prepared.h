@@ -13,6 +13,7 @@
 #include "node/retainer.h"
 #include "node/rights.h"
 #include "scheduler/run_block_setup.h"
+#include "tape/tape.h"
 #include "vars/node_lock.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
@@ -46,6 +47,7 @@ struct Prepared {
   vars::RunFile run_file;
   std::unique_ptr<FailSafe> failsafe;
   std::unique_ptr<Retainer> retainer;  // none in a simulation
+  std::unique_ptr<tape::Tape> tape;    // none if it was not wanted
   [[nodiscard]] scheduler::RunBlock& run() const noexcept {
     return *static_cast<scheduler::RunBlock*>(run_file.data());
   }

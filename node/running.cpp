@@ -45,8 +45,8 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       tasks_(loaded.tasks),
       kernel_(make_kernel()),
       engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
-      phases_(checked.config, run_, loaded.libraries, console, signals, hooks(), kernel_),
-      normal_threads_(checked.config, run_, loaded.libraries, hooks(), kernel_),
+      phases_(checked.config, run_, loaded.libraries, console, signals, plain_hooks(), kernel_),
+      normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
       processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe),
       commands_(ModuleCommands::Parts{checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
                                       phases_, *prepared.failsafe, console}) {}
@@ -83,7 +83,7 @@ scheduler::EngineSettings Running::engine_settings() const {
   return settings;
 }
 
-scheduler::Hooks Running::hooks() {
+scheduler::Hooks Running::plain_hooks() {
   scheduler::Hooks hooks;
   hooks.context = this;
   hooks.entering = [](void*, std::uint32_t module) noexcept { runtime::set_current_module(module); };
@@ -109,7 +109,49 @@ scheduler::Hooks Running::hooks() {
   return hooks;
 }
 
+// Those of the schedule.
+scheduler::Hooks Running::hooks() {
+  scheduler::Hooks hooks = plain_hooks();
+  if (prepared_.tape) {
+    set_tape(hooks, *prepared_.tape);
+  }
+  return hooks;
+}
+
+// Everything a run saw and wrote goes to the tape.
+void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
+  hooks.begins = [](void* context, std::uint32_t module) noexcept {
+    if (tape::Track* track = static_cast<Running*>(context)->prepared_.tape->of(module)) {
+      track->begin();
+      runtime::set_current_track(track);
+    }
+  };
+  hooks.ended = [](void* context, std::uint32_t module, std::uint64_t tick, const scheduler::RunTimes& times,
+                   bool faulted) noexcept {
+    if (tape::Track* track = static_cast<Running*>(context)->prepared_.tape->of(module)) {
+      runtime::set_current_track(nullptr);
+      track->end({0, 0, tick, times.release_ns, times.start_ns, times.end_ns},
+                 faulted ? std::uint32_t{tape::kFaulted} : 0U);
+    }
+  };
+  if (tape.others() != nullptr) {
+    hooks.ticks = [](void* context, std::uint64_t tick, std::int64_t release_ns) noexcept {
+      auto& self = *static_cast<Running*>(context);
+      const std::int64_t now = rt::to_ns(self.kernel_.now());
+      self.prepared_.tape->others()->look({0, 0, tick, release_ns, now, now});
+    };
+  }
+}
+
 Result<void, Ending> Running::start() {
+  auto recording = RecordPart::begin(options_, checked_, prepared_, console_);
+  if (!recording) {
+    return std::move(recording).error();
+  }
+  recording_ = std::move(recording).value();
+  if (!simulation_) {
+    black_box_.emplace(options_, checked_, prepared_, console_);
+  }
   if (auto done = start_modules(); !done) {
     return done;
   }
@@ -195,6 +237,9 @@ Result<void, Ending> Running::start_schedule() {
   if (simulation_) {
     hang_watch_.emplace(simulation_->kernel(), engine_);
   }
+  if (recording_ && !simulation_) {
+    recording_->start(cores_without_modules(config, prepared_.rights));
+  }
   if (const Status started = engine_.start(ticks()); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return Ending{kFailed};
@@ -256,6 +301,9 @@ Ending Running::supervise() {
   Ending ending;
   while (!engine_.finished()) {
     const int number = pass();
+    if (recording_ && simulation_) {
+      recording_->take();
+    }
     const rt::MonoTime now = rt::MonoClock::now();
     prepared_.store->beat(now);
     if (number != 0) {
@@ -272,6 +320,9 @@ Ending Running::supervise() {
     }
     commands_.look(now);
     forces_.look(*prepared_.store, console_);
+    if (black_box_) {
+      black_box_->look(now);
+    }
     console_.report(kernel_.now(), false);
   }
   if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
@@ -286,10 +337,14 @@ Ending Running::supervise() {
   return ending;
 }
 
-void Running::stop() {
+bool Running::stop() {
   run_.state.store(scheduler::NodeState::Stopping);
   engine_.request_stop();
   engine_.join();
+  if (black_box_) {
+    black_box_->end();
+  }
+  const bool recorded = !recording_ || recording_->end();
   hang_watch_.reset();
   normal_threads_.stop();
   processes_.end_all();
@@ -300,6 +355,7 @@ void Running::stop() {
   }
   checked_.external.stop();
   mirror_.reset();  // what stop() wrote still travels; then the other boards see at once that this one is gone
+  return recorded;
 }
 
 }  // namespace indurop::node

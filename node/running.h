@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "mirror/frames/mirror.h"
+#include "node/black_box.h"
 #include "node/force_watch.h"
 #include "node/hang_watch.h"
 #include "node/loaded.h"
@@ -16,6 +17,7 @@
 #include "node/normal_threads.h"
 #include "node/phases.h"
 #include "node/processes.h"
+#include "node/record_part.h"
 #include "node/simulation.h"
 #include "scheduler/engine.h"
 
@@ -33,8 +35,8 @@ class Running {
   Result<void, Ending> start();
   // Until the duration is over or something ends the run.
   Ending supervise();
-  // Ends what was started, in reverse. Once, whatever start() returned.
-  void stop();
+  // Ends what was started, in reverse. Once, whatever start() returned. False: a recording misses something, said.
+  bool stop();
 
  private:
   Result<void, Ending> start_modules();
@@ -46,6 +48,8 @@ class Running {
   bool await_processes(rt::MonoTime until);
   int pass();
   scheduler::Hooks hooks();
+  scheduler::Hooks plain_hooks();
+  static void set_tape(scheduler::Hooks& hooks, const tape::Tape& tape);
   [[nodiscard]] scheduler::EngineSettings engine_settings() const;
 
   const Options& options_;
@@ -68,6 +72,8 @@ class Running {
   NormalThreads normal_threads_;
   Processes processes_;
   ModuleCommands commands_;
+  std::optional<BlackBox> black_box_;      // none in a simulation
+  std::unique_ptr<RecordPart> recording_;  // none if none was wanted
 };
 
 }  // namespace indurop::node

@@ -151,6 +151,13 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   }
   mapping_ = &mapping;
   slot_ = &slot;
+  set_current_track(nullptr);
+  tape_.reset();
+  if (const Attachment* attachment = hot.attachment.load(std::memory_order_acquire)) {
+    if (auto member = tape::Member::open(node_, index, attachment->store())) {
+      tape_ = std::move(member).value();
+    }
+  }
   holder_ = holder;
   enrolled_as_ = is_launched ? launched : pid_;  // a script may stand between the node and this program
   phase_ = Phase::Prepared;
@@ -190,7 +197,14 @@ void Enrolment::take_rights(const ModuleRecord& record) {
 void Enrolment::finish_run() noexcept {
   if (running_) {
     running_ = false;
-    slot_->end_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
+    const std::int64_t end = rt::to_ns(schedule_now());
+    slot_->end_ns.store(end, std::memory_order_relaxed);
+    if (tape_) {
+      tape_->track().end(
+          {0, 0, release_tick_.load(std::memory_order_relaxed), release_ns_.load(std::memory_order_relaxed),
+           slot_->start_ns.load(std::memory_order_relaxed), end},
+          0);
+    }
     slot_->done.store(seen_, std::memory_order_release);
   }
 }
@@ -198,6 +212,10 @@ void Enrolment::finish_run() noexcept {
 bool Enrolment::take_release() noexcept {
   if (slot_->released.load(std::memory_order_acquire) <= seen_) {
     return false;
+  }
+  if (tape_) {
+    tape_->track().begin();
+    set_current_track(&tape_->track());
   }
   slot_->start_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
   ++seen_;

@@ -8,10 +8,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "runtime/run_mapping.h"
 #include "scheduler/run_block.h"
+#include "tape/member.h"
 
 namespace indurop::runtime {
 
@@ -59,6 +61,7 @@ class Enrolment {
   std::string node_;
   RunMapping* mapping_ = nullptr;
   scheduler::ProcessSlot* slot_ = nullptr;
+  std::optional<tape::Member> tape_;  // none: the node keeps none
   std::int32_t pid_ = 0;
   std::int32_t holder_ = 0;       // who was in the slot before
   std::int32_t enrolled_as_ = 0;  // pid the node knows us by

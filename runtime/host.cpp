@@ -12,7 +12,33 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): which module a thread runs
 [[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_module = kNoModule;
 
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): likewise
+[[gnu::tls_model("initial-exec")]] thread_local tape::Track* t_track = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_reading = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_readings_end = nullptr;
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
+
 }  // namespace
+
+void set_current_track(tape::Track* track) noexcept {
+  t_track = track;
+}
+
+void set_clock_readings(std::span<const std::int64_t> readings) noexcept {
+  t_reading = readings.data();
+  t_readings_end = readings.data() + readings.size();
+}
+
+std::int64_t read_clock() noexcept {
+  if (t_reading != t_readings_end) {
+    return *t_reading++;
+  }
+  const std::int64_t now = rt::to_ns(schedule_now());
+  if (t_track != nullptr) {
+    t_track->clock(now);
+  }
+  return now;
+}
 
 void set_current_module(std::uint32_t index) noexcept {
   t_module = index;

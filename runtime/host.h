@@ -10,12 +10,14 @@
 #include <indurop/result.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "runtime/message_ring.h"
 #include "scheduler/run_block.h"
+#include "tape/track.h"
 #include "vars/store.h"
 
 namespace indurop::runtime {
@@ -25,6 +27,12 @@ namespace indurop::runtime {
 inline constexpr std::uint32_t kNoModule = 0xFFFFFFFF;
 void set_current_module(std::uint32_t index) noexcept;
 std::uint32_t current_module() noexcept;
+
+// What irp::now_ns() says to the calling thread is told to this track, or comes from these readings as long as there
+// are some, so that a run can be repeated that asks for the time. Real-time safe; borrowed. Null, empty: neither.
+void set_current_track(tape::Track* track) noexcept;
+void set_clock_readings(std::span<const std::int64_t> readings) noexcept;
+std::int64_t read_clock() noexcept;
 
 // Binds every registered Ref of this process to `store` (borrowed) and remembers it for modules loaded later;
 // `run` (borrowed) carries messages and properties. Not real-time safe.

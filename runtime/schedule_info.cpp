@@ -98,7 +98,7 @@ std::int64_t release_ns() noexcept {
 }
 
 std::int64_t now_ns() noexcept {
-  return indurop::rt::to_ns(runtime::schedule_now());
+  return runtime::read_clock();
 }
 
 bool stop_requested() noexcept {

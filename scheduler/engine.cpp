@@ -296,6 +296,9 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
   const auto since = std::chrono::nanoseconds(static_cast<std::int64_t>(tick) * settings_.basic_period_ns);
   if (core.primary) {
     block_.tick.store(tick + 1, std::memory_order_release);
+    if (hooks_.ticks != nullptr) {
+      hooks_.ticks(hooks_.context, tick, rt::to_ns(epoch + since));
+    }
   }
   for (Band* band : core.here) {
     band->run_inline(tick, epoch + since, lost);

@@ -105,6 +105,9 @@ void Runner::call_current() noexcept {
   if (hooks_.entering != nullptr) {
     hooks_.entering(hooks_.context, state.task.index);
   }
+  if (!state.task.condition) {
+    tell_begin();
+  }
   char text[kTextLength];
   bool ran = true;
   bool threw = false;
@@ -113,6 +116,9 @@ void Runner::call_current() noexcept {
     if (state.task.condition) {
       ran = state.task.condition();
       current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
+      if (ran) {
+        tell_begin();
+      }
     }
     if (ran) {
       state.task.run();
@@ -138,6 +144,12 @@ void Runner::call_current() noexcept {
     std::snprintf(text, sizeof text, "exception of an unknown type");
   }
   guard_.disarm();
+  conclude(ran, threw ? text : nullptr);
+}
+
+// `threw`: what, null if it returned. `ran`: false if its condition was not met.
+void Runner::conclude(bool ran, const char* threw) noexcept {
+  TaskState& state = *tasks_[position_];
   const std::int64_t start = current_start_.load(std::memory_order_relaxed);
   const std::int64_t end = rt::to_ns(kernel_.now());
   times_[position_] = ran ? RunTimes{release_ns_, start, end} : RunTimes{};
@@ -146,8 +158,11 @@ void Runner::call_current() noexcept {
     trace_.exec_ns.store(end - start, std::memory_order_relaxed);
   }
   current_start_.store(end, std::memory_order_relaxed);  // the next module starts where this one ended
-  if (threw) [[unlikely]] {
-    quarantine(state, FaultKind::Exception, tick_, text, hooks_);
+  if (threw != nullptr) [[unlikely]] {
+    quarantine(state, FaultKind::Exception, tick_, threw, hooks_);
+  }
+  if (ran) {
+    tell_end(threw != nullptr);
   }
 }
 
@@ -191,6 +206,21 @@ void Runner::contain(FaultKind kind, const char* text) noexcept {
   trace_.exec_ns.store(end - start, std::memory_order_relaxed);
   current_start_.store(end, std::memory_order_relaxed);
   quarantine(state, kind, tick_, text, hooks_);
+  tell_end(true);
+}
+
+// What is done for it is no time of the run.
+void Runner::tell_begin() noexcept {
+  if (hooks_.begins != nullptr) {
+    hooks_.begins(hooks_.context, tasks_[position_]->task.index);
+    current_start_.store(rt::to_ns(kernel_.now()), std::memory_order_relaxed);
+  }
+}
+
+void Runner::tell_end(bool faulted) noexcept {
+  if (hooks_.ended != nullptr) {
+    hooks_.ended(hooks_.context, tasks_[position_]->task.index, tick_, times_[position_], faulted);
+  }
 }
 
 void Runner::account() noexcept {

@@ -34,6 +34,13 @@ struct TaskState {
 struct Hooks {
   void* context = nullptr;
   void (*entering)(void* context, std::uint32_t module) noexcept = nullptr;
+  // A run of a thread module begins: the condition, if it has one, was true. What is done here is no time of the run.
+  void (*begins)(void* context, std::uint32_t module) noexcept = nullptr;
+  // It is over.
+  void (*ended)(void* context, std::uint32_t module, std::uint64_t tick, const RunTimes& times,
+                bool faulted) noexcept = nullptr;
+  // A basic period has begun, nothing of it has run.
+  void (*ticks)(void* context, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
   void (*faulted)(void* context, std::uint32_t module) noexcept = nullptr;  // after the record was filled in
   void (*stop_node)(void* context, std::uint32_t module, const char* reason) noexcept = nullptr;
   // Modules have run and may have written something; may wake a thread, nothing more.
@@ -79,6 +86,9 @@ class Runner {
   void spend_time(const Task& task);
   void contain_jump() noexcept;
   void contain(FaultKind kind, const char* text) noexcept;
+  void conclude(bool ran, const char* threw) noexcept;
+  void tell_begin() noexcept;
+  void tell_end(bool faulted) noexcept;
   void account() noexcept;
 
   RunBlock& block_;

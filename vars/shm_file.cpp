@@ -103,6 +103,9 @@ std::string mirror_file(const std::string& node) {
 std::string external_file(const std::string& node) {
   return "indurop." + node + ".external";
 }
+std::string tape_file(const std::string& node) {
+  return "indurop." + node + ".tape";
+}
 std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
 }

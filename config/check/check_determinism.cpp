@@ -104,6 +104,14 @@ std::vector<std::string> sources_of_chance(const std::vector<std::string>& impor
   return sources;
 }
 
+bool talks_to_others(const std::vector<std::string>& imports) {
+  constexpr Symbol kModbus{"modbus_*", "modbus"};
+  return std::any_of(imports.begin(), imports.end(), [&](const std::string& import) {
+    return is(import, kModbus.name) ||
+           std::any_of(kNetwork.begin(), kNetwork.end(), [&](const Symbol& symbol) { return is(import, symbol.name); });
+  });
+}
+
 void check_determinism(CheckContext& context) {
   const CheckResult& result = context.result;
   for (std::size_t i = 0; i < context.config.modules.size() && i < result.facts.size(); ++i) {

@@ -12,4 +12,7 @@ namespace indurop::config {
 // nothing that is known. What libraries do that it links is not seen.
 std::vector<std::string> sources_of_chance(const std::vector<std::string>& imports);
 
+// Whether it speaks to the world beyond the shared variables: it may move something there. By its symbols too.
+bool talks_to_others(const std::vector<std::string>& imports);
+
 }  // namespace indurop::config

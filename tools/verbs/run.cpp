@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop run: becomes indurop-node, so exit code and signals are the node's own.
 #include <fmt/format.h>
-#include <unistd.h>
-#include <csignal>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 #include "config/run_options.h"
 #include "config/xml/plant_reader.h"
-#include "tools/command/self.h"
+#include "tools/command/node_program.h"
 #include "tools/plant/run_detached.h"
 #include "tools/plant/run_local.h"
 #include "tools/verbs/verbs.h"
@@ -19,62 +14,15 @@
 namespace indurop::tools {
 namespace {
 
-constexpr const char* kProgram = "indurop-node";
-
-bool executable(const std::filesystem::path& file) {
-  return access(file.c_str(), X_OK) == 0;
-}
-
-// Beside this program, in ../libexec/indurop, then along PATH.
-std::filesystem::path find_node_program() {
-  const auto here = program_folder();
-  std::vector<std::filesystem::path> places;
-  if (!here.empty()) {
-    places = {here / kProgram, here / "../libexec/indurop" / kProgram};
-  }
-  const char* path = std::getenv("PATH");
-  std::string_view rest = path != nullptr ? path : "";
-  while (!rest.empty()) {
-    const auto colon = rest.find(':');
-    const auto folder = rest.substr(0, colon);
-    if (!folder.empty()) {
-      places.emplace_back(std::filesystem::path(folder) / kProgram);
-    }
-    rest = colon == std::string_view::npos ? "" : rest.substr(colon + 1);
-  }
-  for (const auto& place : places) {
-    if (executable(place)) {
-      return place;
-    }
-  }
-  return {};
-}
-
 struct Request {
   config::RunOptions options;
   bool local = false;
   bool detach = false;
 };
 
-int become_node(Context& context, const std::filesystem::path& program, const config::RunOptions& options) {
-  std::vector<std::string> words = config::words_of(options);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> raw;
-  for (std::string& word : words) {
-    raw.push_back(word.data());
-  }
-  raw.push_back(nullptr);
-  context.out.flush();
-  signal(SIGPIPE, SIG_DFL);  // ignoring it would be inherited
-  execv(program.c_str(), raw.data());
-  context.out.error(fmt::format("cannot start {}: {}", program.string(), std::strerror(errno)));
-  return kFailed;
-}
-
 int run(Context& context, Request& request) {
-  const auto program = find_node_program();
+  const auto program = node_program(context);
   if (program.empty()) {
-    context.out.error(fmt::format("{} was found neither beside this program nor in PATH", kProgram));
     return kFailed;
   }
   config::RunOptions& options = request.options;

@@ -7,6 +7,7 @@
 
 namespace indurop::tools {
 
+extern const Verb kBlackboxVerb;
 extern const Verb kBoardsVerb;
 extern const Verb kChartVerb;
 extern const Verb kCheckVerb;
@@ -26,6 +27,8 @@ extern const Verb kNodesVerb;
 extern const Verb kOverrunsVerb;
 extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
+extern const Verb kRecordVerb;
+extern const Verb kReplayVerb;
 extern const Verb kResetVerb;
 extern const Verb kRestartVerb;
 extern const Verb kRollbackVerb;

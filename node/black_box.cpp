@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/black_box.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "node/record_part.h"
+#include "recorder/recorder.h"
+#include "vars/retain.h"
+#include "vars/run_file.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::milliseconds kAfterwards{200};  // what follows a fault tells something too
+constexpr std::chrono::minutes kBetween{1};
+
+std::filesystem::path folder_of(const std::string& node) {
+  return vars::state_directory(node) / "boxes";
+}
+
+// The oldest ones go, so that there is room for one more. Their names rise with time.
+void make_room(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> boxes;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".mcap") {
+      boxes.push_back(entry.path());
+    }
+  }
+  std::sort(boxes.begin(), boxes.end());
+  for (std::size_t i = 0; i + kMostBoxes <= boxes.size(); ++i) {
+    std::filesystem::remove(boxes[i], ignored);
+  }
+}
+
+// Writes all that is on the tape. Where it is, or why not.
+Result<std::filesystem::path, base::Problem> write_box(recorder::About about, const vars::Store& store,
+                                                       const std::string& reason) {
+  auto follower = tape::Follower::open(about.node, true);
+  if (!follower) {
+    return base::Problem{follower.error().where};
+  }
+  const auto folder = folder_of(about.node);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    return base::Problem{fmt::format("cannot make {}: {}", folder.string(), error.message())};
+  }
+  make_room(folder);
+  const auto now = std::chrono::system_clock::now();
+  const auto millis = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  const auto file = folder / fmt::format("{:%Y%m%d-%H%M%S}-{:03}.mcap", fmt::gmtime(now), millis);
+  about.reason = reason;
+  auto recorder = recorder::Recorder::create(file, about, store, std::move(follower).value(), {});
+  if (!recorder) {
+    return std::move(recorder).error();
+  }
+  if (auto taken = recorder->take(); !taken) {
+    return std::move(taken).error();
+  }
+  if (auto closed = recorder->close(); !closed) {
+    return std::move(closed).error();
+  }
+  return file;
+}
+
+void tell(const Result<std::filesystem::path, base::Problem>& box, const std::string& reason, const Console& console) {
+  if (box) {
+    console.info("{}: what led to it is in {}", reason, box->string());
+  } else {
+    console.warning("{}: no black box could be kept: {}", reason, box.error().text);
+  }
+}
+
+recorder::About about_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size,
+                              const vars::Store& store) {
+  recorder::About about;
+  about.node = node;
+  about.config = std::string(run.config_file, ::strnlen(run.config_file, sizeof run.config_file));
+  about.deployment = std::string(run.deployment, ::strnlen(run.deployment, sizeof run.deployment));
+  about.basic_period_ns = run.basic_period_ns;
+  about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
+  const std::uint64_t end = run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord);
+  for (std::uint32_t i = 0; run.modules_offset < size && end <= size && i < run.module_count; ++i) {
+    const auto& name = run.modules()[i].name;
+    about.modules.emplace_back(name, ::strnlen(name, sizeof name));
+  }
+  return about;
+}
+
+}  // namespace
+
+void keep_box_of_crash(const std::string& node, const Console& console) {
+  const auto file = vars::RunFile::open(node, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+  const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
+  if (!file || !store) {
+    return;
+  }
+  const auto& run = *static_cast<const scheduler::RunBlock*>(file->data());
+  const auto state = run.state.load();
+  const auto follower = tape::Follower::open(node, true);
+  const bool crashed = state != scheduler::NodeState::Stopped && state != scheduler::NodeState::Failed;
+  if (run.abi != scheduler::kRunAbi || !crashed || !follower || follower->header().node_pid != run.node_pid.load()) {
+    return;
+  }
+  const std::string reason = fmt::format("the last run of node {} did not end, it crashed", node);
+  tell(write_box(about_crashed(node, run, file->size(), *store), *store, reason), reason, console);
+}
+
+BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, Console& console)
+    : options_(options), checked_(checked), prepared_(prepared), console_(console) {}
+
+BlackBox::~BlackBox() {
+  if (writer_.joinable()) {
+    writer_.join();
+  }
+}
+
+std::uint64_t BlackBox::faults() const noexcept {
+  const scheduler::RunBlock& run = prepared_.run();
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < run.module_count; ++i) {
+    sum += run.modules()[i].faults.load(std::memory_order_acquire);
+  }
+  return sum;
+}
+
+void BlackBox::look(rt::MonoTime now) {
+  if (!prepared_.tape) {
+    return;
+  }
+  if (due_ == rt::MonoTime{} && faults() != kept_ && now >= next_) {
+    due_ = now + kAfterwards;
+  }
+  if (due_ != rt::MonoTime{} && now >= due_) {
+    next_ = now + kBetween;
+    keep();
+  }
+}
+
+void BlackBox::end() {
+  if (prepared_.tape && (due_ != rt::MonoTime{} || (faults() != kept_ && rt::MonoClock::now() >= next_))) {
+    keep();
+  }
+  if (writer_.joinable()) {
+    writer_.join();
+  }
+}
+
+void BlackBox::keep() {
+  due_ = {};
+  kept_ = faults();
+  const scheduler::RunBlock& run = prepared_.run();
+  std::string reason;
+  std::uint64_t latest = 0;
+  for (std::uint32_t i = 0; i < run.module_count; ++i) {
+    const scheduler::ModuleRecord& module = run.modules()[i];
+    if (module.faults.load() > 0 && (reason.empty() || module.fault_tick.load() >= latest)) {
+      latest = module.fault_tick.load();
+      reason = fmt::format("fault of module {} at tick {}: {}", module.name, latest, module.last_fault);
+    }
+  }
+  if (writer_.joinable()) {
+    writer_.join();
+  }
+  writer_ = std::thread([this, reason, about = about_node(options_, checked_, prepared_)] {
+    tell(write_box(about, *prepared_.store, reason), reason, console_);
+  });
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tape kept on disk when something went wrong: after a fault of a module, and when a node starts whose last run
+// crashed. A box is a recording like any other.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "node/checked.h"
+#include "node/console.h"
+#include "node/prepared.h"
+
+namespace indurop::node {
+
+inline constexpr std::size_t kMostBoxes = 10;  // of a node; older ones go
+
+// What a node left that crashed, before its memory is used again; nothing if it ended well or there is no tape. Says
+// on the console where it is, or why it could not be kept.
+void keep_box_of_crash(const std::string& node, const Console& console);
+
+// Of the running node: a fault is noticed, and what the runs before and shortly after it saw is written by a thread.
+class BlackBox {
+ public:
+  BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, Console& console);
+  ~BlackBox();
+  BlackBox(const BlackBox&) = delete;
+  BlackBox& operator=(const BlackBox&) = delete;
+
+  // Again and again, on one normal thread. At most one box a minute.
+  void look(rt::MonoTime now);
+  // The run is over: a fault not yet kept is.
+  void end();
+
+ private:
+  [[nodiscard]] std::uint64_t faults() const noexcept;
+  void keep();
+
+  const Options& options_;
+  const Checked& checked_;
+  const Prepared& prepared_;
+  Console& console_;
+  std::uint64_t kept_ = 0;  // faults that were dealt with
+  rt::MonoTime due_{};      // when the box of a new fault is written; 0: there is none
+  rt::MonoTime next_{};     // earliest time of the next
+  std::thread writer_;
+};
+
+}  // namespace indurop::node

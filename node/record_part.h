@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// --record: what is on the node's tape goes to a file, from the first run on.
+
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "node/checked.h"
+#include "node/console.h"
+#include "node/prepared.h"
+#include "recorder/recorder.h"
+
+namespace indurop::node {
+
+// What a recording says of this node.
+recorder::About about_node(const Options& options, const Checked& checked, const Prepared& prepared);
+
+class RecordPart {
+ public:
+  // Null if no recording is wanted. Errors are on the console.
+  static Result<std::unique_ptr<RecordPart>, Ending> begin(const Options& options, const Checked& checked,
+                                                           const Prepared& prepared, Console& console);
+  ~RecordPart();
+  RecordPart(const RecordPart&) = delete;
+  RecordPart& operator=(const RecordPart&) = delete;
+
+  // In real time: a normal thread of its own takes what there is, on these cores if any are named.
+  void start(const std::vector<int>& cores);
+  // In virtual time: the simulation calls this before the tape is full.
+  void take();
+  // Everything has run: the rest, and the file is closed. False: something is missing in it, said on the console.
+  bool end();
+
+ private:
+  RecordPart(recorder::Recorder recorder, Console& console) : recorder_(std::move(recorder)), console_(console) {}
+  void loop();
+
+  recorder::Recorder recorder_;
+  Console& console_;
+  std::string failure_;  // why nothing more was taken; empty: all is well
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/recorded_runs.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "recording/omg_idl.h"
+
+namespace indurop::node {
+
+using base::Problem;
+
+Result<RecordedRuns, Problem> RecordedRuns::open(const std::filesystem::path& path, const vars::Store& store) {
+  auto reader = recording::McapReader::open(path);
+  if (!reader) {
+    return std::move(reader).error();
+  }
+  RecordedRuns runs(std::move(reader).value());
+  if (auto matched = runs.match(store, path.string()); !matched) {
+    return std::move(matched).error();
+  }
+  return runs;
+}
+
+Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::string& name) {
+  const recording::Contents& contents = reader_.contents();
+  std::string changed;
+  for (const auto& [id, channel] : contents.channels) {
+    if (channel.topic == recorder::kRunsTopic) {
+      runs_channel_ = id;
+      for (std::size_t i = 0; channel.metadata.contains(std::to_string(i)); ++i) {
+        modules_.push_back(channel.metadata.at(std::to_string(i)));
+      }
+      continue;
+    }
+    if (channel.topic == recorder::kClockTopic) {
+      clock_channel_ = id;
+      continue;
+    }
+    const auto* entry = store.find(abi::fnv1a64(channel.topic.data(), channel.topic.size()));
+    if (entry == nullptr) {
+      unknown_.push_back(channel.topic);
+      continue;
+    }
+    const auto schema = contents.schemas.find(channel.schema);
+    const std::string now = recording::omg_idl(store.schema().variables[entry->schema_index].type).text;
+    if (schema == contents.schemas.end() || schema->second.data != now) {
+      changed += (changed.empty() ? "" : ", ") + channel.topic;
+      continue;
+    }
+    variables_[id] = static_cast<std::uint32_t>(entry - store.directory().data());
+  }
+  if (runs_channel_ == 0) {
+    return Problem{
+        fmt::format("{} tells no runs: only recordings of indurop record and run --record can be replayed", name)};
+  }
+  if (!changed.empty()) {
+    return Problem{
+        fmt::format("{} has another type in this configuration than in {}: replay with the modules that "
+                    "were recorded",
+                    changed, name)};
+  }
+  return {};
+}
+
+Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
+  for (;;) {
+    auto message = reader_.next();
+    if (!message) {
+      return std::move(message).error();
+    }
+    if (!*message) {
+      return std::optional<Item>();
+    }
+    const recording::McapMessage& one = **message;
+    if (one.channel == runs_channel_) {
+      auto run = recorder::run_from_cdr(one.data.view);
+      if (!run) {
+        return Problem{"a run of the recording is damaged"};
+      }
+      return std::optional<Item>(RecordedRun{*run});
+    }
+    if (one.channel == clock_channel_ && clock_channel_ != 0) {
+      auto clock = recorder::clock_from_cdr(one.data.view);
+      if (!clock) {
+        return Problem{"a time of the recording is damaged"};
+      }
+      return std::optional<Item>(RecordedClock{recorder::from_sequence(one.sequence).module, *clock});
+    }
+    if (const auto known = variables_.find(one.channel); known != variables_.end()) {
+      return std::optional<Item>(RecordedValue{recorder::from_sequence(one.sequence), known->second, one.data.view});
+    }
+  }
+}
+
+}  // namespace indurop::node

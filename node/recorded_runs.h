@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording as what it was made of: values and runs, in their order, for the variables of a store.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/problem.h"
+#include "recorder/run_words.h"
+#include "recording/mcap_reader.h"
+#include "vars/store.h"
+
+namespace indurop::node {
+
+struct RecordedValue {
+  recorder::ValueWords words;
+  std::uint32_t variable = 0;  // index in the store's directory
+  std::span<const std::uint8_t> cdr;
+};
+struct RecordedRun {
+  recorder::RunWords words;
+};
+
+struct RecordedClock {
+  std::uint32_t module = 0;
+  std::int64_t now_ns = 0;
+};
+
+class RecordedRuns {
+ public:
+  // The store is borrowed. Errors: no recording of runs; a variable has another type now.
+  static Result<RecordedRuns, base::Problem> open(const std::filesystem::path& path, const vars::Store& store);
+
+  // The next one; nullopt behind the last. What it points to is valid until the next call.
+  // Errors: a part of the file is damaged; the next call goes on behind it.
+  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock>;
+  Result<std::optional<Item>, base::Problem> next();
+
+  [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
+  [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
+  [[nodiscard]] bool complete() const noexcept { return reader_.contents().has_summary; }
+
+ private:
+  explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
+  Result<void, base::Problem> match(const vars::Store& store, const std::string& name);
+
+  recording::McapReader reader_;
+  std::vector<std::string> modules_;
+  std::map<std::uint16_t, std::uint32_t> variables_;  // by channel
+  std::vector<std::string> unknown_;
+  std::uint16_t runs_channel_ = 0;
+  std::uint16_t clock_channel_ = 0;
+};
+
+}  // namespace indurop::node

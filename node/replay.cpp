@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/replay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "base/duration.h"
+#include "config/check/determinism.h"
+#include "rt/relax.h"
+#include "runtime/host.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::ModuleState;
+using scheduler::ModuleType;
+using scheduler::Operation;
+
+constexpr std::chrono::seconds kPatience{10};  // with a process, in real time
+constexpr int kLooksBeforeSleep = 2000;
+constexpr std::chrono::microseconds kPause{50};
+constexpr std::size_t kShown = 10;
+
+bool names(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// Why it is not run again; empty: it is.
+std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
+  if (module.operation == Operation::NonReal) {
+    return "it runs beside the schedule";
+  }
+  if (module.signal != 0) {
+    return "it does not say when a run ends";
+  }
+  if (module.type == ModuleType::Process) {
+    return "";
+  }
+  return config::talks_to_others(imports) ? "it speaks to devices or the network" : "";
+}
+
+}  // namespace
+
+void Replay::Kernel::set(std::int64_t ns) noexcept {
+  for (auto* shown : shown_) {
+    shown->store(ns, std::memory_order_relaxed);
+  }
+}
+
+Replay::Replay(const Options& options, Console& console, base::StopSignal& signals, Checked& checked,
+               Prepared& prepared, Loaded& loaded)
+    : options_(options),
+      console_(console),
+      signals_(signals),
+      checked_(checked),
+      prepared_(prepared),
+      run_(prepared.run()),
+      kernel_({&prepared.store->virtual_time(), &run_.virtual_ns}),
+      runner_(run_, kernel_, hooks(), trace_, 1),
+      phases_(checked.config, run_, loaded.libraries, console, signals, hooks(), kernel_),
+      processes_(checked.config, run_, options.node, false, console, *prepared.failsafe) {
+  kernel_.set(rt::kNanosPerSecond);
+  for (std::size_t i = 0; i < checked.config.modules.size(); ++i) {
+    modules_.push_back(std::make_unique<Module>());
+  }
+  for (const scheduler::Task& task : loaded.tasks) {
+    scheduler::TaskState& state = modules_[task.index]->state;
+    state.task = task;
+    state.task.condition = Condition{};  // it was true
+    state.record = &run_.modules()[task.index];
+    state.slot = &run_.process_slots()[task.index];
+  }
+}
+
+Replay::~Replay() = default;
+
+scheduler::Hooks Replay::hooks() {
+  scheduler::Hooks hooks;
+  hooks.context = this;
+  hooks.entering = [](void*, std::uint32_t module) noexcept { runtime::set_current_module(module); };
+  hooks.faulted = [](void* context, std::uint32_t /*module*/) noexcept {
+    static_cast<Replay*>(context)->prepared_.store->release_locks_of_this_thread();
+    runtime::release_calls_of_this_thread();
+  };
+  return hooks;
+}
+
+const schema::Variable& Replay::variable(std::uint32_t index) const {
+  const vars::Store& store = *prepared_.store;
+  return store.schema().variables[store.directory()[index].schema_index];
+}
+
+// The module of this configuration that a module of the recording is; kNoSuchModule: none.
+std::uint32_t Replay::configured(std::uint32_t recorded) const noexcept {
+  return recorded < of_recording_.size() ? of_recording_[recorded] : kNoSuchModule;
+}
+
+bool Replay::choose_modules(const RecordedRuns& recorded) {
+  const auto& configured = checked_.config.modules;
+  for (const std::string& name : recorded.modules()) {
+    const auto found =
+        std::find_if(configured.begin(), configured.end(), [&](const auto& module) { return module.name == name; });
+    of_recording_.push_back(found == configured.end() ? kNoSuchModule
+                                                      : static_cast<std::uint32_t>(found - configured.begin()));
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < configured.size(); ++i) {
+    Module& module = *modules_[i];
+    const bool known = names(recorded.modules(), configured[i].name);
+    module.why_not =
+        known ? reason_to_leave_out(configured[i], checked_.check.facts[i].file.imports) : "it is not in the recording";
+    module.runs = module.why_not.empty();
+    any = any || module.runs;
+    if (!module.runs) {
+      console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
+                    module.why_not);
+    }
+  }
+  for (const config::VariableUse& use : checked_.check.uses) {
+    const auto* entry = prepared_.store->find(abi::fnv1a64(use.name.data(), use.name.size()));
+    for (std::size_t i = 0; entry != nullptr && i < configured.size(); ++i) {
+      Known known;
+      known.variable = static_cast<std::uint32_t>(entry - prepared_.store->directory().data());
+      known.read = names(use.readers, configured[i].name);
+      known.written = names(use.writers, configured[i].name);
+      if (known.read || known.written) {
+        modules_[i]->place[known.variable] = modules_[i]->known.size();
+        modules_[i]->known.push_back(std::move(known));
+      }
+    }
+  }
+  if (!any) {
+    console_.error("no module of {} can run again", options_.replay.file.string());
+  }
+  return any;
+}
+
+bool Replay::begin(const RecordedRuns& recorded) {
+  if (!choose_modules(recorded)) {
+    return false;
+  }
+  for (const std::string& name : recorded.unknown_variables()) {
+    console_.warning("{} of the recording is not in this configuration", name);
+  }
+  if (!recorded.complete()) {
+    console_.warning("the recording was not closed: it is replayed as far as it goes");
+  }
+  return true;
+}
+
+// A process has all the time there is, as long as it lives.
+bool Replay::run_process(Module& module, const tape::RunTail& tail) {
+  scheduler::ProcessSlot& slot = *module.state.slot;
+  const std::uint64_t release = slot.released.load() + 1;
+  slot.release_ns.store(tail.release_ns);
+  slot.release_tick.store(tail.tick);
+  slot.released.store(release, std::memory_order_release);
+  slot.wake.wake();
+  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
+    if (looks < kLooksBeforeSleep) {
+      rt::relax();
+      continue;
+    }
+    std::this_thread::sleep_for(kPause);
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    if (rt::MonoClock::now() > until || module.state.record->state.load() != ModuleState::Running) {
+      console_.error("module {} did not end its run of tick {}", module.state.record->name, tail.tick);
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Replay::run_again(const recorder::RunWords& run) {
+  const std::uint32_t index = configured(run.module);
+  ticks_ = std::max(ticks_, run.tail.tick + 1);
+  if (index == kNoSuchModule || !modules_[index]->runs || modules_[index]->apart) {
+    return true;
+  }
+  Module& module = *modules_[index];
+  if (run.tail.number != module.next_number) {
+    console_.warning(
+        "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on",
+        run.tail.number - module.next_number, module.state.record->name, run.tail.tick);
+  }
+  module.next_number = run.tail.number + 1;
+  run_.epoch_ns = run.tail.release_ns - static_cast<std::int64_t>(run.tail.tick) * run_.basic_period_ns;
+  run_.tick.store(run.tail.tick + 1);
+  kernel_.set(run.tail.start_ns);
+  give_inputs(module);
+  if (module.state.task.type == ModuleType::Process) {
+    if (!run_process(module, run.tail)) {
+      return false;
+    }
+  } else {
+    scheduler::TaskState* state = &module.state;
+    runtime::set_clock_readings(module.clock);
+    runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));
+    runtime::set_clock_readings({});
+  }
+  module.clock.clear();
+  ++runs_;
+  take_what_was_left(module);
+  compare(module, index, run);
+  return true;
+}
+
+bool Replay::start_modules() {
+  prepared_.name.keep();
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    if (!modules_[i]->runs) {
+      run_.modules()[i].state.store(ModuleState::Stopped);
+    }
+  }
+  if (!phases_.call_all("start", &ModuleDescriptor::start)) {
+    console_.error("a module could not be started: nothing was run");
+    return false;
+  }
+  if (const Status served = runtime::start_function_servers(0, -1); !served) {
+    console_.error("shared functions cannot be served: {}", describe(served.error()));
+    return false;
+  }
+  for (std::uint32_t i = 0; i < modules_.size(); ++i) {
+    if (modules_[i]->runs && modules_[i]->state.task.type == ModuleType::Process && !processes_.start(i)) {
+      return false;
+    }
+  }
+  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kPause) == 0) {
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+  }
+  for (const auto& module : modules_) {
+    if (module->runs && module->state.task.type == ModuleType::Thread) {
+      module->state.record->state.store(ModuleState::Running);
+    }
+  }
+  run_.state.store(scheduler::NodeState::Running);
+  return true;
+}
+
+// Started with what was there before any module was.
+bool Replay::replay(RecordedRuns& recorded) {
+  bool started = false;
+  for (;;) {
+    auto item = recorded.next();
+    if (!item) {
+      console_.warning("{}", item.error().text);
+      continue;
+    }
+    if (!*item) {
+      return true;
+    }
+    const auto* value = std::get_if<RecordedValue>(&**item);
+    if (const auto* clock = std::get_if<RecordedClock>(&**item); clock != nullptr) {
+      if (const std::uint32_t index = configured(clock->module); index != kNoSuchModule) {
+        modules_[index]->clock.push_back(clock->now_ns);
+      }
+    } else if (value != nullptr) {
+      if (!started && value->words.kind != tape::EntryKind::Run) {
+        if (!start_modules()) {
+          return false;
+        }
+        started = true;
+      }
+      if (!take(*value)) {
+        return false;
+      }
+    } else if (!run_again(std::get<RecordedRun>(**item).words)) {
+      return false;
+    }
+    if (signals_.wait(std::chrono::nanoseconds{0}) != 0) {
+      console_.error("interrupted");
+      return false;
+    }
+  }
+}
+
+Ending Replay::run() {
+  auto recorded = RecordedRuns::open(options_.replay.file, *prepared_.store);
+  if (!recorded) {
+    console_.error("{}", recorded.error().text);
+    return {kFailed, "the recording cannot be replayed"};
+  }
+  if (!begin(*recorded)) {
+    return {kFailed, "the recording cannot be replayed"};
+  }
+  rt::install_guard_handlers();
+  runner_.attach_thread();
+  const bool whole = replay(*recorded);
+  runner_.detach_thread();
+  run_.state.store(scheduler::NodeState::Stopping);
+  processes_.end_all();
+  runtime::stop_function_servers();
+  (void)phases_.call_all("stop", &ModuleDescriptor::stop);
+  return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};
+}
+
+void Replay::tell_differences() {
+  std::vector<std::pair<std::uint64_t, std::string>> lines;
+  for (std::size_t i = 0; i < modules_.size(); ++i) {
+    for (const Known& known : modules_[i]->known) {
+      if (known.differing > 0) {
+        lines.emplace_back(known.first_tick, fmt::format("  {} of {}: {} of {} runs, first at tick {}",
+                                                         variable(known.variable).name, checked_.config.modules[i].name,
+                                                         known.differing, modules_[i]->next_number, known.first_tick));
+      }
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i) {
+    fmt::print("{}\n", lines[i].second);
+  }
+  if (lines.size() > kShown) {
+    fmt::print("  and {} other variables\n", lines.size() - kShown);
+  }
+}
+
+Ending Replay::conclude() {
+  std::uint64_t disturbed = 0;
+  for (const auto& module : modules_) {
+    disturbed += module->disturbed_runs;
+  }
+  if (disturbed > 0) {
+    fmt::print("what {} of the runs read changed while they ran: {} of their values differ, which says nothing\n",
+               disturbed, unclear_);
+  }
+  if (differences_ == 0) {
+    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks_, runs_, values_);
+    return {kOk, "end of the recording"};
+  }
+  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks_, runs_, values_, differences_);
+  tell_differences();
+  return {kCheckFailed, "the replay differs from the recording"};
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// --replay: the runs of a recording once more, with what each of them began with, and a comparison of what it leaves.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "node/checked.h"
+#include "node/console.h"
+#include "node/loaded.h"
+#include "node/phases.h"
+#include "node/prepared.h"
+#include "node/processes.h"
+#include "node/recorded_runs.h"
+#include "scheduler/runner.h"
+
+namespace indurop::node {
+
+inline constexpr std::uint32_t kNoSuchModule = 0xffffffff;
+
+class Replay {
+ public:
+  // Everything is borrowed.
+  Replay(const Options& options, Console& console, base::StopSignal& signals, Checked& checked, Prepared& prepared,
+         Loaded& loaded);
+  ~Replay();
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  // Starts the modules, runs and compares, tells the outcome, ends the modules.
+  Ending run();
+
+ private:
+  // Stands still except when a run of the recording sets it.
+  class Kernel final : public scheduler::Kernel {
+   public:
+    explicit Kernel(std::vector<std::atomic<std::int64_t>*> shown) : shown_(std::move(shown)) {}
+    rt::MonoTime now() noexcept override { return rt::mono_time(shown_.front()->load(std::memory_order_relaxed)); }
+    void sleep_until(rt::MonoTime /*deadline*/) noexcept override {}
+    void set(std::int64_t ns) noexcept;
+
+   private:
+    std::vector<std::atomic<std::int64_t>*> shown_;
+  };
+  // What a module's track says of one variable.
+  struct Known {
+    std::uint32_t variable = 0;
+    bool read = false;
+    bool written = false;
+    bool told = false;
+    std::vector<std::uint8_t> cdr;
+    std::vector<std::uint8_t> bytes;
+    std::uint64_t differing = 0;  // runs that left another value, what they read being the same
+    std::uint64_t first_tick = 0;
+  };
+  // What a run left, by its track.
+  struct Left {
+    std::size_t place = 0;  // in Module::known
+    tape::EntryKind kind{};
+    std::vector<std::uint8_t> cdr;
+    std::vector<std::uint8_t> bytes;
+  };
+  struct Module {
+    bool runs = false;
+    std::string why_not;  // it does not run; empty: it is not in this configuration
+    std::vector<Known> known;
+    std::vector<Left> left;                      // of the run that is being read
+    std::vector<std::int64_t> clock;             // what it was told then
+    std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
+    scheduler::TaskState state;
+    std::uint64_t count = 0;
+    std::uint64_t next_number = 0;
+    bool disturbed = false;  // somebody changed what it reads while it ran
+    std::uint64_t disturbed_runs = 0;
+    bool apart = false;  // it faulted here and not there, or the other way round
+  };
+
+  [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
+  bool choose_modules(const RecordedRuns& recorded);
+  bool begin(const RecordedRuns& recorded);
+  bool take(const RecordedValue& value);
+  bool start_modules();
+  bool replay(RecordedRuns& recorded);
+  bool run_again(const recorder::RunWords& run);
+  bool run_process(Module& module, const tape::RunTail& tail);
+  void give_inputs(Module& module);
+  void take_what_was_left(Module& module);
+  void compare(Module& module, std::uint32_t index, const recorder::RunWords& run);
+  void differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
+               const std::vector<std::uint8_t>& now);
+  Ending conclude();
+  void tell_differences();
+  scheduler::Hooks hooks();
+  [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
+
+  const Options& options_;
+  Console& console_;
+  base::StopSignal& signals_;
+  Checked& checked_;
+  Prepared& prepared_;
+  scheduler::RunBlock& run_;
+  Kernel kernel_;
+  scheduler::CoreTrace trace_;
+  scheduler::Runner runner_;
+  Phases phases_;
+  Processes processes_;
+  std::vector<std::unique_ptr<Module>> modules_;  // as in the configuration
+  std::vector<std::uint32_t> of_recording_;       // its modules among them; kNoSuchModule: none
+  std::int64_t real_minus_node_ns_ = 0;
+  std::uint64_t ticks_ = 0;
+  std::uint64_t runs_ = 0;
+  std::uint64_t values_ = 0;
+  std::uint64_t differences_ = 0;
+  std::uint64_t unclear_ = 0;  // differences of runs whose inputs changed while they ran
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// What runs of a recording began with and left, and what they leave now.
+
+#include <fmt/format.h>
+
+#include "node/replay.h"
+#include "recording/cdr.h"
+
+namespace indurop::node {
+
+using scheduler::ModuleState;
+
+// Takes a value to what the track of its module says. A first value goes to the store. False: it is damaged.
+bool Replay::take(const RecordedValue& value) {
+  vars::Store& store = *prepared_.store;
+  const vars::DirectoryEntry& entry = store.directory()[value.variable];
+  std::vector<std::uint8_t> bytes(entry.value_size);
+  if (!recording::from_cdr(variable(value.variable).type, value.cdr, bytes)) {
+    console_.error("a value of {} in the recording is damaged", variable(value.variable).name);
+    return false;
+  }
+  if (value.words.kind == tape::EntryKind::Run || value.words.module == recorder::kOthers) {
+    (void)store.write(entry, 0, bytes);
+    return true;
+  }
+  const std::uint32_t index = configured(value.words.module);
+  if (index == kNoSuchModule || !modules_[index]->runs) {
+    (void)store.write(entry, 0, bytes);
+    return true;
+  }
+  Module& module = *modules_[index];
+  const auto place = module.place.find(value.variable);
+  if (place == module.place.end()) {
+    return true;  // a module that was changed knows it no more
+  }
+  if (value.words.kind == tape::EntryKind::Before) {
+    Known& known = module.known[place->second];
+    known.told = true;
+    known.cdr.assign(value.cdr.begin(), value.cdr.end());
+    known.bytes = std::move(bytes);
+  } else {
+    module.left.push_back({place->second, value.words.kind, {value.cdr.begin(), value.cdr.end()}, std::move(bytes)});
+  }
+  return true;
+}
+
+void Replay::give_inputs(Module& module) {
+  vars::Store& store = *prepared_.store;
+  for (const Known& known : module.known) {
+    const vars::DirectoryEntry& entry = store.directory()[known.variable];
+    std::vector<std::uint8_t> now(entry.value_size);
+    if (known.read && known.told && store.read(entry, 0, now).ok() && now != known.bytes) {
+      (void)store.write(entry, 0, known.bytes);
+    }
+  }
+}
+
+void Replay::take_what_was_left(Module& module) {
+  module.disturbed = false;
+  for (Left& left : module.left) {
+    Known& known = module.known[left.place];
+    known.told = true;
+    known.cdr = std::move(left.cdr);
+    known.bytes = std::move(left.bytes);
+    module.disturbed = module.disturbed || left.kind == tape::EntryKind::During;
+  }
+  module.left.clear();
+  module.disturbed_runs += module.disturbed ? 1U : 0U;
+}
+
+void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWords& run) {
+  const bool faulted = module.state.record->state.load() == ModuleState::Faulted;
+  if (faulted != run.faulted) {
+    module.apart = true;
+    ++differences_;
+    console_.error("tick {}: module {} {} in the recording and {} now{}", run.tail.tick, module.state.record->name,
+                   run.faulted ? "faulted" : "did not fault", faulted ? "faults" : "does not",
+                   faulted ? fmt::format(": {}", module.state.record->last_fault) : "");
+    return;
+  }
+  if (faulted) {
+    return;  // what it left was half a run's, and then its fail-safe values
+  }
+  vars::Store& store = *prepared_.store;
+  std::vector<std::uint8_t> now;
+  std::vector<std::uint8_t> cdr;
+  for (Known& known : module.known) {
+    if (!known.written || !known.told) {
+      continue;
+    }
+    const vars::DirectoryEntry& entry = store.directory()[known.variable];
+    now.resize(entry.value_size);
+    ++values_;
+    // What lies between the parts of a value differs as it likes.
+    if (!store.read(entry, 0, now).ok() || now == known.bytes ||
+        (recording::to_cdr(variable(known.variable).type, now, cdr).ok() && cdr == known.cdr)) {
+      continue;
+    }
+    differs(module, index, known, run.tail.tick, now);
+  }
+}
+
+void Replay::differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
+                     const std::vector<std::uint8_t>& now) {
+  const schema::Variable& differing = variable(known.variable);
+  if (module.disturbed) {
+    ++unclear_;
+  } else {
+    if (differences_++ == 0) {
+      console_.error("tick {}, module {}: {} was {} in the recording and is {} now", tick,
+                     checked_.config.modules[index].name, differing.name,
+                     schema::format_value(differing.type, known.bytes), schema::format_value(differing.type, now));
+    }
+    if (known.differing++ == 0) {
+      known.first_tick = tick;
+    }
+  }
+  // The next run begins with what was recorded.
+  (void)prepared_.store->write(prepared_.store->directory()[known.variable], 0, known.bytes);
+}
+
+}  // namespace indurop::node

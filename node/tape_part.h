@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tape of a node: what is on it follows from who reads and writes what.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <memory>
+
+#include "node/checked.h"
+#include "tape/tape.h"
+#include "vars/store.h"
+
+namespace indurop::node {
+
+// Null if the options want none. Errors: those of tape::Tape::create().
+Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Checked& checked,
+                                              std::int64_t basic_period_ns, const vars::Store& store);
+
+}  // namespace indurop::node

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recorder/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "recorder/run_words.h"
+#include "recording/cdr.h"
+#include "recording/omg_idl.h"
+
+namespace indurop::recorder {
+namespace {
+
+using base::Problem;
+
+recording::TextMap metadata_of(const schema::Variable& variable) {
+  recording::TextMap map{{"unit", variable.unit}, {"description", variable.description}, {"declared", variable.source}};
+  std::erase_if(map, [](const auto& entry) { return entry.second.empty(); });
+  return map;
+}
+
+std::uint32_t module_of(const tape::Run& run) {
+  return run.module == tape::kOthers ? kOthers : run.module;
+}
+
+recording::View view(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, const About& about,
+                                           const vars::Store& store, tape::Follower follower,
+                                           const std::vector<std::string>& globs) {
+  if (follower.header().layout_hash != store.header().layout_hash) {
+    return Problem{"the node's variables have just changed: try again"};
+  }
+  auto writer = recording::McapWriter::create(path, {});
+  if (!writer) {
+    return writer.error();
+  }
+  Recorder recorder(std::move(writer).value(), store, std::move(follower), about);
+  if (auto begun = recorder.begin(globs); !begun) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    return std::move(begun).error();
+  }
+  return recorder;
+}
+
+const schema::Variable& Recorder::variable(std::uint32_t index) const {
+  return store_.schema().variables[store_.directory()[index].schema_index];
+}
+
+std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
+}
+
+Result<void, Problem> Recorder::begin(const std::vector<std::string>& globs) {
+  const auto count = static_cast<std::uint32_t>(store_.directory().size());
+  wanted_.resize(count);
+  channels_.resize(count);
+  for (const std::string& glob : globs.empty() ? std::vector<std::string>{"*"} : globs) {
+    bool any = globs.empty();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (schema::glob_match(glob, variable(i).name)) {
+        any = true;
+        wanted_[i] = true;
+      }
+    }
+    if (!any) {
+      return Problem{fmt::format("node {} has no variable '{}'; see indurop vars", about_.node, glob)};
+    }
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (wanted_[i] && follower_.variables()[i].taped == 0) {
+      too_large_.push_back(variable(i).name);
+      wanted_[i] = false;
+    }
+  }
+  wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+  if (auto channels = add_own_channels(); !channels) {
+    return channels;
+  }
+  for (const auto& [name, text] : about_.files) {
+    recording::McapAttachment attachment;
+    attachment.name = name;
+    attachment.media_type = "text/plain";
+    if (auto attached = writer_.attach(attachment, view(text)); !attached) {
+      return attached;
+    }
+  }
+  return writer_.metadata("indurop.node", {{"node", about_.node},
+                                           {"config", about_.config},
+                                           {"board", about_.board},
+                                           {"deployment", about_.deployment},
+                                           {"reason", about_.reason},
+                                           {"basic_period_ns", std::to_string(about_.basic_period_ns)},
+                                           {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)}});
+}
+
+// Those of runs and of the clock.
+Result<void, Problem> Recorder::add_own_channels() {
+  recording::TextMap modules;
+  for (std::size_t i = 0; i < about_.modules.size(); ++i) {
+    modules[std::to_string(i)] = about_.modules[i];
+  }
+  const auto add = [&](std::string_view name, std::string_view idl, std::string_view topic,
+                       std::uint16_t& to) -> Result<void, Problem> {
+    auto schema = writer_.add_schema(name, "omgidl", idl);
+    if (!schema) {
+      return std::move(schema).error();
+    }
+    auto channel = writer_.add_channel(*schema, topic, "cdr", modules);
+    if (!channel) {
+      return std::move(channel).error();
+    }
+    to = *channel;
+    return {};
+  };
+  auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
+  return runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
+}
+
+Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
+  if (channels_[index] != 0) {
+    return channels_[index];
+  }
+  const schema::Variable& known = variable(index);
+  const recording::OmgIdl idl = recording::omg_idl(known.type);
+  std::uint16_t& schema = schemas_[idl.text];
+  if (schema == 0) {
+    auto added = writer_.add_schema(idl.name, "omgidl", idl.text);
+    if (!added) {
+      return added;
+    }
+    schema = *added;
+  }
+  auto channel = writer_.add_channel(schema, known.name, "cdr", metadata_of(known));
+  if (channel) {
+    channels_[index] = *channel;
+  }
+  return channel;
+}
+
+Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
+                                            std::int64_t release_ns) {
+  if (!wanted_[value.variable]) {
+    return {};
+  }
+  auto channel = channel_of(value.variable);
+  if (!channel) {
+    return std::move(channel).error();
+  }
+  if (!recording::to_cdr(variable(value.variable).type, value.bytes, cdr_)) {
+    return Problem{fmt::format("{} has another size than its type", variable(value.variable).name)};
+  }
+  auto written =
+      writer_.write(*channel, log_time(time_ns), log_time(release_ns), to_sequence({module, value.kind}), cdr_);
+  counts_.values += written.ok() ? 1U : 0U;
+  return written;
+}
+
+// What the runs so far say, without recording them.
+void Recorder::learn() {
+  tape::Run run;
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    while (follower_.next(track, run)) {
+      for (const tape::Value& value : run.values) {
+        learned_[{module_of(run), value.variable}].assign(value.bytes.begin(), value.bytes.end());
+      }
+    }
+  }
+}
+
+// Before any module was started, if the recording begins with the first run, else what the runs before it say.
+Result<void, Problem> Recorder::tell_first_values() {
+  const std::int64_t before = held_->tail.release_ns - about_.basic_period_ns;
+  for (std::uint32_t i = 0; held_->tail.number == 0 && i < wanted_.size(); ++i) {
+    const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
+    if (auto written = write_value(value, kOthers, before, before); !written) {
+      return written;
+    }
+  }
+  for (const auto& [whose, bytes] : learned_) {
+    const tape::Value value{tape::EntryKind::Before, whose.second, bytes};
+    if (auto written = write_value(value, whose.first, before, before); !written) {
+      return written;
+    }
+  }
+  learned_.clear();
+  return {};
+}
+
+Result<void, Problem> Recorder::write_run(const tape::Run& run) {
+  const std::uint32_t module = module_of(run);
+  for (const tape::Value& value : run.values) {
+    const std::int64_t time = value.kind == tape::EntryKind::Before ? run.tail.start_ns : run.tail.end_ns;
+    if (auto written = write_value(value, module, time, run.tail.release_ns); !written) {
+      return written;
+    }
+  }
+  for (const std::int64_t clock : run.clock) {
+    to_cdr(clock, cdr_);
+    if (auto written = writer_.write(clock_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
+                                     to_sequence({module, tape::EntryKind::Clock}), cdr_);
+        !written) {
+      return written;
+    }
+  }
+  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0}, cdr_);
+  auto written = writer_.write(runs_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
+                               static_cast<std::uint32_t>(run.tail.number), cdr_);
+  counts_.runs += written.ok() ? 1U : 0U;
+  return written;
+}
+
+Result<void, Problem> Recorder::take() {
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    for (;;) {
+      if (!held_) {
+        held_.emplace();
+        if (!follower_.next(track, *held_)) {
+          held_.reset();
+          break;
+        }
+      }
+      if (!first_told_) {
+        if (auto told = tell_first_values(); !told) {
+          return told;
+        }
+        first_told_ = true;
+      }
+      if (auto written = write_run(*held_); !written) {
+        return written;
+      }
+      held_.reset();
+    }
+    if (const std::uint64_t lost = follower_.lost(track); lost > 0) {
+      counts_.lost[follower_.module_of(track)] = lost;
+    }
+  }
+  return {};
+}
+
+Result<void, Problem> Recorder::close() {
+  std::uint64_t lost = 0;
+  for (const auto& [module, runs] : counts_.lost) {
+    lost += runs;
+  }
+  auto said = writer_.metadata("indurop.end", {{"runs", std::to_string(counts_.runs)},
+                                               {"values", std::to_string(counts_.values)},
+                                               {"lost_runs", std::to_string(lost)}});
+  return said ? writer_.close() : said;
+}
+
+}  // namespace indurop::recorder

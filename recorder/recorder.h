@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes what there is on a node's tape to an MCAP file, again and again. Looks only: the node does not know of it. Not
+// real-time safe; one thread at a time.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/problem.h"
+#include "recording/mcap_writer.h"
+#include "tape/follower.h"
+#include "vars/store.h"
+
+namespace indurop::recorder {
+
+// What is said of the node in the file.
+struct About {
+  std::string node;
+  std::string config;  // the file it runs
+  std::string board;   // empty: none of a plant
+  std::string deployment;
+  std::string reason;  // why it was recorded; empty: somebody wanted it
+  std::int64_t basic_period_ns = 0;
+  std::int64_t real_minus_node_ns = 0;                     // CLOCK_REALTIME less the node's time
+  std::vector<std::string> modules;                        // their names, by index
+  std::vector<std::pair<std::string, std::string>> files;  // name and text of what it was configured with
+};
+
+struct Counts {
+  std::uint64_t runs = 0;
+  std::uint64_t values = 0;
+  std::map<std::uint32_t, std::uint64_t> lost;  // runs of a module that were overwritten before they were read
+};
+
+class Recorder {
+ public:
+  // `globs`: variables that are wanted; none: all. The store is borrowed.
+  // Errors: the file is there already or cannot be written; the tape is of another store; no variable has such a name.
+  static Result<Recorder, base::Problem> create(const std::filesystem::path& path, const About& about,
+                                                const vars::Store& store, tape::Follower follower,
+                                                const std::vector<std::string>& globs);
+
+  // Leaves out what there is by now: for a recording from now on. Before the first take().
+  void learn();
+  // Takes what there is. Errors: those of the disk; what was not taken can be taken later.
+  Result<void, base::Problem> take();
+  // What is in memory goes to the file.
+  Result<void, base::Problem> flush() { return writer_.flush(); }
+  // The end of the recording, with all counts.
+  Result<void, base::Problem> close();
+
+  [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return writer_.size(); }
+  [[nodiscard]] std::size_t variables() const noexcept { return wanted_count_; }
+  // Wanted ones that no tape tells, they are too large.
+  [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return too_large_; }
+
+ private:
+  Recorder(recording::McapWriter writer, const vars::Store& store, tape::Follower follower, About about)
+      : writer_(std::move(writer)), store_(store), follower_(std::move(follower)), about_(std::move(about)) {}
+
+  Result<void, base::Problem> begin(const std::vector<std::string>& globs);
+  Result<void, base::Problem> add_own_channels();
+  Result<void, base::Problem> tell_first_values();
+  Result<void, base::Problem> write_run(const tape::Run& run);
+  Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
+                                          std::int64_t release_ns);
+  Result<std::uint16_t, base::Problem> channel_of(std::uint32_t variable);
+  [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
+  [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
+
+  recording::McapWriter writer_;
+  const vars::Store& store_;
+  tape::Follower follower_;
+  About about_;
+  std::vector<bool> wanted_;
+  std::size_t wanted_count_ = 0;
+  std::vector<std::string> too_large_;
+  std::vector<std::uint16_t> channels_;  // of variables; 0: none yet
+  std::map<std::string, std::uint16_t> schemas_;
+  std::uint16_t runs_channel_ = 0;
+  std::uint16_t clock_channel_ = 0;
+  bool first_told_ = false;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint8_t>> learned_;  // by module and variable
+  std::optional<tape::Run> held_;                                                         // could not be written yet
+  std::vector<std::uint8_t> cdr_;
+  Counts counts_;
+};
+
+}  // namespace indurop::recorder

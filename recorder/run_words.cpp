@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recorder/run_words.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace indurop::recorder {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kLittleEndian{0, 1, 0, 0};
+constexpr std::size_t kTailBytes = sizeof(tape::RunTail);
+constexpr std::size_t kMessageBytes = kLittleEndian.size() + kTailBytes + sizeof(std::uint32_t) + 1;
+constexpr std::uint32_t kKindBits = 3;
+
+}  // namespace
+
+static_assert(std::endian::native == std::endian::little, "messages are copied as they lie in memory");
+
+// In the order of RunTail, so that a message is its bytes.
+const std::string_view kRunIdl =
+    "module indurop {\n"
+    "  struct Run {\n"
+    "    unsigned long long number;\n"
+    "    unsigned long long order;\n"
+    "    unsigned long long tick;\n"
+    "    long long release_ns;\n"
+    "    long long start_ns;\n"
+    "    long long end_ns;\n"
+    "    unsigned long module;\n"
+    "    boolean faulted;\n"
+    "  };\n"
+    "};\n";
+
+const std::string_view kClockIdl =
+    "module indurop {\n"
+    "  struct Clock {\n"
+    "    long long now_ns;\n"
+    "  };\n"
+    "};\n";
+
+void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr) {
+  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
+  const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof clock_ns>>(clock_ns);
+  cdr.insert(cdr.end(), bytes.begin(), bytes.end());
+}
+
+Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr) {
+  std::array<std::uint8_t, sizeof(std::int64_t)> bytes{};
+  if (cdr.size() != kLittleEndian.size() + bytes.size() ||
+      !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+    return Error{Errc::Corrupt, 0, "a time of a recording"};
+  }
+  std::copy_n(cdr.begin() + kLittleEndian.size(), bytes.size(), bytes.begin());
+  return std::bit_cast<std::int64_t>(bytes);
+}
+
+void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {
+  cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
+  const auto tail = std::bit_cast<std::array<std::uint8_t, kTailBytes>>(run.tail);
+  cdr.insert(cdr.end(), tail.begin(), tail.end());
+  const auto module = std::bit_cast<std::array<std::uint8_t, sizeof run.module>>(run.module);
+  cdr.insert(cdr.end(), module.begin(), module.end());
+  cdr.push_back(run.faulted ? 1 : 0);
+}
+
+Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr) {
+  if (cdr.size() != kMessageBytes || !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+    return Error{Errc::Corrupt, 0, "a run of a recording"};
+  }
+  std::array<std::uint8_t, kTailBytes> tail{};
+  std::copy_n(cdr.begin() + kLittleEndian.size(), kTailBytes, tail.begin());
+  std::array<std::uint8_t, sizeof(std::uint32_t)> module{};
+  std::copy_n(cdr.begin() + kLittleEndian.size() + kTailBytes, module.size(), module.begin());
+  return RunWords{std::bit_cast<tape::RunTail>(tail), std::bit_cast<std::uint32_t>(module), cdr.back() != 0};
+}
+
+std::uint32_t to_sequence(ValueWords words) noexcept {
+  return (words.module << kKindBits) | static_cast<std::uint32_t>(words.kind);
+}
+
+ValueWords from_sequence(std::uint32_t sequence) noexcept {
+  return {sequence >> kKindBits, static_cast<tape::EntryKind>(sequence & ((1U << kKindBits) - 1))};
+}
+
+}  // namespace indurop::recorder

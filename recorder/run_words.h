@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a recording says of runs: one message of the channel indurop/runs at the end of each. The values of a run are
+// the messages with its module's number since the module's run before it. Times in messages are the node's; log times
+// are CLOCK_REALTIME.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "tape/follower.h"
+
+namespace indurop::recorder {
+
+inline constexpr std::string_view kRunsTopic = "indurop/runs";
+inline constexpr std::string_view kRunSchema = "indurop::Run";
+extern const std::string_view kRunIdl;
+
+struct RunWords {
+  tape::RunTail tail;
+  std::uint32_t module = 0;
+  bool faulted = false;
+};
+// What irp::now_ns() said to runs: messages of the channel indurop/clock, in the order of a run's calls.
+inline constexpr std::string_view kClockTopic = "indurop/clock";
+inline constexpr std::string_view kClockSchema = "indurop::Clock";
+extern const std::string_view kClockIdl;
+void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr);
+// Errors: Corrupt.
+Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr);
+
+void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
+// Errors: Corrupt.
+Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr);
+
+// The sequence number of a value's message: whose run it belongs to, and as what.
+struct ValueWords {
+  std::uint32_t module = 0;  // tape::kOthers as kOthers
+  tape::EntryKind kind{};    // Run: a first value, of before any module was started
+};
+inline constexpr std::uint32_t kOthers = 0x1fffffff;
+std::uint32_t to_sequence(ValueWords words) noexcept;
+ValueWords from_sequence(std::uint32_t sequence) noexcept;
+
+}  // namespace indurop::recorder

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reading end: runs of a node's tape, from a mapping that cannot disturb the node. Nothing the memory says is
+// believed before it was compared with its size. Not real-time safe; one thread at a time.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tape/layout.h"
+#include "vars/shm_file.h"
+
+namespace indurop::tape {
+
+struct Value {
+  EntryKind kind{};
+  std::uint32_t variable = 0;  // index in the store's directory
+  std::span<const std::uint8_t> bytes;
+};
+
+struct Run {
+  std::uint32_t module = 0;  // index in the run block, or kOthers
+  std::uint32_t flags = 0;
+  RunTail tail;
+  std::vector<Value> values;         // in the order of the track
+  std::vector<std::int64_t> clock;   // what irp::now_ns() said to it
+  std::vector<std::uint64_t> words;  // what the values point into
+};
+
+class Follower {
+ public:
+  // `from_start`: with the oldest run that is still there; else with the next one.
+  // Errors: NotFound (no such node, or it has no tape), PermissionDenied, VersionMismatch, Corrupt, System.
+  static Result<Follower> open(const std::string& node, bool from_start);
+
+  [[nodiscard]] const TapeHeader& header() const noexcept;
+  [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return variables_; }
+  // Before any module was started.
+  [[nodiscard]] std::span<const std::uint8_t> first_value(std::uint32_t variable) const noexcept;
+  [[nodiscard]] std::size_t tracks() const noexcept { return places_.size(); }
+  [[nodiscard]] std::uint32_t module_of(std::size_t track) const noexcept { return places_[track].module; }
+
+  // The next run of a track; `run` is used again. False: there is none yet.
+  bool next(std::size_t track, Run& run);
+  // Runs of the track that were overwritten before they were read.
+  [[nodiscard]] std::uint64_t lost(std::size_t track) const noexcept { return places_[track].lost; }
+
+ private:
+  struct Place {
+    const TapeTrack* shared = nullptr;
+    const std::uint64_t* words = nullptr;
+    std::uint64_t mask = 0;
+    std::uint32_t module = 0;
+    std::uint64_t at = 0;
+    std::uint64_t next_number = 0;
+    std::uint64_t lost = 0;
+    bool any = false;  // a run was read, so that the numbers tell what is lost
+  };
+  enum class Reading { Whole, Overtaken, Corrupt };
+
+  explicit Follower(vars::ShmFile&& file) : file_(std::move(file)) {}
+  void find_tracks();
+  Reading read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const;
+  [[nodiscard]] static std::uint64_t oldest(const Place& place, std::uint64_t head) noexcept;
+  // False: the words are not those of this place in the track any more.
+  static bool copy(const Place& place, std::uint64_t from, std::uint64_t count, std::vector<std::uint64_t>& to);
+
+  vars::ShmFile file_;
+  std::span<const TapeVariable> variables_;
+  std::vector<Place> places_;
+};
+
+}  // namespace indurop::tape

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tape/track.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "vars/ring.h"
+
+namespace indurop::tape {
+namespace {
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+constexpr std::uint64_t kAhead = 64;  // words claimed more than needed, so that this is not done for each entry
+
+// The bits of a scalar.
+std::uint64_t load_scalar(const void* entry, std::uint32_t size) noexcept {
+  switch (size) {
+    case 1:
+      return __atomic_load_n(static_cast<const std::uint8_t*>(entry), __ATOMIC_ACQUIRE);
+    case 2:
+      return __atomic_load_n(static_cast<const std::uint16_t*>(entry), __ATOMIC_ACQUIRE);
+    case 4:
+      return __atomic_load_n(static_cast<const std::uint32_t*>(entry), __ATOMIC_ACQUIRE);
+    default:
+      return __atomic_load_n(static_cast<const std::uint64_t*>(entry), __ATOMIC_ACQUIRE);
+  }
+}
+
+const abi::RingHeader& ring_of(const void* entry) noexcept {
+  return *static_cast<const abi::RingHeader*>(entry);
+}
+
+}  // namespace
+
+Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store)
+    : shared_(shared),
+      words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
+      mask_(shared.words - 1),
+      orders_(reinterpret_cast<TapeHeader*>(tape)->order),
+      reads_end_(std::size_t{shared.only_read} + shared.both),
+      writes_begin_(shared.only_read),
+      head_(shared.head.load(kRelaxed)),
+      claimed_(shared.claimed.load(kRelaxed)),
+      number_(shared.runs.load(kRelaxed)) {
+  const auto* const indices = reinterpret_cast<const std::uint32_t*>(tape + shared.items_offset);
+  std::uint64_t largest = 0;
+  for (std::size_t i = 0; i < reads_end_ + shared.only_written; ++i) {
+    const vars::DirectoryEntry& entry = store.directory()[indices[i]];
+    items_.push_back(
+        {store.entry(entry.name_hash, 0), 0, entry.value_size, indices[i], entry.kind == abi::Kind::Scalar});
+    largest = std::max(largest, words_of(entry.value_size));
+  }
+  copy_.resize(largest);
+}
+
+void Track::claim(std::uint64_t words) noexcept {
+  if (at_ + words > claimed_) {
+    claimed_ = at_ + words + kAhead;
+    shared_.claimed.store(claimed_, kRelaxed);
+    std::atomic_thread_fence(std::memory_order_release);  // before what it announces
+  }
+}
+
+void Track::put(std::uint64_t word) noexcept {
+  __atomic_store_n(words_ + (at_ & mask_), word, __ATOMIC_RELAXED);
+  ++at_;
+}
+
+void Track::put_head(EntryKind kind, std::uint32_t which) noexcept {
+  put(std::bit_cast<std::uint64_t>(EntryHead{kind, which}));
+}
+
+// A value that writers keep overtaking is told the next time.
+void Track::tell(Item& item, EntryKind kind) noexcept {
+  const std::uint64_t length = words_of(item.size);
+  if (item.scalar) {
+    claim(1 + length);
+    put_head(kind, item.variable);
+    put(item.seen);
+    return;
+  }
+  copy_[length - 1] = 0;  // what is behind the value in its last word
+  if (!vars::try_read(ring_of(item.entry), item.size, 0, copy_.data(), item.size)) {
+    item.seen = ~std::uint64_t{0};
+    return;
+  }
+  claim(1 + length);
+  put_head(kind, item.variable);
+  for (std::uint64_t i = 0; i < length; ++i) {
+    put(copy_[i]);
+  }
+}
+
+bool Track::tell_changed(Item& item, EntryKind kind, bool anyway) noexcept {
+  const std::uint64_t now =
+      item.scalar ? load_scalar(item.entry, item.size) : ring_of(item.entry).seq.load(std::memory_order_acquire);
+  if (now == item.seen && !anyway) [[likely]] {
+    return false;
+  }
+  item.seen = now;
+  tell(item, kind);
+  return true;
+}
+
+void Track::begin() noexcept {
+  at_ = head_;
+  all_ = all_ || open_;
+  open_ = true;
+  clock_left_ = kMostReadings;
+  order_ = orders_.fetch_add(1, kRelaxed);
+  for (std::size_t i = 0; i < reads_end_; ++i) {
+    tell_changed(items_[i], EntryKind::Before, all_);
+  }
+}
+
+void Track::clock(std::int64_t ns) noexcept {
+  if (open_ && clock_left_ > 0) {
+    --clock_left_;
+    claim(2);
+    put_head(EntryKind::Clock, 0);
+    put(static_cast<std::uint64_t>(ns));
+  }
+}
+
+void Track::end(const RunTail& times, std::uint32_t flags) noexcept {
+  for (std::size_t i = 0; i < writes_begin_; ++i) {
+    tell_changed(items_[i], EntryKind::During, false);
+  }
+  for (std::size_t i = writes_begin_; i < items_.size(); ++i) {
+    tell_changed(items_[i], EntryKind::After, all_ && i >= reads_end_);
+  }
+  tell_next_again();
+  publish(times, flags);
+}
+
+void Track::look(const RunTail& times) noexcept {
+  at_ = head_;
+  bool changed = false;
+  for (Item& item : items_) {
+    changed = tell_changed(item, EntryKind::Before, all_) || changed;
+  }
+  if (changed) {
+    order_ = orders_.fetch_add(1, kRelaxed);
+    tell_next_again();
+    publish(times, 0);
+  }
+}
+
+void Track::tell_next_again() noexcept {
+  if (!items_.empty()) {
+    again_ = again_ + 1 < items_.size() ? again_ + 1 : 0;
+    Item& item = items_[again_];
+    if (item.scalar || ring_of(item.entry).seq.load(kRelaxed) == item.seen) {
+      tell(item, EntryKind::Again);
+    }
+  }
+}
+
+void Track::publish(RunTail tail, std::uint32_t flags) noexcept {
+  tail.number = number_++;
+  shared_.runs.store(number_, kRelaxed);
+  tail.order = order_;
+  claim(1 + kRunWords);
+  put_head(EntryKind::Run, flags);
+  for (const std::uint64_t word : std::bit_cast<std::array<std::uint64_t, kRunWords>>(tail)) {
+    put(word);
+  }
+  const std::uint64_t part = shared_.words / kMarks;
+  if (head_ / part != at_ / part) {
+    shared_.marks[at_ / part % kMarks].store(at_, kRelaxed);
+  }
+  head_ = at_;
+  shared_.head.store(head_, std::memory_order_release);
+  all_ = false;
+  open_ = false;
+}
+
+}  // namespace indurop::tape

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The writing end of one track: called before and after each run of its module, by the thread that runs it.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tape/layout.h"
+#include "vars/store.h"
+
+namespace indurop::tape {
+
+class Track {
+ public:
+  // Goes on behind what is on the track. `tape`: all its bytes, checked; borrowed, as the store. Not real-time safe.
+  Track(std::byte* tape, TapeTrack& shared, const vars::Store& store);
+
+  // What the run begins with. Real-time safe: no lock, no allocation, no system call.
+  void begin() noexcept;
+  // The run was told this time. Real-time safe.
+  void clock(std::int64_t ns) noexcept;
+  // What it left; from then on readers see the run. Real-time safe.
+  void end(const RunTail& times, std::uint32_t flags) noexcept;
+  // A run that is only a look: nothing is written if nothing changed. Real-time safe.
+  void look(const RunTail& times) noexcept;
+
+ private:
+  struct Item {
+    const void* entry = nullptr;  // of the store
+    std::uint64_t seen = 0;       // scalar: the value; else the version
+    std::uint32_t size = 0;
+    std::uint32_t variable = 0;
+    bool scalar = false;
+  };
+
+  bool tell_changed(Item& item, EntryKind kind, bool anyway) noexcept;
+  void tell(Item& item, EntryKind kind) noexcept;
+  void tell_next_again() noexcept;
+  void publish(RunTail tail, std::uint32_t flags) noexcept;
+  void claim(std::uint64_t words) noexcept;
+  void put(std::uint64_t word) noexcept;
+  void put_head(EntryKind kind, std::uint32_t which) noexcept;
+
+  TapeTrack& shared_;
+  std::uint64_t* words_;
+  std::uint64_t mask_;
+  std::atomic<std::uint64_t>& orders_;
+  std::vector<Item> items_;  // only read, both, only written
+  std::size_t reads_end_;
+  std::size_t writes_begin_;
+  std::vector<std::uint64_t> copy_;  // of one value
+  std::uint64_t head_ = 0;
+  std::uint64_t at_ = 0;
+  std::uint64_t claimed_ = 0;
+  std::uint64_t number_ = 0;
+  std::uint64_t order_ = 0;
+  std::size_t again_ = 0;
+  int clock_left_ = 0;  // readings of this run that may still be told
+  bool all_ = true;     // nothing was told yet, or what was told is not published
+  bool open_ = false;   // a run has begun and not ended
+};
+
+}  // namespace indurop::tape

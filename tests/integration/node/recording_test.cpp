@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs are recorded, and run again: with the same modules they leave the same, with another one it is told where not.
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "node_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+class Recording : public NodeTest {
+ protected:
+  [[nodiscard]] std::string file() const { return folder() / "run.mcap"; }
+  Outcome replay(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"replay", file(), "--node", node() + "-r"};
+    words.insert(words.end(), more.begin(), more.end());
+    return indurop(words);
+  }
+  void TearDown() override {
+    indurop({"clean", "--node", node() + "-r"});
+    NodeTest::TearDown();
+  }
+  // Threads on two periods, an event with a condition, a process; one of them asks for the time.
+  const std::vector<Module> kPlant = {
+      {.file = "counter.so", .name = "counter", .priority = 1},
+      {.file = "walker.so", .name = "walker", .period = "2ms", .priority = 2},
+      {.file = "process.exe", .name = "process", .type = "process", .period = "5ms", .priority = 3},
+      {.file = "event.so",
+       .name = "event",
+       .operation = "sporadic",
+       .period = "10ms",
+       .priority = 9,
+       .properties = {{"every", "7"}}}};
+  std::vector<Module> threads() const { return {kPlant[0], kPlant[1], kPlant[3]}; }
+};
+
+TEST_F(Recording, Of_a_simulation_runs_again_with_the_same_result) {
+  const Outcome recorded = run_to_end(kPlant, {"--sim", "--until", "2s", "--record", file()});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  EXPECT_CONTAINS(recorded.out + recorded.err, "recorded 3686 runs")
+      << "2000 + 1000 + 400 + 285, and a look at what nobody reads or writes";
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, "2000 ticks, 3685 runs, ");
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
+TEST_F(Recording, Of_a_run_in_real_time_runs_again_with_the_same_result) {
+  const Outcome recorded = run_to_end(kPlant, {"--duration", "1s", "--record", file()});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
+TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
+  ASSERT_EQ(run_to_end(threads(), {"--sim", "--until", "1s", "--record", file()}).code, 0);
+  const Outcome changed = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so"});
+  EXPECT_EQ(changed.code, 4) << changed.err;
+  // In run 0 it keeps 4 inside instead of 3.
+  EXPECT_CONTAINS(changed.err, "tick 0, module walker: nt::pace was ");
+  EXPECT_CONTAINS(changed.out, "nt::walked of walker: ");
+  EXPECT_FALSE(contains(changed.out, "of counter:")) << changed.out;
+  const Outcome same = replay({"--with", std::string(MODULE_DIR) + "/walker.so"});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  const Outcome nobody = replay({"--with", "/nowhere/stranger.so"});
+  EXPECT_EQ(nobody.code, 4);
+  EXPECT_CONTAINS(nobody.err, "no module has this name or such a file");
+}
+
+TEST_F(Recording, Is_readable_when_the_node_was_killed) {
+  Program& sut = start_and_wait(threads(), {"--record", file()});
+  ASSERT_TRUE(runs_reach("counter", 2500));
+  sut.kill();
+  sut.wait();
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.err, "the recording was not closed");
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
+TEST_F(Recording, Of_a_node_that_runs_is_taken_by_record) {
+  Program& sut = start_and_wait(threads());
+  ASSERT_TRUE(runs_reach("counter", 20));
+  const Outcome all = indurop({"record", "-o", file(), "--duration", "300ms"});
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_CONTAINS(all.out + all.err, " variables, ");
+  const std::string one = folder() / "one.mcap";
+  EXPECT_CONTAINS(indurop({"record", "nt::wal*", "-o", one, "--past", "--duration", "100ms"}).err, " of 1 variables");
+  EXPECT_CONTAINS(indurop({"record", "-o", file()}).err, file()) << "it is there already";
+  const Outcome wrong = indurop({"record", "nobody", "-o", (folder() / "x.mcap").string()});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_CONTAINS(wrong.err, "has no variable 'nobody'");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "x.mcap"));
+  // Begun in the middle: what walker kept inside before is not known, and that is said.
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_CONTAINS(again.err, "are not in the recording: what it keeps inside may differ");
+  EXPECT_EQ(again.code, 4) << again.out;
+  EXPECT_CONTAINS(again.err, "module walker: nt::pace was ");
+}
+
+TEST_F(Recording, Ends_with_the_node_and_needs_its_tape) {
+  Program& sut = start_and_wait(threads(), {"--duration", "500ms"});
+  const Outcome to_the_end = indurop({"record", "-o", file()});
+  EXPECT_EQ(to_the_end.code, 0) << to_the_end.err;
+  EXPECT_EQ(sut.wait(), 0);
+  Program& bare = start_and_wait(threads(), {"--tape", "0"});
+  const Outcome none = indurop({"record", "-o", (folder() / "y.mcap").string()});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_CONTAINS(none.err, "keeps no tape");
+  bare.signal(SIGTERM);
+  EXPECT_EQ(bare.wait(), 0);
+}
+
+std::string newest_box(const Outcome& list) {
+  const auto boxes = nlohmann::json::parse(list.out)["boxes"];
+  return boxes.empty() ? "" : boxes[0]["file"].get<std::string>();
+}
+
+TEST_F(Recording, Is_kept_when_a_module_faults) {
+  SKIP_CRASHES_UNDER_TSAN();
+  Program& sut = start_and_wait(
+      {{.file = "counter.so", .name = "counter"},
+       {.file = "faulty.so", .name = "faulty", .priority = 2, .properties = {{"fault", "segv"}, {"after", "100"}}}});
+  ASSERT_TRUE(sut.says("what led to it is in ")) << sut.err();
+  EXPECT_CONTAINS(sut.err(), "fault of module faulty at tick ");
+  EXPECT_TRUE(runs_reach("counter", 400)) << "it goes on";
+  sut.signal(SIGTERM);
+  sut.wait();
+  const Outcome list = indurop({"blackbox", "-o", "json", "--node", node()});
+  EXPECT_CONTAINS(list.out, "fault of module faulty at tick ");
+  const Outcome again = indurop({"replay", newest_box(list), "--node", node() + "-r"});
+  EXPECT_CONTAINS(again.out, " runs, ") << again.err;
+}
+
+TEST_F(Recording, Is_kept_by_the_next_run_when_the_node_crashed) {
+  Program& first = start_and_wait(threads());
+  ASSERT_TRUE(runs_reach("counter", 100));
+  first.kill();
+  first.wait();
+  Program& second = start_and_wait(threads());
+  EXPECT_TRUE(second.says("did not end, it crashed: what led to it is in ")) << second.err();
+  second.signal(SIGTERM);
+  EXPECT_EQ(second.wait(), 0);
+  Program& third = start_and_wait(threads());
+  third.signal(SIGTERM);
+  EXPECT_EQ(third.wait(), 0);
+  EXPECT_FALSE(contains(third.err(), "crashed")) << "the second one ended well";
+  const Outcome list = indurop({"blackbox", "-o", "json", "--node", node()});
+  const Outcome again = indurop({"replay", newest_box(list), "--node", node() + "-r"});
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+}
+
+TEST_F(Recording, Of_other_variables_is_not_replayed) {
+  ASSERT_EQ(
+      run_to_end({{.file = "layout_old.so", .name = "layout"}}, {"--sim", "--until", "50ms", "--record", file()}).code,
+      0);
+  const std::string now = write("now.xml", xml({{.file = "layout_new.so", .name = "layout"}}));
+  const Outcome refused = replay({"--config", now});
+  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_CONTAINS(refused.err, "has another type in this configuration");
+  write("run.txt", "no recording");
+  EXPECT_EQ(indurop({"replay", folder() / "run.txt"}).code, 1);
+}
+
+}  // namespace
+}  // namespace indurop::test
