@@ -173,10 +173,8 @@ export interface Histogram {
 
 export interface Robot {
   module: string;
-  name: string;
   urdf: string;
-  scope?: string;
-  joints?: string[];
+  name?: string;  // from the text, by the page
 }
 
 export interface StreamVariable {

@@ -150,7 +150,7 @@ function Headline({ boards }: { boards: BoardSummary[] }) {
   const gone = boards.length - running.length;
   const forced = running.reduce((sum, { forces }) => sum + forces, 0);
   const parts = [];
-  if (wrong.length > 0) parts.push(`Something is wrong on ${wrong.map(({ board }) => board).join(", ")}.`);
+  if (wrong.length > 0) parts.push(...wrong.map(({ board, trouble }) => `${board}: ${trouble[0] ?? "something is wrong"}.`));
   else if (running.length > 0) parts.push(running.length === 1 ? "The board runs, nothing is wrong." : `All ${running.length} boards that run are well.`);
   else parts.push("No board runs.");
   if (gone > 0 && running.length > 0) parts.push(`${plural(gone, "board does", "boards do")} not run.`);

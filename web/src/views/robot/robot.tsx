@@ -21,12 +21,16 @@ interface Known {
   told: boolean;  // the server has descriptions of robots
 }
 
+function name_in(urdf: string): string {
+  return /<robot[^>]*\sname\s*=\s*["']([^"']*)["']/.exec(urdf)?.[1] ?? "";
+}
+
 async function ask(board: string): Promise<Known> {
   const variables = await get<Variables>(board_path(board, "/variables?values=false&match=*ROBOT_ARM"));
   const scopes = scopes_of(variables.variables);
   try {
     const { robots } = await get<{ robots: Description[] }>(board_path(board, "/robots"));
-    return { robots, scopes, told: true };
+    return { robots: robots.map((robot) => ({ ...robot, name: name_in(robot.urdf) || robot.module })), scopes, told: true };
   } catch (error) {
     if (error instanceof Refusal && error.status === 404) return { robots: [], scopes, told: false };
     throw error;
@@ -110,7 +114,7 @@ export function Robot() {
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
   const index = Math.min(chosen, Math.max(0, count - 1));
   const robot = value?.robots[index] ?? null;
-  const scope = value ? robot?.scope || value.scopes[index] || null : null;
+  const scope = value ? value.scopes[index] ?? null : null;
   const { box, drawn, names, said } = useScene(robot?.urdf ?? null);
   const state = useRobotState(board?.board ?? "", scope, ({ joint }) => {
     const now = drawn.current;
@@ -128,7 +132,7 @@ export function Robot() {
       <div class="robot">
         {robot ? (
           <section class="panel" aria-label="The arm">
-            <h2>{robot.name || robot.module}</h2>
+            <h2>{robot.name}</h2>
             <div class="arm" ref={box} role="img" aria-label={`The arm ${robot.name} as it stands now; the numbers are in the table`} />
             {said && <p class="warn">{said}</p>}
             <div class="bar">

@@ -51,7 +51,7 @@ function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
             <tr key={module.name} class={module.name === chosen ? "chosen" : ""}>
               <th scope="row"><button type="button" class="link-button" aria-pressed={module.name === chosen}
                 onClick={() => change_query({ m: module.name === chosen ? "" : module.name })}>{module.name}</button></th>
-              <td class="number">{module.core ?? "-"}</td><td class="number">{module.priority}</td>
+              <td class="number">{module.core !== undefined && module.core >= 0 ? module.core : "-"}</td><td class="number">{module.priority}</td>
               <td>{module.period_ns ? `every ${span(module.period_ns)}` : module.operation}</td>
               <td class="number">{module.runs ? span(module.mean_exec_ns) : "-"}</td><td class="number">{module.runs ? span(module.max_exec_ns) : "-"}</td>
               <td class="number">{module.period_ns ? span(module.jitter_p50_ns) : "-"}</td><td class="number">{module.period_ns ? span(module.jitter_p99_ns) : "-"}</td>
