@@ -22,6 +22,7 @@ Reply modules(Api& api, const Call& call);
 Reply faults(Api& api, const Call& call);
 Reply forces(Api& api, const Call& call);
 Reply deployments(Api& api, const Call& call);
+Reply robots(Api& api, const Call& call);
 
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);
