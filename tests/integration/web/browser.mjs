@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A browser for tests: opens the page in a size and colour, waits for what must come, and judges what is there.
+import { createRequire } from "node:module";
+import { pathToFileURL } from "node:url";
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+
+const PATIENCE_MS = 30_000;
+// What the page is allowed to say in the console: the browser's own words about answers that are refused on purpose.
+const EXPECTED = /Failed to load resource|WebSocket connection|GPU stall|GroupMarkerNotSet|Automatic fallback to software/;
+
+const input = createInterface({ input: process.stdin });
+const answers = input[Symbol.asyncIterator]();
+export async function order(word) {  // run.py carries it out
+  console.log(`do ${word}`);
+  await answers.next();
+}
+
+export class Browser {
+  constructor(puppet, axe, origin, token, pictures) {
+    Object.assign(this, { puppet, axe, origin, token, pictures, said: [] });
+  }
+
+  static async launch(driver, program, origin, token, pictures) {
+    const require = createRequire(pathToFileURL(join(driver, "x.js")));
+    const puppeteer = (await import(pathToFileURL(require.resolve("puppeteer-core")))).default;
+    const axe = await readFile(require.resolve("axe-core/axe.min.js"), "utf8");
+    const puppet = await puppeteer.launch({ executablePath: program, headless: true, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+    return new Browser(puppet, axe, origin, token, pictures);
+  }
+
+  async open(where, { width = 1920, height = 1080, dark = false, token = true } = {}) {
+    const page = await this.puppet.newPage();
+    page.setDefaultTimeout(PATIENCE_MS);
+    page.on("pageerror", (error) => this.said.push(`${where}: ${error.message}`));
+    page.on("console", (message) => {
+      if (["error", "warn"].includes(message.type()) && !EXPECTED.test(message.text())) this.said.push(`${where}: ${message.text()}`);
+    });
+    await page.setViewport({ width, height, isMobile: width < 700, hasTouch: width < 700 });
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
+    await page.goto(`${this.origin}/${token ? `#token=${this.token}&` : "#"}/${where}`);
+    return page;
+  }
+
+  close() { return this.puppet.close(); }
+
+  // Nothing wider than the screen, nothing serious for axe-core; a picture for people.
+  async judge(page, name) {
+    const inner = page.viewport().width;
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    await page.screenshot({ path: join(this.pictures, `${name}.png`) });
+    check(wide <= inner, `${name}: ${wide} pixels wide on a screen of ${inner}`);
+    await page.evaluate(this.axe);
+    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+    check(serious.length === 0, `${name}: ${serious.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map(({ html, failureSummary }) => `${html} ${failureSummary}`).join(" | ")}`).join("\n")}`);
+  }
+}
+
+export function check(right, otherwise) {
+  if (!right) throw new Error(otherwise);
+}
+
+export async function sees(page, text) {
+  try {
+    await page.waitForFunction((wanted) => document.body.innerText.includes(wanted), {}, text);
+  } catch {
+    throw new Error(`'${text}' is not there, but:\n${await page.evaluate(() => document.body.innerText)}`);
+  }
+}
+
+export async function sees_no(page, text) {
+  await page.waitForFunction((wanted) => !document.body.innerText.includes(wanted), {}, text)
+    .catch(() => { throw new Error(`'${text}' does not go away`); });
+}
+
+export async function press(page, text) {
+  await page.locator(`::-p-xpath(//button[normalize-space()='${text}'])`).click();
+}
+
+export async function fill(page, label, text) {
+  const field = await page.waitForSelector(`::-p-aria(${label})`);
+  await field.click({ count: 3 });
+  await field.type(text);
+}

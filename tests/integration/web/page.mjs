@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// page.mjs DRIVER ORIGIN TOKEN NODE PICTURES BROWSER: goes through the page as run.py says. Ends with 0 if all was right.
+import { Browser, check, fill, order, press, sees, sees_no } from "./browser.mjs";
+
+const [driver, origin, token, node, pictures, program] = process.argv.slice(2);
+const SCREENS = {
+  wide: { width: 1920, height: 1080 },
+  phone: { width: 390, height: 844, dark: true },
+  wall: { width: 3840, height: 2160, dark: true },
+};
+const { wide, phone } = SCREENS;
+const JOINTS = [0, 1, 2].map((i) => `PLC_ROBOT::ROBOT_ARM.joint[${i}]`).join();
+const OVERRIDE = "PLC_ROBOT::ROBOT_OVERRIDE";
+
+const browser = await Browser.launch(driver, program, origin, token, pictures);
+const value_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/variables/${encodeURIComponent(name)}`)).json()).value;
+
+const tests = {
+  async "The overview says what runs"() {
+    for (const [screen, size] of Object.entries(SCREENS)) {
+      const began = Date.now();
+      const page = await browser.open("overview", size);
+      await sees(page, node);
+      if (screen === "wide") console.log(`usable after ${Date.now() - began} ms`);
+      for (const text of ["Robot", "every 10 ms", "Lost ticks", "running"]) await sees(page, text);
+      await browser.judge(page, `overview-${screen}`);
+      await page.close();
+    }
+  },
+
+  async "The token leaves the address"() {
+    const page = await browser.open("overview");
+    await sees(page, "writing as tester");
+    check(!page.url().includes("token"), page.url());
+    await page.close();
+  },
+
+  async "Without a token nothing can be written"() {
+    const page = await browser.open(`variables?v=${OVERRIDE}`, { token: false });
+    await sees(page, "only looking");
+    await sees(page, "This page may only look");
+    check(await page.$("form.write") === null, "there is a form to write");
+    await page.close();
+  },
+
+  async "Variables are found, set within their range, forced and released"() {
+    const page = await browser.open("variables");
+    await fill(page, "Search variables", "override");
+    await sees(page, "of 57 variables");
+    await page.locator("::-p-xpath(//*[@role='row'][contains(., 'ROBOT_OVERRIDE')])").click();
+    await sees(page, "how fast the robot follows its path");
+    await sees(page, "0 to 100 %");
+    const field = `New value of ${OVERRIDE}`;
+    await page.waitForFunction((label) => document.querySelector(`[aria-label='${label}']`)?.value === "100", {}, field);
+    await fill(page, field, "500");
+    await press(page, "Set");
+    await sees(page, "Out of its range");
+    check(await value_of(OVERRIDE) === 100, "a value out of its range was written");
+    await fill(page, field, "75");
+    await press(page, "Set");
+    await sees(page, "Set to 75.");
+    check(await value_of(OVERRIDE) === 75, "what was set did not arrive");
+    await fill(page, field, "60");
+    await press(page, "Force");
+    await sees(page, "1 value is forced");
+    await sees(page, "Forced to 60 for 10 s.");
+    await browser.judge(page, "variables-forced-wide");
+    await press(page, "Release");
+    await sees_no(page, "1 value is forced");
+    await fill(page, field, "100");
+    await press(page, "Set");
+    await sees(page, "Set to 100.");
+    await page.close();
+  },
+
+  async "The tree is used with the keyboard"() {
+    const page = await browser.open("variables", SCREENS.phone);
+    await sees(page, "PLC_ROBOT");
+    await page.focus("[role=treegrid]");
+    for (const key of ["Home", "ArrowDown", "ArrowRight"]) await page.keyboard.press(key);
+    await sees(page, "emergency_stop");
+    await browser.judge(page, "variables-phone");
+    await page.keyboard.press("Enter");
+    await sees(page, "The panel, for your hands");
+    await page.close();
+  },
+
+  async "Charts show numbers over time, stop, and come back from their address"() {
+    await order("start-tour");
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open(`plots?c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed&w=10`, size);
+      await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
+      await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
+      if (screen === "wide") await new Promise((done) => setTimeout(done, 6000));  // so that people see something in the picture
+      await press(page, "Pause");
+      await sees(page, "Paused");
+      await browser.judge(page, `plots-${screen}`);
+      await page.reload();
+      await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
+      await page.close();
+    }
+  },
+
+  async "The schedule shows runs and explains them"() {
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open("schedule?z=16&m=Robot&n=1", size);
+      await page.waitForSelector(".run rect");
+      await sees(page, "Robot: how its times are distributed");
+      await sees(page, "half below");
+      await page.locator("details.panel summary").click();
+      await page.locator("details.panel tbody .link-button").click();
+      await sees(page, "after it was due");
+      await browser.judge(page, `schedule-${screen}`);
+      await page.close();
+    }
+  },
+
+  async "The robot is drawn and said in numbers"() {
+    await order("start-tour");
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open("robot", size);
+      await sees(page, "Commanded");
+      await sees(page, "mm/s");
+      await sees(page, "cell_arm");
+      // Without WebGL the page says so; the numbers are there in any case.
+      await page.waitForFunction(() => document.querySelector(".arm canvas") || document.querySelector(".robot .warn"));
+      if (screen === "wide") await new Promise((done) => setTimeout(done, 4000));  // the way of the tool
+      await browser.judge(page, `robot-${screen}`);
+      await page.close();
+    }
+  },
+
+  async "A server and a node that go are missed, and found again"() {
+    const page = await browser.open("overview");
+    await sees(page, "connected");
+    await order("stop-server");
+    await sees(page, "The server is gone: looking for it again");
+    await browser.judge(page, "server-gone");
+    await order("start-server");
+    await sees(page, "connected");
+    await sees_no(page, "The server is gone");
+    await order("stop-node");
+    await sees(page, `Node ${node} is gone: looking for it again`);
+    await order("start-node");
+    await sees_no(page, "is gone");
+    await page.close();
+  },
+};
+
+let failed = 0;
+for (const [name, test] of Object.entries(tests)) {
+  try {
+    await test();
+    console.log(`ok: ${name}`);
+  } catch (error) {
+    failed++;
+    console.log(`FAILED: ${name}: ${error.message}`);
+  }
+}
+for (const line of browser.said) console.log(`FAILED: the console says: ${line}`);
+await browser.close();
+process.exit(failed + browser.said.length === 0 ? 0 : 1);

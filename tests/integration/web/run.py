@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The page of `indurop serve` as people use it: a robot cell runs, headless Chromium goes through every view, wide and on a
+phone, light and dark; a value is set and forced, the server and the node go and come back; axe-core finds nothing serious.
+Pictures of what was seen are left in WORK/pictures."""
+
+import argparse
+import os
+import pathlib
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cell"))
+from cell_test import copy_configuration  # noqa: E402
+
+SKIPPED = 77
+HERE = pathlib.Path(__file__).parent
+NODE = "web_test"
+TOKEN = "a-token-that-is-only-for-tests-0123456789"
+PATIENCE = 60
+# What npm says where its registry cannot be reached.
+NO_NETWORK = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ETIMEDOUT", "ENETUNREACH", "E401", "E403", "E503")
+
+
+def skip(why):
+    print(why)
+    sys.exit(SKIPPED)
+
+
+def fetch_browser_driver(folder):
+    """Node's packages of package-lock.json, in `folder`; fetched once."""
+    lock = (HERE / "browser/package-lock.json").read_text()
+    mark = folder / "fetched.json"
+    if mark.is_file() and mark.read_text() == lock:
+        return
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("package.json", "package-lock.json"):
+        shutil.copy(HERE / "browser" / name, folder)
+    command = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"]
+    try:
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=180, check=False)
+    except subprocess.TimeoutExpired:
+        skip("the registry of npm does not answer")
+    if done.returncode != 0:
+        if any(word in done.stderr for word in NO_NETWORK):
+            skip("the registry of npm cannot be reached")
+        sys.exit(done.stderr)
+    mark.write_text(lock)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Plant:
+    """The cell and the server. The browser's script says on its standard output what it wants done, a word per line."""
+
+    def __init__(self, options, folder, port):
+        self.options, self.folder, self.port = options, folder, port
+        self.environment = {**os.environ, "INDUROP_STATE_DIR": str(folder / "state")}
+        self.server = None
+        (folder / "tokens").write_text(f"tester {TOKEN}\n")
+        (folder / "tokens").chmod(0o600)
+
+    def indurop(self, *words, check=False):
+        return subprocess.run([f"{self.options.bin}/indurop", *words], cwd=self.folder, env=self.environment, text=True,
+                              capture_output=True, timeout=60, check=check)
+
+    def start_node(self):
+        self.indurop("run", "module.xml", "--detach", "--node", NODE, check=True)
+
+    def start_tour(self):
+        """The robot moves for twenty seconds."""
+        self.indurop("set", "--node", NODE, "CELL::tour", "true", check=True)
+
+    def stop_node(self):
+        self.indurop("stop", "--node", NODE)
+
+    def start_server(self):
+        command = [f"{self.options.bin}/indurop-serve", "--node", NODE, "--port", str(self.port), "--write",
+                   "--token-file", str(self.folder / "tokens"), "--web", str(self.options.page), "-q"]
+        self.server = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL)
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            with socket.socket() as probe:
+                if probe.connect_ex(("127.0.0.1", self.port)) == 0:
+                    return
+            time.sleep(0.05)
+        raise AssertionError("the server does not listen")
+
+    def stop_server(self):
+        self.server.terminate()
+        self.server.wait(timeout=PATIENCE)
+
+    def obey(self, word):
+        {"start-node": self.start_node, "stop-node": self.stop_node, "start-server": self.start_server,
+         "stop-server": self.stop_server, "start-tour": self.start_tour}[word]()
+
+    def end(self):
+        if self.server and self.server.poll() is None:
+            self.stop_server()
+        self.stop_node()
+        self.indurop("clean", "--node", NODE)
+
+
+def drive(plant, driver, pictures, browser):
+    """Runs the browser's script; its exit code."""
+    command = ["node", str(HERE / "page.mjs"), str(driver), f"http://127.0.0.1:{plant.port}", TOKEN, NODE, str(pictures), browser]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as script:
+        for line in script.stdout:
+            if line.startswith("do "):
+                plant.obey(line[3:].strip())
+                script.stdin.write("done\n")
+                script.stdin.flush()
+            else:
+                print(line, end="", flush=True)
+    return script.returncode
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("--bin", "--cell", "--io-module"):
+        parser.add_argument(name, required=True)
+    for name in ("--page", "--work"):
+        parser.add_argument(name, type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    options.bin = os.path.abspath(options.bin)
+    if not shutil.which("npm") or not shutil.which("node"):
+        skip("there is no npm here")
+    if not (options.page / "index.html").is_file():
+        skip("the page was not built: the registry of npm could not be reached")
+    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if not browser:
+        skip("there is no Chromium here (package chromium)")
+    driver = options.work / "browser"
+    fetch_browser_driver(driver)
+    pictures = options.work / "pictures"
+    shutil.rmtree(pictures, ignore_errors=True)
+    pictures.mkdir(parents=True)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        copy_configuration(os.path.abspath(options.cell), os.path.abspath(options.io_module), name)
+        plant = Plant(options, folder, free_port())
+        try:
+            plant.indurop("clean", "--node", NODE)
+            plant.start_node()
+            plant.start_server()
+            return drive(plant, driver, pictures, browser)
+        finally:
+            plant.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
