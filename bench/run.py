@@ -142,6 +142,14 @@ class Bench:
         per_module = (t["inline_band/256"] - t["inline_band/16"]) / 240
         self.row("per module of 256", f"{per_module:.1f}", f"{t['clock_read']:.1f} clock", per_module, 60, " ns")
 
+    def tape(self):
+        self.title("The tape: what it adds to a run of a module (us)")
+        t = {name: ns / 1000 for name, ns in self.google("tape_bench").items()}
+        for what, limit in (("all_changed/0", 0.2), ("all_changed/50", None), ("all_changed/1000", 12), ("none_changed/1000", None)):
+            name, count = what.split("/")
+            self.row(f"{count} values of 16 bytes, {name.replace('_', ' ')}", f"{t[what + '/manual_time']:.2f}", "-",
+                     t[what + "/manual_time"], limit, " us")
+
     def robot(self):
         self.title("Robot task: six axes (us)")
         t = {name: ns / 1000 for name, ns in self.google("robot_bench").items()}
@@ -258,13 +266,13 @@ def main():
     parser.add_argument("--programs", required=True)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=int, default=5)
-    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,robot,plc,bands,wake,watch,start")
+    parser.add_argument("--only", default="", help="comma separated: lateness,access,dispatch,tape,robot,plc,bands,wake,watch,start")
     arguments = parser.parse_args()
     bench = Bench(arguments)
     only = set(filter(None, arguments.only.split(",")))
     bench.hold_idle_states()
     try:
-        for name in ("access", "dispatch", "robot", "plc", "bands", "wake", "start", "watch"):
+        for name in ("access", "dispatch", "tape", "robot", "plc", "bands", "wake", "start", "watch"):
             if not only or name in only:
                 getattr(bench, name)()
         if not only or "lateness" in only:
