@@ -158,7 +158,9 @@ class CppWriter {
     if (v.maxage_ns > 0) {
       out_.line("  static constexpr ::std::int64_t kMaxAgeNs = {};", v.maxage_ns);
     }
-    out_.line("  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept {{ return refs[{}]; }}", index);
+    out_.line(
+        "  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept {{ return refs[{}]; }}",
+        index);
     out_.line("}};");
   }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "plc/emit/cpp_text.h"
+#include "plc/emit/exchange_emitter.h"
 #include "plc/emit/pou_emitter.h"
 #include "plc/emit/task_use.h"
 #include "plc/emit/text_writer.h"
@@ -15,10 +16,6 @@
 
 namespace indurop::plc {
 namespace {
-
-bool in_image(const Global& global) noexcept {
-  return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
-}
 
 class ModuleEmitter {
  public:
@@ -81,7 +78,7 @@ class ModuleEmitter {
       emit_watch(task_, program_.space, out_);
     }
     debugger();
-    exchange();
+    emit_exchange(use_, globals_, out_);
     out_.line("}  // namespace");
     out_.line();
     entry();
@@ -190,71 +187,6 @@ class ModuleEmitter {
       }
     }
     out_.line();
-  }
-
-  void exchange() {
-    out_.open("void read_shared()");
-    for (const Global* global : globals_) {
-      if (in_image(*global)) {
-        out_.line(fmt::format("iec::copy_value(shared.{}, {}.get());", cpp_name(*global), proxy_of(*global)));
-      }
-    }
-    for (const SharedLocal& one : use_.locals) {
-      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", one.cpp, one.shared_name));
-      if (!one.input) {
-        out_.line(fmt::format("before_{} = {};", one.name, one.cpp));
-      }
-    }
-    if (std::any_of(globals_.begin(), globals_.end(), [](const Global* one) { return in_image(*one); })) {
-      out_.line("before = shared;");
-    }
-    out_.close();
-    out_.line();
-    out_.open("void write_shared()");
-    for (const Global* global : globals_) {
-      if (in_image(*global)) {
-        write_back(*global);
-      }
-    }
-    for (const SharedLocal& one : use_.locals) {
-      if (!one.input) {
-        out_.line(fmt::format("iec::write_changed(::{}, {}, before_{});", one.shared_name, one.cpp, one.name));
-      }
-    }
-    out_.close();
-    restore();
-  }
-
-  // Once, when what was retained is there: timers go on, and an input that was true is no edge.
-  void restore() {
-    if (use_.restored.empty()) {
-      return;
-    }
-    out_.line();
-    out_.open("void restore([[maybe_unused]] const iec::Scan& scan)");
-    out_.line("static bool done = false;");
-    out_.line("if (done) { return; }");
-    out_.line("done = true;");
-    for (const std::string& one : use_.restored) {
-      out_.line(one);
-    }
-    out_.close();
-  }
-
-  // Only what the program can have changed: other fields may have other writers.
-  void write_back(const Global& global) {
-    const GlobalUse& use = use_.globals.at(&global);
-    const bool whole = use.writes.contains("");
-    for (const std::string& path : use.writes) {
-      const bool covered = std::any_of(use.writes.begin(), use.writes.end(), [&](const std::string& other) {
-        return other != path && path.starts_with(other + ".");
-      });
-      if (covered || (whole && !path.empty())) {
-        continue;
-      }
-      const std::string name = cpp_name(global);
-      out_.line(fmt::format("iec::write_changed({0}{1}, shared.{2}{1}, before.{2}{1});", proxy_of(global), path, name));
-    }
   }
 
   void debugger() {

@@ -27,11 +27,22 @@ class Emitter {
     if (pou.base != nullptr) {
       out_.line(fmt::format("show(out, static_cast<const {}&>(x));", name_of(*pou.base)));
     }
+    std::vector<const Variable*> row;  // that lie behind each other
     for (const Variable& one : pou.variables) {
-      if (is_watched(one)) {
-        value("x." + cpp_name(std::string_view(one.name)), *one.type);
+      const bool fits = is_watched(one) && is_number(*one.type);
+      if (!row.empty() && is_member(one) && !(fits && packed_size(*one.type) == packed_size(*row.back()->type))) {
+        end(row);
+      }
+      if (fits) {
+        row.push_back(&one);
+      } else if (is_watched(one)) {
+        value(name_in_x(one), *one.type);
+      }
+      if (one.declared->edge != ast::Edge::None) {
+        end(row);  // the value before lies between
       }
     }
+    end(row);
     out_.close();
   }
 
@@ -52,6 +63,28 @@ class Emitter {
   }
 
  private:
+  static std::string name_in_x(const Variable& variable) { return "x." + cpp_name(std::string_view(variable.name)); }
+  static bool is_number(const Type& type) { return type.kind == Type::Kind::Elementary && !type.is_string(); }
+  // Whether it lies in the struct of its instance.
+  static bool is_member(const Variable& variable) {
+    return variable.section != ast::Section::External && variable.section != ast::Section::Temp &&
+           variable.global == nullptr && !variable.is_constant && !variable.declared->is_static;
+  }
+
+  // Thousands of variables one by one would take g++ longer than the program.
+  void end(std::vector<const Variable*>& row) {
+    constexpr std::size_t kFew = 3;
+    if (row.size() > kFew) {
+      out_.line(fmt::format("{}.put_row(x, {}, {});", to_, name_in_x(*row.front()),
+                            row.size() * packed_size(*row.front()->type)));
+    } else {
+      for (const Variable* one : row) {
+        value(name_in_x(*one), *one->type);
+      }
+    }
+    row.clear();
+  }
+
   void elements(const std::string& expression, const Type& array) {
     std::string inner = expression;
     for (std::size_t i = 0; i < array.dimensions.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/lower/flow.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -47,6 +48,11 @@ bool leave_through_end(ast::Body& body, const Place& at) {
   return found;
 }
 
+bool has_jumps(const ast::Body& body) {
+  return std::any_of(body.begin(), body.end(),
+                     [](const ast::Statement& one) { return one.kind == ast::Statement::Kind::Jump; });
+}
+
 }  // namespace
 
 std::string flow_variable(const std::string& action) {
@@ -58,14 +64,26 @@ bool is_flow(std::string_view variable) {
 }
 
 void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place& at, bool declare) {
-  leave_through_end(lowered.body, at);
+  // What is jumped over has no power, so there it is written at the end only.
+  const bool at_end = leave_through_end(lowered.body, at) || has_jumps(lowered.body);
   std::size_t points = 0;
-  for (FlowPoint& point : lowered.flow) {
-    if (point.kind != Kind::Value) {
-      const Place place = point.value.at;
-      lowered.body.push_back(make::assign(point_of(place, variable, points++), std::move(point.value)));
+  std::size_t taken = 0;
+  ast::Body body;
+  const auto take_until = [&](std::size_t end) {
+    for (; taken < end; ++taken) {
+      body.push_back(std::move(lowered.body[taken]));
     }
+  };
+  for (FlowPoint& point : lowered.flow) {
+    if (point.kind == Kind::Value) {
+      continue;
+    }
+    take_until(at_end ? lowered.body.size() : point.behind);
+    const Place place = point.value.at;
+    body.push_back(make::assign(point_of(place, variable, points++), std::move(point.value)));
   }
+  take_until(lowered.body.size());
+  lowered.body = std::move(body);
   if (points > 0 && declare) {
     ast::TypeSpec flags;
     flags.kind = ast::TypeSpec::Kind::Array;

@@ -201,7 +201,14 @@ void NetworkCode::store(ast::Expression target, Value value, Storage storage, bo
   add(value.guard.empty() ? std::move(body.front()) : make::when(make::name(at, value.guard), std::move(body)));
 }
 
+void NetworkCode::end_network() {
+  for (auto point = lowered_.flow.rbegin(); point != lowered_.flow.rend() && point->behind == 0; ++point) {
+    point->behind = lowered_.body.size();
+  }
+}
+
 LoweredNetworks NetworkCode::finish() {
+  end_network();
   for (const WantedPin& each : options_.wanted) {
     lowered_.wanted.push_back(input(*each.element, *each.pin));
   }

@@ -52,6 +52,8 @@ class NetworkCode {
   // A variable that lives for one scan. The same name is declared once.
   std::string temporary(std::string_view letter, const std::string& key, ast::TypeSpec type);
 
+  // Between two networks.
+  void end_network();
   // What a running view shows.
   void show(FlowPoint::Kind kind, const Source& source, ast::Expression value, Elementary type = Elementary::Bool);
 

@@ -48,6 +48,7 @@ class NetworkLowering {
 
  private:
   void begin(const Network& network, const Place& at) {
+    code_.end_network();
     for (const std::string& label : network.labels) {
       code_.add(make::label(at, label));
     }

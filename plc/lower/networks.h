@@ -21,7 +21,7 @@ using network::Sheet;
 using network::Source;
 using network::Storage;
 
-// Something a running view shows of a scan, valid at the end of the body.
+// Something a running view shows of a scan, valid at the end of its network and of the body.
 struct FlowPoint {
   enum class Kind : std::uint8_t {
     Power,   // BOOL: flows out of the source
@@ -32,6 +32,7 @@ struct FlowPoint {
   Source source;
   ast::Expression value;
   Elementary type = Elementary::Bool;
+  std::size_t behind = 0;  // its network ends behind so many statements of the body
 };
 
 struct LoweredNetworks : Lowered {

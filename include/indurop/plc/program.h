@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <indurop/detail/access.h>
 #include <indurop/plc/clock.h>
 #include <indurop/plc/log.h>
 #include <indurop/plc/types.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -55,6 +57,37 @@ void write_changed(const Shared& to, const T& now, const T& before) {
     typename Shared::whole_type value{};
     copy_value(value, now);
     to = value;
+  }
+}
+
+// A number of the program that is shared.
+struct SharedWord {
+  const abi::Ref* shared;
+  void* now;     // of the program
+  void* before;  // what it was at the beginning of the scan; null: the program does not write it
+};
+template <class Bits, std::size_t N>
+void read_words(const std::array<SharedWord, N>& words) noexcept {
+  for (const SharedWord& one : words) {
+    Bits value;  // NOLINT(cppcoreguidelines-init-variables)
+    __atomic_load(static_cast<const Bits*>(one.shared->entry), &value, __ATOMIC_ACQUIRE);
+    std::memcpy(one.now, &value, sizeof value);
+    if (one.before != nullptr) {
+      std::memcpy(one.before, &value, sizeof value);
+    }
+  }
+}
+// Those the program changed: what others wrote meanwhile stays.
+template <class Bits, std::size_t N>
+void write_words(const std::array<SharedWord, N>& words) noexcept {
+  for (const SharedWord& one : words) {
+    Bits now;     // NOLINT(cppcoreguidelines-init-variables)
+    Bits before;  // NOLINT(cppcoreguidelines-init-variables)
+    std::memcpy(&now, one.now, sizeof now);
+    std::memcpy(&before, one.before, sizeof before);
+    if (now != before) {
+      indurop::detail::scalar_write<Bits>(one.shared->entry, now);
+    }
   }
 }
 

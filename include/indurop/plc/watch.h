@@ -38,6 +38,12 @@ class Watch {
       }
     }
   }
+  // Members of `all` that lie behind each other, from `first` on.
+  template <class All, class First>
+  void put_row(const All& all, const First& first, std::size_t size) noexcept {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(&all);
+    bytes(begin + (reinterpret_cast<const std::uint8_t*>(&first) - begin), size);
+  }
 
  private:
   void bytes(const void* from, std::size_t size) noexcept {

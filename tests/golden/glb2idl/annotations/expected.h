@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_2d8934ada0030c6d,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_169ecdd3edd268f5,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
 .ascii "\"description\":\"angle of the arm\",\"range\":[0.0,180.0],\"retain\":true,\"maxage_ns\":10000000,\"initial\":\"0"
 .ascii "000000000804640\",\"fallback\":\"0000000000a05640\",\"source\":\"in.glb:2\"},{\"name\":\"demo::pos\",\"type\":\"doub"
@@ -48,7 +48,7 @@ constexpr void indurop_fields(const Axis& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_2d8934ada0030c6d __attribute__((visibility("hidden"))) {
+namespace indurop_generated_169ecdd3edd268f5 __attribute__((visibility("hidden"))) {
 inline constexpr double initial_demo_angle{45.0};
 inline constexpr ::indurop::string<32> initial_demo_note{"fine"};
 inline constinit ::indurop::abi::Ref refs[] = {
@@ -77,51 +77,51 @@ struct var_demo_angle {
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
   static constexpr ::std::int64_t kMaxAgeNs = 10000000;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_pos {
   static constexpr ::std::uint64_t kNameHash = 0xa3d509974749c150;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_depth {
   static constexpr ::std::uint64_t kNameHash = 0xe1e2c4e9c90dbed3;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_demo_count {
   static constexpr ::std::uint64_t kNameHash = 0x4658fbb3129c7031;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
   static constexpr ::std::int64_t kMaxAgeNs = 1500000000;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_axis {
   static constexpr ::std::uint64_t kNameHash = 0x8c9a1a9c912d633f;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 16;
   static constexpr ::std::int64_t kMaxAgeNs = 100000;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_demo_emergency {
   static constexpr ::std::uint64_t kNameHash = 0x9b2a8527d8063deb;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 struct var_demo_note {
   static constexpr ::std::uint64_t kNameHash = 0x0cbc656191f66bc6;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 32;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
 };
 struct var_demo_level {
   static constexpr ::std::uint64_t kNameHash = 0xbe03eb9847350118;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_Axis {
@@ -136,15 +136,15 @@ union ref_demo_Axis {
   INDUROP_UNION_SHAPE(ref_demo_Axis)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_2d8934ada0030c6d
+}  // namespace indurop_generated_169ecdd3edd268f5
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_2d8934ada0030c6d::ref_demo_Axis<::indurop_generated_2d8934ada0030c6d::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
-inline constexpr ::indurop::Text<::indurop_generated_2d8934ada0030c6d::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_2d8934ada0030c6d::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_169ecdd3edd268f5::ref_demo_Axis<::indurop_generated_169ecdd3edd268f5::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
+inline constexpr ::indurop::Text<::indurop_generated_169ecdd3edd268f5::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_169ecdd3edd268f5::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
 }  // namespace demo

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_7a1bf769cc5723ee,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4129c2dad79c644e,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"PLC_ROBOT::I0\",\"type\":\"int16\",\"kind\":\"scalar\",\"description"
 .ascii "\":\"PLC input point 0\",\"source\":\"in.glb:2\"},{\"name\":\"PLC_ROBOT::I1\",\"type\":\"int16\",\"kind\":\"scalar\",\"d"
 .ascii "escription\":\"PLC input point 1\",\"source\":\"in.glb:3\"},{\"name\":\"PLC_ROBOT::O0\",\"type\":\"int16\",\"kind\":\""
@@ -136,7 +136,7 @@ constexpr void indurop_fields(const AXIS1_IN_t& v, indurop_visitor f) {
 }
 }  // namespace PLC_ROBOT
 
-namespace indurop_generated_7a1bf769cc5723ee __attribute__((visibility("hidden"))) {
+namespace indurop_generated_4129c2dad79c644e __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xa2e56741e5d74570, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I0"},
     {0xa2e56841e5d74723, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I1"},
@@ -160,37 +160,37 @@ struct var_PLC_ROBOT_I0 {
   static constexpr ::std::uint64_t kNameHash = 0xa2e56741e5d74570;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_PLC_ROBOT_I1 {
   static constexpr ::std::uint64_t kNameHash = 0xa2e56841e5d74723;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_PLC_ROBOT_O0 {
   static constexpr ::std::uint64_t kNameHash = 0xa2f9eb41e5e8cec6;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_PLC_ROBOT_ROBOT_MODULE_STATE {
   static constexpr ::std::uint64_t kNameHash = 0x33065a90e698b70a;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 408;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_PLC_ROBOT_ROBOT_MODULE_SERVICE {
   static constexpr ::std::uint64_t kNameHash = 0xaf2df9b9a1ffc198;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 24;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_PLC_ROBOT_AXIS1_IN {
   static constexpr ::std::uint64_t kNameHash = 0xbbff3cfd5c1fbae3;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 12;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_PLC_ROBOT_ROBOT_MODULE_STATE_t {
@@ -246,13 +246,13 @@ union ref_PLC_ROBOT_AXIS1_IN_t {
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_AXIS1_IN_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_7a1bf769cc5723ee
+}  // namespace indurop_generated_4129c2dad79c644e
 
 namespace PLC_ROBOT {
-inline constexpr ::indurop::Leaf<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
-inline constexpr ::indurop::Leaf<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
-inline constexpr ::indurop::Leaf<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
-inline constexpr ::indurop_generated_7a1bf769cc5723ee::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
-inline constexpr ::indurop_generated_7a1bf769cc5723ee::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
-inline constexpr ::indurop_generated_7a1bf769cc5723ee::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_7a1bf769cc5723ee::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
+inline constexpr ::indurop::Leaf<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
+inline constexpr ::indurop::Leaf<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
+inline constexpr ::indurop_generated_4129c2dad79c644e::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
+inline constexpr ::indurop_generated_4129c2dad79c644e::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
+inline constexpr ::indurop_generated_4129c2dad79c644e::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_4129c2dad79c644e::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace PLC_ROBOT

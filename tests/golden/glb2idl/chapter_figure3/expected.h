@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_0b133143c0faef31,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_b91376712df555a9,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"knu::Robot::tick\",\"type\":\"uint32\",\"kind\":\"scalar\",\"source\""
 .ascii ":\"in.glb:3\"},{\"name\":\"knu::Robot::joints\",\"type\":{\"base\":\"struct\",\"name\":\"knu::Robot::joints_t\",\"siz"
 .ascii "e\":24,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offse"
@@ -35,7 +35,7 @@ constexpr void indurop_fields(const joints_t& v, indurop_visitor f) {
 }
 }  // namespace knu::Robot
 
-namespace indurop_generated_0b133143c0faef31 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_b91376712df555a9 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xf1dc60870b76ee98, 0x4d2bdf193e8526d1, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "knu::Robot::tick"},
     {0x1050cb5f44a9d9d0, 0xfcf46c306778d7e4, nullptr, nullptr, 240, ::indurop::abi::Kind::Ring, "knu::Robot::joints"},
@@ -55,13 +55,13 @@ struct var_knu_Robot_tick {
   static constexpr ::std::uint64_t kNameHash = 0xf1dc60870b76ee98;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_knu_Robot_joints {
   static constexpr ::std::uint64_t kNameHash = 0x1050cb5f44a9d9d0;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 240;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_knu_Robot_joints_t {
@@ -76,9 +76,9 @@ union ref_knu_Robot_joints_t {
   INDUROP_UNION_SHAPE(ref_knu_Robot_joints_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_0b133143c0faef31
+}  // namespace indurop_generated_b91376712df555a9
 
 namespace knu::Robot {
-inline constexpr ::indurop::Leaf<::indurop_generated_0b133143c0faef31::var_knu_Robot_tick, ::std::uint32_t, 0> tick{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_0b133143c0faef31::ref_knu_Robot_joints_t<::indurop_generated_0b133143c0faef31::var_knu_Robot_joints, 0>, 10> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_b91376712df555a9::var_knu_Robot_tick, ::std::uint32_t, 0> tick{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_b91376712df555a9::ref_knu_Robot_joints_t<::indurop_generated_b91376712df555a9::var_knu_Robot_joints, 0>, 10> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace knu::Robot

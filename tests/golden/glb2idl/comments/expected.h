@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_149fd7a5bf7a08f7,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_db051e6a7f1ff0bf,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
 .ascii "cription needs no marks: stars and blanks are cut.\",\"source\":\"in.glb:2\"},{\"name\":\"behind\",\"type\":\"in"
 .ascii "t32\",\"kind\":\"scalar\",\"description\":\"behind wins over above\",\"source\":\"in.glb:3\"},{\"name\":\"none\",\"typ"
@@ -38,7 +38,7 @@ constexpr void indurop_fields(const S& v, indurop_visitor f) {
   f("y", v.y);
 }
 
-namespace indurop_generated_149fd7a5bf7a08f7 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_db051e6a7f1ff0bf __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_in{4};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x3f71052d617f9b2a, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "above"},
@@ -68,67 +68,67 @@ struct var_above {
   static constexpr ::std::uint64_t kNameHash = 0x3f71052d617f9b2a;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_behind {
   static constexpr ::std::uint64_t kNameHash = 0xfd7bbb6eebc12569;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_none {
   static constexpr ::std::uint64_t kNameHash = 0x3c0d17bad169557b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_two {
   static constexpr ::std::uint64_t kNameHash = 0x5714d319447c9709;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_one {
   static constexpr ::std::uint64_t kNameHash = 0x1a08aa1921ca5caf;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_both {
   static constexpr ::std::uint64_t kNameHash = 0xcd17f69bc69bbca2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 struct var_a {
   static constexpr ::std::uint64_t kNameHash = 0xaf63dc4c8601ec8c;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
 };
 struct var_b {
   static constexpr ::std::uint64_t kNameHash = 0xaf63df4c8601f1a5;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
 };
 struct var_ruler {
   static constexpr ::std::uint64_t kNameHash = 0x6712506a28515573;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
 };
 struct var_s {
   static constexpr ::std::uint64_t kNameHash = 0xaf63ee4c86020b22;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
 };
 struct var_in {
   static constexpr ::std::uint64_t kNameHash = 0x08b73807b55c4bbe;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_S {
@@ -142,15 +142,15 @@ union ref_S {
   INDUROP_UNION_SHAPE(ref_S)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_149fd7a5bf7a08f7
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
-inline constexpr ::indurop_generated_149fd7a5bf7a08f7::ref_S<::indurop_generated_149fd7a5bf7a08f7::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_149fd7a5bf7a08f7::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_db051e6a7f1ff0bf
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
+inline constexpr ::indurop_generated_db051e6a7f1ff0bf::ref_S<::indurop_generated_db051e6a7f1ff0bf::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_db051e6a7f1ff0bf::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};

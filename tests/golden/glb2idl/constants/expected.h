@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_998e4ee2a0717af1,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_7eaaa5fa8fafd2a9,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::joints\",\"type\":{\"base\":\"double\",\"dims\":[6]},\"kind\":\""
 .ascii "ring\",\"source\":\"in.glb:21\"},{\"name\":\"demo::grid\",\"type\":{\"base\":\"double\",\"dims\":[3,6]},\"kind\":\"ring\""
 .ascii ",\"source\":\"in.glb:22\"},{\"name\":\"demo::from_global\",\"type\":{\"base\":\"int32\",\"dims\":[100]},\"kind\":\"ring"
@@ -48,7 +48,7 @@ inline constexpr bool READY{true};
 inline constexpr char NAME[] = "arm";
 }  // namespace demo
 
-namespace indurop_generated_998e4ee2a0717af1 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_7eaaa5fa8fafd2a9 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::array<::std::int32_t, 100> initial_demo_from_global{{-6, 10, 65}};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x41822839aa46ec9f, 0x9e44f8fe2e115efd, nullptr, nullptr, 48, ::indurop::abi::Kind::Ring, "demo::joints"},
@@ -73,48 +73,48 @@ struct var_demo_joints {
   static constexpr ::std::uint64_t kNameHash = 0x41822839aa46ec9f;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 48;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_grid {
   static constexpr ::std::uint64_t kNameHash = 0xf5fa79a95dd06962;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 144;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_from_global {
   static constexpr ::std::uint64_t kNameHash = 0xc80c94f15bbcda28;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 400;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_other_part_define_is_known_everywhere {
   static constexpr ::std::uint64_t kNameHash = 0x0ce4d4ddc0166b47;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 24;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_other_part_qualified {
   static constexpr ::std::uint64_t kNameHash = 0xf48b713577ef439e;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 800;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_other_part_qualified2 {
   static constexpr ::std::uint64_t kNameHash = 0x783509dacb8ffd44;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 800;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
-}  // namespace indurop_generated_998e4ee2a0717af1
+}  // namespace indurop_generated_7eaaa5fa8fafd2a9
 
 namespace demo {
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_demo_joints, double, 0>, 6> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_demo_grid, double, 0>, 6>, 3> grid{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_demo_from_global, ::std::int32_t, 0>, 100> from_global{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_demo_joints, double, 0>, 6> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_demo_grid, double, 0>, 6>, 3> grid{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_demo_from_global, ::std::int32_t, 0>, 100> from_global{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo
 
 namespace other::part {
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_other_part_define_is_known_everywhere, ::std::int32_t, 0>, 6> define_is_known_everywhere{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_other_part_qualified, ::std::int32_t, 0>, 200> qualified{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_998e4ee2a0717af1::var_other_part_qualified2, ::std::int32_t, 0>, 200> qualified2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_other_part_define_is_known_everywhere, ::std::int32_t, 0>, 6> define_is_known_everywhere{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_other_part_qualified, ::std::int32_t, 0>, 200> qualified{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_7eaaa5fa8fafd2a9::var_other_part_qualified2, ::std::int32_t, 0>, 200> qualified2{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace other::part

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_01eb73ca35f96e83,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_85fbc91beaaaaddf,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"dos::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"firs"
 .ascii "t\",\"source\":\"in.glb:2\"},{\"name\":\"dos::b\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"two lines\",\"s"
 .ascii "ource\":\"in.glb:5\"},{\"name\":\"dos::c\",\"type\":{\"base\":\"int32\",\"dims\":[3]},\"kind\":\"ring\",\"source\":\"in.gl"
@@ -20,7 +20,7 @@ namespace dos {
 inline constexpr ::std::int32_t N{3};
 }  // namespace dos
 
-namespace indurop_generated_01eb73ca35f96e83 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_85fbc91beaaaaddf __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x7e22bed0aa866d7c, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "dos::a"},
     {0x7e22c1d0aa867295, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "dos::b"},
@@ -41,24 +41,24 @@ struct var_dos_a {
   static constexpr ::std::uint64_t kNameHash = 0x7e22bed0aa866d7c;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_dos_b {
   static constexpr ::std::uint64_t kNameHash = 0x7e22c1d0aa867295;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_dos_c {
   static constexpr ::std::uint64_t kNameHash = 0x7e22c0d0aa8670e2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 12;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
-}  // namespace indurop_generated_01eb73ca35f96e83
+}  // namespace indurop_generated_85fbc91beaaaaddf
 
 namespace dos {
-inline constexpr ::indurop::Leaf<::indurop_generated_01eb73ca35f96e83::var_dos_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};  // first
-inline constexpr ::indurop::Leaf<::indurop_generated_01eb73ca35f96e83::var_dos_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_01eb73ca35f96e83::var_dos_c, ::std::int32_t, 0>, 3> c{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_85fbc91beaaaaddf::var_dos_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};  // first
+inline constexpr ::indurop::Leaf<::indurop_generated_85fbc91beaaaaddf::var_dos_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_85fbc91beaaaaddf::var_dos_c, ::std::int32_t, 0>, 3> c{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace dos

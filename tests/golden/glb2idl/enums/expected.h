@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_b7c212267bb4799c,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_2101c484ad6076d8,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
 .ascii "\"values\":[[\"SLOW\",0],[\"FAST\",1]]},\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:5\"},{\"name\":"
 .ascii "\"demo::mode\",\"type\":{\"base\":\"enum\",\"name\":\"demo::Mode\",\"values\":[[\"OFF\",0],[\"AUTO\",1],[\"MANUAL\",2]]}"
@@ -46,7 +46,7 @@ inline constexpr ::demo::Mode DEFAULT_MODE{static_cast<::demo::Mode>(1)};
 inline constexpr ::demo::Mode START_MODE{static_cast<::demo::Mode>(0)};
 }  // namespace demo
 
-namespace indurop_generated_b7c212267bb4799c __attribute__((visibility("hidden"))) {
+namespace indurop_generated_2101c484ad6076d8 __attribute__((visibility("hidden"))) {
 inline constexpr ::demo::speed_t initial_demo_speed{::demo::FAST};
 inline constexpr ::demo::Mode initial_demo_mode{::demo::AUTO};
 inline constexpr ::std::array<::demo::Gear, 2> initial_demo_gears{{::demo::DRIVE}};
@@ -73,31 +73,31 @@ struct var_demo_speed {
   static constexpr ::std::uint64_t kNameHash = 0x1f47d38712dfa6bd;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_mode {
   static constexpr ::std::uint64_t kNameHash = 0x3b4095799f022ee1;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_gears {
   static constexpr ::std::uint64_t kNameHash = 0xeb7c8b29c05fa5d2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_demo_motor {
   static constexpr ::std::uint64_t kNameHash = 0x3d1520a980898633;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_other {
   static constexpr ::std::uint64_t kNameHash = 0x8cd7207a7a831468;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_Motor {
@@ -111,12 +111,12 @@ union ref_demo_Motor {
   INDUROP_UNION_SHAPE(ref_demo_Motor)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_b7c212267bb4799c
+}  // namespace indurop_generated_2101c484ad6076d8
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_b7c212267bb4799c::ref_demo_Motor<::indurop_generated_b7c212267bb4799c::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_b7c212267bb4799c::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_2101c484ad6076d8::ref_demo_Motor<::indurop_generated_2101c484ad6076d8::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_aa0baf06b4ffd93a,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_96754231e1d740b6,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"0500000"
 .ascii "0\",\"source\":\"in.glb:3\"},{\"name\":\"demo::zero\",\"type\":\"int32\",\"kind\":\"scalar\",\"given\":true,\"source\":\"i"
 .ascii "n.glb:4\"},{\"name\":\"demo::least8\",\"type\":\"int8\",\"kind\":\"scalar\",\"initial\":\"80\",\"source\":\"in.glb:5\"},{"
@@ -77,7 +77,7 @@ constexpr void indurop_fields(const nested_t& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_aa0baf06b4ffd93a __attribute__((visibility("hidden"))) {
+namespace indurop_generated_96754231e1d740b6 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_demo_a{5};
 inline constexpr ::std::int8_t initial_demo_least8{-128};
 inline constexpr ::std::int64_t initial_demo_least64{INT64_MIN};
@@ -139,139 +139,139 @@ struct var_demo_a {
   static constexpr ::std::uint64_t kNameHash = 0xaecab772fc402801;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_zero {
   static constexpr ::std::uint64_t kNameHash = 0xdd3ed0b9e177d9a8;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_least8 {
   static constexpr ::std::uint64_t kNameHash = 0x425fff4441f30899;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_demo_least64 {
   static constexpr ::std::uint64_t kNameHash = 0xbc4961fc10148ff9;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_most64 {
   static constexpr ::std::uint64_t kNameHash = 0xe3ec561dae2498fb;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_demo_hex {
   static constexpr ::std::uint64_t kNameHash = 0xe86958976dedc383;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 struct var_demo_f {
   static constexpr ::std::uint64_t kNameHash = 0xaecab872fc4029b4;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
 };
 struct var_demo_g {
   static constexpr ::std::uint64_t kNameHash = 0xaecab972fc402b67;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
 };
 struct var_demo_h {
   static constexpr ::std::uint64_t kNameHash = 0xaecaae72fc4018b6;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
 };
 struct var_demo_d {
   static constexpr ::std::uint64_t kNameHash = 0xaecaba72fc402d1a;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
 };
 struct var_demo_whole {
   static constexpr ::std::uint64_t kNameHash = 0xd57d0d192bf84d61;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
 };
 struct var_demo_yes {
   static constexpr ::std::uint64_t kNameHash = 0x668ef29724662d45;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
 };
 struct var_demo_no {
   static constexpr ::std::uint64_t kNameHash = 0x42864662a0f05769;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[12]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[12]; }
 };
 struct var_demo_letter {
   static constexpr ::std::uint64_t kNameHash = 0xe9a67ab455632966;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[13]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[13]; }
 };
 struct var_demo_text {
   static constexpr ::std::uint64_t kNameHash = 0x466f002c22e55c31;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 16;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[14]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[14]; }
 };
 struct var_demo_sized {
   static constexpr ::std::uint64_t kNameHash = 0x261467b7064a2485;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 7;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[15]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[15]; }
 };
 struct var_demo_numbers {
   static constexpr ::std::uint64_t kNameHash = 0x1b442d12a01dad1c;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 12;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[16]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[16]; }
 };
 struct var_demo_table {
   static constexpr ::std::uint64_t kNameHash = 0x4cc604e0e8cd13ce;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 24;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[17]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[17]; }
 };
 struct var_demo_p {
   static constexpr ::std::uint64_t kNameHash = 0xaecaa672fc400b1e;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 16;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[18]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[18]; }
 };
 struct var_demo_ps {
   static constexpr ::std::uint64_t kNameHash = 0x42644262a0d36a37;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 64;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[19]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[19]; }
 };
 struct var_demo_names {
   static constexpr ::std::uint64_t kNameHash = 0x4642951e0fb70b96;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 24;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[20]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[20]; }
 };
 struct var_demo_nested {
   static constexpr ::std::uint64_t kNameHash = 0x2c2081f64788d915;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 32;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[21]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[21]; }
 };
 struct var_demo_braces {
   static constexpr ::std::uint64_t kNameHash = 0x17493ff1b9e696fa;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[22]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[22]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_P {
@@ -292,36 +292,36 @@ union ref_demo_nested_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_aa0baf06b4ffd93a::ref_demo_P<indurop_tag, indurop_offset + 0> p;
+  ::indurop_generated_96754231e1d740b6::ref_demo_P<indurop_tag, indurop_offset + 0> p;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16>, 2> n;
   ::indurop::Leaf<indurop_tag, bool, indurop_offset + 24> on;
   INDUROP_UNION_SHAPE(ref_demo_nested_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_aa0baf06b4ffd93a
+}  // namespace indurop_generated_96754231e1d740b6
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_aa0baf06b4ffd93a::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_aa0baf06b4ffd93a::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_aa0baf06b4ffd93a::ref_demo_P<::indurop_generated_aa0baf06b4ffd93a::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_aa0baf06b4ffd93a::ref_demo_P<::indurop_generated_aa0baf06b4ffd93a::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_aa0baf06b4ffd93a::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_aa0baf06b4ffd93a::ref_demo_nested_t<::indurop_generated_aa0baf06b4ffd93a::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_aa0baf06b4ffd93a::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_96754231e1d740b6::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_96754231e1d740b6::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_96754231e1d740b6::ref_demo_P<::indurop_generated_96754231e1d740b6::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_96754231e1d740b6::ref_demo_P<::indurop_generated_96754231e1d740b6::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_96754231e1d740b6::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_96754231e1d740b6::ref_demo_nested_t<::indurop_generated_96754231e1d740b6::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_96754231e1d740b6::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_a98af307c4f16e42,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4f5f53905471bcd2,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::Names::all\",\"type\":{\"base\":\"struct\",\"name\":\"demo::Na"
 .ascii "mes::All\",\"size\":72,\"align\":8,\"fields\":[{\"name\":\"pos\",\"type\":{\"base\":\"struct\",\"name\":\"demo::Names::P"
 .ascii "os\",\"size\":8,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0}]},\"offset\":0},{\"name\":\"home"
@@ -127,7 +127,7 @@ namespace Other {
 inline constexpr ::std::int32_t string{5};
 }  // namespace Other
 
-namespace indurop_generated_a98af307c4f16e42 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_4f5f53905471bcd2 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x4013d69b34e500c1, 0x17cd84581c16d174, nullptr, nullptr, 72, ::indurop::abi::Kind::Ring, "demo::Names::all"},
     {0xac7dfe9ae1356470, 0x38c7f02e5218eb61, nullptr, nullptr, 8, ::indurop::abi::Kind::Ring, "demo::Names::pos"},
@@ -157,73 +157,73 @@ struct var_demo_Names_all {
   static constexpr ::std::uint64_t kNameHash = 0x4013d69b34e500c1;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 72;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_Names_pos {
   static constexpr ::std::uint64_t kNameHash = 0xac7dfe9ae1356470;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_Names_port {
   static constexpr ::std::uint64_t kNameHash = 0x4f7fab2cadbce5d5;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_demo_Names_home {
   static constexpr ::std::uint64_t kNameHash = 0xae739a6e72faddc5;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_Names_in {
   static constexpr ::std::uint64_t kNameHash = 0xf0c865855bd6ed85;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_demo_Names_status {
   static constexpr ::std::uint64_t kNameHash = 0x606f6d02b0fd5604;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 struct var_demo_Names_error {
   static constexpr ::std::uint64_t kNameHash = 0x5fbc653ee6f628fc;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
 };
 struct var_demo_Names_position {
   static constexpr ::std::uint64_t kNameHash = 0x84c1c112e8cca8c5;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
 };
 struct var_demo_Names2 {
   static constexpr ::std::uint64_t kNameHash = 0xd9533b5bfa6bc6cc;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
 };
 struct var_demo_time {
   static constexpr ::std::uint64_t kNameHash = 0xe14b1f2bea680a1b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
 };
 struct var_Other_place {
   static constexpr ::std::uint64_t kNameHash = 0x9ac22f12ad41a8bc;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
 };
 struct var_Other_lines {
   static constexpr ::std::uint64_t kNameHash = 0xfa371a6e88a7231c;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 20;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_Names_Pos {
@@ -243,7 +243,7 @@ union ref_demo_Names_All {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_a98af307c4f16e42::ref_demo_Names_Pos<indurop_tag, indurop_offset + 0> pos;
+  ::indurop_generated_4f5f53905471bcd2::ref_demo_Names_Pos<indurop_tag, indurop_offset + 0> pos;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 8> home;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 12> map;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16> port;
@@ -268,25 +268,25 @@ union ref_demo_Names_All {
   INDUROP_UNION_SHAPE(ref_demo_Names_All)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_a98af307c4f16e42
+}  // namespace indurop_generated_4f5f53905471bcd2
 
 namespace demo::Names {
-inline constexpr ::indurop_generated_a98af307c4f16e42::ref_demo_Names_All<::indurop_generated_a98af307c4f16e42::var_demo_Names_all, 0> all{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_a98af307c4f16e42::ref_demo_Names_Pos<::indurop_generated_a98af307c4f16e42::var_demo_Names_pos, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_port, ::std::int32_t, 0> port{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_home, ::std::int32_t, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_status, ::std::int32_t, 0> status{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_error, ::std::int32_t, 0> error{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names_position, ::std::int32_t, 0> position{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4f5f53905471bcd2::ref_demo_Names_All<::indurop_generated_4f5f53905471bcd2::var_demo_Names_all, 0> all{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4f5f53905471bcd2::ref_demo_Names_Pos<::indurop_generated_4f5f53905471bcd2::var_demo_Names_pos, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_port, ::std::int32_t, 0> port{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_home, ::std::int32_t, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_status, ::std::int32_t, 0> status{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_error, ::std::int32_t, 0> error{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names_position, ::std::int32_t, 0> position{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo::Names
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_Names2, ::std::int32_t, 0> Names2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_demo_time, ::std::int32_t, 0> time{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_Names2, ::std::int32_t, 0> Names2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_demo_time, ::std::int32_t, 0> time{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo
 
 namespace Other {
-inline constexpr ::indurop_generated_a98af307c4f16e42::ref_demo_Names_Pos<::indurop_generated_a98af307c4f16e42::var_Other_place, 0> place{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_a98af307c4f16e42::var_Other_lines, ::std::int32_t, 0>, 5> lines{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4f5f53905471bcd2::ref_demo_Names_Pos<::indurop_generated_4f5f53905471bcd2::var_Other_place, 0> place{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4f5f53905471bcd2::var_Other_lines, ::std::int32_t, 0>, 5> lines{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace Other

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_974e06c4012cec53,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_e9e4e3e7e8581e3b,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::both\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Both\",\"s"
 .ascii "ize\":8,\"align\":4,\"fields\":[{\"name\":\"dCur\",\"type\":\"int32\",\"offset\":0},{\"name\":\"d_cur\",\"type\":\"int32\","
 .ascii "\"offset\":4}]},\"kind\":\"ring\",\"source\":\"in.glb:6\"},{\"name\":\"cell::target\",\"type\":\"double\",\"kind\":\"scal"
@@ -42,7 +42,7 @@ constexpr void indurop_fields(const Target& v, indurop_visitor f) {
 }
 }  // namespace cell
 
-namespace indurop_generated_974e06c4012cec53 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_e9e4e3e7e8581e3b __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x48a5cbd050f86922, 0xe76636a1a2cf9472, nullptr, nullptr, 8, ::indurop::abi::Kind::Ring, "cell::both"},
     {0x415cb53400bc0468, 0xdd744c18ff7ea1ab, nullptr, nullptr, 8, ::indurop::abi::Kind::Scalar, "cell::target"},
@@ -62,13 +62,13 @@ struct var_cell_both {
   static constexpr ::std::uint64_t kNameHash = 0x48a5cbd050f86922;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_cell_target {
   static constexpr ::std::uint64_t kNameHash = 0x415cb53400bc0468;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_cell_Both {
@@ -93,9 +93,9 @@ union ref_cell_Target {
   INDUROP_UNION_SHAPE(ref_cell_Target)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_974e06c4012cec53
+}  // namespace indurop_generated_e9e4e3e7e8581e3b
 
 namespace cell {
-inline constexpr ::indurop_generated_974e06c4012cec53::ref_cell_Both<::indurop_generated_974e06c4012cec53::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_974e06c4012cec53::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_e9e4e3e7e8581e3b::ref_cell_Both<::indurop_generated_e9e4e3e7e8581e3b::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_e9e4e3e7e8581e3b::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_69336ec9ea5041c9,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4a5d43a1812bd311,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::types::a1\",\"type\":\"int8\",\"kind\":\"scalar\",\"source\":\"i"
 .ascii "n.glb:2\"},{\"name\":\"demo::types::a2\",\"type\":\"uint8\",\"kind\":\"scalar\",\"source\":\"in.glb:2\"},{\"name\":\"dem"
 .ascii "o::types::a3\",\"type\":\"int16\",\"kind\":\"scalar\",\"source\":\"in.glb:2\"},{\"name\":\"demo::types::a4\",\"type\":\""
@@ -87,7 +87,7 @@ constexpr void indurop_fields(const Mixed& v, indurop_visitor f) {
 }
 }  // namespace demo::types
 
-namespace indurop_generated_69336ec9ea5041c9 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_4a5d43a1812bd311 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x76bb90032f9411ed, 0x08b70a07b55bfd94, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "demo::types::a1"},
     {0x76bb8d032f940cd4, 0x08c48207b56753d8, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "demo::types::a2"},
@@ -149,265 +149,265 @@ struct var_demo_types_a1 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb90032f9411ed;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[0]; }
 };
 struct var_demo_types_a2 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb8d032f940cd4;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
 struct var_demo_types_a3 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb8e032f940e87;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[2]; }
 };
 struct var_demo_types_a4 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb8b032f94096e;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[3]; }
 };
 struct var_demo_types_a5 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb8c032f940b21;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[4]; }
 };
 struct var_demo_types_a6 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb89032f940608;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
 struct var_demo_types_a7 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb8a032f9407bb;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[6]; }
 };
 struct var_demo_types_a8 {
   static constexpr ::std::uint64_t kNameHash = 0x76bb87032f9402a2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[7]; }
 };
 struct var_demo_types_b1 {
   static constexpr ::std::uint64_t kNameHash = 0x76b808032f90f4fe;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[8]; }
 };
 struct var_demo_types_b2 {
   static constexpr ::std::uint64_t kNameHash = 0x76b807032f90f34b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[9]; }
 };
 struct var_demo_types_b3 {
   static constexpr ::std::uint64_t kNameHash = 0x76b806032f90f198;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[10]; }
 };
 struct var_demo_types_b4 {
   static constexpr ::std::uint64_t kNameHash = 0x76b80d032f90fd7d;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[11]; }
 };
 struct var_demo_types_b5 {
   static constexpr ::std::uint64_t kNameHash = 0x76b80c032f90fbca;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[12]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[12]; }
 };
 struct var_demo_types_b6 {
   static constexpr ::std::uint64_t kNameHash = 0x76b80b032f90fa17;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[13]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[13]; }
 };
 struct var_demo_types_b7 {
   static constexpr ::std::uint64_t kNameHash = 0x76b80a032f90f864;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[14]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[14]; }
 };
 struct var_demo_types_b8 {
   static constexpr ::std::uint64_t kNameHash = 0x76b801032f90e919;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[15]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[15]; }
 };
 struct var_demo_types_c1 {
   static constexpr ::std::uint64_t kNameHash = 0x76b504032f8eb85b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[16]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[16]; }
 };
 struct var_demo_types_c2 {
   static constexpr ::std::uint64_t kNameHash = 0x76b505032f8eba0e;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[17]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[17]; }
 };
 struct var_demo_types_c3 {
   static constexpr ::std::uint64_t kNameHash = 0x76b506032f8ebbc1;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[18]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[18]; }
 };
 struct var_demo_types_c4 {
   static constexpr ::std::uint64_t kNameHash = 0x76b507032f8ebd74;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[19]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[19]; }
 };
 struct var_demo_types_d1 {
   static constexpr ::std::uint64_t kNameHash = 0x76cc8c032fa27e54;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[20]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[20]; }
 };
 struct var_demo_types_d2 {
   static constexpr ::std::uint64_t kNameHash = 0x76cc8f032fa2836d;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[21]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[21]; }
 };
 struct var_demo_types_d3 {
   static constexpr ::std::uint64_t kNameHash = 0x76cc8e032fa281ba;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[22]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[22]; }
 };
 struct var_demo_types_d4 {
   static constexpr ::std::uint64_t kNameHash = 0x76cc89032fa2793b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 2;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[23]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[23]; }
 };
 struct var_demo_types_e1 {
   static constexpr ::std::uint64_t kNameHash = 0x76c908032f9f6831;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[24]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[24]; }
 };
 struct var_demo_types_e2 {
   static constexpr ::std::uint64_t kNameHash = 0x76c905032f9f6318;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[25]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[25]; }
 };
 struct var_demo_types_e3 {
   static constexpr ::std::uint64_t kNameHash = 0x76c906032f9f64cb;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[26]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[26]; }
 };
 struct var_demo_types_e4 {
   static constexpr ::std::uint64_t kNameHash = 0x76c90b032f9f6d4a;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[27]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[27]; }
 };
 struct var_demo_types_f1 {
   static constexpr ::std::uint64_t kNameHash = 0x76c600032f9d24c2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[28]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[28]; }
 };
 struct var_demo_types_f2 {
   static constexpr ::std::uint64_t kNameHash = 0x76c5ff032f9d230f;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[29]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[29]; }
 };
 struct var_demo_types_f3 {
   static constexpr ::std::uint64_t kNameHash = 0x76c5fe032f9d215c;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[30]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[30]; }
 };
 struct var_demo_types_f4 {
   static constexpr ::std::uint64_t kNameHash = 0x76c5fd032f9d1fa9;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[31]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[31]; }
 };
 struct var_demo_types_g1 {
   static constexpr ::std::uint64_t kNameHash = 0x76c27c032f9a0e9f;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[32]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[32]; }
 };
 struct var_demo_types_g2 {
   static constexpr ::std::uint64_t kNameHash = 0x76c27d032f9a1052;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[33]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[33]; }
 };
 struct var_demo_types_g3 {
   static constexpr ::std::uint64_t kNameHash = 0x76c27e032f9a1205;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[34]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[34]; }
 };
 struct var_demo_types_h1 {
   static constexpr ::std::uint64_t kNameHash = 0x76a404032f804528;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 4;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[35]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[35]; }
 };
 struct var_demo_types_h2 {
   static constexpr ::std::uint64_t kNameHash = 0x76a407032f804a41;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 8;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[36]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[36]; }
 };
 struct var_demo_types_h3 {
   static constexpr ::std::uint64_t kNameHash = 0x76a406032f80488e;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Scalar;
   static constexpr ::std::size_t kSize = 1;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[37]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[37]; }
 };
 struct var_demo_types_text {
   static constexpr ::std::uint64_t kNameHash = 0x3718be802962b1ac;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 16;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[38]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[38]; }
 };
 struct var_demo_types_texts {
   static constexpr ::std::uint64_t kNameHash = 0x01bd92c652b43ded;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 48;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[39]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[39]; }
 };
 struct var_demo_types_matrix {
   static constexpr ::std::uint64_t kNameHash = 0x203edd8ec97a95ae;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 128;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[40]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[40]; }
 };
 struct var_demo_types_flags {
   static constexpr ::std::uint64_t kNameHash = 0xb109aa7723dfc1f2;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 3;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[41]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[41]; }
 };
 struct var_demo_types_mixed {
   static constexpr ::std::uint64_t kNameHash = 0x10ba2c607a7cc18a;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 48;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[42]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[42]; }
 };
 struct var_demo_types_mixes {
   static constexpr ::std::uint64_t kNameHash = 0x10ba37607a7cd43b;
   static constexpr ::indurop::abi::Kind kKind = ::indurop::abi::Kind::Ring;
   static constexpr ::std::size_t kSize = 192;
-  INDUROP_ALWAYS_INLINE static const ::indurop::abi::Ref& ref() noexcept { return refs[43]; }
+  INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[43]; }
 };
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_types_Mixed {
@@ -426,51 +426,51 @@ union ref_demo_types_Mixed {
   INDUROP_UNION_SHAPE(ref_demo_types_Mixed)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_69336ec9ea5041c9
+}  // namespace indurop_generated_4a5d43a1812bd311
 
 namespace demo::types {
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a1, ::std::int8_t, 0> a1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a2, ::std::uint8_t, 0> a2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a3, ::std::int16_t, 0> a3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a4, ::std::uint16_t, 0> a4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a5, ::std::int32_t, 0> a5{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a6, ::std::uint32_t, 0> a6{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a7, ::std::int64_t, 0> a7{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_a8, ::std::uint64_t, 0> a8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b1, ::std::int8_t, 0> b1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b2, ::std::uint8_t, 0> b2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b3, ::std::int16_t, 0> b3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b4, ::std::uint16_t, 0> b4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b5, ::std::int32_t, 0> b5{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b6, ::std::uint32_t, 0> b6{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b7, ::std::int64_t, 0> b7{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_b8, ::std::uint64_t, 0> b8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_c1, char, 0> c1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_c2, ::std::int8_t, 0> c2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_c3, ::std::uint8_t, 0> c3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_c4, ::std::uint8_t, 0> c4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_d1, ::std::int16_t, 0> d1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_d2, ::std::int16_t, 0> d2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_d3, ::std::uint16_t, 0> d3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_d4, ::std::int16_t, 0> d4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_e1, ::std::int32_t, 0> e1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_e2, ::std::uint32_t, 0> e2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_e3, ::std::int32_t, 0> e3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_e4, ::std::uint32_t, 0> e4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_f1, ::std::int64_t, 0> f1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_f2, ::std::uint64_t, 0> f2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_f3, ::std::int64_t, 0> f3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_f4, ::std::uint64_t, 0> f4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_g1, ::std::int64_t, 0> g1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_g2, ::std::uint64_t, 0> g2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_g3, ::std::uint64_t, 0> g3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_h1, float, 0> h1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_h2, double, 0> h2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_h3, bool, 0> h3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_69336ec9ea5041c9::var_demo_types_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Text<::indurop_generated_69336ec9ea5041c9::var_demo_types_texts, 8, 0>, 3>, 2> texts{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_matrix, double, 0>, 4>, 4> matrix{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_69336ec9ea5041c9::var_demo_types_flags, bool, 0>, 3> flags{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_69336ec9ea5041c9::ref_demo_types_Mixed<::indurop_generated_69336ec9ea5041c9::var_demo_types_mixed, 0> mixed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop_generated_69336ec9ea5041c9::ref_demo_types_Mixed<::indurop_generated_69336ec9ea5041c9::var_demo_types_mixes, 0>, 2>, 2> mixes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a1, ::std::int8_t, 0> a1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a2, ::std::uint8_t, 0> a2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a3, ::std::int16_t, 0> a3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a4, ::std::uint16_t, 0> a4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a5, ::std::int32_t, 0> a5{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a6, ::std::uint32_t, 0> a6{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a7, ::std::int64_t, 0> a7{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_a8, ::std::uint64_t, 0> a8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b1, ::std::int8_t, 0> b1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b2, ::std::uint8_t, 0> b2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b3, ::std::int16_t, 0> b3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b4, ::std::uint16_t, 0> b4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b5, ::std::int32_t, 0> b5{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b6, ::std::uint32_t, 0> b6{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b7, ::std::int64_t, 0> b7{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_b8, ::std::uint64_t, 0> b8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_c1, char, 0> c1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_c2, ::std::int8_t, 0> c2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_c3, ::std::uint8_t, 0> c3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_c4, ::std::uint8_t, 0> c4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_d1, ::std::int16_t, 0> d1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_d2, ::std::int16_t, 0> d2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_d3, ::std::uint16_t, 0> d3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_d4, ::std::int16_t, 0> d4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_e1, ::std::int32_t, 0> e1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_e2, ::std::uint32_t, 0> e2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_e3, ::std::int32_t, 0> e3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_e4, ::std::uint32_t, 0> e4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_f1, ::std::int64_t, 0> f1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_f2, ::std::uint64_t, 0> f2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_f3, ::std::int64_t, 0> f3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_f4, ::std::uint64_t, 0> f4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_g1, ::std::int64_t, 0> g1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_g2, ::std::uint64_t, 0> g2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_g3, ::std::uint64_t, 0> g3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_h1, float, 0> h1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_h2, double, 0> h2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_h3, bool, 0> h3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_4a5d43a1812bd311::var_demo_types_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Text<::indurop_generated_4a5d43a1812bd311::var_demo_types_texts, 8, 0>, 3>, 2> texts{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_matrix, double, 0>, 4>, 4> matrix{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4a5d43a1812bd311::var_demo_types_flags, bool, 0>, 3> flags{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4a5d43a1812bd311::ref_demo_types_Mixed<::indurop_generated_4a5d43a1812bd311::var_demo_types_mixed, 0> mixed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop_generated_4a5d43a1812bd311::ref_demo_types_Mixed<::indurop_generated_4a5d43a1812bd311::var_demo_types_mixes, 0>, 2>, 2> mixes{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo::types

@@ -111,20 +111,39 @@ inline void MAIN::operator()([[maybe_unused]] const iec::Scan& scan) {
 
 plc::MAIN instance_MAIN;
 
+asm(R"(.pushsection .indurop.access,"",%progbits
+.long 3288734364,4016406993,1
+.long 2122710761,621967709,3
+.long 3986820077,4020119091,1
+.long 1170899563,1760137135,3
+.popsection)");
+constinit const std::array<iec::SharedWord, 3> read_1 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::start)::tag_type::ref(), &shared.start, &before.start},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::motor)::tag_type::ref(), &shared.motor, &before.motor},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::IX0_3)::tag_type::ref(), &shared.IX0_3, &before.IX0_3},
+};
+constinit const std::array<iec::SharedWord, 1> written_1 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::motor)::tag_type::ref(), &shared.motor, &before.motor},
+};
+constinit const std::array<iec::SharedWord, 1> read_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::speed)::tag_type::ref(), &shared.speed, &before.speed},
+};
+constinit const std::array<iec::SharedWord, 1> written_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::speed)::tag_type::ref(), &shared.speed, &before.speed},
+};
+
 void read_shared() {
-  iec::copy_value(shared.start, ::golden::start.get());
-  iec::copy_value(shared.motor, ::golden::motor.get());
-  iec::copy_value(shared.speed, ::golden::speed.get());
+  iec::read_words<std::uint8_t>(read_1);
+  iec::read_words<std::uint16_t>(read_2);
   iec::copy_value(shared.place, ::golden::place.get());
   iec::copy_value(shared.list, ::golden::list.get());
   iec::copy_value(shared.mode, ::golden::mode.get());
-  iec::copy_value(shared.IX0_3, ::golden::IX0_3.get());
   before = shared;
 }
 
 void write_shared() {
-  iec::write_changed(::golden::motor, shared.motor, before.motor);
-  iec::write_changed(::golden::speed, shared.speed, before.speed);
+  iec::write_words<std::uint8_t>(written_1);
+  iec::write_words<std::uint16_t>(written_2);
   iec::write_changed(::golden::place.x, shared.place.x, before.place.x);
   iec::write_changed(::golden::list, shared.list, before.list);
   iec::write_changed(::golden::mode, shared.mode, before.mode);

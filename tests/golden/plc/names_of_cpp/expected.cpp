@@ -36,16 +36,27 @@ inline void main_::operator()([[maybe_unused]] const iec::Scan& scan) {
 
 plc::main_ instance_main;
 
+asm(R"(.pushsection .indurop.access,"",%progbits
+.long 2617284537,3715618131,3
+.long 979773781,1195062668,1
+.long 2513238408,2420247943,3
+.popsection)");
+constinit const std::array<iec::SharedWord, 3> read_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::lock_value)::tag_type::ref(), &shared.lock, &before.lock},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::virtual_value)::tag_type::ref(), &shared.virtual_, &before.virtual_},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::fine)::tag_type::ref(), &shared.fine, &before.fine},
+};
+constinit const std::array<iec::SharedWord, 2> written_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::lock_value)::tag_type::ref(), &shared.lock, &before.lock},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::fine)::tag_type::ref(), &shared.fine, &before.fine},
+};
+
 void read_shared() {
-  iec::copy_value(shared.lock, ::golden::lock_value.get());
-  iec::copy_value(shared.virtual_, ::golden::virtual_value.get());
-  iec::copy_value(shared.fine, ::golden::fine.get());
-  before = shared;
+  iec::read_words<std::uint16_t>(read_2);
 }
 
 void write_shared() {
-  iec::write_changed(::golden::lock_value, shared.lock, before.lock);
-  iec::write_changed(::golden::fine, shared.fine, before.fine);
+  iec::write_words<std::uint16_t>(written_2);
 }
 }  // namespace
 

@@ -45,23 +45,39 @@ inline void Fast::operator()([[maybe_unused]] const iec::Scan& scan) {
 plc::Fast instance_first;
 std::int32_t before_first_starts{};
 
+asm(R"(.pushsection .indurop.access,"",%progbits
+.long 2494403304,1036407876,3
+.long 3010591142,678381738,3
+.popsection)");
+constinit const std::array<iec::SharedWord, 1> read_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+};
+constinit const std::array<iec::SharedWord, 1> written_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+};
+constinit const std::array<iec::SharedWord, 1> read_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::first_starts)::tag_type::ref(), &instance_first.starts, &before_first_starts},
+};
+constinit const std::array<iec::SharedWord, 1> written_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::first_starts)::tag_type::ref(), &instance_first.starts, &before_first_starts},
+};
+
 void read_shared() {
-  iec::copy_value(shared.handed, ::golden::handed.get());
+  iec::read_words<std::uint16_t>(read_2);
+  iec::read_words<std::uint32_t>(read_4);
   iec::copy_value(shared.I0, ::PLC_ROBOT::I0.get());
   iec::copy_value(shared.O0, ::PLC_ROBOT::O0.get());
   iec::copy_value(shared.PLC_ROBOT_I1, ::PLC_ROBOT::I1.get());
   iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_STATE, ::PLC_ROBOT::ROBOT_MODULE_STATE.get());
   iec::copy_value(shared.PLC_ROBOT_ROBOT_MODULE_SERVICE, ::PLC_ROBOT::ROBOT_MODULE_SERVICE.get());
-  iec::copy_value(instance_first.starts, ::golden::first_starts.get());
-  before_first_starts = instance_first.starts;
   before = shared;
 }
 
 void write_shared() {
-  iec::write_changed(::golden::handed, shared.handed, before.handed);
+  iec::write_words<std::uint16_t>(written_2);
+  iec::write_words<std::uint32_t>(written_4);
   iec::write_changed(::PLC_ROBOT::O0, shared.O0, before.O0);
   iec::write_changed(::PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode, shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode, before.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode);
-  iec::write_changed(::golden::first_starts, instance_first.starts, before_first_starts);
 }
 }  // namespace
 
@@ -114,15 +130,29 @@ inline void Slow::operator()([[maybe_unused]] const iec::Scan& scan) {
 
 plc::Slow instance_second;
 
+asm(R"(.pushsection .indurop.access,"",%progbits
+.long 2494403304,1036407876,1
+.long 152152703,2512190842,3
+.popsection)");
+constinit const std::array<iec::SharedWord, 1> read_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+};
+constinit const std::array<iec::SharedWord, 1> read_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::hours)::tag_type::ref(), &shared.hours, &before.hours},
+};
+constinit const std::array<iec::SharedWord, 1> written_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::hours)::tag_type::ref(), &shared.hours, &before.hours},
+};
+
 void read_shared() {
-  iec::copy_value(shared.handed, ::golden::handed.get());
-  iec::copy_value(shared.hours, ::golden::hours.get());
+  iec::read_words<std::uint16_t>(read_2);
+  iec::read_words<std::uint32_t>(read_4);
   iec::copy_value(shared.speed, ::PLC_ROBOT::speed.get());
   before = shared;
 }
 
 void write_shared() {
-  iec::write_changed(::golden::hours, shared.hours, before.hours);
+  iec::write_words<std::uint32_t>(written_4);
   iec::write_changed(::PLC_ROBOT::speed, shared.speed, before.speed);
 }
 }  // namespace

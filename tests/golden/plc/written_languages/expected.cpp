@@ -153,6 +153,7 @@ inline void list::operator()([[maybe_unused]] const iec::Scan& scan) {
 plc::press instance_press;
 plc::list instance_list;
 
+
 void read_shared() {
 }
 

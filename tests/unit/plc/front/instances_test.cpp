@@ -50,7 +50,8 @@ END_PROGRAM
   EXPECT_THAT(sut.glb, HasSubstr("int32_t Main_more_0_hours @retain = 7;"));
   EXPECT_THAT(sut.glb, Not(HasSubstr("starts")));
   EXPECT_THAT(sut.modules.at(0).cpp,
-              HasSubstr("iec::copy_value(instance_Main.more[0].hours, ::sut::Main_more_m1_hours"));
+              HasSubstr("SharedWord{&INDUROP_TYPEOF(::sut::Main_more_m1_hours)::tag_type::ref(), "
+                        "&instance_Main.more[0].hours, &before_Main_more_m1_hours}"));
 }
 
 TEST(PlcInstances, AT_a_place_to_be_given_is_a_shared_variable_of_each_instance) {
@@ -65,10 +66,11 @@ END_PROGRAM
   EXPECT_THAT(sut.glb, HasSubstr("int16_t Main_one_level;  // %I*"));
   EXPECT_THAT(sut.glb, HasSubstr("bool all_open;  // %Q*"));
   const std::string& cpp = sut.modules.at(0).cpp;
-  EXPECT_THAT(cpp, HasSubstr("iec::copy_value(plc::all.level, ::sut::all_level.get());"));
-  EXPECT_THAT(cpp,
-              HasSubstr("iec::write_changed(::sut::Main_one_open, instance_Main.one.open, before_Main_one_open);"));
-  EXPECT_THAT(cpp, Not(HasSubstr("iec::write_changed(::sut::Main_one_level")));
+  EXPECT_THAT(cpp, HasSubstr("(::sut::all_level)::tag_type::ref(), &plc::all.level, nullptr}"));
+  EXPECT_THAT(cpp, HasSubstr("(::sut::Main_one_open)::tag_type::ref(), &instance_Main.one.open, "
+                             "&before_Main_one_open}"));
+  const std::string written = cpp.substr(cpp.find("written_1"));
+  EXPECT_THAT(written.substr(0, written.find("\n};")), Not(HasSubstr("level")));
 }
 
 TEST(PlcInstances, Inputs_of_instances_are_not_written) {

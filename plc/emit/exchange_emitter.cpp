@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers are copied by loops over tables: a line of C++ for each of thousands of variables would take g++ longer than
+// the whole program.
+#include "plc/emit/exchange_emitter.h"
+
+#include <fmt/format.h>
+#include <indurop/detail/abi.h>
+
+#include <algorithm>
+#include <map>
+
+#include "plc/emit/cpp_text.h"
+
+namespace indurop::plc {
+namespace {
+
+// A number, or a time: the same bytes in the program and in the store, which it reads and writes at once.
+std::size_t word_bytes(const Type& type) {
+  constexpr unsigned kBits = 8;
+  return type.kind == Type::Kind::Elementary && !type.is_string() ? std::max(bits_of(type.elementary), kBits) / kBits
+                                                                  : 0;
+}
+
+class Emitter {
+ public:
+  Emitter(const TaskUse& use, const std::vector<const Global*>& globals, TextWriter& out)
+      : use_(use), globals_(globals), out_(out) {}
+
+  void run() {
+    sort();
+    records();
+    tables();
+    read();
+    write();
+    restore();
+  }
+
+ private:
+  // A variable that is copied by a table.
+  struct Word {
+    std::string shared;  // "main::go"
+    std::string now;
+    std::string before;
+    bool written = false;
+  };
+  struct Words {
+    std::vector<Word> read;
+    std::vector<Word> written;
+  };
+
+  [[nodiscard]] bool is_word(const Global& global) const {
+    return global.kind == Global::Kind::Own && word_bytes(*global.type) > 0;
+  }
+
+  void sort() {
+    for (const Global* global : globals_) {
+      if (in_image(*global) && is_word(*global)) {
+        const std::string name = cpp_name(*global);
+        add(*global->type,
+            {global->shared_name, "shared." + name, "before." + name, use_.globals.at(global).writes.contains("")});
+      }
+    }
+    for (const SharedLocal& one : use_.locals) {
+      if (word_bytes(*one.type) > 0) {
+        add(*one.type, {one.shared_name, one.cpp, one.input ? "" : "before_" + one.name, !one.input});
+      }
+    }
+  }
+
+  void add(const Type& type, Word word) {
+    Words& words = words_[word_bytes(type)];
+    if (word.written) {
+      words.written.push_back(word);
+    }
+    words.read.push_back(std::move(word));
+  }
+
+  // Who reads and writes what, for those who look at a module's file; elsewhere each access leaves its own.
+  void records() {
+    if (words_.empty()) {
+      return;
+    }
+    constexpr unsigned kHalf = 32;
+    constexpr int kRead = 1;
+    constexpr int kWrite = 2;
+    out_.raw("asm(R\"(.pushsection .indurop.access,\"\",%progbits\n");
+    for (const auto& [bytes, words] : words_) {
+      for (const Word& one : words.read) {
+        const std::uint64_t hash = abi::fnv1a64(one.shared.data(), one.shared.size());
+        out_.raw(fmt::format(".long {},{},{}\n", static_cast<std::uint32_t>(hash),
+                             static_cast<std::uint32_t>(hash >> kHalf), one.written ? kRead | kWrite : kRead));
+      }
+    }
+    out_.raw(".popsection)\");\n");
+  }
+
+  void tables() {
+    for (const auto& [bytes, words] : words_) {
+      for (const auto& [name, list] : {std::pair("read", &words.read), std::pair("written", &words.written)}) {
+        if (list->empty()) {
+          continue;
+        }
+        out_.open(fmt::format("constinit const std::array<iec::SharedWord, {}> {}_{}", list->size(), name, bytes));
+        for (const Word& one : *list) {
+          out_.line(fmt::format("iec::SharedWord{{&INDUROP_TYPEOF(::{})::tag_type::ref(), &{}, {}}},", one.shared,
+                                one.now, one.before.empty() ? "nullptr" : "&" + one.before));
+        }
+        out_.close(";");
+      }
+    }
+    out_.line();
+  }
+
+  void read() {
+    out_.open("void read_shared()");
+    for (const auto& [bytes, words] : words_) {
+      out_.line(fmt::format("iec::read_words<{}>(read_{});", unsigned_of(bytes), bytes));
+    }
+    bool copied = false;
+    for (const Global* global : globals_) {
+      if (in_image(*global) && !is_word(*global)) {
+        const std::string name = cpp_name(*global);
+        out_.line(fmt::format("iec::copy_value(shared.{}, {}.get());", name, proxy_of(*global)));
+        copied = true;
+      }
+    }
+    for (const SharedLocal& one : use_.locals) {
+      if (word_bytes(*one.type) > 0) {
+        continue;
+      }
+      out_.line(fmt::format("iec::copy_value({}, ::{}.get());", one.cpp, one.shared_name));
+      if (!one.input) {
+        out_.line(fmt::format("before_{} = {};", one.name, one.cpp));
+      }
+    }
+    if (copied) {
+      out_.line("before = shared;");
+    }
+    out_.close();
+    out_.line();
+  }
+
+  static std::string unsigned_of(std::size_t bytes) { return fmt::format("std::uint{}_t", bytes * 8); }
+
+  void write() {
+    out_.open("void write_shared()");
+    for (const auto& [bytes, words] : words_) {
+      if (!words.written.empty()) {
+        out_.line(fmt::format("iec::write_words<{}>(written_{});", unsigned_of(bytes), bytes));
+      }
+    }
+    for (const Global* global : globals_) {
+      if (in_image(*global) && !is_word(*global)) {
+        write_back(*global);
+      }
+    }
+    for (const SharedLocal& one : use_.locals) {
+      if (!one.input && word_bytes(*one.type) == 0) {
+        out_.line(fmt::format("iec::write_changed(::{}, {}, before_{});", one.shared_name, one.cpp, one.name));
+      }
+    }
+    out_.close();
+  }
+
+  // Only what the program can have changed: other fields may have other writers.
+  void write_back(const Global& global) {
+    const GlobalUse& use = use_.globals.at(&global);
+    const bool whole = use.writes.contains("");
+    for (const std::string& path : use.writes) {
+      const bool covered = std::any_of(use.writes.begin(), use.writes.end(), [&](const std::string& other) {
+        return other != path && path.starts_with(other + ".");
+      });
+      if (covered || (whole && !path.empty())) {
+        continue;
+      }
+      const std::string name = cpp_name(global);
+      out_.line(fmt::format("iec::write_changed({0}{1}, shared.{2}{1}, before.{2}{1});", proxy_of(global), path, name));
+    }
+  }
+
+  // Once, when what was retained is there: timers go on, and an input that was true is no edge.
+  void restore() {
+    if (use_.restored.empty()) {
+      return;
+    }
+    out_.line();
+    out_.open("void restore([[maybe_unused]] const iec::Scan& scan)");
+    out_.line("static bool done = false;");
+    out_.line("if (done) { return; }");
+    out_.line("done = true;");
+    for (const std::string& one : use_.restored) {
+      out_.line(one);
+    }
+    out_.close();
+  }
+
+  const TaskUse& use_;
+  const std::vector<const Global*>& globals_;
+  TextWriter& out_;
+  std::map<std::size_t, Words> words_;  // by size
+};
+
+}  // namespace
+
+bool in_image(const Global& global) noexcept {
+  return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
+}
+
+void emit_exchange(const TaskUse& use, const std::vector<const Global*>& globals, TextWriter& out) {
+  Emitter(use, globals, out).run();
+}
+
+}  // namespace indurop::plc

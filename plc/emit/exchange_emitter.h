@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a module that copies shared variables: in at the beginning of a scan, out at its end.
+
+#pragma once
+
+#include <vector>
+
+#include "plc/emit/task_use.h"
+#include "plc/emit/text_writer.h"
+
+namespace indurop::plc {
+
+// Those of the image: what the program sees of them is copied.
+[[nodiscard]] bool in_image(const Global& global) noexcept;
+// "read_shared()", "write_shared()" and, if there is something to restore, "restore(scan)".
+void emit_exchange(const TaskUse& use, const std::vector<const Global*>& globals, TextWriter& out);
+
+}  // namespace indurop::plc
