@@ -97,16 +97,20 @@ function Modules({ board, modules, may_write, done }: { board: string; modules: 
     </div>);
 }
 
-function Troubles({ summary, faults }: { summary: BoardSummary; faults: Fault[] }) {
-  const said = new Set(faults.map(({ text }) => text));
-  const lines = [
-    ...summary.trouble.filter((text) => !said.has(text)).map((text) => ({ severity: "error", text, module: "" })), ...faults];
+const MOST_LINES = 8;
+
+// `faults` say the same as `trouble` of the summary, which is there first.
+function Troubles({ summary, faults }: { summary: BoardSummary; faults: Fault[] | null }) {
+  const lines: Fault[] = faults ?? summary.trouble.map((text) => ({ severity: "warning", module: "", text }));
+  const line = ({ severity, text, module }: Fault) => (
+    <li class={severity} key={module + text}><strong>{severity}</strong> {module && !text.includes(module) ? `${module}: ` : ""}{text}</li>);
   if (lines.length === 0) return null;
   return (
-    <ul class="troubles">
-      {lines.map(({ severity, text, module }) => (
-        <li class={severity} key={severity + text}><strong>{severity}</strong> {module && `${module}: `}{text}</li>))}
-    </ul>);
+    <>
+      <ul class="troubles">{lines.slice(0, MOST_LINES).map(line)}</ul>
+      {lines.length > MOST_LINES && (
+        <details><summary>{`${lines.length - MOST_LINES} more`}</summary><ul class="troubles">{lines.slice(MOST_LINES).map(line)}</ul></details>)}
+    </>);
 }
 
 function BoardCard({ summary }: { summary: BoardSummary }) {
@@ -119,7 +123,7 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
   const not_exact = (board?.rt as { why?: string } | undefined)?.why;
   return (
     <Panel title={summary.board} state={summary.alive ? summary.state : `gone (${summary.state})`} good={summary.alive && summary.state === "running"}>
-      <Troubles summary={summary} faults={value?.faults ?? []} />
+      <Troubles summary={summary} faults={value?.faults ?? null} />
       {error && <p class="bad">{error}</p>}
       {!value && !error && <Waiting />}
       {board && value && <>
@@ -161,13 +165,13 @@ function Headline({ boards }: { boards: BoardSummary[] }) {
 export function Overview() {
   const { boards } = useStore(plant);
   if (!boards) return <Waiting />;
-  const rank = ({ alive, trouble }: BoardSummary) => (alive ? (trouble.length ? 0 : 1) : 2);
+  const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
   const gone = sorted.filter(({ alive }) => !alive);
   const shown = gone.length > 3 ? sorted.filter(({ alive }) => alive) : sorted;
   return (
     <>
-      {boards.length > 0 && <Headline boards={boards} />}
+      {boards.length > 0 && <Headline boards={sorted} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
       {shown.length < sorted.length && (
         <details class="panel">

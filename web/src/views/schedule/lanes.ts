@@ -50,10 +50,17 @@ export function lanes_of(runs: Run[], modules: Module[], overruns: Overrun[]): L
   return [...lanes.values()].sort((a, b) => a.core - b.core || rank(a.module) - rank(b.module) || a.module.localeCompare(b.module));
 }
 
-export function overrun_text({ module, tick, own_ns, latency_ns, previous, previous_ns, started }: Overrun): string {
-  const who = previous ? ` Before it ran ${previous}, for ${span(previous_ns)}.` : "";
-  if (!started) return `${module} could not start in tick ${tick}: its run before had not ended.${who}`;
-  return `${module} overran in tick ${tick}: it started ${span(latency_ns)} late and took ${span(own_ns)}.${who}`;
+// The likely reason, from what the record holds; `indurop overruns` judges alike.
+export function overrun_text({ module, tick, own_ns, latency_ns, previous, previous_ns, started }: Overrun, period_ns: number): string {
+  if (!started) {
+    // Only what took a good part of the period explains it.
+    const explains = previous !== "" && 4 * previous_ns >= period_ns;
+    return `${module} did not get its turn in tick ${tick}: ${explains
+      ? `${previous} took ${span(previous_ns)}.` : "no module took so long, the machine was busy or stood still."}`;
+  }
+  const late = latency_ns > own_ns;
+  const why = !late ? "took too long itself" : previous !== "" && previous_ns > own_ns ? `started late, after ${previous}, which took ${span(previous_ns)}` : "started late";
+  return `${module} ${why} in tick ${tick}: it started ${span(latency_ns)} after it was due and had used ${span(own_ns)} when its time was over.`;
 }
 
 // Why a run was when it was, in sentences.
@@ -68,7 +75,7 @@ export function explain({ run, late, preempted, before, overrun }: Bar, module: 
   const taken = preempted.reduce((sum, [from, to]) => sum + to - from, 0);
   lines.push(`It took ${span(run.end_ns - run.start_ns)}${taken ? `, of which others ran ${span(taken)}` : ""}.`);
   if (module?.mean_exec_ns) lines.push(`On average it takes ${span(module.mean_exec_ns)}, at most it took ${span(module.max_exec_ns)}.`);
-  if (overrun) lines.push(overrun_text(overrun));
+  if (overrun) lines.push(overrun_text(overrun, module?.period_ns ?? 0));
   else if (late) lines.push("That is beyond its deadline.");
   return lines;
 }

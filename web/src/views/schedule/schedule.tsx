@@ -63,11 +63,12 @@ function Figures({ modules, chosen }: { modules: Module[]; chosen: string }) {
     </div>);
 }
 
-function Overruns({ overruns }: { overruns: Overrun[] }) {
+function Overruns({ overruns, modules }: { overruns: Overrun[]; modules: Module[] }) {
+  const period = (name: string) => modules.find((module) => module.name === name)?.period_ns ?? 0;
   if (overruns.length === 0) return <p class="good">No overrun was recorded.</p>;
   return (
     <ul class="troubles">
-      {[...overruns].reverse().slice(0, 10).map((overrun) => <li class="error" key={overrun.number}>{overrun_text(overrun)}</li>)}
+      {[...overruns].reverse().slice(0, 10).map((overrun) => <li class="error" key={overrun.number}>{overrun_text(overrun, period(overrun.module))}</li>)}
     </ul>);
 }
 
@@ -105,9 +106,11 @@ export function Schedule() {
   const { plan, runs, modules, overruns } = now;
   const epoch = runs.epoch_ns;
   const last_release = Math.max(epoch, ...runs.runs.map(({ release_ns }) => release_ns));
-  // Whole macro periods, the last one begun being the last that is shown.
+  // Whole macro periods that have ended; the one that is on if there is none.
   const macro = plan.macro_period_ns || 1e9;
-  const to = epoch + (Math.floor((last_release - epoch) / macro) + 1) * macro;
+  const first_release = Math.min(last_release, ...runs.runs.map(({ release_ns }) => release_ns));
+  const begun = epoch + Math.floor((last_release - epoch) / macro) * macro;
+  const to = begun > first_release ? begun : begun + macro;
   const from = Math.max(epoch, to - periods * macro);
   const newest = lanes.flatMap(({ bars }) => bars).sort((a, b) => b.run.number - a.run.number).slice(0, 20);
   const show = (chosen: Bar) => {
@@ -146,7 +149,7 @@ export function Schedule() {
             <ul>{explain(bar, modules.find(({ name }) => name === bar.run.module), epoch).map((line) => <li key={line}>{line}</li>)}</ul>
           </div>)}
       </section>
-      <section class="panel" aria-label="Overruns"><h2>Overruns</h2><Overruns overruns={overruns} /></section>
+      <section class="panel" aria-label="Overruns"><h2>Overruns</h2><Overruns overruns={overruns} modules={modules} /></section>
       <section class="panel" aria-label="Modules"><h2>Modules</h2><Figures modules={modules} chosen={module} />
         {!module && <p class="quiet">Choose a module to see how its times are distributed.</p>}</section>
       {module && board && <Histograms board={board.board} module={module} />}
