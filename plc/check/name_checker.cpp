@@ -321,7 +321,10 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
       known.push_back(one.name);
     }
   } else if (block.pou != nullptr) {
-    const Variable* found = block.pou->find(upper(expression.name));
+    Variable* found = block.pou->find(upper(expression.name));
+    if (found != nullptr) {
+      found->used = true;  // if only from outside
+    }
     if (found != nullptr && (found->section == ast::Section::Input || found->section == ast::Section::Output)) {
       resolved(expression).is_output = found->section == ast::Section::Output;
       expression.name = found->name;

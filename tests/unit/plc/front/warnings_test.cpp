@@ -43,6 +43,21 @@ TEST(PlcWarnings, An_instance_that_is_never_called) {
   EXPECT_THAT(all, Not(HasSubstr("never called")));
 }
 
+TEST(PlcWarnings, What_is_read_from_outside_only_is_used) {
+  CompileOptions options;
+  options.files = {"in.st"};
+  options.name = "sut";
+  options.dialect = Dialect::Codesys;
+  const std::string text =
+      "FUNCTION_BLOCK F VAR CONSTANT most : INT := 9; least : INT := 1; END_VAR VAR n : INT; END_VAR\n"
+      "n := n + 1; END_FUNCTION_BLOCK\n"
+      "PROGRAM Main VAR f : F; i : INT; END_VAR f(); i := f.most; END_PROGRAM";
+  const Compiled sut = compile(options, [&](const std::string& name) { return glb2idl::ReadResult{text, name, ""}; });
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("'least' is never used"));
+  EXPECT_THAT(messages(sut), Not(HasSubstr("'most'")));
+}
+
 TEST(PlcWarnings, Two_REALs_that_are_compared_exactly) {
   const std::string head = "PROGRAM Main VAR x, y : REAL; z : LREAL; b : BOOL; i : INT; END_VAR\n";
   EXPECT_THAT(warnings(head + "b := x = y; END_PROGRAM"),

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// RETAIN instances of a PLC program over a restart of the node.
+#include "fixture.h"
+
+namespace indurop::test {
+namespace {
+
+class PlcRetain : public CommandLine {
+ protected:
+  static std::string file(const std::string& name) { return (scratch() / name).string(); }
+  static void run() {
+    const Outcome ran = indurop({"run", file("keep/module.xml"), "-q", "--node", "keep", "--duration", "200ms"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+  }
+  static long long value(const std::string& name) {
+    return std::stoll("0" + indurop({"get", "--node", "keep", name}).out);
+  }
+};
+
+TEST_F(PlcRetain, Counters_and_timers_go_on_where_they_were) {
+  put(file("keep.st"),
+      "FUNCTION_BLOCK Meter VAR RETAIN hours : DINT; END_VAR VAR passing : DINT; END_VAR\n"
+      "hours := hours + 1; passing := passing + 1; END_FUNCTION_BLOCK\n"
+      "PROGRAM main\n"
+      "VAR RETAIN c : CTU; t : TON; END_VAR VAR m : Meter; pulse : BOOL; scans AT %MD0 : DINT; END_VAR\n"
+      "pulse := NOT pulse; scans := scans + 1;\n"
+      "c(CU := pulse, PV := 10000); t(IN := TRUE, PT := T#1h); m();\n"
+      "END_PROGRAM\n");
+  const Outcome built = indurop({"plc", "build", file("keep.st"), "-o", file("keep")});
+  ASSERT_EQ(built.code, 0) << built.err;
+  put(file("keep/module.xml"), "<root>\n" + built.out + "</root>\n");
+  run();
+  const long long counted = value("main_c_CV");
+  const long long passed = value("main_t_ET");
+  const long long hours = value("main_m_hours");
+  EXPECT_GT(counted, 0);
+  EXPECT_GT(passed, 0);
+  EXPECT_EQ(hours, value("scans"));
+  ASSERT_EQ(indurop({"clean", "--node", "keep"}).code, 0) << "what is left is in files";
+  run();
+  const long long scans = value("scans");
+  EXPECT_EQ(value("main_m_hours"), hours + scans);
+  EXPECT_GE(value("main_c_CV"), counted + scans / 2 - 1) << "it goes on";
+  EXPECT_LE(value("main_c_CV"), counted + scans / 2 + 1) << "and counts each pulse once";
+  EXPECT_GT(value("main_t_ET"), passed);
+  EXPECT_LT(value("main_t_ET"), passed + 60'000'000'000) << "the time without the node is none of its";
+}
+
+}  // namespace
+}  // namespace indurop::test
