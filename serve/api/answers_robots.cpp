@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arms of a board: the descriptions its robot modules were given.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <utility>
 
 #include "base/read_file.h"
 #include "config/xml/plant_reader.h"
