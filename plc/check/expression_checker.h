@@ -60,6 +60,8 @@ class ExpressionChecker {
   const Type* direct(ast::Expression& expression);
   const Type* global(ast::Expression& expression, Global& global);
   const Type* member(ast::Expression& expression);
+  // Null: it has none of that name.
+  const Type* library_pin(ast::Expression& expression, const LibraryBlock& block);
   const Type* block_member(ast::Expression& expression, const Type& block);
   const Type* namespace_member(ast::Expression& expression, const std::string& path);
   const Type* index(ast::Expression& expression);

@@ -307,15 +307,22 @@ const Type* ExpressionChecker::named_bit(Expression& expression, const Type& bas
   return bit(expression);
 }
 
+const Type* ExpressionChecker::library_pin(Expression& expression, const LibraryBlock& block) {
+  const LibraryParameter* output = block.output(expression.name);
+  const LibraryParameter* found = output != nullptr ? output : block.input(expression.name);
+  if (found == nullptr) {
+    return nullptr;
+  }
+  resolved(expression).is_output = found == output;
+  expression.name = found->cpp;
+  return context_.elementary(std::get<Elementary>(found->type));
+}
+
 const Type* ExpressionChecker::block_member(Expression& expression, const Type& block) {
   std::vector<std::string> known;
   if (block.block != nullptr) {
-    const LibraryParameter* output = block.block->output(expression.name);
-    const LibraryParameter* found = output != nullptr ? output : block.block->input(expression.name);
-    if (found != nullptr) {
-      expression.name = found->cpp;
-      resolved(expression).is_output = found == output;
-      return context_.elementary(std::get<Elementary>(found->type));
+    if (const Type* pin = library_pin(expression, *block.block)) {
+      return pin;
     }
     for (const LibraryParameter& one : block.block->outputs) {
       known.push_back(one.name);
