@@ -87,10 +87,10 @@ bool Page::there() const {
 }
 
 Reply Page::answer(std::string_view path) const {
-  const std::string_view name = path == "/" ? "index.html" : path.substr(1);
-  if (!path.starts_with('/') || !harmless(name)) {
+  if (!path.starts_with('/') || !harmless(path)) {
     return not_found();
   }
+  const std::string_view name = path == "/" ? "index.html" : path.substr(1);
   // Links may not lead out of the folder either.
   std::error_code error;
   const auto root = std::filesystem::canonical(folder_, error);

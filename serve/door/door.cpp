@@ -116,6 +116,7 @@ Result<std::unique_ptr<Door>, base::Problem> Door::open(const DoorSettings& sett
     add_tls(info, impl->settings);
   }
   impl->context = lws_create_context(&info);
+  lws_set_log_level(0, &say);  // from now on it would only tell what clients do wrong
   auto door = std::unique_ptr<Door>(new Door(std::move(impl)));
   if (!door->impl_->adopt_listener()) {
     return base::Problem{

@@ -7,7 +7,8 @@
 namespace indurop::serve {
 namespace {
 
-constexpr lws_usec_t kBodyMicroseconds = 15 * LWS_USEC_PER_SEC;
+// Less than the library gives it, which closes without a word.
+constexpr lws_usec_t kBodyMicroseconds = 8 * LWS_USEC_PER_SEC;
 
 }  // namespace
 
@@ -37,7 +38,7 @@ int Door::Impl::requested(lws* wsi, std::string path) {
 int Door::Impl::body_came(lws* wsi, std::string_view part) {
   const auto found = exchanges.find(wsi);
   if (found == exchanges.end()) {
-    return 1;
+    return -1;
   }
   std::string& body = found->second->request().body;
   if (body.size() + part.size() > kMostBody) {
@@ -103,7 +104,11 @@ int Door::Impl::on_http(lws* wsi, lws_callback_reasons reason, void* /*user*/, v
       return of(wsi).body_came(wsi, text());
     case LWS_CALLBACK_HTTP_BODY_COMPLETION: {
       const auto found = of(wsi).exchanges.find(wsi);
-      return found == of(wsi).exchanges.end() ? 1 : of(wsi).answer(*found->second);
+      if (found == of(wsi).exchanges.end()) {
+        return -1;
+      }
+      // Of a body of no bytes the library tells too, after the request was answered.
+      return found->second->waits_for_body() ? of(wsi).answer(*found->second) : 0;
     }
     case LWS_CALLBACK_HTTP_WRITEABLE: {
       const auto found = of(wsi).exchanges.find(wsi);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kPiece = 32U << 10;
 constexpr int kSendSeconds = 30;  // for a client to take a piece
+constexpr int kEnd = -1;          // ends the connection in every callback; some do not mind other numbers
 
 std::string header(lws* wsi, lws_token_indexes which) {
   const int length = lws_hdr_total_length(wsi, which);
@@ -95,7 +96,7 @@ bool write_head(lws* wsi, const Reply& reply, HeadBuffer& buffer) {
          add("content-security-policy:",
              "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; connect-src 'self' ws: "
              "wss:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'") &&
-         (reply.allow.empty() || add("allow:", reply.allow)) &&
+         (!reply.close || add("connection:", "close")) && (reply.allow.empty() || add("allow:", reply.allow)) &&
          (reply.status != status::kUnauthorized || add("www-authenticate:", "Bearer")) &&
          lws_finalize_write_http_header(wsi, begin, &at, end) == 0;
 }
@@ -126,6 +127,7 @@ Request read_request(lws* wsi, std::string path) {
   request.authorization = header(wsi, WSI_TOKEN_HTTP_AUTHORIZATION);
   request.subprotocols = header(wsi, WSI_TOKEN_PROTOCOL);
   request.content_type = header(wsi, WSI_TOKEN_HTTP_CONTENT_TYPE);
+  request.close = header(wsi, WSI_TOKEN_CONNECTION).find("lose") != std::string::npos;  // close, Close
   request.certificate = certificate_of(wsi);
   std::array<char, kLongestAddress> address{};
   lws_get_peer_simple(wsi, address.data(), address.size());
@@ -157,10 +159,11 @@ BodyLength read_length(lws* wsi) {
 
 int Exchange::begin(Reply reply) {
   reply_ = std::move(reply);
+  reply_.close = reply_.close || request_.close;
   replying_ = true;
   HeadBuffer head{};
   if (!write_head(wsi_, reply_, head)) {
-    return 1;
+    return kEnd;
   }
   lws_set_timeout(wsi_, PENDING_TIMEOUT_HTTP_CONTENT, kSendSeconds);
   lws_callback_on_writable(wsi_);
@@ -173,7 +176,7 @@ int Exchange::go_on() {
   }
   const std::size_t size = std::min(kPiece, reply_.body.size() - sent_);
   if (!write_piece(wsi_, reply_, sent_, size)) {
-    return 1;
+    return kEnd;
   }
   sent_ += size;
   if (sent_ < reply_.body.size()) {
@@ -182,7 +185,7 @@ int Exchange::go_on() {
     return 0;
   }
   replying_ = false;
-  return reply_.close || lws_http_transaction_completed(wsi_) != 0 ? 1 : 0;
+  return reply_.close || lws_http_transaction_completed(wsi_) != 0 ? kEnd : 0;
 }
 
 int Exchange::refuse(lws* wsi, const Reply& reply) {
@@ -190,7 +193,7 @@ int Exchange::refuse(lws* wsi, const Reply& reply) {
   if (write_head(wsi, reply, head)) {
     write_piece(wsi, reply, 0, reply.body.size());
   }
-  return 1;
+  return kEnd;
 }
 
 }  // namespace indurop::serve

@@ -26,6 +26,8 @@ std::string without_port(std::string_view host) {
 }
 
 constexpr std::string_view kBearer = "Bearer ";
+// Who has these keys of a plant may only look (docs/security.md).
+constexpr std::string_view kViewer = "viewer";
 constexpr std::string_view kTokenProtocol = "indurop.token.";
 
 // The token as it was sent, in a header or, by the WebSocket of a browser, as a subprotocol. Empty: none.
@@ -114,6 +116,9 @@ std::optional<Reply> Gate::refuse(const Request& request) const {
   }
   if (!known) {
     return refusal(status::kUnauthorized, "writing needs a token or a client certificate");
+  }
+  if (sent_token(request).empty() && request.certificate == kViewer) {
+    return refusal(status::kForbidden, "the keys of a viewer let look, not write");
   }
   if (request.has_body && !is_json(request.content_type)) {
     return refusal(status::kNotJson, "the body has to be JSON, with the header Content-Type: application/json");

@@ -30,6 +30,7 @@ struct Request {
   std::string body;
   bool has_body = false;
   bool stream = false;  // asks for a WebSocket
+  bool close = false;   // wants no further request on this connection
 };
 
 struct Reply {

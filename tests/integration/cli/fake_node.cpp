@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands for a node in tests of the tools: has its lock, store and run block and moves numbers, but runs no modules.
-// fake_node NAME [ignore-term] [config FILE]   prints "ready" when everything is there; ends at SIGTERM.
+// fake_node NAME [ignore-term] [config FILE] [many COUNT]   with `many` it has COUNT numbers more, many::v0 on; prints
+// "ready" when everything is there; ends at SIGTERM.
 
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -53,7 +54,7 @@ void set_initial(schema::Variable& to, T value) {
   std::memcpy(to.initial.data(), &value, sizeof value);
 }
 
-schema::Schema make_schema() {
+schema::Schema make_schema(int many) {
   schema::Schema schema;
   schema::Type joint;
   joint.base = schema::Base::Struct;
@@ -95,6 +96,9 @@ schema::Schema make_schema() {
   starts.retain = true;
   set_initial(starts, std::int32_t{5});
   schema.variables.push_back(starts);
+  for (int i = 0; i < many; ++i) {
+    schema.variables.push_back(variable("many::v" + std::to_string(i), scalar(schema::Base::Double)));
+  }
   return schema;
 }
 
@@ -155,14 +159,21 @@ void step(scheduler::RunBlock& block, vars::Store& store, std::uint64_t tick, st
   };
   static_cast<void>(put("knu::Robot::tick", 0, static_cast<std::uint32_t>(tick)));
   static_cast<void>(put("knu::Robot::joints", 0, static_cast<double>(tick) * 0.5));
+  constexpr std::uint64_t kTicksPerMany = 20;  // each 20 ms
+  for (const auto& entry : tick % kTicksPerMany == 0 ? store.directory() : std::span<const vars::DirectoryEntry>()) {
+    const std::string& name = store.schema().variables[entry.schema_index].name;
+    if (name.starts_with("many::")) {
+      static_cast<void>(put(name.c_str(), 0, static_cast<double>(tick)));
+    }
+  }
   store.beat(rt::MonoClock::now());
   block.tick.store(tick + 1);
 }
 
-int run(const std::string& node, const std::string& config) {
+int run(const std::string& node, const std::string& config, int many) {
   pid_t holder = 0;
   const auto lock = vars::NodeLock::acquire(node, holder);
-  auto store = vars::Store::create(node, make_schema());
+  auto store = vars::Store::create(node, make_schema(many));
   const auto setup = make_setup(node, config);
   auto file = vars::RunFile::create(node, scheduler::run_block_size(setup));
   if (!lock.ok() || !store.ok() || !file.ok()) {
@@ -198,12 +209,16 @@ int main(int argc, char** argv) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::string config = "module.xml";
   bool ignore = false;
+  int many = 0;
   for (int i = 2; i < argc; ++i) {
     ignore = ignore || std::string(argv[i]) == "ignore-term";
     if (std::string(argv[i]) == "config" && i + 1 < argc) {
       config = argv[i + 1];
     }
+    if (std::string(argv[i]) == "many" && i + 1 < argc) {
+      many = std::stoi(argv[i + 1]);
+    }
   }
   signal(SIGTERM, ignore ? SIG_IGN : &on_term);
-  return argc > 1 ? run(argv[1], config) : 2;
+  return argc > 1 ? run(argv[1], config, many) : 2;
 }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Is the description valid OpenAPI, does every path of it answer, and does each answer fit its schema? Are the frames of the
+// stream what docs/serve.md says, for a WebSocket client that is not ours? judge.mjs PACKAGES ADDRESS BOARD TOKEN
+import {createRequire} from "node:module";
+import path from "node:path";
+
+const [packages, address, board, token] = process.argv.slice(2);
+const require = createRequire(path.resolve(packages, "x.js"));
+const SwaggerParser = require("@apidevtools/swagger-parser");
+const Ajv = require("ajv").default;
+const WebSocket = require("ws");
+
+function fail(text) {
+  console.error(text);
+  process.exit(1);
+}
+
+const described = await (await fetch(`${address}/api/v1/openapi.json`)).json();
+const api = await SwaggerParser.validate(structuredClone(described), {dereference: {circular: true}});
+// OpenAPI's "nullable" is ajv's own; formats and examples are not used.
+const ajv = new Ajv({strict: false, allErrors: true});
+ajv.addSchema({$id: "api", ...described});
+const refer = (schema) => JSON.parse(JSON.stringify(schema).replaceAll('"#/', '"api#/'));
+
+const bodies = {
+  set: {values: {gain: 2}},
+  force: {values: {gain: 3}, for_ns: 60_000_000_000},
+  release: {all: true},
+};
+const parts = {board, module: "modify", name: "knu::Robot::joints[1]"};
+// Orders to modules: the node of this test answers none.
+const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule"]);
+let answered = 0;
+for (const [pattern, methods] of Object.entries(described.paths)) {
+  for (const [method, operation] of Object.entries(methods)) {
+    if (method === "parameters") continue;
+    for (const wrong of [false, true]) {
+      const where = pattern.replace(/\{(\w+)\}/g, (_, name) => encodeURIComponent(wrong ? "no such thing" : parts[name]));
+      if (unanswered.has(operation.operationId) && !wrong && operation.operationId !== "schedule") continue;
+      const answer = await fetch(address + where, {
+        method: method.toUpperCase(),
+        headers: {Authorization: `Bearer ${token}`, "Content-Type": "application/json"},
+        body: method === "post" && operation.requestBody ? JSON.stringify(bodies[operation.operationId]) : undefined,
+      });
+      const text = await answer.text();
+      const expected = wrong && pattern.includes("{") ? 404 : 200;
+      if (answer.status !== expected) fail(`${method} ${where}: ${answer.status} instead of ${expected}: ${text}`);
+      let response = operation.responses[answer.status] ?? operation.responses.default;
+      if (response.$ref) response = described.components.responses[response.$ref.split("/").pop()];
+      const check = ajv.compile(refer(response.content["application/json"].schema));
+      if (!check(JSON.parse(text))) fail(`${method} ${where}: ${ajv.errorsText(check.errors)}\n${text.slice(0, 2000)}`);
+      ++answered;
+    }
+  }
+}
+
+const socket = new WebSocket(address.replace("http", "ws") + "/api/v1/stream", ["indurop.v1", `indurop.token.${token}`]);
+socket.binaryType = "arraybuffer";
+const frames = [];
+let told;
+await new Promise((done, failed) => {
+  socket.on("error", failed);
+  socket.on("open", () => socket.send(JSON.stringify(
+    {type: "subscribe", id: 1, board, names: ["tick", "joints", "mode", "name"], rate_hz: 50, binary: true})));
+  socket.on("message", (data, binary) => {
+    if (!binary) {
+      const word = JSON.parse(data.toString());
+      told = word.type === "subscribed" ? word : told;
+      return;
+    }
+    frames.push(new DataView(data));
+    if (frames.length === 10) done();
+  });
+});
+socket.close();
+const type = ajv.compile({$ref: "api#/components/schemas/Type"});
+for (const variable of told.variables) {
+  if (!type(variable.form)) fail(`form of ${variable.name}: ${ajv.errorsText(type.errors)}`);
+}
+let last = 0n;
+for (const view of frames) {
+  const seq = view.getBigUint64(8, true);
+  if (view.byteLength !== told.record_size || view.getUint8(0) !== 1 || seq <= last) fail("a frame is not as described");
+  last = seq;
+  const tick = view.getUint32(told.variables[0].offset, true);
+  const x = view.getFloat64(told.variables[1].offset, true);
+  if (Math.abs(x - tick * 0.5) > 50) fail(`tick ${tick} and joints[0].x ${x} do not belong together`);
+}
+console.log(`${Object.keys(api.paths).length} paths, ${answered} answers and ${frames.length} frames are as described`);
