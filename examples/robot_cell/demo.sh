@@ -11,12 +11,13 @@ say() { printf '\n\033[1m%s\033[0m\n' "$*"; }
 show() { say "\$ $*"; "$@"; }
 forget() { for node in cell plc motion; do indurop clean --node $node >/dev/null 2>&1 || true; done; }
 cleanup() {
-  for pid in $recorder $runner; do kill "$pid" 2>/dev/null || true; done
-  for pid in $recorder $runner; do wait "$pid" 2>/dev/null || true; done
+  for pid in $recorder $server $runner; do kill "$pid" 2>/dev/null || true; done
+  for pid in $recorder $server $runner; do wait "$pid" 2>/dev/null || true; done
   forget
 }
 recorder=
 runner=
+server=
 trap cleanup EXIT
 trap 'exit 130' INT TERM
 
@@ -85,3 +86,18 @@ kill $runner 2>/dev/null || true
 wait $runner || true
 runner=
 say "Pictures: $folder/cell.svg, cell_two_boards.svg, main.svg (ladder), schedule.svg"
+
+# Somebody who sits there may look at it.
+[ -t 1 ] || exit 0
+say "The cell goes on: look at it in a browser; Ctrl-C ends it"
+indurop run module.xml --node cell -q &
+runner=$!
+wait_for cell I14 1
+indurop set --node cell CELL::tour true
+indurop serve --node cell &
+server=$!
+wait $server || {
+  indurop serve --node cell --port 0 & # somebody else has the usual one
+  server=$!
+  wait $server
+}
