@@ -209,7 +209,6 @@ bool Replay::run_again(const recorder::RunWords& run) {
 }
 
 bool Replay::start_modules() {
-  prepared_.name.keep();
   for (std::size_t i = 0; i < modules_.size(); ++i) {
     if (!modules_[i]->runs) {
       run_.modules()[i].state.store(ModuleState::Stopped);

@@ -19,7 +19,7 @@ recorder=
 runner=
 server=
 trap cleanup EXIT
-trap 'exit 130' INT TERM
+trap 'exit 130' INT TERM HUP
 
 # wait_for NODE VARIABLE VALUE
 wait_for() {

@@ -17,10 +17,6 @@ class Recording : public NodeTest {
     words.insert(words.end(), more.begin(), more.end());
     return indurop(words);
   }
-  void TearDown() override {
-    indurop({"clean", "--node", node() + "-r"});
-    NodeTest::TearDown();
-  }
   // Threads on two periods, an event with a condition, a process; one of them asks for the time.
   const std::vector<Module> kPlant = {
       {.file = "counter.so", .name = "counter", .priority = 1},
@@ -44,6 +40,7 @@ TEST_F(Recording, Of_a_simulation_runs_again_with_the_same_result) {
   EXPECT_EQ(again.code, 0) << again.out << again.err;
   EXPECT_CONTAINS(again.out, "2000 ticks, 3685 runs, ");
   EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_FALSE(std::filesystem::exists("/dev/shm/indurop." + node() + "-r")) << "a replay leaves nothing";
 }
 
 TEST_F(Recording, Of_a_run_in_real_time_runs_again_with_the_same_result) {
