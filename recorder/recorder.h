@@ -73,7 +73,7 @@ class Recorder {
   Result<void, base::Problem> write_run(const tape::Run& run);
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
-  Result<std::uint16_t, base::Problem> channel_of(std::uint32_t variable);
+  Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
   [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
 

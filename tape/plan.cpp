@@ -87,7 +87,7 @@ TapePlan plan_tape(std::span<const ModuleAccess> modules, std::span<const vars::
     wanted.push_back(runs * static_cast<double>(longest_run(plan.tracks.back(), directory)));
     sum += wanted.back();
   }
-  const double share = std::min(1.0, static_cast<double>(bytes / sizeof(std::uint64_t)) / std::max(sum, 1.0));
+  const double share = std::min(1.0, static_cast<double>(bytes) / (sizeof(std::uint64_t) * std::max(sum, 1.0)));
   for (std::size_t i = 0; i < plan.tracks.size(); ++i) {
     const std::uint64_t least = std::max(kLeastWords, kLeastRuns * longest_run(plan.tracks[i], directory));
     // Downwards, so that together they keep to `bytes`, but for what each needs at least.
