@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/command/become.h"
 #include "tools/command/self.h"
 
 namespace indurop::tools {
@@ -58,18 +56,7 @@ std::filesystem::path node_program(Context& context) {
 }
 
 int become_node(Context& context, const std::filesystem::path& program, const config::RunOptions& options) {
-  std::vector<std::string> words = config::words_of(options);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> raw;
-  for (std::string& word : words) {
-    raw.push_back(word.data());
-  }
-  raw.push_back(nullptr);
-  context.out.flush();
-  signal(SIGPIPE, SIG_DFL);  // ignoring it would be inherited
-  execv(program.c_str(), raw.data());
-  context.out.error(fmt::format("cannot start {}: {}", program.string(), std::strerror(errno)));
-  return kFailed;
+  return become(context, program, config::words_of(options));
 }
 
 }  // namespace indurop::tools

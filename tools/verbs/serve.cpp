@@ -2,11 +2,8 @@
 // indurop serve: becomes indurop-serve.
 #include <fmt/format.h>
 #include <unistd.h>
-#include <csignal>
 
-#include <cerrno>
-#include <cstring>
-
+#include "tools/command/become.h"
 #include "tools/command/self.h"
 #include "tools/command/serve_options.h"
 #include "tools/verbs/verbs.h"
@@ -24,18 +21,7 @@ int become_server(Context& context, ServeOptions& options) {
     return kFailed;
   }
   options.quiet = context.out.quiet();
-  std::vector<std::string> words = words_of(options);
-  words.insert(words.begin(), program.string());
-  std::vector<char*> raw;
-  for (std::string& word : words) {
-    raw.push_back(word.data());
-  }
-  raw.push_back(nullptr);
-  context.out.flush();
-  signal(SIGPIPE, SIG_DFL);  // ignoring it would be inherited
-  execv(program.c_str(), raw.data());
-  context.out.error(fmt::format("cannot start {}: {}", program.string(), std::strerror(errno)));
-  return kFailed;
+  return become(context, program, words_of(options));
 }
 
 Action declare(base::Options& app, Context& /*context*/) {
