@@ -10,36 +10,10 @@ import shutil
 import subprocess
 import sys
 
-SKIPPED = 77
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from npm_packages import fetch, skip  # noqa: E402
+
 HERE = pathlib.Path(__file__).parent
-# What npm says where its registry cannot be reached.
-NO_NETWORK = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ETIMEDOUT", "ENETUNREACH", "E401", "E403", "E503")
-
-
-def skip(why):
-    print(why)
-    sys.exit(SKIPPED)
-
-
-def judges(folder):
-    """Node's packages of package-lock.json, in `folder`; fetched once."""
-    lock = (HERE / "judges/package-lock.json").read_text()
-    mark = folder / "fetched.json"
-    if mark.is_file() and mark.read_text() == lock:
-        return
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in ("package.json", "package-lock.json"):
-        shutil.copy(HERE / "judges" / name, folder)
-    command = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"]
-    try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240, check=False)
-    except subprocess.TimeoutExpired:
-        skip("the registry of npm does not answer")
-    if done.returncode != 0:
-        if any(word in done.stderr for word in NO_NETWORK):
-            skip("the registry of npm cannot be reached")
-        sys.exit(done.stderr)
-    mark.write_text(lock)
 
 
 def main():
@@ -49,7 +23,7 @@ def main():
     options = parser.parse_args()
     if not shutil.which("npm") or not shutil.which("node"):
         skip("there is no npm here")
-    judges(options.work / "judges")
+    fetch(HERE / "judges", options.work / "judges")
     runs = options.work / "runs"
     shutil.rmtree(runs, ignore_errors=True)
     for seed in range(1, 1 + int(os.environ.get("INDUROP_RECORDING_SEEDS", "4"))):

@@ -17,39 +17,13 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cell"))
 from cell_test import copy_configuration  # noqa: E402
 
-SKIPPED = 77
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from npm_packages import fetch, skip  # noqa: E402
+
 HERE = pathlib.Path(__file__).parent
 NODE = "web_test"
 TOKEN = "a-token-that-is-only-for-tests-0123456789"
 PATIENCE = 60
-# What npm says where its registry cannot be reached.
-NO_NETWORK = ("ENOTFOUND", "EAI_AGAIN", "ECONNREFUSED", "ECONNRESET", "ETIMEDOUT", "ENETUNREACH", "E401", "E403", "E503")
-
-
-def skip(why):
-    print(why)
-    sys.exit(SKIPPED)
-
-
-def fetch_browser_driver(folder):
-    """Node's packages of package-lock.json, in `folder`; fetched once."""
-    lock = (HERE / "browser/package-lock.json").read_text()
-    mark = folder / "fetched.json"
-    if mark.is_file() and mark.read_text() == lock:
-        return
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in ("package.json", "package-lock.json"):
-        shutil.copy(HERE / "browser" / name, folder)
-    command = ["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"]
-    try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=180, check=False)
-    except subprocess.TimeoutExpired:
-        skip("the registry of npm does not answer")
-    if done.returncode != 0:
-        if any(word in done.stderr for word in NO_NETWORK):
-            skip("the registry of npm cannot be reached")
-        sys.exit(done.stderr)
-    mark.write_text(lock)
 
 
 def free_port():
@@ -139,7 +113,7 @@ def main():
     if not browser:
         skip("there is no Chromium here (package chromium)")
     driver = options.work / "browser"
-    fetch_browser_driver(driver)
+    fetch(HERE / "browser", driver, patience_s=180)
     pictures = options.work / "pictures"
     shutil.rmtree(pictures, ignore_errors=True)
     pictures.mkdir(parents=True)
