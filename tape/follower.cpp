@@ -57,6 +57,13 @@ std::span<const std::uint8_t> Follower::first_value(std::uint32_t variable) cons
   return {reinterpret_cast<const std::uint8_t*>(file_.data() + known.first_offset), known.size};
 }
 
+Follower::Items Follower::items_of(std::size_t track) const noexcept {
+  const TapeTrack& shared = *places_[track].shared;
+  const auto* const all = reinterpret_cast<const std::uint32_t*>(file_.data() + shared.items_offset);
+  const std::size_t written = std::size_t{shared.both} + shared.only_written;
+  return {{all, shared.only_read}, {all + shared.only_read, written}};
+}
+
 // Where the oldest run begins that is surely still there.
 std::uint64_t Follower::oldest(const Place& place, std::uint64_t head) noexcept {
   const std::uint64_t claimed = place.shared->claimed.load(kRelaxed);

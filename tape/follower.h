@@ -44,6 +44,13 @@ class Follower {
   [[nodiscard]] std::size_t tracks() const noexcept { return places_.size(); }
   [[nodiscard]] std::uint32_t module_of(std::size_t track) const noexcept { return places_[track].module; }
 
+  // What a track tells: variables that its module only reads, and those it writes.
+  struct Items {
+    std::span<const std::uint32_t> only_read;
+    std::span<const std::uint32_t> written;
+  };
+  [[nodiscard]] Items items_of(std::size_t track) const noexcept;
+
   // The next run of a track; `run` is used again. False: there is none yet.
   bool next(std::size_t track, Run& run);
   // Runs of the track that were overwritten before they were read.

@@ -131,6 +131,7 @@ std::string style() {
   std::string out = kSvgStyle;
   out +=
       ".name{font-size:13px}.inside{font-size:11px;fill:#ffffff}"
+      ".mark{stroke:#c2492f;stroke-width:1.4;stroke-dasharray:5 3}"
       "path{fill:none;stroke-width:1.4;stroke-linejoin:round}";
   for (std::size_t i = 0; i < kColors; ++i) {
     out += fmt::format(".s{0}{{fill:{1}}}.l{0}{{stroke:{1}}}", i, kPalette[i]);
@@ -162,8 +163,9 @@ std::vector<double> round_values(double from, double to, int about) {
 }
 
 std::string chart_svg(const std::string& heading, const Recording& recording) {
-  const double end = std::max(recording.time_s.back(), 1e-9);
-  const Scale x{0, end, kLeft, kPlot};
+  const double begin = recording.time_s.front();
+  const double end = std::max(recording.time_s.back(), begin + 1e-9);
+  const Scale x{begin, end, kLeft, kPlot};
   base::SvgPart body;
   double y = kHead;
   for (const Series& series : recording.series) {
@@ -176,12 +178,15 @@ std::string chart_svg(const std::string& heading, const Recording& recording) {
   }
   base::SvgPart out;
   svg_text(out, 14, 32, "start", "head", heading);
-  for (const double second : round_values(0, end, 10)) {
+  for (const double second : round_values(begin, end, 10)) {
     svg_line(out, x.at(second), kHead, x.at(second), y + 4, "grid");
     svg_text(out, x.at(second), y + 18, "middle", "label", plain(second) + " s");
   }
   svg_line(out, kLeft, y, kLeft + kPlot, y, "axis");
   out.add(body);
+  if (recording.marked) {
+    svg_line(out, x.at(0), kHead - 8, x.at(0), y + 4, "mark");
+  }
   return base::svg_document(static_cast<int>(kWidth), static_cast<int>(y) + 34, out, style());
 }
 

@@ -28,7 +28,7 @@ struct Row {
 std::vector<double> squeeze(const std::vector<double>& time, const std::vector<double>& line, std::size_t width) {
   std::vector<double> out(width, std::nan(""));
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const double part = time[i] / std::max(time.back(), 1e-9);
+    const double part = (time[i] - time.front()) / std::max(time.back() - time.front(), 1e-9);
     out[std::min(width - 1, static_cast<std::size_t>(part * static_cast<double>(width)))] = line[i];
   }
   for (std::size_t i = 1; i < width; ++i) {
@@ -68,6 +68,21 @@ std::string draw(const Row& row, const std::vector<double>& time, std::size_t wi
                       : value_text(*row.series, low) + " .. " + value_text(*row.series, high));
 }
 
+// Begin and end; in between '^' below what triggered it.
+std::string axis(const Recording& recording, std::size_t width) {
+  const double begin = recording.time_s.front();
+  const double end = recording.time_s.back();
+  std::string line = begin == 0 ? "0" : fmt::format("{:.3g} s", begin);
+  line.resize(width, ' ');
+  const std::string right = fmt::format("{:.3g} s", end);
+  line.replace(width - right.size(), right.size(), right);
+  if (recording.marked) {
+    const double part = -begin / std::max(end - begin, 1e-9);
+    line[std::min(width - 1, static_cast<std::size_t>(part * static_cast<double>(width)))] = '^';
+  }
+  return line;
+}
+
 }  // namespace
 
 std::vector<std::string> chart_lines(const Recording& recording, int columns, bool unicode) {
@@ -89,8 +104,7 @@ std::vector<std::string> chart_lines(const Recording& recording, int columns, bo
   for (const Row& row : rows) {
     out.push_back(fmt::format("{:<{}}  {}", row.name, name_width, draw(row, recording.time_s, width, unicode)));
   }
-  out.push_back(
-      fmt::format("{:<{}}  0{:>{}}", "", name_width, fmt::format("{:.3g} s", recording.time_s.back()), width - 1));
+  out.push_back(fmt::format("{:<{}}  {}", "", name_width, axis(recording, width)));
   return out;
 }
 

@@ -22,8 +22,9 @@ struct Series {
 };
 
 struct Recording {
-  std::vector<double> time_s;  // since the first row, rising
+  std::vector<double> time_s;  // since the first row, or what triggered it; rising
   std::vector<Series> series;
+  bool marked = false;  // 0 s is where it was triggered
 };
 
 // What `indurop watch -o csv` wrote; `name` is the file in the error.

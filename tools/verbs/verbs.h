@@ -33,6 +33,7 @@ extern const Verb kResetVerb;
 extern const Verb kRestartVerb;
 extern const Verb kRollbackVerb;
 extern const Verb kRunVerb;
+extern const Verb kScopeVerb;
 extern const Verb kServeVerb;
 extern const Verb kSetVerb;
 extern const Verb kStartVerb;

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scope draws and where its numbers are: channels by their texts, as variables, parts, globs and expressions,
+// and the numbers in shared memory that they are made of.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/problem.h"
+#include "schema/schema.h"
+#include "tools/scope/formula.h"
+#include "tools/scope/trigger.h"
+
+namespace indurop::tools {
+
+inline constexpr std::size_t kMostScopeLines = 64;
+
+// A number of a variable.
+struct ScopeInput {
+  std::uint32_t variable = 0;  // index in the schema
+  std::uint32_t offset = 0;
+  schema::Base base{};
+};
+// The number in the variable's bytes.
+double number_of(const ScopeInput& input, const std::uint8_t* bytes) noexcept;
+
+struct ScopeLine {
+  std::string name;  // "joints[1]"
+  Formula formula;
+};
+// Lines that are drawn together: the elements of an array, or one.
+struct ScopeChannel {
+  std::string name;
+  std::string unit;
+  std::vector<std::string> words;  // of an enumeration: its names by number
+  bool yes_no = false;
+  std::vector<ScopeLine> lines;
+};
+
+struct ScopePlan {
+  std::vector<ScopeInput> inputs;
+  std::vector<ScopeChannel> channels;
+  std::optional<Trigger> trigger;  // none: at once
+};
+
+// `texts`: names, parts, globs, expressions, each with a name of its own if it is "NAME = EXPRESSION".
+// Errors: what cannot be a channel (text; more than kMostScopeLines lines) or is not understood.
+Result<ScopePlan, base::Problem> plan_scope(const schema::Schema& schema, const std::vector<std::string>& texts,
+                                            std::string_view trigger);
+
+}  // namespace indurop::tools

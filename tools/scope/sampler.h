@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node's tape as one row of numbers for each tick: what the variables held when the tick ended. Looks only: the node
+// does not know of it. One thread at a time.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tape/follower.h"
+#include "tools/scope/channels.h"
+#include "tools/values/run_view.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+
+class TickSampler {
+ public:
+  // `store`: that of the follower's node, of the same layout; it is needed here only.
+  // Errors: a variable that no tape tells.
+  static Result<TickSampler, base::Problem> create(tape::Follower follower, const RunView& run,
+                                                   const vars::Store& store, const std::vector<ScopeInput>& inputs);
+
+  // Takes what is on the tape; rows of ticks that have ended can be had then.
+  void take();
+  // The next tick's row, in the order of the inputs; empty: it is not there yet. Valid until the next call.
+  std::span<const double> next(std::uint64_t& tick);
+
+  // Runs that were overwritten before they were read: values in between are unknown.
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+  [[nodiscard]] std::int64_t time_of(std::uint64_t tick) const noexcept {
+    return epoch_ns_ + static_cast<std::int64_t>(tick) * period_ns_;
+  }
+  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
+
+ private:
+  // A number that changed at a time.
+  struct Event {
+    std::int64_t time_ns = 0;
+    std::uint32_t input = 0;
+    double value = 0;
+  };
+  TickSampler(tape::Follower follower, std::vector<ScopeInput> inputs)
+      : follower_(std::move(follower)), inputs_(std::move(inputs)) {}
+  Result<void, base::Problem> choose_tracks(const RunView& run, const vars::Store& store);
+  void note(const tape::Run& run, const std::vector<std::vector<std::uint32_t>>& wanted);
+
+  struct Track {
+    std::size_t track = 0;
+    std::vector<std::vector<std::uint32_t>> wanted;  // by variable: its inputs
+  };
+
+  tape::Follower follower_;
+  std::vector<ScopeInput> inputs_;
+  std::vector<Track> tracks_;
+  tape::Run run_;
+  std::vector<Event> events_;  // from used_ on by time
+  std::size_t used_ = 0;
+  std::vector<double> values_;
+  std::int64_t epoch_ns_ = 0;
+  std::int64_t period_ns_ = 1;
+  std::int64_t newest_ns_ = 0;   // end of a run
+  std::int64_t oldest_ns_ = 0;   // begin of a run
+  std::int64_t longest_ns_ = 0;  // run, from its release on
+  std::uint64_t next_tick_ = 0;
+  bool begun_ = false;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace indurop::tools

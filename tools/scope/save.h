@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scope's picture for people and programs: chart, CSV as `indurop watch -o csv` has it, JSON, MCAP.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/json.h"
+#include "base/problem.h"
+#include "tools/scope/scope.h"
+#include "tools/values/recording.h"
+
+namespace indurop::tools {
+
+// For charts; the trigger is at 0 s.
+Recording recording_of(const Capture& capture);
+std::string csv_of(const Capture& capture);
+// Values that are not known are null.
+base::Json json_of(const Capture& capture);
+// A message per tick for each line. Errors: the file is there already, or cannot be written.
+Result<void, base::Problem> save_mcap(const std::filesystem::path& path, const Capture& capture,
+                                      const std::string& node);
+// "'speed > 100' at tick 1200, 100 ticks before and 400 after, every 1 ms"
+std::string heading_of(const Capture& capture);
+
+}  // namespace indurop::tools
