@@ -60,6 +60,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(files_, std::move(match), ticket);
     case Pace::Orders:
       return hand_over(orders_, std::move(match), ticket);
+    case Pace::Wait:
+      return let_wait(std::move(match), ticket);
     case Pace::Quick:
       break;
   }
@@ -67,17 +69,34 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
   return match.route->answer(api_, match.call);
 }
 
-std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
+std::function<void()> Server::job_of(Helper& helper, Match match, Ticket ticket) {
   match.call.boards = &helper.boards;
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
-  const bool taken = helper.worker.add([this, request, match = std::move(match), ticket] {
+  return [this, request, match = std::move(match), ticket] {
     door_->reply(ticket, match.route->answer(api_, match.call));
-  });
-  if (!taken) {
+  };
+}
+
+std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
+  if (!helper.worker.add(job_of(helper, std::move(match), ticket))) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
+}
+
+std::optional<Reply> Server::let_wait(Match match, Ticket ticket) {
+  constexpr std::size_t kMost = 4;
+  for (std::size_t i = 0; i < kMost; ++i) {
+    if (i == waiting_.size()) {
+      waiting_.push_back(std::make_unique<Helper>(options_.node));
+    }
+    if (waiting_[i]->worker.add_if_idle(job_of(*waiting_[i], match, ticket))) {
+      return std::nullopt;
+    }
+  }
+  return refusal(status::kUnavailable,
+                 fmt::format("{} scopes wait for their triggers already; try again later", kMost));
 }
 
 std::unique_ptr<Visitor> Server::receive(const Request& request, Line& line) {

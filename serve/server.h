@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "serve/api/api.h"
 #include "serve/api/audit.h"
@@ -36,6 +40,9 @@ class Server final : public House {
     Worker worker;
   };
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
+  std::optional<Reply> let_wait(Match match, Ticket ticket);
+  // Answers on the helper's thread.
+  std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
 
   tools::ServeOptions options_;
@@ -49,6 +56,7 @@ class Server final : public House {
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
   Helper orders_;
+  std::vector<std::unique_ptr<Helper>> waiting_;  // one for each that waits; made when they are needed
 };
 
 }  // namespace indurop::serve

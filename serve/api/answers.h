@@ -31,6 +31,7 @@ Reply overruns(Api& api, const Call& call);
 
 Reply variables(Api& api, const Call& call);
 Reply variable(Api& api, const Call& call);
+Reply scope(Api& api, const Call& call);
 
 Reply set(Api& api, const Call& call);
 Reply force(Api& api, const Call& call);

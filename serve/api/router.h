@@ -25,8 +25,9 @@ struct Call {
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
-// Which thread answers: the door's; one that may read files; one that may wait for a node.
-enum class Pace { Quick, Files, Orders };
+// Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
+// something to happen.
+enum class Pace { Quick, Files, Orders, Wait };
 
 struct Route {
   Method method;

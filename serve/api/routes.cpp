@@ -29,6 +29,7 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/boards/{board}/forces", Pace::Quick, &answers::forces},
       Route{kPost, "/api/v1/boards/{board}/force", Pace::Orders, &answers::force},
       Route{kPost, "/api/v1/boards/{board}/release", Pace::Orders, &answers::release},
+      Route{kGet, "/api/v1/boards/{board}/scope", Pace::Wait, &answers::scope},
       Route{kGet, "/api/v1/boards/{board}/robots", Pace::Files, &answers::robots},
       Route{kGet, "/api/v1/deployments", Pace::Quick, &answers::deployments},
       Route{kGet, "/api/v1/audit", Pace::Files, &answers::audit},

@@ -37,6 +37,18 @@ bool Worker::add(std::function<void()> job) {
   return true;
 }
 
+bool Worker::add_if_idle(std::function<void()> job) {
+  {
+    const std::lock_guard guard(lock_);
+    if (working_ || !jobs_.empty()) {
+      return false;
+    }
+    jobs_.push_back(std::move(job));
+  }
+  changed_.notify_all();
+  return true;
+}
+
 void Worker::work() {
   std::unique_lock guard(lock_);
   for (;;) {
@@ -46,9 +58,11 @@ void Worker::work() {
     }
     const auto job = std::move(jobs_.front());
     jobs_.pop_front();
+    working_ = true;
     guard.unlock();
     job();
     guard.lock();
+    working_ = false;
   }
 }
 

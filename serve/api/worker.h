@@ -23,6 +23,8 @@ class Worker {
 
   // False if too many wait already.
   bool add(std::function<void()> job);
+  // The same, for jobs that take long: false if it has anything to do.
+  bool add_if_idle(std::function<void()> job);
 
  private:
   void work();
@@ -30,6 +32,7 @@ class Worker {
   std::mutex lock_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> jobs_;
+  bool working_ = false;
   bool ending_ = false;
   std::thread thread_;
 };

@@ -101,6 +101,23 @@ const tests = {
     }
   },
 
+  async "Charts show every tick around a trigger"() {
+    await order("start-tour");
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open(`plots?m=single&t=PLC_ROBOT::ROBOT_ARM.tool_speed > 50&pre=40&post=80&c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed`, size);
+      await sees(page, "40 ticks before, 80 after, every 10 ms");
+      await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
+      await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
+      await browser.judge(page, `plots-triggered-${screen}`);
+      if (screen === "wide") {
+        await fill(page, "Trigger", "nobody > 1");
+        await page.keyboard.press("Enter");
+        await sees(page, "no variable 'nobody'");
+      }
+      await page.close();
+    }
+  },
+
   async "The schedule shows runs and explains them"() {
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open("schedule?z=16&m=Robot&n=1", size);

@@ -24,13 +24,13 @@ export function token(): string {
   return sessionStorage.getItem(TOKEN_KEY) ?? "";
 }
 
-async function ask<T>(path: string, more: RequestInit): Promise<T> {
+async function ask<T>(path: string, more: RequestInit, patience_ms = PATIENCE_MS): Promise<T> {
   const headers: Record<string, string> = { Accept: "application/json" };
   if (token()) headers.Authorization = `Bearer ${token()}`;
   if (more.body) headers["Content-Type"] = "application/json";
   let answer: Response;
   try {
-    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(PATIENCE_MS) });
+    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(patience_ms) });
   } catch {
     throw new Refusal(0, "The server does not answer.");
   }
@@ -45,8 +45,8 @@ async function ask<T>(path: string, more: RequestInit): Promise<T> {
   return body as T;
 }
 
-export function get<T>(path: string): Promise<T> {
-  return ask<T>(path, { method: "GET" });
+export function get<T>(path: string, patience_ms?: number): Promise<T> {
+  return ask<T>(path, { method: "GET" }, patience_ms);
 }
 
 export function post<T>(path: string, body?: unknown): Promise<T> {

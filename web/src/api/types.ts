@@ -177,6 +177,25 @@ export interface Robot {
   name?: string;  // from the text, by the page
 }
 
+export interface CaptureLine {
+  name: string;
+  channel: string;
+  unit: string;
+  words?: string[];
+  values: (number | null)[];
+}
+
+export interface Capture {
+  period_ns: number;
+  first_tick: number;
+  first_wall_ns: number;
+  rows: number;
+  trigger: string;
+  trigger_row: number | null;
+  lost_runs: number;
+  lines: CaptureLine[];
+}
+
 export interface StreamVariable {
   name: string;
   type: string;

@@ -7,7 +7,7 @@ import { colour, colours_changed, letter_px } from "../../shell/theme";
 import { short, value_text } from "../../ui/format";
 import { is_number, type Part } from "../../ui/paths";
 import { useStore } from "../../ui/store";
-import type { Recorder } from "./recorder";
+import type { Samples } from "./recorder";
 
 const COLOURS = 8;
 const MARKS = ["A", "B"];
@@ -25,7 +25,8 @@ export interface Line {
 interface Props {
   index: number;
   lines: Line[];
-  recorder: Recorder;
+  recorder: Samples;
+  relative?: boolean;  // times are seconds from the trigger, else since 1970
   shown: () => Shown;
   drawn: number;  // changes whenever the chart is to be drawn anew
   marks: number[];
@@ -43,6 +44,11 @@ function times(_: uPlot, splits: number[], __: number, ___: number, step: number
     const text = new Date(time * 1000).toTimeString().slice(0, 8);
     return step < 1 ? `${text}.${Math.round((time % 1) * 1000).toString().padStart(3, "0")}` : text;
   });
+}
+
+function seconds(_: uPlot, splits: number[], __: number, ___: number, step: number): string[] {
+  const [size, unit] = step < 1e-3 ? [1e6, "us"] : step < 1 ? [1e3, "ms"] : [1, "s"];
+  return splits.map((time) => `${Number((time * size).toPrecision(6))} ${unit}`);
 }
 
 function unit_of(line: Line): string {
@@ -72,7 +78,7 @@ function values_at({ recorder, lines }: Props, time: number | null): number[] {
 }
 
 function options(props: () => Props, size: { width: number; height: number }, cursor: (time: number | null) => void): uPlot.Options {
-  const { lines } = props();
+  const { lines, relative } = props();
   const units = [...new Set(lines.map(unit_of))];
   const letter = letter_px();
   const font = `${Math.round(letter * 0.75)}px system-ui, sans-serif`;
@@ -82,10 +88,10 @@ function options(props: () => Props, size: { width: number; height: number }, cu
     legend: { show: false },
     cursor: { sync: { key: "plots" }, drag: { x: true, y: false, setScale: false }, points: { size: 7 } },
     scales: {
-      x: { time: true, range: () => [props().shown().from, props().shown().to] },
+      x: { time: !relative, range: () => [props().shown().from, props().shown().to] },
       ...Object.fromEntries(units.map((unit) => [unit, { range: uPlotRange }])),
     },
-    axes: [{ ...axis, values: times, space: letter * 6, size: letter * 2.2 }, ...units.slice(0, 2).map((unit, i) => ({
+    axes: [{ ...axis, values: relative ? seconds : times, space: letter * 6, size: letter * 2.2 }, ...units.slice(0, 2).map((unit, i) => ({
       ...axis, scale: unit, side: (i === 0 ? 3 : 1) as uPlot.Axis.Side, label: unit === "-" ? undefined : unit, labelSize: letter * 1.2, size: letter * 4,
       grid: { ...axis.grid, show: i === 0 },
     }))],
@@ -103,7 +109,7 @@ function options(props: () => Props, size: { width: number; height: number }, cu
         props().zoom({ from, to });
       }],
       setCursor: [(plot) => cursor(plot.cursor.left === undefined || plot.cursor.left < 0 ? null : plot.posToVal(plot.cursor.left, "x"))],
-      draw: [(plot) => draw_marks(plot, props().marks)],
+      draw: [(plot) => draw_marks(plot, props().marks, MARKS), (plot) => relative && draw_marks(plot, [0], ["T"])],
     },
   };
 }
@@ -116,10 +122,11 @@ function uPlotRange(_: uPlot, min: number | null, max: number | null): uPlot.Ran
   return [min - space, max + space];
 }
 
-function draw_marks({ ctx, bbox, valToPos }: uPlot, marks: number[]): void {
+function draw_marks({ ctx, bbox, valToPos }: uPlot, marks: number[], names: string[]): void {
   ctx.save();
   ctx.strokeStyle = ctx.fillStyle = colour("text");
   ctx.lineWidth = 1;
+  ctx.textAlign = "left";
   marks.forEach((time, i) => {
     const x = Math.round(valToPos(time, "x", true));
     if (x < bbox.left || x > bbox.left + bbox.width) return;
@@ -127,7 +134,7 @@ function draw_marks({ ctx, bbox, valToPos }: uPlot, marks: number[]): void {
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.stroke();
-    ctx.fillText(MARKS[i], x + 4, bbox.top + 12 * devicePixelRatio);
+    ctx.fillText(names[i], x + 4, bbox.top + 12 * devicePixelRatio);
   });
   ctx.restore();
 }

@@ -36,8 +36,12 @@ export function csv_of(recorder: Recorder, lines: Line[], { from, to }: Shown): 
   return `${rows.join("\n")}\n`;
 }
 
+export function save_text(csv: string): void {
+  download(file_name("csv"), new Blob([csv], { type: "text/csv" }));
+}
+
 export function save_csv(recorder: Recorder, lines: Line[], shown: Shown): void {
-  download(file_name("csv"), new Blob([csv_of(recorder, lines, shown)], { type: "text/csv" }));
+  save_text(csv_of(recorder, lines, shown));
 }
 
 export function save_png(plots: uPlot[]): void {

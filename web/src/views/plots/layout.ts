@@ -9,6 +9,26 @@ export interface Layout {
   rate_hz: number;
 }
 
+export type Mode = "strip" | "single" | "normal" | "auto";
+export const MODES: Mode[] = ["strip", "single", "normal", "auto"];
+
+// m is the mode, t the trigger, pre and post how many ticks before and after it.
+export interface Wish {
+  mode: Mode;
+  trigger: string;
+  pre: number;
+  post: number;
+}
+
+export function wish_of(query: URLSearchParams): Wish {
+  const ticks = (name: string, otherwise: number) => {
+    const given = Number(query.get(name) ?? otherwise);
+    return Number.isInteger(given) && given >= 0 && given < 10_000 ? given : otherwise;
+  };
+  const mode = MODES.find((one) => one === query.get("m")) ?? "strip";
+  return { mode, trigger: query.get("t") ?? "", pre: ticks("pre", 100), post: ticks("post", 400) };
+}
+
 export const WINDOWS_S = [5, 10, 30, 60, 300, 1200];
 export const RATES_HZ = [1, 5, 10, 25, 50, 100];
 

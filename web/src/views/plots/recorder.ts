@@ -7,7 +7,15 @@ import type { Subscribed } from "../../api/types";
 
 const MOST = 60_000;  // samples; at 25 Hz 40 minutes
 
-export class Recorder {
+// What a chart draws; times rise.
+export interface Samples {
+  readonly size: number;
+  readonly times: Float64Array;
+  column(name: string): Float64Array | undefined;
+  index_at(time: number): number;  // the first sample at or after it
+}
+
+export class Recorder implements Samples {
   size = 0;
   dropped = 0;
   refused = "";
@@ -46,7 +54,6 @@ export class Recorder {
     return this.columns.get(name);
   }
 
-  // First sample at or after `time`.
   index_at(time: number): number {
     let low = 0;
     let high = this.size;
