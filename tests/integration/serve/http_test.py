@@ -231,6 +231,32 @@ def test_no_board_at_all(setting):
         assert server.get(f"{API}/boards/{setting.node}{path}").status == 404, path
 
 
+def test_shows_the_arms_of_a_board(setting):
+    (setting.folder / "arm.urdf").write_text("<robot name='arm'/>")
+    (setting.folder / "huge.urdf").write_text("x" * (1 << 20) + "x")
+    module = ("<module><filename>./{}.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
+              "<period>1000000</period><priority>1</priority><property><value name='urdf'>{}</value></property></module>")
+    files = {"modify": "arm.urdf", "output": "huge.urdf", "show": "none.urdf", "stranger": "arm.urdf"}
+    (setting.folder / "module.xml").write_text(
+        f"<root>{''.join(module.format(*pair) for pair in files.items())}</root>")
+    setting.start_node("config", setting.folder / "module.xml")
+    server = setting.start_server()
+    answer = server.get(f"{API}/boards/{setting.node}/robots").json()
+    assert answer == {"board": setting.node, "robots": [{"module": "modify", "urdf": "<robot name='arm'/>"}]}, answer
+    assert server.get(f"{API}/boards/nobody/robots").status == 404
+
+
+def test_a_scope_needs_what_it_can_read(setting):
+    setting.start_node()
+    server = setting.start_server()
+    base = f"{API}/boards/{setting.node}/scope"
+    assert "keeps no tape" in server.get(base + "?channel=tick").json()["message"]
+    for wrong in ("?channel=tick&pre=x", "?channel=tick&pre=15000&post=15000", "?channel=tick&timeout_ms=99999",
+                  "?channel=tick&after_tick=-1"):
+        assert server.get(base + wrong).status == 400, wrong
+    assert server.get(f"{API}/boards/nobody/scope?channel=tick").status == 404
+
+
 def openssl(setting, *words):
     subprocess.run(["openssl", *words], cwd=setting.folder, check=True, capture_output=True)
 
