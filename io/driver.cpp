@@ -6,6 +6,7 @@
 #include "io/cia402_driver.h"
 #include "io/csv_driver.h"
 #include "io/modbus_driver.h"
+#include "io/modbus_server.h"
 
 namespace indurop::io {
 
@@ -16,6 +17,8 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
     case config::IoDriver::ModbusTcp:
     case config::IoDriver::ModbusRtu:
       return std::unique_ptr<Driver>(std::make_unique<ModbusDriver>(device, outputs, inputs));
+    case config::IoDriver::ModbusServer:
+      return std::unique_ptr<Driver>(std::make_unique<ModbusServer>(device, outputs, inputs));
     case config::IoDriver::Cia402:
       return std::unique_ptr<Driver>(std::make_unique<Cia402Driver>(device, outputs, inputs));
     case config::IoDriver::Csv:

@@ -142,7 +142,7 @@ void ExchangeThread::say(Quality now, Clock::time_point when) {
   if (before == Quality::None || before == Quality::Good) {
     bad_since_ = when;
   }
-  irp::printf("I/O device %s: %s%s\n", device_.name, driver_.problem(), now == Quality::Lost ? "; trying again" : "");
+  irp::printf("I/O device %s: %s\n", device_.name, driver_.problem());
 }
 
 }  // namespace indurop::io

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modbus TCP and RTU over libmodbus. Waits for its device, so only a thread of the device's own calls it.
+// The client of a Modbus device. Waits for its device, so only a thread of the device's own calls it.
 
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "io/driver.h"
+#include "io/modbus_link.h"
 #include "io/modbus_plan.h"
-
-typedef struct _modbus modbus_t;  // NOLINT: libmodbus's own name
 
 namespace indurop::io {
 
@@ -21,38 +19,37 @@ class ModbusDriver final : public Driver {
   [[nodiscard]] bool in_tick() const noexcept override { return false; }
   bool open() override;
   Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
-  void close() noexcept override;
+  void close() noexcept override { link_.close(); }
   [[nodiscard]] std::string problem() const override { return problem_; }
 
  private:
-  struct Free {
-    void operator()(modbus_t* context) const noexcept;
-  };
   enum class Reply { Good, Refused, Silent };
+  struct Step {
+    ModbusStep plan;
+    Reply reply = Reply::Good;  // the last one
+  };
 
+  [[nodiscard]] bool is_due(const Step& step) const noexcept;
   // One request and its answer. Silent also for what is no answer.
-  Reply write(const ModbusRequest& request, std::span<Sample> outputs);
-  Reply read(const ModbusRequest& request, std::span<Sample> inputs);
-  int write_registers(const ModbusRequest& request, std::span<Sample> outputs);
-  int write_bits(const ModbusRequest& request, std::span<Sample> outputs);
-  int read_table(const ModbusRequest& request);
-  void read_values(const ModbusRequest& request, std::span<Sample> inputs);
-  // One request over TCP; as libmodbus: below 0 if it failed, for the reason in errno.
-  int over_tcp(const ModbusRequest& request, bool is_write);
-  Reply judge(const ModbusRequest& request, bool is_write, int result);
+  Reply make(const ModbusStep& step, bool writes, std::span<Sample> outputs);
+  ModbusFrame frame_of(const ModbusStep& step, bool writes, std::span<Sample> outputs);
+  void fill_bits(const ModbusRequest& request, std::span<const Sample> outputs);
+  void fill_registers(const ModbusRequest& request, std::span<Sample> outputs);
+  ModbusFrame masking(const ModbusRequest& request, std::span<const Sample> outputs) const;
+  void take_values(const ModbusRequest& request, std::span<Sample> inputs);
+  Reply judge(const ModbusRequest& request, bool is_write, int error);
   // True if the request may be made: its unit has not been silent in this exchange.
-  [[nodiscard]] bool is_awake(const ModbusRequest& request) const;
+  [[nodiscard]] bool is_awake(int unit) const;
 
   config::IoDevice device_;
   std::vector<config::IoPoint> outputs_;
   std::vector<config::IoPoint> inputs_;
-  std::vector<ModbusRequest> writes_;
-  std::vector<ModbusRequest> reads_;
-  std::unique_ptr<modbus_t, Free> context_;
+  std::vector<Step> steps_;
+  ModbusLink link_;
   std::vector<std::uint16_t> registers_;  // of one request
   std::vector<std::uint8_t> bits_;
   std::vector<int> silent_units_;  // of this exchange
-  std::uint16_t transaction_ = 0;
+  std::int64_t exchanges_ = 0;     // since the link was opened
   bool connection_lost_ = false;
   std::string problem_;
 };

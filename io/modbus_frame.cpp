@@ -21,16 +21,19 @@ constexpr std::uint8_t kWriteCoil = 5;
 constexpr std::uint8_t kWriteRegister = 6;
 constexpr std::uint8_t kWriteCoils = 15;
 constexpr std::uint8_t kWriteRegisters = 16;
+constexpr std::uint8_t kMaskRegister = 22;
+constexpr std::uint8_t kExchangeRegisters = 23;
 constexpr std::uint8_t kRefused = 0x80;  // added to the function
 constexpr unsigned kOn = 0xFF00;
 
-// Places in a frame.
-constexpr std::size_t kLength = 4;
-constexpr std::size_t kUnit = 6;
-constexpr std::size_t kFunction = 7;
-constexpr std::size_t kFirst = 8;  // of an exception its code, of a reading's answer the number of bytes
-constexpr std::size_t kData = 9;
-constexpr std::size_t kEcho = 12;
+// Places in a request and in its answer.
+constexpr std::size_t kUnit = 0;
+constexpr std::size_t kFunction = 1;
+constexpr std::size_t kFirst = 2;  // of an exception its code, of a reading's answer the number of bytes
+constexpr std::size_t kData = 3;
+constexpr std::size_t kAddressEnd = 4;
+constexpr std::size_t kEcho = 6;
+constexpr std::size_t kMaskEcho = 8;
 
 std::uint8_t reading_function(IoTable table) noexcept {
   switch (table) {
@@ -57,71 +60,96 @@ void ModbusFrame::put_word(unsigned word) noexcept {
   put(word & kByteMask);
 }
 
-ModbusFrame::ModbusFrame(std::uint16_t transaction, const ModbusRequest& request, std::uint8_t function) noexcept
-    : count_(request.count), bits_(config::is_bits(request.table)) {
-  put_word(transaction);
-  put_word(0);  // protocol
-  put_word(0);  // length
-  put(static_cast<unsigned>(request.unit) & kByteMask);
+void ModbusFrame::put_registers(std::span<const std::uint16_t> registers) noexcept {
+  put(2U * static_cast<unsigned>(registers.size()));
+  for (const std::uint16_t word : registers) {
+    put_word(word);
+  }
+}
+
+ModbusFrame::ModbusFrame(int unit, std::uint8_t function) noexcept {
+  put(static_cast<unsigned>(unit) & kByteMask);
   put(function);
-  put_word(request.first);
 }
 
-// Once all bytes are there their number is known.
-void ModbusFrame::close() noexcept {
-  const std::size_t length = size_ - kUnit;
-  bytes_[kLength] = static_cast<std::uint8_t>(length >> kByte);
-  bytes_[kLength + 1] = static_cast<std::uint8_t>(length & kByteMask);
+void ModbusFrame::expect_values(const ModbusRequest& request) noexcept {
+  bits_ = config::is_bits(request.table);
+  count_ = request.count;
+  answer_bytes_ = bits_ ? (request.count + kByte - 1U) / kByte : std::size_t{2} * request.count;
 }
 
-ModbusFrame ModbusFrame::reading(std::uint16_t transaction, const ModbusRequest& request) noexcept {
-  ModbusFrame frame(transaction, request, reading_function(request.table));
+void ModbusFrame::expect_echo(std::size_t size, std::size_t same) noexcept {
+  echo_size_ = size;
+  echo_same_ = same;
+}
+
+ModbusFrame ModbusFrame::reading(const ModbusRequest& request) noexcept {
+  ModbusFrame frame(request.unit, reading_function(request.table));
+  frame.put_word(request.first);
   frame.put_word(request.count);
-  frame.answer_bytes_ = frame.bits_ ? (request.count + kByte - 1U) / kByte : std::size_t{2} * request.count;
-  frame.close();
+  frame.expect_values(request);
   return frame;
 }
 
-ModbusFrame ModbusFrame::writing(std::uint16_t transaction, const ModbusRequest& request,
-                                 std::span<const std::uint8_t> bits,
+ModbusFrame ModbusFrame::writing(const ModbusRequest& request, std::span<const std::uint8_t> bits,
                                  std::span<const std::uint16_t> registers) noexcept {
   const bool one = request.count == 1;
-  ModbusFrame frame(transaction, request, writing_function(request.table, one));
+  const bool is_bits = config::is_bits(request.table);
+  ModbusFrame frame(request.unit, writing_function(request.table, one));
+  frame.put_word(request.first);
   if (one) {
-    frame.put_word(frame.bits_ ? (bits[0] != 0 ? kOn : 0) : registers[0]);
-    frame.close();
+    frame.put_word(is_bits ? (bits[0] != 0 ? kOn : 0) : registers[0]);
+    // Of one value only the address comes back for certain.
+    frame.expect_echo(kEcho, kAddressEnd);
     return frame;
   }
   frame.put_word(request.count);
-  if (frame.bits_) {
-    frame.put((request.count + kByte - 1U) / kByte);
-    for (std::size_t i = 0; i < request.count; i += kByte) {
-      unsigned byte = 0;
-      for (std::size_t k = i; k < std::min<std::size_t>(request.count, i + kByte); ++k) {
-        byte |= (bits[k] != 0 ? 1U : 0U) << (k - i);
-      }
-      frame.put(byte);
-    }
-  } else {
-    frame.put(2U * request.count);
-    for (std::size_t i = 0; i < request.count; ++i) {
-      frame.put_word(registers[i]);
-    }
+  frame.expect_echo(kEcho, kEcho);
+  if (!is_bits) {
+    frame.put_registers(registers.first(request.count));
+    return frame;
   }
-  frame.close();
+  frame.put((request.count + kByte - 1U) / kByte);
+  for (std::size_t i = 0; i < request.count; i += kByte) {
+    unsigned byte = 0;
+    for (std::size_t k = i; k < std::min<std::size_t>(request.count, i + kByte); ++k) {
+      byte |= (bits[k] != 0 ? 1U : 0U) << (k - i);
+    }
+    frame.put(byte);
+  }
+  return frame;
+}
+
+ModbusFrame ModbusFrame::masking(const ModbusRequest& request, std::uint16_t mask, std::uint16_t bits) noexcept {
+  ModbusFrame frame(request.unit, kMaskRegister);
+  frame.put_word(request.first);
+  frame.put_word(static_cast<std::uint16_t>(~mask));
+  frame.put_word(static_cast<unsigned>(bits) & mask);
+  frame.expect_echo(kMaskEcho, kMaskEcho);
+  return frame;
+}
+
+ModbusFrame ModbusFrame::exchanging(const ModbusRequest& write, const ModbusRequest& read,
+                                    std::span<const std::uint16_t> registers) noexcept {
+  ModbusFrame frame(write.unit, kExchangeRegisters);
+  frame.put_word(read.first);
+  frame.put_word(read.count);
+  frame.put_word(write.first);
+  frame.put_word(write.count);
+  frame.put_registers(registers.first(write.count));
+  frame.expect_values(read);
   return frame;
 }
 
 ModbusFrame::Fit ModbusFrame::judge(std::span<const std::uint8_t> answer) const noexcept {
-  // Transaction and protocol come back as they were sent.
-  if (answer.size() < kData || !std::equal(bytes_.begin(), bytes_.begin() + kLength, answer.begin())) {
+  if (answer.size() < kData) {
     return Fit::Garbage;
   }
   if (answer[kUnit] != bytes_[kUnit]) {
     return Fit::Stranger;
   }
   if (answer[kFunction] == (bytes_[kFunction] | kRefused)) {
-    return Fit::Exception;
+    return answer.size() == kData ? Fit::Exception : Fit::Garbage;
   }
   if (answer[kFunction] != bytes_[kFunction]) {
     return Fit::Garbage;
@@ -129,11 +157,9 @@ ModbusFrame::Fit ModbusFrame::judge(std::span<const std::uint8_t> answer) const 
   if (answer_bytes_ > 0) {
     return answer[kFirst] == answer_bytes_ && answer.size() == kData + answer_bytes_ ? Fit::Answer : Fit::Garbage;
   }
-  // Of one value only the address comes back for certain, of several their number as well.
-  const std::size_t echo = count_ == 1 ? kEcho - 2 : kEcho;
   const bool same =
-      answer.size() == kEcho &&
-      std::equal(bytes_.begin() + kFirst, bytes_.begin() + static_cast<std::ptrdiff_t>(echo), answer.begin() + kFirst);
+      answer.size() == echo_size_ &&
+      std::equal(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(echo_same_), answer.begin());
   return same ? Fit::Answer : Fit::Garbage;
 }
 

@@ -77,6 +77,13 @@ Number decode(const WireForm& form, std::span<const std::uint16_t> registers) no
   return 0;
 }
 
+Number value_in(const config::IoPoint& point, std::span<const std::uint16_t> registers) noexcept {
+  return point.address.bit < 0
+             ? decode(form_of(point), registers)
+             : static_cast<Number>(static_cast<unsigned>(registers[0]) >> static_cast<unsigned>(point.address.bit) &
+                                   1U);
+}
+
 bool encode(const WireForm& form, Number value, std::span<std::uint16_t> registers) noexcept {
   switch (form.type) {
     case WireType::Bool:

@@ -20,8 +20,14 @@ struct WireForm {
   bool swap_bytes = false;
 };
 
+inline WireForm form_of(const config::IoPoint& point) noexcept {
+  return {point.type, point.swap_words, point.swap_bytes};
+}
+
 // `registers` has config::registers_of(form.type) words.
 Number decode(const WireForm& form, std::span<const std::uint16_t> registers) noexcept;
+// What a point has of its registers: the number, or its one bit.
+Number value_in(const config::IoPoint& point, std::span<const std::uint16_t> registers) noexcept;
 // False, and the nearest possible value was written, if the number does not fit; nothing is written of a NaN that the
 // wire's type cannot say.
 bool encode(const WireForm& form, Number value, std::span<std::uint16_t> registers) noexcept;

@@ -15,7 +15,8 @@
 
 namespace indurop::config {
 
-enum class IoDriver { ModbusTcp, ModbusRtu, Cia402, Csv };
+// ModbusServer: others ask us, an operator panel for example.
+enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Csv };
 const char* name_of(IoDriver driver) noexcept;
 
 // How a number is written on the wire of a device with registers.
@@ -34,6 +35,9 @@ constexpr bool is_read_only(IoTable table) noexcept {
   return table == IoTable::Discrete || table == IoTable::Input;
 }
 
+// How a request looks on a TCP connection. Rtu: as on a serial line, behind a gateway that hands it on as it is.
+enum class IoFraming { Tcp, Rtu };
+
 // A point's place in a Modbus device: "holding:100", "coil:3", "input:7.2".
 struct IoAddress {
   IoTable table = IoTable::Holding;
@@ -47,6 +51,7 @@ struct IoPoint {
   std::string at;        // as written; csv: column, cia402: object
   IoAddress address;     // Modbus
   int unit = 1;          // Modbus: of several on one line, or behind one gateway
+  int every = 1;         // Modbus: exchanged in every so many cycles of the device
   WireType type = WireType::UInt16;
   bool swap_words = false;  // low word first
   bool swap_bytes = false;  // low byte of each word first
@@ -99,7 +104,7 @@ struct IoCsv {
 struct IoDevice {
   std::string name;
   IoDriver driver = IoDriver::ModbusTcp;
-  std::string address;  // host, serial port
+  std::string address;  // host, serial port; ModbusServer: where it listens
   std::uint16_t port = 502;
   int unit = 1;  // of points that do not say another
   base::Nanos cycle{10'000'000};
@@ -107,7 +112,9 @@ struct IoDevice {
   base::Nanos retry{100'000'000};  // first pause after a lost connection; doubles up to retry_most
   base::Nanos retry_most{5'000'000'000};
   base::Nanos watchdog{500'000'000};  // without a run of the module for so long outputs are not refreshed any more
-  int gap = 0;                        // registers or bits that nobody asked for and that may be read along
+  IoFraming framing = IoFraming::Tcp;
+  bool together = false;  // registers are written and read in one request, function 23
+  int gap = 0;            // registers or bits that nobody asked for and that may be read along
   IoSerial serial;
   IoAxis axis;
   IoCsv csv;

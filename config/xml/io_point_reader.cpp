@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/duration.h"
 #include "base/text.h"
 #include "config/xml/attributes.h"
 #include "config/xml/element_rules.h"
@@ -36,6 +37,11 @@ class PointReader {
       case IoDriver::ModbusTcp:
       case IoDriver::ModbusRtu:
         read_modbus();
+        point_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
+        read_cycle();
+        break;
+      case IoDriver::ModbusServer:
+        read_modbus();
         break;
       case IoDriver::Cia402:
         read_object();
@@ -58,7 +64,6 @@ class PointReader {
     const auto at = attributes_.need("at", "at=\"holding:100\"", &point_.at_place);
     point_.at = at.value_or("");
     const bool known = at && read_address(*at);
-    point_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
     std::vector<std::string> words;
     words.reserve(kTypes.size());
     for (const WireType type : kTypes) {
@@ -106,12 +111,26 @@ class PointReader {
       report_.error(point_.at_place, fmt::format("at: a {} does not fit behind {} {}, the last is 65535",
                                                  name_of(point_.type), name_of(address.table), address.number));
     }
-    if (point_.output && is_read_only(address.table)) {
-      report_.error(point_.at_place,
-                    fmt::format("at: {} cannot be written; outputs are coil or holding", name_of(address.table)));
-    } else if (point_.output && address.bit >= 0) {
-      report_.error(point_.at_place, "at: one bit of a register cannot be written alone; write the whole register");
+    // A client writes coils and holding registers of its server: our outputs, or a panel's to our inputs.
+    const bool written_over_the_wire = point_.output != (device_.driver == IoDriver::ModbusServer);
+    if (written_over_the_wire && is_read_only(address.table)) {
+      report_.error(point_.at_place, fmt::format("at: {} cannot be written; {} are coil or holding",
+                                                 name_of(address.table), point_.output ? "outputs" : "inputs"));
     }
+  }
+
+  void read_cycle() {
+    constexpr base::Nanos kMost{60 * 60'000'000'000};
+    const auto cycle = attributes_.duration("cycle", base::Nanos{1}, kMost);
+    if (!cycle) {
+      return;
+    }
+    if (*cycle % device_.cycle != base::Nanos{0}) {
+      report_.error(element_.place, fmt::format("cycle: {} is no multiple of the device's cycle, {}; write one",
+                                                base::format_duration(*cycle), base::format_duration(device_.cycle)));
+      return;
+    }
+    point_.every = static_cast<int>(*cycle / device_.cycle);
   }
 
   void read_object() {
@@ -177,12 +196,22 @@ class PointReader {
   IoPoint point_;
 };
 
-// Coils or registers of a point, for overlaps.
+// Places of a point, for overlaps: bits, so that single bits of one register are apart.
 struct Span {
   std::uint32_t first;
   std::uint32_t end;
   const IoPoint* point;
 };
+
+Span span_of(const IoPoint& point) {
+  constexpr std::uint32_t kBits = 16;
+  const std::uint32_t first = point.address.number * kBits;
+  if (point.address.bit >= 0) {
+    const std::uint32_t bit = first + static_cast<std::uint32_t>(point.address.bit);
+    return {bit, bit + 1, &point};
+  }
+  return {first, first + registers_of(point.type) * kBits, &point};
+}
 
 void check_overlaps(std::vector<Span>& spans, base::Diagnostics& report) {
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.first < b.first; });
@@ -207,6 +236,8 @@ const char* name_of(IoDriver driver) noexcept {
       return "modbus_tcp";
     case IoDriver::ModbusRtu:
       return "modbus_rtu";
+    case IoDriver::ModbusServer:
+      return "modbus_server";
     case IoDriver::Cia402:
       return "cia402";
     case IoDriver::Csv:
@@ -298,11 +329,11 @@ void check_io_points(const IoDevice& device, base::Diagnostics& report) {
     }
     return;
   }
-  for (const IoTable table : {IoTable::Coil, IoTable::Holding}) {
+  for (const IoTable table : {IoTable::Coil, IoTable::Discrete, IoTable::Input, IoTable::Holding}) {
     std::map<int, std::vector<Span>> spans;  // by unit
     for (const IoPoint& point : device.points) {
       if (point.output && point.address.table == table && !point.at.empty()) {
-        spans[point.unit].push_back({point.address.number, point.address.number + registers_of(point.type), &point});
+        spans[point.unit].push_back(span_of(point));
       }
     }
     for (auto& [unit, list] : spans) {

@@ -20,13 +20,14 @@ namespace indurop::config {
 namespace {
 
 constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device> per field device"};
-constexpr std::array<IoDriver, 4> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::Cia402, IoDriver::Csv};
+constexpr std::array<IoDriver, 5> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
+                                           IoDriver::Cia402, IoDriver::Csv};
 constexpr base::Nanos kMillisecond{1'000'000};
 constexpr base::Nanos kSecond{1'000'000'000};
 constexpr base::Nanos kMinute{60 * kSecond};
 
 bool is_modbus(IoDriver driver) {
-  return driver == IoDriver::ModbusTcp || driver == IoDriver::ModbusRtu;
+  return driver == IoDriver::ModbusTcp || driver == IoDriver::ModbusRtu || driver == IoDriver::ModbusServer;
 }
 
 class DeviceReader {
@@ -45,10 +46,16 @@ class DeviceReader {
     device_.errors = attributes_.text("errors", &device_.errors_place).value_or("");
     switch (device_.driver) {
       case IoDriver::ModbusTcp:
-        read_tcp();
+        read_exchange();
+        read_address("address=\"192.168.1.10:502\"", "192.168.1.10, plc.local:502 or [::1]:502");
+        device_.framing =
+            attributes_.choose("framing", {"tcp", "rtu"}).value_or(0) == 1 ? IoFraming::Rtu : IoFraming::Tcp;
         break;
       case IoDriver::ModbusRtu:
         read_rtu();
+        break;
+      case IoDriver::ModbusServer:
+        read_server();
         break;
       case IoDriver::Cia402:
         read_axis();
@@ -94,12 +101,20 @@ class DeviceReader {
     device_.retry_most = attributes_.duration("retry_most", device_.retry, 60 * kMinute)
                              .value_or(std::max(device_.retry, device_.retry_most));
     device_.watchdog = attributes_.duration("watchdog", kMillisecond, kMinute).value_or(device_.watchdog);
+    device_.together = attributes_.choose("together", {"off", "on"}).value_or(0) == 1;
   }
 
-  void read_tcp() {
+  void read_server() {
+    device_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
+    device_.cycle = attributes_.duration("cycle", kMillisecond, kMinute).value_or(device_.cycle);
+    device_.timeout = attributes_.duration("timeout", kMillisecond, kMinute).value_or(2 * kSecond);
+    device_.watchdog = attributes_.duration("watchdog", kMillisecond, kMinute).value_or(device_.watchdog);
+    read_address("address=\"192.168.1.5:502\"", "192.168.1.5:502, or 0.0.0.0:502 for all networks of the board");
+  }
+
+  void read_address(const char* example, const char* forms) {
     base::SourcePlace place;
-    const auto address = attributes_.need("address", "address=\"192.168.1.10:502\"", &place);
-    read_exchange();
+    const auto address = attributes_.need("address", example, &place);
     if (!address) {
       return;
     }
@@ -116,8 +131,7 @@ class DeviceReader {
     const auto port =
         has_port ? read_integer(address->substr(colon + 1), 1, kMostPort) : std::optional<std::int64_t>(device_.port);
     if (host.empty() || host.find_first_of(" /") != std::string::npos || !port) {
-      report_.error(place, fmt::format("address: {} is not an address; write 192.168.1.10, plc.local:502 or [::1]:502",
-                                       base::in_quotes(*address)));
+      report_.error(place, fmt::format("address: {} is not an address; write {}", base::in_quotes(*address), forms));
       return;
     }
     device_.address = host;

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace indurop::io {
 namespace {
 
@@ -81,6 +83,45 @@ TEST(ModbusPlan, Points_of_the_same_place_share_it) {
   const auto sut = plan_reads(points, 0);
   ASSERT_EQ(sut.size(), 1U);
   EXPECT_EQ(sut[0].count, 2);
+}
+
+TEST(ModbusPlan, Bits_of_one_register_are_written_together_and_apart_from_whole_ones) {
+  std::vector<IoPoint> points{point(IoTable::Holding, 5, WireType::Bool), point(IoTable::Holding, 6),
+                              point(IoTable::Holding, 5, WireType::Bool), point(IoTable::Holding, 6, WireType::Bool)};
+  points[0].address.bit = 3;
+  points[2].address.bit = 9;
+  points[3].address.bit = 0;
+  const auto sut = plan_writes(points);
+  ASSERT_EQ(sut.size(), 3U);
+  EXPECT_THAT(sut[0].points, ElementsAre(1));
+  EXPECT_FALSE(sut[0].masked);
+  EXPECT_THAT(sut[1].points, ElementsAre(0, 2));
+  EXPECT_TRUE(sut[1].masked);
+  EXPECT_THAT(sut[2].points, ElementsAre(3));
+}
+
+TEST(ModbusPlan, Points_of_another_cycle_travel_apart) {
+  std::vector<IoPoint> points = row(IoTable::Input, 3);
+  points[1].every = 10;
+  const auto sut = plan_reads(points, 5);
+  ASSERT_EQ(sut.size(), 2U);
+  EXPECT_EQ(sut[0].every, 1);
+  EXPECT_THAT(sut[1].points, ElementsAre(1));
+  EXPECT_EQ(sut[1].every, 10);
+}
+
+TEST(ModbusPlan, Together_a_writing_takes_a_reading_of_the_same_unit_along) {
+  const std::vector<IoPoint> written{point(IoTable::Holding, 0), point(IoTable::Coil, 0, WireType::Bool)};
+  const std::vector<IoPoint> read{point(IoTable::Holding, 9, WireType::UInt16, 2), point(IoTable::Input, 9),
+                                  point(IoTable::Holding, 9)};
+  EXPECT_EQ(plan_steps(plan_writes(written), plan_reads(read, 0), false).size(), 5U);
+  const auto sut = plan_steps(plan_writes(written), plan_reads(read, 0), true);
+  ASSERT_EQ(sut.size(), 4U);
+  const auto both = std::find_if(sut.begin(), sut.end(),
+                                 [](const ModbusStep& step) { return step.write.count > 0 && step.read.count > 0; });
+  ASSERT_NE(both, sut.end());
+  EXPECT_THAT(both->read.points, ElementsAre(2));
+  EXPECT_THAT(both->write.points, ElementsAre(0));
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The server role of Modbus TCP: an operator panel reads and writes our variables. Answers what has come since the
+// exchange before and never waits for a client. A value that a client wrote is good for as long as that client is
+// there and asks.
+
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/driver.h"
+#include "io/modbus_places.h"
+
+typedef struct _modbus modbus_t;  // NOLINT: libmodbus's own name
+
+namespace indurop::io {
+
+class ModbusServer final : public Driver {
+ public:
+  static constexpr std::size_t kMostClients = 32;
+
+  ModbusServer(const config::IoDevice& device, std::span<const config::IoPoint> outputs,
+               std::span<const config::IoPoint> inputs);
+  ModbusServer(const ModbusServer&) = delete;
+  ModbusServer& operator=(const ModbusServer&) = delete;
+  ~ModbusServer() override;
+
+  [[nodiscard]] bool in_tick() const noexcept override { return false; }
+  bool open() override;
+  Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  void close() noexcept override;
+  [[nodiscard]] std::string problem() const override { return problem_; }
+
+ private:
+  static constexpr std::size_t kMostBytes = 260;  // of a request
+
+  struct Client {
+    std::uint64_t number = 0;
+    int socket = -1;
+    std::string address;
+    std::chrono::nanoseconds silent{0};
+    bool asked = false;
+    std::array<std::uint8_t, kMostBytes> bytes{};
+    std::size_t size = 0;
+  };
+  struct Free {
+    void operator()(modbus_t* context) const noexcept;
+  };
+
+  void accept_clients();
+  bool make_room();  // false: there is none
+  // False: the client is to go.
+  bool serve(Client& client, std::span<Sample> inputs);
+  bool answer(Client& client, std::span<const std::uint8_t> frame, std::span<Sample> inputs);
+  void drop(std::size_t place) noexcept;
+  bool judge(std::span<Sample> inputs);
+
+  config::IoDevice device_;
+  std::vector<std::string> names_;  // of inputs
+  ModbusPlaces places_;
+  std::unique_ptr<modbus_t, Free> context_;
+  int listener_ = -1;
+  std::vector<Client> clients_;
+  std::vector<std::uint64_t> writers_;  // of inputs: the client's number, 0 nobody yet
+  std::uint64_t last_number_ = 0;
+  std::string problem_;
+};
+
+}  // namespace indurop::io
