@@ -28,6 +28,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.started_wall_ns = wall_ns();
   facts.started_ns = rt::now_ns();
   facts.web = Page(options.web).there();
+  facts.plant = options.plant;
   return facts;
 }
 
@@ -62,6 +63,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(orders_, std::move(match), ticket);
     case Pace::Wait:
       return let_wait(std::move(match), ticket);
+    case Pace::Plant:
+      return ask_plant(std::move(match), ticket);
     case Pace::Quick:
       break;
   }
@@ -80,6 +83,20 @@ std::function<void()> Server::job_of(Helper& helper, Match match, Ticket ticket)
 
 std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
   if (!helper.worker.add(job_of(helper, std::move(match), ticket))) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
+  if (far_ == nullptr) {
+    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+  }
+  match.call.plant = &far_->watch;
+  if (!far_->worker.add([this, match = std::move(match), ticket]() mutable {
+        match.call.request = nullptr;
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
@@ -132,8 +149,14 @@ int Server::run() {
   // Also what makes a signal noticed that came while nothing else happened.
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
+  if (options_.plant) {
+    far_ = std::make_unique<Far>(options_.link);
+  }
   looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
     hub_.look_around();
+    if (far_ != nullptr) {
+      (void)far_->worker.add_if_idle([this] { far_->watch.look(); });
+    }
     looking->set(kLookNs);
   });
   looking->set(kLookNs);

@@ -18,6 +18,7 @@
 #include "serve/page.h"
 #include "serve/stream/hub.h"
 #include "tools/command/serve_options.h"
+#include "tools/plant/plant_watch.h"
 
 namespace indurop::serve {
 
@@ -41,6 +42,7 @@ class Server final : public House {
   };
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
   std::optional<Reply> let_wait(Match match, Ticket ticket);
+  std::optional<Reply> ask_plant(Match match, Ticket ticket);
   // Answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
@@ -56,6 +58,12 @@ class Server final : public House {
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
   Helper orders_;
+  struct Far {
+    explicit Far(const deploy::LinkSettings& settings) : watch(settings) {}
+    tools::PlantWatch watch;  // of the worker's thread
+    Worker worker;
+  };
+  std::unique_ptr<Far> far_;                      // null: no plant is looked at
   std::vector<std::unique_ptr<Helper>> waiting_;  // one for each that waits; made when they are needed
 };
 

@@ -23,6 +23,8 @@ Reply faults(Api& api, const Call& call);
 Reply forces(Api& api, const Call& call);
 Reply deployments(Api& api, const Call& call);
 Reply robots(Api& api, const Call& call);
+Reply plant(Api& api, const Call& call);
+Reply plant_history(Api& api, const Call& call);
 
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);

@@ -35,6 +35,7 @@ struct ServerFacts {
   std::string version;
   std::size_t most_clients = 0;
   bool web = false;
+  bool plant = false;  // boards elsewhere are looked at too
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;

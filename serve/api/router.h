@@ -11,6 +11,10 @@
 
 #include "serve/door/request.h"
 
+namespace indurop::tools {
+class PlantWatch;
+}
+
 namespace indurop::serve {
 
 class Api;
@@ -21,13 +25,14 @@ class Boards;
 struct Call {
   const Request* request = nullptr;
   Boards* boards = nullptr;                              // of the thread that answers
+  tools::PlantWatch* plant = nullptr;                    // of Pace::Plant
   std::string who;                                       // as the gate knows the client
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
 // Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
-// something to happen.
-enum class Pace { Quick, Files, Orders, Wait };
+// something to happen; the one that hears other boards.
+enum class Pace { Quick, Files, Orders, Wait, Plant };
 
 struct Route {
   Method method;

@@ -2,6 +2,25 @@
 #include "tools/command/serve_options.h"
 
 namespace indurop::tools {
+namespace {
+
+std::vector<std::string> plant_words(const deploy::LinkSettings& link) {
+  std::vector<std::string> words{"--plant"};
+  const dds::NetworkSettings& network = link.network;
+  words.insert(words.end(), {"--domain", std::to_string(network.domain)});
+  if (!network.interface_name.empty()) {
+    words.insert(words.end(), {"--interface", network.interface_name});
+  }
+  if (network.one_host) {
+    words.emplace_back("--one-host");
+  }
+  if (!link.keys.empty()) {
+    words.insert(words.end(), {"--keys", link.keys.string()});
+  }
+  return words;
+}
+
+}  // namespace
 
 void declare_serve_options(base::Options& app, ServeOptions& options) {
   constexpr double kMostPort = 65535;
@@ -28,6 +47,8 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::File);
   app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
       .range(1, kMostClients);
+  app.flag("--plant", options.plant, "Show the boards of the network too, by what their agents say");
+  deploy::add_link_options(app, options.link);
 }
 
 std::vector<std::string> words_of(const ServeOptions& options) {
@@ -53,6 +74,10 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--web", options.web.string());
   value("--audit", options.audit.string());
   value("--clients", std::to_string(options.clients));
+  if (options.plant) {
+    const std::vector<std::string> more = plant_words(options.link);
+    words.insert(words.end(), more.begin(), more.end());
+  }
   if (options.quiet) {
     words.emplace_back("--quiet");
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/options.h"
+#include "deploy/link/deploy_link.h"
 
 namespace indurop::tools {
 
@@ -26,6 +27,8 @@ struct ServeOptions {
   std::vector<std::string> hosts;
   std::uint64_t clients = 64;
   bool quiet = false;
+  bool plant = false;  // boards of the network too
+  deploy::LinkSettings link;
 };
 
 void declare_serve_options(base::Options& app, ServeOptions& options);

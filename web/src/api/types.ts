@@ -10,6 +10,7 @@ export interface ServerStatus {
   may_write: boolean;
   who: string;
   max_rate_hz: number;
+  plant: boolean;
 }
 
 export interface BoardSummary {
@@ -25,6 +26,41 @@ export interface BoardSummary {
   forces: number;
   trouble: string[];
   layout: string;
+}
+
+export interface FarBoard {
+  board: string;
+  host: string;
+  state: string;
+  phase: string;
+  plant: string;
+  deployment: string;
+  tick: number;
+  lost_ticks: number;
+  overruns: number;
+  faults: number;
+  message: string;
+  heard: boolean;
+  age_ns: number;
+}
+
+export interface PlantNow {
+  domain: number;
+  problem: string;
+  trouble: string[];
+  boards: FarBoard[];
+  not_heard: string[];
+}
+
+export interface Deployment {
+  generation: number;
+  current: boolean;
+  deployment: string;
+  plant: string;
+  wall_ns: number;
+  host: string;
+  boards: string[];
+  outcome: string;
 }
 
 export interface Force {

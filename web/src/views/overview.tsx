@@ -9,6 +9,7 @@ import { address } from "../ui/address";
 import { count, percent, plural, span } from "../ui/format";
 import { useAsked, useStore } from "../ui/store";
 import { Figure, Panel, Waiting } from "../ui/parts";
+import { PlantPanel } from "./plant";
 
 const EVERY_MS = 2000;
 
@@ -163,7 +164,7 @@ function Headline({ boards }: { boards: BoardSummary[] }) {
 }
 
 export function Overview() {
-  const { boards } = useStore(plant);
+  const { boards, status } = useStore(plant);
   if (!boards) return <Waiting />;
   const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
@@ -172,6 +173,7 @@ export function Overview() {
   return (
     <>
       {boards.length > 0 && <Headline boards={sorted} />}
+      {status?.plant && <PlantPanel />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
       {shown.length < sorted.length && (
         <details class="panel">

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The boards of the network by what their agents say, dead ones included, and what was deployed to them.
+
+import { get, words } from "../api/http";
+import type { Deployment, FarBoard, PlantNow } from "../api/types";
+import { plant as here } from "../shell/plant";
+import { address } from "../ui/address";
+import { clock, count, span } from "../ui/format";
+import { Panel, Waiting } from "../ui/parts";
+import { useAsked, useStore } from "../ui/store";
+
+const EVERY_MS = 1000;
+const SHOWN_ID = 12;
+
+function Row({ row }: { row: FarBoard }) {
+  const { boards } = useStore(here);
+  const local = boards?.some(({ board }) => board === row.board);
+  return (
+    <tr>
+      <th scope="row">{local ? <a href={address("variables", { board: row.board })}>{row.board}</a> : row.board}
+        {row.message && <span class="fault-text">{row.message}</span>}</th>
+      <td class={row.heard ? (row.state === "running" ? "" : "warn") : "bad"}>{row.heard ? row.state : "not heard"}
+        {row.heard && row.phase !== "steady" ? `, ${row.phase}` : ""}</td>
+      <td>{row.host}</td>
+      <td>{row.plant || "-"}</td>
+      <td>{row.deployment ? row.deployment.slice(0, SHOWN_ID) : "-"}</td>
+      <td class="number">{count(row.tick)}</td>
+      <td class={`number ${row.lost_ticks ? "warn" : ""}`}>{count(row.lost_ticks)}</td>
+      <td class={`number ${row.overruns ? "warn" : ""}`}>{count(row.overruns)}</td>
+      <td class={`number ${row.faults ? "bad" : ""}`}>{count(row.faults)}</td>
+      <td class="number">{span(row.age_ns)} ago</td>
+    </tr>);
+}
+
+function state_of({ boards, trouble, problem }: PlantNow): [string, boolean] {
+  if (problem) return ["not connected", false];
+  if (boards.length === 0) return ["nobody heard", false];
+  const silent = boards.filter(({ heard }) => !heard).length;
+  if (silent > 0) return [`${silent} of ${boards.length} silent`, false];
+  return trouble.length > 0 ? ["something is wrong", false] : [`all ${boards.length} heard`, true];
+}
+
+export function PlantPanel() {
+  const { value, error } = useAsked("plant", EVERY_MS, () => get<PlantNow>("plant"), words);
+  if (!value) return <Panel title="Plant">{error ? <p class="bad">{error}</p> : <Waiting />}</Panel>;
+  const [state, good] = state_of(value);
+  return (
+    <Panel title="Plant" state={state} good={good}>
+      {error && <p class="bad">{error}</p>}
+      {value.problem && <p class="warn">{value.problem}</p>}
+      {value.trouble.length > 0 && <ul class="troubles">{value.trouble.map((text) => <li class="warning" key={text}>{text}</li>)}</ul>}
+      {value.boards.length === 0 && <p class="quiet">No board was heard on domain {value.domain}. Boards have an agent: indurop-agent --board NAME.</p>}
+      {value.boards.length > 0 && (
+        <div class="scroll" tabIndex={0} role="region" aria-label="Boards of the plant">
+          <table class="figures">
+            <thead><tr><th scope="col">Board</th><th scope="col">State</th><th scope="col">Host</th><th scope="col">Plant</th><th scope="col">Deployment</th>
+              <th scope="col" class="number">Tick</th><th scope="col" class="number">Lost</th><th scope="col" class="number">Overruns</th>
+              <th scope="col" class="number">Faults</th><th scope="col" class="number">Heard</th></tr></thead>
+            <tbody>{value.boards.map((row) => <Row key={row.board} row={row} />)}</tbody>
+          </table>
+        </div>)}
+      <History />
+    </Panel>);
+}
+
+function History() {
+  const { value, error, again } = useAsked("plant history", 0, () => get<{ deployments: Deployment[] }>("plant/history"), words);
+  return (
+    <details onToggle={(event) => { if (event.currentTarget.open) again(); }}>
+      <summary>Deployments</summary>
+      {error && <p class="bad">{error}</p>}
+      {!value && !error && <Waiting />}
+      {value && value.deployments.length === 0 && <p class="quiet">Nothing was deployed yet.</p>}
+      {value && value.deployments.length > 0 && (
+        <div class="scroll" tabIndex={0} role="region" aria-label="Deployments">
+          <table class="figures">
+            <thead><tr><th scope="col">Deployment</th><th scope="col">Plant</th><th scope="col">When</th><th scope="col">From</th><th scope="col">Boards</th>
+              <th scope="col">Outcome</th></tr></thead>
+            <tbody>{value.deployments.map((one) => (
+              <tr key={`${one.generation} ${one.outcome}`}>
+                <th scope="row">{one.deployment.slice(0, SHOWN_ID)}{one.current ? " (runs now)" : ""}</th>
+                <td>{one.plant}</td><td>{clock(one.wall_ns)}</td><td>{one.host}</td><td>{one.boards.join(", ")}</td>
+                <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>
+              </tr>))}</tbody>
+          </table>
+        </div>)}
+    </details>);
+}
