@@ -12,6 +12,7 @@ constexpr double kKept = 0.97;        // of the jerk when looking ahead: what th
 constexpr double kWithin = 1 - 2e-5;  // of the limits: what is lost to rounding
 constexpr int kParts = 8;             // of the time in which braking is taken back
 constexpr double kTooLate = -1;
+constexpr double kDropped = 0.3;  // of a period's jerk: the speed that is left for the last one
 
 }  // namespace
 
@@ -92,24 +93,26 @@ PathBrake::Span PathBrake::jerks(const Rates& r, const Motion& m) const noexcept
                  kKept * jerk_);
 }
 
+// As many periods as it takes, several at a time if they are many; as differences between periods add up, so that the
+// last of them comes out exactly.
 double PathBrake::left_over(Motion m, double period) const noexcept {
   Span jerk = jerks(rates(m.place), m);
-  const double step = period * std::max(1.0, std::ceil(-m.acceleration / (jerk.high * period * kParts)));
+  const double stride = std::max(1.0, std::ceil(-m.acceleration / (jerk.high * period * kParts)));
+  const double taken = stride * period;
   for (int i = 0; i < 3 * kParts && m.acceleration < 0; ++i) {
     if (jerk.low > jerk.high || jerk.high <= 0) {
       return kTooLate;
     }
-    const double taken = std::min(step, std::max(period, -m.acceleration / jerk.high));
-    // As differences between periods add up, whatever the step.
-    const auto moved = [&](double change) {
-      const double a = std::min(0.0, m.acceleration + change);
-      const double v = m.speed + taken * (m.acceleration + a) / 2 + period * (a - m.acceleration) / 2;
-      return Motion{m.place + taken * (m.speed + v) / 2, v, a};
+    const auto moved = [&](double most) {
+      const double step = most * period;
+      const double steps = std::min(stride, std::floor(-m.acceleration / step));
+      const double v = m.speed + period * steps * (m.acceleration + step * (steps + 1) / 2);
+      return Motion{m.place + taken * (m.speed + v) / 2, v, steps < stride ? 0 : m.acceleration + steps * step};
     };
-    Motion next = moved(taken * jerk.high);
+    Motion next = moved(jerk.high);
     const Rates there = rates(next.place);
     const Span behind = jerks(there, next);
-    next = moved(taken * std::min(jerk.high, behind.high));
+    next = moved(std::max(std::min(jerk.high, behind.high), 1e-3 * jerk.high));
     if (next.speed < 0) {
       return next.speed;
     }
@@ -123,7 +126,8 @@ double PathBrake::left_over(Motion m, double period) const noexcept {
     m = next;
     jerk = behind;
   }
-  return m.speed;
+  // What is so slow may stand in the next period.
+  return m.speed - kDropped * jerk.high * period * period;
 }
 
 double PathBrake::choose(const Span& span, const PathHistory& past, double period) const noexcept {
