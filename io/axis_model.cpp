@@ -38,7 +38,16 @@ void AxisModel::drive(const AxisReference& reference) noexcept {
   const double wanted = reference.velocity + correction;
   const double velocity = std::clamp(wanted, -most_velocity_, most_velocity_);
   limited_ = velocity != wanted;
-  accelerate(inertia_ * velocity_gain_ * (velocity - velocity_) + damping_ * velocity);
+  accelerate(inertia_ * velocity_gain_ * (velocity - velocity_) + damping_ * velocity + reference.torque);
+}
+
+void AxisModel::push(double torque) noexcept {
+  const auto towards = [this](double velocity) {
+    return inertia_ * velocity_gain_ * (velocity - velocity_) + damping_ * velocity;
+  };
+  const double allowed = std::clamp(torque, towards(-most_velocity_), towards(most_velocity_));
+  limited_ = allowed != torque;
+  accelerate(allowed);
 }
 
 void AxisModel::brake() noexcept {

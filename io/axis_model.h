@@ -16,6 +16,7 @@ struct AxisReference {
   double position = 0;
   double velocity = 0;
   bool follow_position = true;  // false: the velocity alone counts
+  double torque = 0;            // on top of what the loops want
 };
 
 class AxisModel {
@@ -27,6 +28,8 @@ class AxisModel {
 
   // One step with the loops closed.
   void drive(const AxisReference& reference) noexcept;
+  // One step with a torque alone; at the axis' largest velocity no more than keeps it.
+  void push(double torque) noexcept;
   // One step without power: the brake holds with the motor's largest torque.
   void brake() noexcept;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace indurop::io {
 namespace {
@@ -14,9 +15,18 @@ constexpr double kStandingDegrees = 0.05;  // per second
 constexpr double kArrivedDegrees = 0.01;
 constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops keep some
 
-bool is_velocity(DriveMode mode) noexcept {
-  return mode == DriveMode::ProfileVelocity || mode == DriveMode::CyclicVelocity;
+bool is_position(DriveMode mode) noexcept {
+  return mode == DriveMode::None || mode == DriveMode::ProfilePosition || mode == DriveMode::InterpolatedPosition ||
+         mode == DriveMode::CyclicPosition;
 }
+bool is_torque(DriveMode mode) noexcept {
+  return mode == DriveMode::ProfileTorque || mode == DriveMode::CyclicTorque;
+}
+bool is_cyclic(DriveMode mode) noexcept {
+  return mode == DriveMode::CyclicPosition || mode == DriveMode::CyclicVelocity || mode == DriveMode::CyclicTorque;
+}
+
+constexpr double kPerMille = 1000;
 
 template <class T>
 T saturated(double value) noexcept {
@@ -33,7 +43,12 @@ std::int32_t wrapped(std::int64_t counts) noexcept {
 }  // namespace
 
 Cia402Drive::Cia402Drive(const config::IoAxis& axis) noexcept
-    : axis_(axis), model_(axis), last_counts_(model_.read_encoder()) {
+    : axis_(axis),
+      model_(axis),
+      homing_(axis_),
+      last_degrees_(axis.start),
+      previous_degrees_(axis.start),
+      last_counts_(model_.read_encoder()) {
   start_over();
 }
 
@@ -49,6 +64,10 @@ bool Cia402Drive::standing() const noexcept {
   return profile_.velocity == 0 && std::fabs(model_.velocity()) < kStandingDegrees * kRadiansPerDegree;
 }
 
+double Cia402Drive::degrees() const noexcept {
+  return model_.position() / kRadiansPerDegree;
+}
+
 void Cia402Drive::follow_actual() noexcept {
   profile_ = {model_.position(), model_.velocity()};
 }
@@ -59,6 +78,8 @@ void Cia402Drive::start_over() noexcept {
   next_target_.reset();
   reached_ = false;
   home_ = Home::Idle;
+  homing_.forget();
+  torque_ = 0;
   too_far_s_ = 0;
 }
 
@@ -68,9 +89,12 @@ void Cia402Drive::take_mode(std::int8_t mode) noexcept {
     case DriveMode::None:
     case DriveMode::ProfilePosition:
     case DriveMode::ProfileVelocity:
+    case DriveMode::ProfileTorque:
     case DriveMode::Homing:
+    case DriveMode::InterpolatedPosition:
     case DriveMode::CyclicPosition:
     case DriveMode::CyclicVelocity:
+    case DriveMode::CyclicTorque:
       if (mode_ != wanted) {
         mode_ = wanted;
         start_over();
@@ -85,9 +109,11 @@ void Cia402Drive::take_set_point(const DriveCommand& command) noexcept {
   if (mode_ == DriveMode::Homing) {
     if (rising) {
       home_ = Home::Moving;
+      homing_.start();
       reached_ = false;
     } else if (falling && home_ == Home::Moving) {
       home_ = Home::Idle;
+      homing_.forget();
     }
     return;
   }
@@ -121,20 +147,71 @@ void Cia402Drive::advance_profile_position(const DriveCommand& command, double d
   }
 }
 
+void Cia402Drive::go_straight_home(double dt) noexcept {
+  const double mark = axis_.mark * kRadiansPerDegree;
+  const double speed = std::min(axis_.home_speed * kRadiansPerDegree, model_.most_velocity());
+  const bool there = profile_.go_to(mark, speed, axis_.acceleration * kRadiansPerDegree, dt);
+  if (there && std::fabs(model_.position() - mark) < kArrivedDegrees * kRadiansPerDegree) {
+    home_ = Home::Done;
+    reached_ = true;
+    zero_counts_ = std::llround(mark * model_.counts_per_radian());
+  }
+}
+
 void Cia402Drive::advance_homing(const DriveCommand& command, double dt) noexcept {
   const double acceleration = axis_.acceleration * kRadiansPerDegree;
   if (home_ != Home::Moving || (command.control & kHalt) != 0) {
     reached_ = profile_.change_velocity(0, acceleration, dt);
     return;
   }
-  const double mark = axis_.mark * kRadiansPerDegree;
-  const double speed = std::min(axis_.home_speed * kRadiansPerDegree, model_.most_velocity());
-  const bool there = profile_.go_to(mark, speed, acceleration, dt);
-  if (there && std::fabs(model_.position() - mark) < kArrivedDegrees * kRadiansPerDegree) {
-    home_ = Home::Done;
-    reached_ = true;
-    zero_counts_ = std::llround(mark * model_.counts_per_radian());
+  if (!axis_.homing) {
+    go_straight_home(dt);
+    return;
   }
+  const double wanted = homing_.step(previous_degrees_, last_degrees_);
+  const double limit = model_.most_velocity();
+  profile_.change_velocity(std::clamp(wanted * kRadiansPerDegree, -limit, limit), acceleration, dt);
+  if (homing_.state() == Homing::State::Done) {
+    home_ = Home::Done;
+    zero_counts_ = std::llround(homing_.home() * kRadiansPerDegree * model_.counts_per_radian());
+  } else if (homing_.state() == Homing::State::Failed) {
+    home_ = Home::Idle;
+  }
+}
+
+void Cia402Drive::advance_torque(const DriveCommand& command, double dt) noexcept {
+  const double wanted = command.torque / kPerMille * axis_.torque;
+  if (mode_ == DriveMode::CyclicTorque) {
+    torque_ = wanted + command.torque_offset / kPerMille * axis_.torque;
+    return;
+  }
+  const double target = (command.control & kHalt) != 0 ? 0 : wanted;
+  const double step = axis_.torque_slope / kPerMille * axis_.torque * dt;
+  torque_ += std::clamp(target - torque_, -step, step);
+  reached_ = torque_ == target;
+}
+
+// Beyond a limit switch it only goes back.
+void Cia402Drive::stop_at_limits(const AxisProfile& before, double dt) noexcept {
+  const AxisSwitches now = switches_at(axis_, degrees());
+  const double towards = is_torque(mode_) ? torque_ : profile_.velocity;
+  const bool was_at_limit = at_limit_;
+  at_limit_ = mode_ != DriveMode::Homing && ((now.high && towards > 0) || (now.low && towards < 0));
+  if (at_limit_) {
+    profile_ = was_at_limit || !is_torque(mode_) ? before : AxisProfile{model_.position(), model_.velocity()};
+    profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
+  }
+}
+
+void Cia402Drive::close_loops(const DriveCommand& command) noexcept {
+  if (is_torque(mode_) && !at_limit_) {
+    model_.push(torque_);
+    return;
+  }
+  const bool adds = is_cyclic(mode_) && !at_limit_;
+  const double velocity = adds ? command.velocity_offset / model_.counts_per_radian() : 0;
+  const double torque = adds ? command.torque_offset / kPerMille * axis_.torque : 0;
+  model_.drive({profile_.position, profile_.velocity + velocity, follows_position_, torque});
 }
 
 void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexcept {
@@ -155,12 +232,18 @@ void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexce
     case DriveMode::Homing:
       advance_homing(command, dt);
       break;
+    case DriveMode::InterpolatedPosition:
     case DriveMode::CyclicPosition:
       profile_.velocity = cyclic_velocity_;
       profile_.position += cyclic_velocity_ * dt;
       break;
     case DriveMode::CyclicVelocity:
       profile_ = {model_.position(), halt ? 0 : velocity};
+      break;
+    case DriveMode::ProfileTorque:
+    case DriveMode::CyclicTorque:
+      advance_torque(command, dt);
+      profile_ = {model_.position(), model_.velocity()};
       break;
   }
 }
@@ -180,16 +263,19 @@ void Cia402Drive::watch_following() noexcept {
 
 void Cia402Drive::advance(const DriveCommand& command, double dt) noexcept {
   switch (machine_.state()) {
-    case DriveState::OperationEnabled:
+    case DriveState::OperationEnabled: {
+      const AxisProfile before = profile_;
       advance_enabled(command, dt);
-      follows_position_ = !is_velocity(mode_);
-      model_.drive({profile_.position, profile_.velocity, follows_position_});
+      stop_at_limits(before, dt);
+      follows_position_ = is_position(mode_) || mode_ == DriveMode::Homing;
+      close_loops(command);
       watch_following();
       break;
+    }
     case DriveState::QuickStopActive:
     case DriveState::FaultReaction:
       profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
-      model_.drive({profile_.position, profile_.velocity, false});
+      model_.drive({profile_.position, profile_.velocity, false, 0});
       break;
     case DriveState::NotReady:
     case DriveState::SwitchOnDisabled:
@@ -214,13 +300,20 @@ std::uint16_t Cia402Drive::mode_bits(const DriveCommand& command) const noexcept
     case DriveMode::ProfileVelocity:
       bits |= standing() ? kModeBit12 : 0U;
       break;
+    case DriveMode::ProfileTorque:
+      break;
     case DriveMode::Homing:
       bits |= home_ == Home::Done ? kModeBit12 : 0U;
+      bits |= homing_.state() == Homing::State::Failed ? kModeBit13 : 0U;
+      break;
+    case DriveMode::InterpolatedPosition:
+      bits = (command.control & kNewSetPoint) != 0 ? kModeBit12 : 0U;
       break;
     case DriveMode::CyclicPosition:
       bits = kModeBit12 | (too_far_s_ > 0 ? kModeBit13 : 0U);
       break;
     case DriveMode::CyclicVelocity:
+    case DriveMode::CyclicTorque:
       bits = kModeBit12;
       break;
   }
@@ -232,16 +325,44 @@ DriveFeedback Cia402Drive::feedback(const DriveCommand& command) noexcept {
   DriveFeedback result;
   unsigned status = machine_.status() | kVoltage | kRemote;
   if (machine_.state() == DriveState::OperationEnabled) {
-    status |= mode_bits(command) | (model_.limited() ? kLimitActive : 0U);
+    status |= mode_bits(command) | (model_.limited() || at_limit_ ? kLimitActive : 0U);
   }
-  constexpr double kPerMille = 1000;
   result.status = static_cast<std::uint16_t>(status);
   result.error = machine_.error();
   result.mode = static_cast<std::int8_t>(mode_);
   result.position = wrapped(last_counts_ - zero_counts_);
   result.velocity = saturated<std::int32_t>(model_.velocity() * model_.counts_per_radian());
   result.torque = saturated<std::int16_t>(model_.torque() / axis_.torque * kPerMille);
+  result.following = follows_position_
+                         ? saturated<std::int32_t>((profile_.position - model_.position()) * model_.counts_per_radian())
+                         : 0;
+  report_sensors(result);
   return result;
+}
+
+std::int32_t Cia402Drive::shown(double degrees) const noexcept {
+  return wrapped(std::llround(degrees * kRadiansPerDegree * model_.counts_per_radian()) - zero_counts_);
+}
+
+void Cia402Drive::report_sensors(DriveFeedback& result) const noexcept {
+  constexpr unsigned kProbeInput = 16;
+  constexpr unsigned kSecond = 8;
+  const AxisSwitches switches = switches_at(axis_, degrees());
+  const auto is_on = [this](const std::optional<double>& at) { return at && degrees() >= *at; };
+  result.inputs = (switches.low ? 1U : 0U) | (switches.high ? 2U : 0U) | (switches.home ? 4U : 0U) |
+                  (is_on(axis_.probe) ? 1U << kProbeInput : 0U) | (is_on(axis_.probe2) ? 2U << kProbeInput : 0U);
+  result.probe = static_cast<std::uint16_t>(probe_.status() | static_cast<unsigned>(probe2_.status()) << kSecond);
+  result.probe_rise = shown(probe_.rise());
+  result.probe_fall = shown(probe_.fall());
+  result.probe2_rise = shown(probe2_.rise());
+  result.probe2_fall = shown(probe2_.fall());
+}
+
+double Cia402Drive::cyclic_target(const DriveCommand& command) const noexcept {
+  if (mode_ == DriveMode::InterpolatedPosition) {
+    return (command.control & kNewSetPoint) != 0 ? radians_of(command.position) : profile_.position;
+  }
+  return radians_of(wrapped(std::int64_t{command.position} + command.position_offset));
 }
 
 DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept {
@@ -260,12 +381,18 @@ DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanose
     take_set_point(command);
   }
   last_control_ = command.control;
-  if (mode_ == DriveMode::CyclicPosition && period > 0) {
-    cyclic_velocity_ = enabled ? (radians_of(command.position) - profile_.position) / period : 0;
+  constexpr unsigned kSecond = 8;
+  probe_.take(static_cast<std::uint8_t>(command.probe));
+  probe2_.take(static_cast<std::uint8_t>(command.probe >> kSecond));
+  if ((mode_ == DriveMode::CyclicPosition || mode_ == DriveMode::InterpolatedPosition) && period > 0) {
+    cyclic_velocity_ = enabled ? (cyclic_target(command) - profile_.position) / period : 0;
   }
   // A period need not be a multiple of the step; what is left comes with the next one.
   for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
     advance(command, AxisModel::kStep);
+    probe_.step({last_degrees_, degrees(), axis_.probe, axis_.mark});
+    probe2_.step({last_degrees_, degrees(), axis_.probe2, axis_.mark});
+    previous_degrees_ = std::exchange(last_degrees_, degrees());
   }
   return feedback(command);
 }

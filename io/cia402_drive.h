@@ -11,6 +11,8 @@
 #include "config/model/io_config.h"
 #include "io/axis_model.h"
 #include "io/axis_profile.h"
+#include "io/cia402_homing.h"
+#include "io/cia402_probe.h"
 #include "io/cia402_state.h"
 
 namespace indurop::io {
@@ -19,9 +21,12 @@ enum class DriveMode : std::int8_t {
   None = 0,
   ProfilePosition = 1,
   ProfileVelocity = 3,
+  ProfileTorque = 4,
   Homing = 6,
+  InterpolatedPosition = 7,
   CyclicPosition = 8,
-  CyclicVelocity = 9
+  CyclicVelocity = 9,
+  CyclicTorque = 10
 };
 
 struct DriveCommand {
@@ -29,20 +34,36 @@ struct DriveCommand {
   std::int8_t mode = 0;
   std::int32_t position = 0;  // target, counts
   std::int32_t velocity = 0;  // target, counts / s
+  std::int16_t torque = 0;    // target, 1/1000 of what the motor can give
+  // Cyclic modes add these.
+  std::int32_t position_offset = 0;
+  std::int32_t velocity_offset = 0;
+  std::int16_t torque_offset = 0;
+  std::uint16_t probe = 0;  // function of the touch probes (0x60B8)
 };
 
 struct DriveFeedback {
   std::uint16_t error = 0;
   std::uint16_t status = 0;
   std::int8_t mode = 0;
-  std::int32_t position = 0;  // counts, wraps around like the register of a real drive
-  std::int32_t velocity = 0;  // counts / s
-  std::int16_t torque = 0;    // of what the motor can give, 1/1000
+  std::int32_t position = 0;    // counts, wraps around like the register of a real drive
+  std::int32_t velocity = 0;    // counts / s
+  std::int16_t torque = 0;      // of what the motor can give, 1/1000
+  std::int32_t following = 0;   // how far behind its set point it is, counts
+  std::uint32_t inputs = 0;     // digital inputs (0x60FD): limit switches, home switch, probes
+  std::uint16_t probe = 0;      // status of the touch probes (0x60B9)
+  std::int32_t probe_rise = 0;  // positions that were stored, counts
+  std::int32_t probe_fall = 0;
+  std::int32_t probe2_rise = 0;
+  std::int32_t probe2_fall = 0;
 };
 
 class Cia402Drive {
  public:
   explicit Cia402Drive(const config::IoAxis& axis) noexcept;
+  Cia402Drive(const Cia402Drive&) = delete;
+  Cia402Drive& operator=(const Cia402Drive&) = delete;
+  ~Cia402Drive() = default;
 
   // The next period: takes the command at its beginning, returns what the drive sends at its end.
   DriveFeedback step(const DriveCommand& command, std::chrono::nanoseconds elapsed) noexcept;
@@ -57,6 +78,14 @@ class Cia402Drive {
   void advance(const DriveCommand& command, double dt) noexcept;
   void advance_enabled(const DriveCommand& command, double dt) noexcept;
   void advance_homing(const DriveCommand& command, double dt) noexcept;
+  void advance_torque(const DriveCommand& command, double dt) noexcept;
+  void go_straight_home(double dt) noexcept;
+  void stop_at_limits(const AxisProfile& before, double dt) noexcept;
+  void close_loops(const DriveCommand& command) noexcept;
+  [[nodiscard]] double cyclic_target(const DriveCommand& command) const noexcept;
+  [[nodiscard]] double degrees() const noexcept;
+  [[nodiscard]] std::int32_t shown(double degrees) const noexcept;
+  void report_sensors(DriveFeedback& result) const noexcept;
   void advance_profile_position(const DriveCommand& command, double dt) noexcept;
   void watch_following() noexcept;
   [[nodiscard]] double radians_of(std::int32_t counts) const noexcept;
@@ -75,7 +104,14 @@ class Cia402Drive {
   bool reached_ = false;
   double target_ = 0;
   std::optional<double> next_target_;
-  enum class Home { Idle, Moving, Done } home_ = Home::Idle;
+  Homing homing_;
+  enum class Home { Idle, Moving, Done } home_ = Home::Idle;  // straight to the mark
+  TouchProbe probe_;
+  TouchProbe probe2_;
+  double torque_ = 0;             // demanded, N m
+  bool at_limit_ = false;         // a limit switch keeps it from going on
+  double last_degrees_;           // after the last step
+  double previous_degrees_;       // after the one before
   std::int64_t zero_counts_ = 0;  // encoder counts that are shown as position 0
   double cyclic_velocity_ = 0;    // of the way to the target of this period
   double too_far_s_ = 0;          // time beyond the largest following error

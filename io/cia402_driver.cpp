@@ -10,13 +10,23 @@
 namespace indurop::io {
 
 Cia402Driver::Object Cia402Driver::object_of(const config::IoPoint& point) {
-  constexpr std::array<std::pair<std::string_view, Object>, 7> kNames{{{"error", Object::Error},
-                                                                       {"status", Object::Status},
-                                                                       {"control", Object::Control},
-                                                                       {"mode", Object::Mode},
-                                                                       {"position", Object::Position},
-                                                                       {"velocity", Object::Velocity},
-                                                                       {"torque", Object::Torque}}};
+  constexpr std::array<std::pair<std::string_view, Object>, 17> kNames{{{"error", Object::Error},
+                                                                        {"status", Object::Status},
+                                                                        {"control", Object::Control},
+                                                                        {"mode", Object::Mode},
+                                                                        {"position", Object::Position},
+                                                                        {"velocity", Object::Velocity},
+                                                                        {"torque", Object::Torque},
+                                                                        {"position_offset", Object::PositionOffset},
+                                                                        {"velocity_offset", Object::VelocityOffset},
+                                                                        {"torque_offset", Object::TorqueOffset},
+                                                                        {"following", Object::Following},
+                                                                        {"inputs", Object::Inputs},
+                                                                        {"probe", Object::Probe},
+                                                                        {"probe_rise", Object::ProbeRise},
+                                                                        {"probe_fall", Object::ProbeFall},
+                                                                        {"probe2_rise", Object::Probe2Rise},
+                                                                        {"probe2_fall", Object::Probe2Fall}}};
   for (const auto& [name, object] : kNames) {
     if (name == point.at) {
       return object;
@@ -36,59 +46,88 @@ Cia402Driver::Cia402Driver(const config::IoDevice& device, std::span<const confi
   }
 }
 
+void Cia402Driver::take(Object object, Sample& from) noexcept {
+  const auto into = [&from](auto& value) {
+    from.quality = to_whole(from.value, value) ? Quality::Good : Quality::OutOfRange;
+  };
+  switch (object) {
+    case Object::Control:
+      return into(command_.control);
+    case Object::Mode:
+      return into(command_.mode);
+    case Object::Position:
+      return into(command_.position);
+    case Object::Velocity:
+      return into(command_.velocity);
+    case Object::Torque:
+      return into(command_.torque);
+    case Object::PositionOffset:
+      return into(command_.position_offset);
+    case Object::VelocityOffset:
+      return into(command_.velocity_offset);
+    case Object::TorqueOffset:
+      return into(command_.torque_offset);
+    case Object::Probe:
+      return into(command_.probe);
+    case Object::Error:
+    case Object::Status:
+    case Object::Following:
+    case Object::Inputs:
+    case Object::ProbeRise:
+    case Object::ProbeFall:
+    case Object::Probe2Rise:
+    case Object::Probe2Fall:
+      return;
+  }
+}
+
+Number Cia402Driver::value_of(Object object, const DriveFeedback& feedback) noexcept {
+  switch (object) {
+    case Object::Error:
+      return feedback.error;
+    case Object::Status:
+      return feedback.status;
+    case Object::Mode:
+      return feedback.mode;
+    case Object::Position:
+      return feedback.position;
+    case Object::Velocity:
+      return feedback.velocity;
+    case Object::Torque:
+      return feedback.torque;
+    case Object::Following:
+      return feedback.following;
+    case Object::Inputs:
+      return feedback.inputs;
+    case Object::Probe:
+      return feedback.probe;
+    case Object::ProbeRise:
+      return feedback.probe_rise;
+    case Object::ProbeFall:
+      return feedback.probe_fall;
+    case Object::Probe2Rise:
+      return feedback.probe2_rise;
+    case Object::Probe2Fall:
+      return feedback.probe2_fall;
+    case Object::Control:
+    case Object::PositionOffset:
+    case Object::VelocityOffset:
+    case Object::TorqueOffset:
+      break;
+  }
+  return 0;
+}
+
 Driver::Outcome Cia402Driver::exchange(std::span<Sample> outputs, std::span<Sample> inputs,
                                        std::chrono::nanoseconds elapsed) {
-  const auto take = [](Sample& from, auto& into) {
-    from.quality = to_whole(from.value, into) ? Quality::Good : Quality::OutOfRange;
-  };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (outputs[i].quality != Quality::Good) {
-      continue;
-    }
-    switch (outputs_[i]) {
-      case Object::Control:
-        take(outputs[i], command_.control);
-        break;
-      case Object::Mode:
-        take(outputs[i], command_.mode);
-        break;
-      case Object::Position:
-        take(outputs[i], command_.position);
-        break;
-      case Object::Velocity:
-        take(outputs[i], command_.velocity);
-        break;
-      case Object::Error:
-      case Object::Status:
-      case Object::Torque:
-        break;
+    if (outputs[i].quality == Quality::Good) {
+      take(outputs_[i], outputs[i]);
     }
   }
   const DriveFeedback feedback = drive_.step(command_, elapsed);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    inputs[i].quality = Quality::Good;
-    switch (inputs_[i]) {
-      case Object::Error:
-        inputs[i].value = feedback.error;
-        break;
-      case Object::Status:
-        inputs[i].value = feedback.status;
-        break;
-      case Object::Mode:
-        inputs[i].value = feedback.mode;
-        break;
-      case Object::Position:
-        inputs[i].value = feedback.position;
-        break;
-      case Object::Velocity:
-        inputs[i].value = feedback.velocity;
-        break;
-      case Object::Torque:
-        inputs[i].value = feedback.torque;
-        break;
-      case Object::Control:
-        break;
-    }
+    inputs[i] = {value_of(inputs_[i], feedback), Quality::Good};
   }
   return Outcome::Good;
 }

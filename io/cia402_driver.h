@@ -22,8 +22,28 @@ class Cia402Driver final : public Driver {
   [[nodiscard]] std::string problem() const override { return {}; }
 
  private:
-  enum class Object { Error, Status, Control, Mode, Position, Velocity, Torque };
+  enum class Object {
+    Error,
+    Status,
+    Control,
+    Mode,
+    Position,
+    Velocity,
+    Torque,
+    PositionOffset,
+    VelocityOffset,
+    TorqueOffset,
+    Following,
+    Inputs,
+    Probe,
+    ProbeRise,
+    ProbeFall,
+    Probe2Rise,
+    Probe2Fall
+  };
   static Object object_of(const config::IoPoint& point);
+  void take(Object object, Sample& from) noexcept;
+  static Number value_of(Object object, const DriveFeedback& feedback) noexcept;
 
   std::vector<Object> outputs_;
   std::vector<Object> inputs_;

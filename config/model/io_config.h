@@ -87,6 +87,15 @@ struct IoAxis {
   double start = 0;                         // where the axis is at power on, degrees
   double mark = 0;                          // where homing finds the reference mark, degrees; 0 from then on
   double home_speed = 20;                   // degrees / s
+  std::optional<int> homing;                // method (0x6098); empty: straight to the mark
+  double creep_speed = 2;                   // of homing, once the switch is found, degrees / s
+  std::optional<double> low_limit;          // limit switch: on there and below, degrees
+  std::optional<double> high_limit;         // on there and above
+  std::optional<double> home_from;          // home switch: on from there
+  std::optional<double> home_to;            // to there; empty: without end
+  std::optional<double> probe;              // input of touch probe 1: on there and above, degrees
+  std::optional<double> probe2;             // of touch probe 2
+  double torque_slope = 10'000;             // of the profile torque mode, 1/1000 of the motor's torque / s
   double noise = 0;                         // standard deviation of the encoder, counts
   std::uint64_t seed = 1;                   // of the noise
   std::string in;                           // struct of inputs, its fields named like the objects
@@ -136,16 +145,28 @@ struct AxisObject {
   const char* name;
   bool output;
 };
-inline constexpr std::array<AxisObject, 10> kAxisObjects{{{"error", false},
+inline constexpr std::array<AxisObject, 22> kAxisObjects{{{"error", false},
                                                           {"status", false},
                                                           {"mode", false},
                                                           {"position", false},
                                                           {"velocity", false},
                                                           {"torque", false},
+                                                          {"inputs", false},
+                                                          {"probe", false},
+                                                          {"probe_rise", false},
+                                                          {"probe_fall", false},
+                                                          {"probe2_rise", false},
+                                                          {"probe2_fall", false},
+                                                          {"following", false},
                                                           {"control", true},
                                                           {"mode", true},
                                                           {"position", true},
-                                                          {"velocity", true}}};
+                                                          {"velocity", true},
+                                                          {"torque", true},
+                                                          {"position_offset", true},
+                                                          {"velocity_offset", true},
+                                                          {"torque_offset", true},
+                                                          {"probe", true}}};
 
 // A module file that exports this function takes the path of an ioconfig.xml from its property "config"; so the checks
 // know what it reads and writes.

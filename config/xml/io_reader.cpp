@@ -176,9 +176,44 @@ class DeviceReader {
     real("start", -kMostAngle, kMostAngle, axis.start);
     real("mark", -kMostAngle, kMostAngle, axis.mark);
     real("home_speed", kLeast, kMost, axis.home_speed);
+    real("creep_speed", kLeast, kMost, axis.creep_speed);
+    real("torque_slope", kLeast, kMost, axis.torque_slope);
+    axis.low_limit = attributes_.real("low_limit", -kMostAngle, kMostAngle);
+    axis.high_limit = attributes_.real("high_limit", -kMostAngle, kMostAngle);
+    axis.home_from = attributes_.real("home_from", -kMostAngle, kMostAngle);
+    axis.home_to = attributes_.real("home_to", -kMostAngle, kMostAngle);
+    axis.probe = attributes_.real("probe", -kMostAngle, kMostAngle);
+    axis.probe2 = attributes_.real("probe2", -kMostAngle, kMostAngle);
+    read_homing(axis);
     real("noise", 0, kMost, axis.noise);
     axis.seed = static_cast<std::uint64_t>(
         attributes_.integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
+  }
+
+  void read_homing(IoAxis& axis) {
+    constexpr int kMostMethod = 37;
+    const auto method = attributes_.integer("homing", 1, kMostMethod);
+    if (!method) {
+      return;
+    }
+    axis.homing = static_cast<int>(*method);
+    // IEC 61800-7-201: 15, 16, 31 and 32 are reserved, 36 is not in use; 17 to 30 are 1 to 14 without the mark.
+    constexpr int kLastWithMark = 14;
+    constexpr int kFirstWithout = 17;
+    constexpr int kLastWithout = 30;
+    const int m = *axis.homing;
+    const bool reserved = (m > kLastWithMark && m < kFirstWithout) || m == 31 || m == 32 || m == 36;
+    const int edge = m >= kFirstWithout && m <= kLastWithout ? m - kFirstWithout + 1 : m;
+    if (reserved) {
+      report_.error(device_.place,
+                    fmt::format("homing: there is no method {}; write 1 to 14, 17 to 30, 33 to 35 or 37", m));
+    } else if ((edge == 1 && !axis.low_limit) || (edge == 2 && !axis.high_limit)) {
+      report_.error(device_.place, fmt::format("homing: method {} needs a limit switch; give {}", m,
+                                               edge == 1 ? "low_limit" : "high_limit"));
+    } else if (edge > 2 && edge <= kLastWithMark && !axis.home_from && !axis.home_to) {
+      report_.error(device_.place,
+                    fmt::format("homing: method {} needs a home switch; give home_from, home_to or both", m));
+    }
   }
 
   void read_csv() {

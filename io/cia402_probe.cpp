@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/cia402_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::io {
+namespace {
+
+constexpr unsigned kOn = 1U << 0U;
+constexpr unsigned kEveryTime = 1U << 1U;
+constexpr unsigned kMark = 1U << 2U;
+constexpr unsigned kRise = 1U << 4U;
+constexpr unsigned kFall = 1U << 5U;
+constexpr double kTurn = 360;
+
+}  // namespace
+
+void TouchProbe::take(std::uint8_t function) noexcept {
+  // Switched off, or one of its edges: what was stored of it is forgotten.
+  has_rise_ = has_rise_ && (function & kOn) != 0 && (function & kRise) != 0;
+  has_fall_ = has_fall_ && (function & kOn) != 0 && (function & kFall) != 0;
+  function_ = function;
+}
+
+void TouchProbe::store(double at, bool rising) noexcept {
+  const bool again = (function_ & kEveryTime) != 0;
+  if (rising && (function_ & kRise) != 0 && (again || !has_rise_)) {
+    has_rise_ = true;
+    rise_ = at;
+  }
+  if (!rising && (function_ & kFall) != 0 && (again || !has_fall_)) {
+    has_fall_ = true;
+    fall_ = at;
+  }
+}
+
+void TouchProbe::step(const ProbeStep& step) noexcept {
+  if ((function_ & kOn) == 0 || step.before == step.now) {
+    return;
+  }
+  if ((function_ & kMark) != 0) {
+    const double turns = std::ceil((std::min(step.before, step.now) - step.mark_at) / kTurn);
+    const double at = step.mark_at + turns * kTurn;
+    if (at <= std::max(step.before, step.now) && at != step.before) {
+      store(at, true);
+      store(at, false);
+    }
+    return;
+  }
+  const bool was = step.input_at && step.before >= *step.input_at;
+  const bool is = step.input_at && step.now >= *step.input_at;
+  if (was != is) {
+    store(*step.input_at, is);
+  }
+}
+
+std::uint8_t TouchProbe::status() const noexcept {
+  constexpr unsigned kStoredRise = 1U << 1U;
+  constexpr unsigned kStoredFall = 1U << 2U;
+  return static_cast<std::uint8_t>((function_ & kOn) | (has_rise_ ? kStoredRise : 0U) | (has_fall_ ? kStoredFall : 0U));
+}
+
+}  // namespace indurop::io
