@@ -79,7 +79,7 @@ void Follower::stop_hard(double hardness) noexcept {
     return;
   }
   mode_ = Mode::HardStop;
-  if (!idle() && segment(0).timed) {
+  if (!idle() && segment(0).timed && segment(0).move != Move::Joint) {
     leave_timing();
   }
   brake_.begin(hardness);
@@ -154,8 +154,12 @@ void Follower::try_blend() noexcept {
 // it is followed at once, since it begins at rest itself.
 void Follower::begin_piece() noexcept {
   Segment& first = segments_[0];
-  if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && first.timing.known()) {
-    first.take_timing();
+  if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && (first.timing.known() || first.together)) {
+    if (first.together) {
+      first.take_joint_timing({first.from, Joints::Zero(), Joints::Zero()}, most_, wanted_pace());
+    } else {
+      first.take_timing();
+    }
     passed_.fill(0);
     state_ = {0, wanted_pace(), 0};
   }
@@ -166,19 +170,6 @@ void Follower::begin_piece() noexcept {
 void Follower::leave_timing() noexcept {
   state_.position = segments_[0].leave_timing(state_.position);
   past_.moved = {passed_[0] - passed_[1], passed_[1] - passed_[2]};
-}
-
-// After a period.
-void Follower::note_place(double seconds) noexcept {
-  if (!segment(0).timed) {
-    speed_ = state_.velocity;
-    acceleration_ = state_.acceleration;
-    return;
-  }
-  passed_ = {segment(0).timing.at(state_.position).place, passed_[0], passed_[1]};
-  const double speed = (passed_[0] - passed_[1]) / seconds;
-  acceleration_ = (speed - speed_) / seconds;
-  speed_ = speed;
 }
 
 // What has a timing is planned anew in each period.
@@ -238,9 +229,7 @@ double Follower::advance(double seconds) noexcept {
   for (int pieces = 0; pieces < 4 && count_ > 0; ++pieces) {
     const bool timed = segment(0).timed;
     if (timed) {
-      // Where it has not begun there is nothing yet that a jump of the pace could change.
-      state_ = state_.position > 0 ? state_ : LineState{0, wanted_pace(), 0};
-      profile_ = pace_.next(state_, wanted_pace(), seconds, segment(0).pace_limits);
+      profile_ = pace_of_timing(seconds);
       time_ = 0;
     }
     const double until = time_ + seconds;
@@ -342,6 +331,9 @@ Fault Follower::brake(double seconds) noexcept {
   acceleration_ = state_.acceleration;
   q_ = q;
   note(distance);
+  if (has_shape()) {
+    note_joints(seconds);
+  }
   if (distance <= 0) {
     reset(q_);
   }
@@ -366,6 +358,7 @@ Fault Follower::step(double seconds) noexcept {
     note(0);
     return {};
   }
+  period_ = seconds;
   if (mode_ == Mode::HardStop) {
     return brake(seconds);
   }

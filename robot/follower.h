@@ -24,6 +24,13 @@ class Follower final : private PathAhead {
   // `blend`: from the one before into this one, if it may be passed without a stop.
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
+  // A joint motion instead of all that is to do, from whatever the joints are doing; not while it is stopping. Errors:
+  // JointLimit, Singular; then all is as before.
+  Fault redirect(const Segment& target) noexcept;
+
+  // Whether what is added next may begin without a stop.
+  [[nodiscard]] bool goes_over() const noexcept { return count_ > 0 && segment(count_ - 1).zone > 0; }
+
   // Part of the planned speed, from 0 to 1.
   void set_override(double part) noexcept;
   // Slows down to rest on the path, or goes on.
@@ -61,8 +68,13 @@ class Follower final : private PathAhead {
   [[nodiscard]] LineLimits stop_limits() const noexcept;
   [[nodiscard]] double wanted_pace() const noexcept;
   void begin_piece() noexcept;
+  Reach motion(JointState& now) const noexcept;
+  [[nodiscard]] bool can_begin(const JointState& now, double pace) const noexcept;
+  bool leave_shares() noexcept;
+  Profile pace_of_timing(double seconds) noexcept;
   void leave_timing() noexcept;
   void note_place(double seconds) noexcept;
+  void note_joints(double seconds) noexcept;
   void try_blend() noexcept;
   void replan() noexcept;
   double advance(double seconds) noexcept;  // how far
@@ -77,6 +89,8 @@ class Follower final : private PathAhead {
   [[nodiscard]] Reach joints_on_piece(double place, const Joints& near, Joints& q) const noexcept;
   Reach joints_ahead(double distance, const Joints& near, Joints& q) const noexcept override;
   [[nodiscard]] double left() const noexcept override;
+  [[nodiscard]] bool has_shape() const noexcept override { return segment(0).timed && segment(0).move == Move::Joint; }
+  [[nodiscard]] Shape shape_ahead(double distance) const noexcept override;
 
   const Places& places_;
   JointLimits most_;
@@ -91,8 +105,9 @@ class Follower final : private PathAhead {
   PathHistory past_;
   Profile profile_;
   PaceChange pace_;
-  double time_ = 0;  // in the profile
-  LineState state_;  // position: place on the present piece
+  double time_ = 0;    // in the profile
+  double period_ = 0;  // the last one
+  LineState state_;    // position: place on the present piece
   // What it is in seconds at full speed, whether the piece has a timing or not, and where it was on a piece with one.
   double speed_ = 0;
   double acceleration_ = 0;

@@ -361,7 +361,9 @@ Fault Group::move(const MoveCommand& command) noexcept {
 
 // For a motion that begins where the last one ends.
 void Group::ask_for_plan(const PlanRequest& request) noexcept {
-  desk_.ask(request);
+  PlanRequest asked = request;
+  asked.follows = asked.follows && follower_.goes_over();
+  desk_.ask(asked);
   if (follower_.idle()) {
     follower_.reset(commanded());
     last_command_ = commanded();

@@ -45,6 +45,8 @@ class Group final : public Controller, private MotionPort {
   ErrorCode reset() noexcept;
   ErrorCode home() noexcept;
   ErrorCode move(Service service, const ServiceRequest& request) noexcept;
+  [[nodiscard]] ErrorCode may_move() const noexcept;
+  ErrorCode redirect(const ServiceRequest& request) noexcept;
   ErrorCode start_job(std::uint32_t number) noexcept;
   ErrorCode stop_motion() noexcept;
   void finish_service(ErrorCode code, int axis = 0) noexcept;

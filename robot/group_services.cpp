@@ -87,6 +87,8 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
     case Service::DirectAbsolute:
     case Service::LinearAbsolute:
       return move(service, request);
+    case Service::DirectAborting:
+      return redirect(request);
     case Service::Stop:
     case Service::JobStop:
       return stop_motion();
@@ -191,14 +193,22 @@ ErrorCode Group::home() noexcept {
   return ErrorCode::Ok;
 }
 
-ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
+// By a service, which moves nothing that a job moves.
+ErrorCode Group::may_move() const noexcept {
   const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
-  const bool possible = (state_ == GroupState::Standby && free) || (state_ == GroupState::Moving && !job_.running());
-  if (!possible || !can_plan()) {
+  if (!(state_ == GroupState::Standby && free) && !(state_ == GroupState::Moving && !job_.running())) {
     return ErrorCode::State;
   }
-  if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
-    return ErrorCode::NotHomed;
+  const bool homed = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.homed(); });
+  return homed ? ErrorCode::Ok : ErrorCode::NotHomed;
+}
+
+ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
+  if (!can_plan()) {
+    return ErrorCode::State;
+  }
+  if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
+    return code;
   }
   MoveCommand command;
   const bool direct = service == Service::DirectAbsolute;
@@ -229,6 +239,39 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
     command.mid = parts_.book.points[static_cast<std::size_t>(mid)].target;
   }
   ask_for_plan({command, nullptr, planned_end(), !follower_.idle()});
+  state_ = GroupState::Moving;
+  return ErrorCode::Ok;
+}
+
+// At once and in the tick, since what the joints do now is part of it: a few microseconds.
+ErrorCode Group::redirect(const ServiceRequest& request) noexcept {
+  if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
+    return code;
+  }
+  Joints to = Joints::Zero();
+  for (int i = 0; i < count(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    to[i] = request.target[k] * axes_[k].unit();
+  }
+  const double speed = request.velocity == 0 ? 1 : request.velocity / 100;
+  if (!to.allFinite() || !(speed > 0 && speed <= 1)) {
+    return ErrorCode::Value;
+  }
+  Fault fault;
+  if (const int beyond = parts_.arm.beyond_limits(to); beyond >= 0) {
+    fault = {ErrorCode::JointLimit, beyond + 1};
+  } else {
+    if (follower_.idle()) {
+      follower_.reset(commanded());
+      last_command_ = commanded();
+    }
+    fault = follower_.redirect(Segment::together_to(to, speed));
+  }
+  if (!fault.ok()) {
+    finish_service(fault.code, fault.axis);
+    return ErrorCode::Ok;
+  }
+  forget_plans();
   state_ = GroupState::Moving;
   return ErrorCode::Ok;
 }

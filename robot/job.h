@@ -16,7 +16,7 @@
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,        // index: point; mid: point
+  Move,        // index: point; mid: point; value: 1 if a joint motion is to be straight
   Speed,       // value: part of full speed, or m/s if index is 1
   Zone,        // value: m
   Set,         // index: signal; value

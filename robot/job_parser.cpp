@@ -243,6 +243,9 @@ void JobParser::move(Move kind) {
   if (!failed_) {
     reference(JobReference::To::Target, "point");
   }
+  if (kind == Move::Joint && !failed_ && accept("STRAIGHT")) {
+    job().steps.back().value = 1;
+  }
 }
 
 void JobParser::speed() {

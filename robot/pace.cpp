@@ -25,10 +25,8 @@ bool can_level_off(const LineState& now, double top, const PaceLimits& limits) n
 
 LineLimits PaceLimits::at(double pace) const noexcept {
   // Half of the jerk that is left is for the change of pace itself, half for what it makes of accelerations.
-  const double left = (1 - TimingShares::kJerk * pace * pace * pace) / 2;
-  return {1,
-          std::min((1 - TimingShares::kAcceleration * pace * pace) * acceleration,
-                   left * mixed / (3 * std::max(pace, 1e-3))),
+  const double left = (1 - jerk_share * pace * pace * pace) / 2;
+  return {1, std::min((1 - acceleration_share * pace * pace) * acceleration, left * mixed / (3 * std::max(pace, 1e-3))),
           left * jerk};
 }
 

@@ -19,6 +19,9 @@ struct PaceLimits {
   double acceleration = 100;  // acceleration by speed
   double mixed = 1000;        // jerk by acceleration
   double jerk = 1000;         // jerk by speed
+  // What the motion takes of the joints' limits.
+  double acceleration_share = TimingShares::kAcceleration;
+  double jerk_share = TimingShares::kJerk;
 
   // Of the pace while it is not above `pace`, itself 1 at most. Real-time safe, as all here.
   [[nodiscard]] LineLimits at(double pace) const noexcept;

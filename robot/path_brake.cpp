@@ -43,6 +43,10 @@ Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double di
 }
 
 PathBrake::Rates PathBrake::rates(double place) const noexcept {
+  if (exact_ != nullptr) {
+    const PathAhead::Shape shape = exact_->shape_ahead(place - gone_);
+    return {shape.first, shape.second, shape.third};
+  }
   const double unit = 4 / length_;
   const double t = std::min(place, length_) * unit;
   const auto& c = shape_;
@@ -185,6 +189,9 @@ PathBrake::Span PathBrake::inside(const Span& span, double part) noexcept {
 }
 
 Joints PathBrake::joints_at(double place) const noexcept {
+  if (exact_ != nullptr) {
+    return exact_->shape_ahead(place - gone_).value;
+  }
   const double t = std::min(place, length_) * (4 / length_);
   const auto& c = shape_;
   return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
@@ -199,8 +206,11 @@ Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double per
   if (can_stand(past, period) || path.left() <= 0) {
     return Reach::Ok;
   }
-  if (const Reach reach = keep_in_sight(path, past, period); reach != Reach::Ok) {
-    return reach;
+  exact_ = path.has_shape() ? &path : nullptr;
+  if (exact_ == nullptr) {
+    if (const Reach reach = keep_in_sight(path, past, period); reach != Reach::Ok) {
+      return reach;
+    }
   }
   // A look along the polynomials first, which costs no inverse kinematics. Where they are not exact enough, it is
   // looked at once more from the place that came out.

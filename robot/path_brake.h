@@ -21,6 +21,12 @@ class PathAhead {
   virtual ~PathAhead() = default;
   // Joint angles `distance` further on; other than Ok leaves `q` alone.
   virtual Reach joints_ahead(double distance, const Joints& near, Joints& q) const noexcept = 0;
+  // Joint angles there and their derivatives by the place, where they are known exactly: has_shape().
+  struct Shape {
+    Joints value, first, second, third;
+  };
+  [[nodiscard]] virtual bool has_shape() const noexcept { return false; }
+  [[nodiscard]] virtual Shape shape_ahead(double /*distance*/) const noexcept { return {}; }
   // How far the path goes on.
   [[nodiscard]] virtual double left() const noexcept = 0;
 };
@@ -71,6 +77,7 @@ class PathBrake {
   [[nodiscard]] Motion after(double distance, const PathHistory& past, double period) const noexcept;
 
   JointLimits most_;
+  const PathAhead* exact_ = nullptr;  // in next(), where it is exact; else polynomials do
   Joints acceleration_ = Joints::Zero();
   Joints jerk_ = Joints::Zero();
   // The path ahead as polynomials of the fourth degree, in quarters of `length_`.

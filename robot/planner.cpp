@@ -83,6 +83,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   }
   if (command.move == Move::Joint) {
     measure_joint_motion(command.speed);
+    segment_.together = segment_.length > 0 && command.zone <= 0 && !command.straight;
     return {};
   }
   if (command.move == Move::Circle) {

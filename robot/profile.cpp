@@ -46,6 +46,38 @@ double just_fitting(double fits, double beyond, double length, const Way& way) n
   return fits;
 }
 
+// The argument from 0 to `most` where `excess`, which falls and is infinite at 0, becomes 0: one where it is at most
+// `slack`, and not below 0. By secants; an end that stays twice counts half.
+template <class Excess>
+double root(double most, double slack, const Excess& excess) noexcept {
+  double low = 0;
+  double high = most;
+  double above = HUGE_VAL;
+  double below = excess(most);
+  int side = 0;
+  for (int i = 0; i < 100 && high - low > 1e-15 * high; ++i) {
+    const bool known = std::isfinite(above) && std::isfinite(below);
+    const double secant = known ? low + (high - low) * above / (above - below) : 0;
+    const double middle = secant > low && secant < high ? secant : (low + high) / 2;
+    const double there = excess(middle);
+    if (there >= 0) {
+      low = middle;
+      above = there;
+      below *= side > 0 ? 0.5 : 1;
+      side = 1;
+    } else {
+      high = middle;
+      below = there;
+      above *= side < 0 ? 0.5 : 1;
+      side = -1;
+    }
+    if (there >= 0 && there <= slack) {
+      break;
+    }
+  }
+  return low;
+}
+
 }  // namespace
 
 double Ramp::duration() const noexcept {
@@ -160,12 +192,71 @@ Profile Profile::to_rest(const LineState& from, double position, const LineLimit
   const double sign = length < stopping ? -1 : 1;
   Profile profile = coast({0, sign * from.velocity, sign * from.acceleration});
   profile.append_way(std::max(sign * length, sign * stopping), 0, limits);
-  for (auto& phase : profile.phases_) {
+  profile.mirror(sign, from, position);
+  return profile;
+}
+
+// What was made in the mirror becomes a motion from there to rest.
+void Profile::mirror(double sign, const LineState& from, double position) noexcept {
+  for (auto& phase : phases_) {
     phase.jerk *= sign;
   }
-  profile.start_ = from;
-  profile.end_ = {position, 0, 0};
-  return profile;
+  start_ = from;
+  end_ = {position, 0, 0};
+}
+
+Profile Profile::slower(const LineLimits& limits, double duration) const noexcept {
+  if (!(duration_ < duration)) {
+    return *this;
+  }
+  const double length = end_.position - start_.position;
+  const double sign = length < ramp(start_, 0, limits).distance ? -1 : 1;
+  const LineState from{0, sign * start_.velocity, sign * start_.acceleration};
+  const auto cruise = [&](double speed) {
+    return (sign * length - ramp(from, speed, limits).distance - ramp({0, speed, 0}, 0, limits).distance) / speed;
+  };
+  const auto excess = [&](double speed) {
+    const double cruising = cruise(speed);
+    return cruising < 0
+               ? -HUGE_VAL
+               : cruising + ramp(from, speed, limits).duration() + ramp({0, speed, 0}, 0, limits).duration() - duration;
+  };
+  const double speed = root(limits.velocity, 1e-13 * duration, excess);
+  Profile profile = coast(from);
+  profile.append(ramp(from, speed, limits));
+  profile.end_.velocity = speed;
+  profile.append(cruise(speed), 0);
+  profile.append(ramp({0, speed, 0}, 0, limits));
+  profile.mirror(sign, start_, end_.position);
+  constexpr double kRounding = 1e-9;
+  return std::abs(profile.duration_ - duration) < kRounding * (1 + duration) ? profile : *this;
+}
+
+double Profile::jerk_at(double time) const noexcept {
+  for (int i = 0; i < count_; ++i) {
+    const auto& phase = phases_[static_cast<std::size_t>(i)];
+    if (time < phase.duration) {
+      return phase.jerk;
+    }
+    time -= phase.duration;
+  }
+  return 0;
+}
+
+LineState Profile::peak() const noexcept {
+  LineState peak{0, std::abs(start_.velocity), std::abs(start_.acceleration)};
+  LineState state = start_;
+  const auto see = [&peak](const LineState& at) {
+    peak = {0, std::max(peak.velocity, std::abs(at.velocity)), std::max(peak.acceleration, std::abs(at.acceleration))};
+  };
+  for (int i = 0; i < count_; ++i) {
+    const auto& phase = phases_[static_cast<std::size_t>(i)];
+    const double turn = phase.jerk != 0 ? -state.acceleration / phase.jerk : 0;
+    see(advanced(state, std::clamp(turn, 0.0, phase.duration), phase.jerk));
+    state = advanced(state, phase.duration, phase.jerk);
+    see(state);
+  }
+  return peak;
 }
 
 LineState Profile::at(double time) const noexcept {

@@ -51,18 +51,25 @@ class Profile {
 
   // From any velocity and acceleration to rest at `position`, wherever that is, as fast as possible.
   static Profile to_rest(const LineState& from, double position, const LineLimits& limits) noexcept;
+  // What to_rest() made with these limits, but in `duration` by not getting that fast; the same if it takes as long
+  // anyway, or where nothing takes just that long.
+  [[nodiscard]] Profile slower(const LineLimits& limits, double duration) const noexcept;
 
   // At `time` seconds after the start; beyond the end it moves on with its last velocity.
   [[nodiscard]] LineState at(double time) const noexcept;
+  [[nodiscard]] double jerk_at(double time) const noexcept;
   [[nodiscard]] double duration() const noexcept { return duration_; }
   [[nodiscard]] bool overshoots() const noexcept { return overshoots_; }
   // Where it is at the end of its last phase.
   [[nodiscard]] const LineState& end() const noexcept { return end_; }
+  // The greatest speed and acceleration on its way, in either direction; no position.
+  [[nodiscard]] LineState peak() const noexcept;
 
  private:
   void append(const Ramp& ramp) noexcept;
   void append(double duration, double jerk) noexcept;
   void append_way(double length, double last, const LineLimits& limits) noexcept;
+  void mirror(double sign, const LineState& from, double position) noexcept;
 
   LineState start_;
   LineState end_;

@@ -45,9 +45,9 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
                      std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
                      std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
   for (int i = 0; i < kAxes; ++i) {
-    pace_ = {std::min(pace_.acceleration, shared(joints_.acceleration[i], first[i])),
-             std::min(pace_.mixed, shared(joints_.jerk[i], second[i])),
-             std::min(pace_.jerk, shared(joints_.jerk[i], first[i]))};
+    pace_.acceleration = std::min(pace_.acceleration, shared(joints_.acceleration[i], first[i]));
+    pace_.mixed = std::min(pace_.mixed, shared(joints_.jerk[i], second[i]));
+    pace_.jerk = std::min(pace_.jerk, shared(joints_.jerk[i], first[i]));
   }
   ++next_;
   return true;

@@ -7,14 +7,38 @@
 namespace indurop::robot {
 
 Joints Segment::joints_at(double place) const noexcept {
+  if (timed) {
+    return joint_timing.at(place).position;
+  }
   const double part = length > 0 ? std::clamp(place / length, 0.0, 1.0) : 1;
   return from + part * (to - from);
+}
+
+Segment Segment::together_to(const Joints& to, double speed) noexcept {
+  Segment segment;
+  segment.to = to;
+  segment.limits.velocity = speed;
+  segment.together = true;
+  return segment;
 }
 
 void Segment::take_timing() noexcept {
   stretch = length;
   length = timing.duration();
   timed = true;
+}
+
+void Segment::take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept {
+  const JointShares shares = JointShares::at(pace);
+  const JointLimits own = limits_for(joints, limits.velocity, shares);
+  joint_timing.plan(state, to, own);
+  from = state.position;
+  length = joint_timing.duration();
+  timed = true;
+  made_for = pace;
+  fastest = pace < 1 ? shares.fastest() : 1;
+  pace_limits = joint_timing.pace_limits(joints, shares);
+  settled = JointTiming::settling(state, own, joints.velocity);
 }
 
 double Segment::leave_timing(double place) noexcept {

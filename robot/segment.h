@@ -8,6 +8,7 @@
 
 #include "robot/chain.h"
 #include "robot/inverse.h"
+#include "robot/joint_timing.h"
 #include "robot/pace.h"
 #include "robot/path_timing.h"
 #include "robot/profile.h"
@@ -33,6 +34,7 @@ struct MoveCommand {
   double speed = 1;       // part of full speed, above 0 to 1
   double tool_speed = 0;  // m/s, of lines and circles instead of `speed`; 0: none
   double zone = 0;        // m, how far before the target the path may already turn to the next one
+  bool straight = false;  // of joint motions: all joints in step, on a straight line between joint angles
   int source = 0;         // the caller's name for it
 };
 
@@ -58,15 +60,28 @@ struct Segment {
   PathTiming timing;
   PaceLimits pace_limits;
   double stretch = 0;  // what `length` is otherwise
+  // Of joint motions. Those that may come together have a timing too, which is another path; it is made where they
+  // begin, for a pace. At the full pace it leaves nothing for changes of it, else it does so up to `fastest` from
+  // `settled` on.
+  bool together = false;
+  JointTiming joint_timing;
+  double made_for = 1;
+  double fastest = 1;
+  double settled = 0;
+  bool moving = false;  // begins while the joints move
 
   // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.
   [[nodiscard]] Joints joints_at(double place) const noexcept;
   // Of lines and circles.
   [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // A joint motion to there, at part of full speed, whose axes arrive together.
+  static Segment together_to(const Joints& to, double speed) noexcept;
   // What the tool and the command allow of the speed at a place, whether the timing is taken or not.
   [[nodiscard]] LineLimits most_at(double place) const noexcept { return chain ? chain->limits_at(place) : most; }
   // From rest, at its beginning.
   void take_timing() noexcept;
+  // Of joint motions, from any state. The limits are the joints'.
+  void take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept;
   // Returns what `place` is then.
   double leave_timing(double place) noexcept;
   // m per s at full speed

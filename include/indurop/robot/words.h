@@ -37,7 +37,8 @@ enum class Service : std::int32_t {
   LinearAbsolute,
   Stop,
   JobStart,
-  JobStop
+  JobStop,
+  DirectAborting
 };
 
 // Services of one axis.

@@ -153,38 +153,6 @@ TEST(Group, A_job_that_fails_stops_and_names_its_line) {
   EXPECT_EQ(cell.out.state, GroupState::Standby);
 }
 
-TEST(Group, Emergency_stop_brakes_on_the_path_then_takes_power_away) {
-  Cell cell("", 1);
-  ASSERT_TRUE(cell.serve(Service::GroupEnable));
-  cell.in.service.target = {100, 0, 0, 0, 0, 50};
-  cell.ask(Service::DirectAbsolute);
-  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 90; }));
-  cell.in.emergency = true;
-  double before = cell.out.path_speed;
-  cell.step();
-  EXPECT_EQ(cell.out.state, GroupState::Stopping);
-  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
-  ASSERT_TRUE(cell.until([&] {
-    // On the path: all axes at the same part of their way, never faster again.
-    EXPECT_NEAR(cell.out.command[5], cell.out.command[0] / 2, 1e-6);
-    EXPECT_LE(cell.out.path_speed, before + 0.5);
-    before = cell.out.path_speed;
-    return cell.out.state == GroupState::ErrorStop;
-  }));
-  EXPECT_EQ(cell.out.drives[0].control, 0x02);
-  EXPECT_LT(cell.out.command[0], 99);
-  EXPECT_EQ(cell.out.speed, AxisNumbers{});
-  EXPECT_FALSE(cell.serve(Service::GroupReset));
-  EXPECT_EQ(cell.out.error, ErrorCode::Emergency);
-  cell.in.emergency = false;
-  ASSERT_TRUE(cell.serve(Service::GroupReset));
-  EXPECT_EQ(cell.out.state, GroupState::Disabled);
-  ASSERT_TRUE(cell.serve(Service::GroupEnable));
-  EXPECT_EQ(cell.out.error, ErrorCode::Ok);
-  cell.in.service.target = {};
-  EXPECT_TRUE(cell.serve(Service::DirectAbsolute));
-}
-
 TEST(Group, Emergency_stop_of_category_0_takes_power_away_at_once) {
   Settings settings;
   settings.emergency_category = StopCategory::Category0;
@@ -271,7 +239,7 @@ TEST(Group, Stop_ends_the_motion_and_its_request) {
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
   cell.in.service.target = {100, 0, 0, 0, 0, 0};
   cell.ask(Service::DirectAbsolute);
-  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 50; }));
+  ASSERT_TRUE(cell.until([&] { return cell.out.path_speed > 30; }));
   ASSERT_TRUE(cell.serve(Service::Stop));
   EXPECT_EQ(cell.out.state, GroupState::Standby);
   EXPECT_LT(cell.out.command[0], 99);

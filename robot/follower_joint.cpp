@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joint motions whose axes arrive together, from rest or from whatever the joints are doing.
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/follower.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kThere = 1e-9;           // rad
+constexpr double kRounding = 1e-9;        // rad/s
+constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves something for changes of it
+
+// Whether a joint that brakes at once comes to rest beyond its target.
+bool passes(double position, double target, double stop) noexcept {
+  return (target - position) * (target - stop) < 0 && std::abs(target - stop) > kThere;
+}
+
+}  // namespace
+
+// By differences of places a little further on, or back where the path ends.
+Reach Follower::motion(JointState& now) const noexcept {
+  now = {q_, Joints::Zero(), Joints::Zero()};
+  if (at_rest()) {
+    return Reach::Ok;
+  }
+  double v = state_.velocity;
+  double a = state_.acceleration;
+  if (segment(0).timed && segment(0).move == Move::Joint) {
+    const JointState path = segment(0).joint_timing.at(state_.position);
+    now = {path.position, v * path.velocity, v * v * path.acceleration + a * path.velocity};
+    return Reach::Ok;
+  }
+  const double size = places_.inverse().closed_form() ? 2e-5 : 1e-3;
+  const double step = left() > 3 * size ? size : -size;
+  std::array<Joints, 4> f;
+  f.fill(q_);
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (const Reach reach = joints_ahead(step * static_cast<double>(i), q_, f[i]); reach != Reach::Ok) {
+      return reach;
+    }
+  }
+  const Joints first = (4 * f[1] - 3 * f[0] - f[2]) / (2 * step);
+  const Joints second = (2 * f[0] - 5 * f[1] + 4 * f[2] - f[3]) / (step * step);
+  now.velocity = v * first;
+  now.acceleration = v * v * second + a * first;
+  return Reach::Ok;
+}
+
+// Of one that is made for a pace below 1, and so brakes later and softer: whether no joint gets too fast or too far, or
+// turns back only because it cannot take its braking back in time.
+bool Follower::can_begin(const JointState& now, double pace) const noexcept {
+  const JointLimits limits = limits_for(most_, 1, JointShares::at(pace));
+  const JointState real{now.position, pace * now.velocity, pace * pace * now.acceleration};
+  const Joints later = pace * JointTiming::unloaded(now, limits);
+  const Joints sooner = JointTiming::unloaded(real, most_);
+  for (int i = 0; i < kAxes; ++i) {
+    const double v = real.velocity[i];
+    if (std::abs(later[i]) > most_.velocity[i] * (1 + 1e-9) ||
+        (v * later[i] < 0 && v * sooner[i] > -kRounding * std::abs(v))) {
+      return false;
+    }
+  }
+  return places_.arm().beyond_limits(JointTiming::stopping(now, limits)) < 0;
+}
+
+// It is made for the pace that is wanted, as far as what the joints do now can be part of it at that pace.
+Fault Follower::redirect(const Segment& target) noexcept {
+  constexpr double kNotExact = 0.98;  // of the jerk, where the present acceleration is not known exactly
+  JointState now;
+  if (motion(now) != Reach::Ok) {
+    return {ErrorCode::Singular};
+  }
+  if (const int beyond = places_.arm().beyond_limits(JointTiming::stopping(now, most_), 1e-6); beyond >= 0) {
+    return {ErrorCode::JointLimit, beyond + 1};
+  }
+  const double least = std::max(now.velocity.cwiseAbs().cwiseQuotient(most_.velocity).maxCoeff(),
+                                std::sqrt(now.acceleration.cwiseAbs().cwiseQuotient(most_.acceleration).maxCoeff()));
+  double pace = wanted_pace();
+  JointState seen = now;
+  for (const double tried : {std::max(pace, least), kNearlyFull, 1.0}) {
+    if (at_rest() || (pace >= 1 && tried < 1)) {
+      continue;
+    }
+    pace = std::min(tried, 1.0);
+    seen = {now.position, now.velocity / pace, now.acceleration / (pace * pace)};
+    if (pace >= 1 || can_begin(seen, pace)) {
+      break;
+    }
+  }
+  JointLimits limits = most_;
+  limits.jerk *= at_rest() || (segment(0).move == Move::Joint && !in_blend_) ? 1 : kNotExact;
+  Segment next = target;
+  next.moving = !at_rest();
+  next.take_joint_timing(seen, limits, pace);
+  segments_[0] = next;
+  count_ = 1;
+  blend_ = {};
+  in_blend_ = false;
+  state_ = {0, pace, 0};
+  past_.moved.fill(pace * period_);
+  time_ = 0;
+  return {};
+}
+
+// From full limits to what leaves something for changes of the pace. Not where a joint could not come to rest before
+// its target then: it goes on to its end, which takes no longer than braking.
+bool Follower::leave_shares() noexcept {
+  Segment& s = segments_[0];
+  const JointState now = s.joint_timing.at(state_.position);
+  const Joints soon = JointTiming::stopping(now, most_);
+  const Joints late = JointTiming::stopping(now, limits_for(most_, 1, JointShares::at(kNearlyFull)));
+  for (int i = 0; i < kAxes; ++i) {
+    if (passes(now.position[i], s.to[i], late[i]) && !passes(now.position[i], s.to[i], soon[i])) {
+      return false;
+    }
+  }
+  if (!can_begin(now, kNearlyFull)) {
+    return false;
+  }
+  s.take_joint_timing(now, most_, kNearlyFull);
+  s.moving = true;
+  state_ = {0, 1, 0};
+  return true;
+}
+
+// After a period.
+void Follower::note_place(double seconds) noexcept {
+  if (!segment(0).timed) {
+    speed_ = state_.velocity;
+    acceleration_ = state_.acceleration;
+    return;
+  }
+  if (segment(0).move == Move::Joint) {
+    note_joints(seconds);
+    return;
+  }
+  passed_ = {segment(0).timing.at(state_.position).place, passed_[0], passed_[1]};
+  const double speed = (passed_[0] - passed_[1]) / seconds;
+  acceleration_ = (speed - speed_) / seconds;
+  speed_ = speed;
+}
+
+// The fastest of them is the speed.
+void Follower::note_joints(double seconds) noexcept {
+  const Joints moved = past_.joints[0] - past_.joints[1];
+  const double speed = moved.cwiseAbs().cwiseQuotient(most_.velocity).maxCoeff() / seconds;
+  acceleration_ = (speed - speed_) / seconds;
+  speed_ = speed;
+}
+
+PathAhead::Shape Follower::shape_ahead(double distance) const noexcept {
+  Shape shape;
+  const double place = std::min(state_.position + distance, segment(0).length);
+  const JointState state = segment(0).joint_timing.at(place, &shape.third);
+  shape.value = state.position;
+  shape.first = state.velocity;
+  shape.second = state.acceleration;
+  return shape;
+}
+
+// How the pace of a motion with a timing goes on.
+Profile Follower::pace_of_timing(double seconds) noexcept {
+  Segment& s = segments_[0];
+  double wanted = wanted_pace();
+  if (state_.position <= 0 && !s.moving) {
+    // Where it has not begun there is nothing yet that a jump of the pace could change.
+    state_ = {0, wanted, 0};
+    if (s.move == Move::Joint && s.made_for != wanted) {
+      s.take_joint_timing({s.from, Joints::Zero(), Joints::Zero()}, most_, wanted);
+    }
+  }
+  if (s.move == Move::Joint) {
+    if (s.made_for >= 1 && (wanted >= 1 || !leave_shares())) {
+      return Profile::coast(state_);
+    }
+    if (state_.position < s.settled || (wanted == state_.velocity && state_.acceleration == 0)) {
+      return Profile::coast(state_);
+    }
+    wanted = std::min(wanted, s.fastest);
+  }
+  return pace_.next(state_, wanted, seconds, s.pace_limits);
+}
+
+}  // namespace indurop::robot
