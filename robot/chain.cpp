@@ -10,10 +10,6 @@ namespace indurop::robot {
 
 namespace {
 
-// Parts of the tool's acceleration and jerk along the path and across it, in bends: together they make the whole.
-constexpr double kAlong = 0.8;
-constexpr double kAcross = 0.6;
-
 constexpr std::size_t at(int i) noexcept {
   return static_cast<std::size_t>(i);
 }
@@ -137,12 +133,9 @@ LineLimits Chain::limits_at(double place) const noexcept {
   const Window w = window(place);
   const auto first = at(w.first);
   double speed = speeds_[first];
-  Vec3 moving = moving_[first];
-  Vec3 turning = turning_[first];
-  Vec3 bend = Vec3::Zero();
-  Vec3 twist = Vec3::Zero();
-  Vec3 turn_bend = Vec3::Zero();
-  Vec3 turn_twist = Vec3::Zero();
+  Shape shape;
+  shape.moving = moving_[first];
+  shape.turning = turning_[first];
   for (int i = w.first + 1; i <= w.last; ++i) {
     const double u = (place - at_[at(i)]) / w.half;
     if (std::abs(u) >= 1) {
@@ -151,21 +144,14 @@ LineLimits Chain::limits_at(double place) const noexcept {
     speed = std::min(speed, speeds_[at(i)]);
     const Vec3 change = moving_[at(i)] - moving_[at(i) - 1];
     const Vec3 turn_change = turning_[at(i)] - turning_[at(i) - 1];
-    moving += sum(u) * change;
-    turning += sum(u) * turn_change;
-    bend += weight(u) / w.half * change;
-    turn_bend += weight(u) / w.half * turn_change;
-    twist += weight_change(u) / (w.half * w.half) * change;
-    turn_twist += weight_change(u) / (w.half * w.half) * turn_change;
+    shape.moving += sum(u) * change;
+    shape.turning += sum(u) * turn_change;
+    shape.bend += weight(u) / w.half * change;
+    shape.turn_bend += weight(u) / w.half * turn_change;
+    shape.twist += weight_change(u) / (w.half * w.half) * change;
+    shape.turn_twist += weight_change(u) / (w.half * w.half) * turn_change;
   }
-  const double pace = moving.norm();
-  const double turn_pace = turning.norm();
-  return {std::min({speed, std::sqrt(shared(kAcross * tool_.acceleration, bend.norm())),
-                    std::sqrt(shared(kAcross * tool_.turn_acceleration, turn_bend.norm())),
-                    std::cbrt(shared(kAcross * tool_.jerk, twist.norm())),
-                    std::cbrt(shared(kAcross * tool_.turn_jerk, turn_twist.norm()))}),
-          std::min(shared(kAlong * tool_.acceleration, pace), shared(kAlong * tool_.turn_acceleration, turn_pace)),
-          std::min(shared(kAlong * tool_.jerk, pace), shared(kAlong * tool_.turn_jerk, turn_pace))};
+  return limits_for(shape, speed, tool_);
 }
 
 int Chain::source_at(double place) const noexcept {

@@ -6,22 +6,11 @@
 
 #include <array>
 
-#include "robot/geometry.h"
-#include "robot/profile.h"
+#include "robot/tool_path.h"
 
 namespace indurop::robot {
 
-// How fast the tool may move.
-struct ToolLimits {
-  double velocity = 1;            // m/s
-  double acceleration = 5;        // m/s^2
-  double jerk = 50;               // m/s^3
-  double turn_velocity = kPi;     // rad/s
-  double turn_acceleration = 20;  // rad/s^2
-  double turn_jerk = 200;         // rad/s^3
-};
-
-class Chain {
+class Chain final : public ToolPath {
  public:
   static constexpr int kMost = 1024;  // lines
 
@@ -43,17 +32,13 @@ class Chain {
   [[nodiscard]] int count() const noexcept { return count_; }
   // Whether zones meet on a line, so that corners cannot be passed one after the other.
   [[nodiscard]] bool crowded() const noexcept { return crowded_; }
-  // s at the speeds of its lines, without any ramps.
-  [[nodiscard]] double at_speed() const noexcept { return at_speed_; }
-  // m
-  [[nodiscard]] double way() const noexcept { return way_; }
-  // s at full speed, as for all paths.
-  [[nodiscard]] double length() const noexcept { return at_[static_cast<std::size_t>(count_)]; }
-  [[nodiscard]] const Pose& end() const noexcept { return poses_[static_cast<std::size_t>(count_)]; }
-  [[nodiscard]] Pose pose_at(double place) const noexcept;
-  // What the tool and the lines allow of the speed along the path.
-  [[nodiscard]] LineLimits limits_at(double place) const noexcept;
-  [[nodiscard]] int source_at(double place) const noexcept;
+  [[nodiscard]] double at_speed() const noexcept override { return at_speed_; }
+  [[nodiscard]] double way() const noexcept override { return way_; }
+  [[nodiscard]] double length() const noexcept override { return at_[static_cast<std::size_t>(count_)]; }
+  [[nodiscard]] const Pose& end() const noexcept override { return poses_[static_cast<std::size_t>(count_)]; }
+  [[nodiscard]] Pose pose_at(double place) const noexcept override;
+  [[nodiscard]] LineLimits limits_at(double place) const noexcept override;
+  [[nodiscard]] int source_at(double place) const noexcept override;
 
  private:
   using Corners = std::array<Vec3, kMost + 1>;

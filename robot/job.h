@@ -16,7 +16,8 @@
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,        // index: point; mid: point; value: 1 if a joint motion is to be straight
+  Move,        // index: point; mid: point; value: 1 if a joint motion is to be straight,
+               // or if points of a spline follow
   Speed,       // value: part of full speed, or m/s if index is 1
   Zone,        // value: m
   Set,         // index: signal; value

@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/spline.h"
+
 namespace indurop::robot {
 
 namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, SET, WAIT, CALL, LABEL, GOTO, IF, LOOP and END";
+    "POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, LABEL, GOTO, IF, LOOP and END";
 
 std::string name_of(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -89,19 +91,13 @@ void JobParser::statement() {
     void (*parse)(JobParser&);
   };
   static constexpr Known kKnown[] = {
-      {"POINT", [](JobParser& p) { p.point(); }},
-      {"SPEED", [](JobParser& p) { p.speed(); }},
-      {"ZONE", [](JobParser& p) { p.zone(); }},
-      {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
-      {"MOVL", [](JobParser& p) { p.move(Move::Line); }},
-      {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
-      {"SET", [](JobParser& p) { p.set(); }},
-      {"WAIT", [](JobParser& p) { p.wait(); }},
-      {"CALL", [](JobParser& p) { p.jump(Op::Call); }},
-      {"LABEL", [](JobParser& p) { p.label(); }},
-      {"GOTO", [](JobParser& p) { p.jump(Op::Goto); }},
-      {"IF", [](JobParser& p) { p.if_goto(); }},
-      {"LOOP", [](JobParser& p) { p.loop(); }},
+      {"POINT", [](JobParser& p) { p.point(); }},         {"SPEED", [](JobParser& p) { p.speed(); }},
+      {"ZONE", [](JobParser& p) { p.zone(); }},           {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
+      {"MOVL", [](JobParser& p) { p.move(Move::Line); }}, {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
+      {"MOVS", [](JobParser& p) { p.spline(); }},         {"SET", [](JobParser& p) { p.set(); }},
+      {"WAIT", [](JobParser& p) { p.wait(); }},           {"CALL", [](JobParser& p) { p.jump(Op::Call); }},
+      {"LABEL", [](JobParser& p) { p.label(); }},         {"GOTO", [](JobParser& p) { p.jump(Op::Goto); }},
+      {"IF", [](JobParser& p) { p.if_goto(); }},          {"LOOP", [](JobParser& p) { p.loop(); }},
       {"END", [](JobParser& p) { p.end_loop(); }},
   };
   for (const Known& known : kKnown) {
@@ -245,6 +241,28 @@ void JobParser::move(Move kind) {
   }
   if (kind == Move::Joint && !failed_ && accept("STRAIGHT")) {
     job().steps.back().value = 1;
+  }
+}
+
+// A step for each of its points.
+void JobParser::spline() {
+  const JobToken start = tokens_[at_ - 1];
+  int points = 0;
+  while (!failed_ && peek().kind != JobToken::Kind::End) {
+    Step& step = add(Op::Move);
+    step.move = Move::Spline;
+    step.value = 1;
+    reference(JobReference::To::Target, "point of the spline");
+    accept(",");
+    ++points;
+  }
+  if (points < 2) {
+    error(start, "a spline goes through two points or more; MOVL goes to one");
+  } else if (points > Spline::kMost) {
+    error(start,
+          "a spline of " + std::to_string(points) + " points; " + std::to_string(Spline::kMost) + " is the most");
+  } else {
+    job().steps.back().value = 0;
   }
 }
 

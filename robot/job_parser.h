@@ -48,6 +48,7 @@ class JobParser {
   void held_axis(Target& target);
   [[nodiscard]] double axis_value(int axis, double written) const noexcept;
   void move(Move kind);
+  void spline();
   void speed();
   void zone();
   void set();

@@ -157,7 +157,8 @@ JobRunner::Next JobRunner::move(const Step& step, MotionPort& port) noexcept {
   command.speed = speed_;
   command.tool_speed = step.move == Move::Joint ? 0 : tool_speed_;
   command.zone = zone_;
-  command.straight = step.value != 0;
+  command.straight = step.move == Move::Joint && step.value != 0;
+  command.more = step.move == Move::Spline && step.value != 0;
   command.source = frame().job << kLineBits | static_cast<int>(step.line);
   if (const Fault fault = port.move(command); !fault.ok()) {
     fail(fault, to_string(fault.code), command.source);

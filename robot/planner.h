@@ -21,9 +21,9 @@ class Planner {
   // Begins with a motion that starts at `from`. Real-time safe, as all here. Errors: Value, Unreachable,
   // JointLimit, Circle.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
-  // Begins with a chain that starts where the arm is at `from` and stays as it is until the motion has ended. Errors:
-  // Value.
-  Fault begin(const Chain& chain, const Joints& from) noexcept;
+  // Begins with a way of many pieces that starts where the arm is at `from` and stays as it is until the motion has
+  // ended. Errors: Value.
+  Fault begin(const ToolPath& chain, const Joints& from) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
   // Singular.
   Fault check(int places) noexcept;

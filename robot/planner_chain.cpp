@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is different when a path is a chain of lines.
+// What is different when a path is made of many pieces: a chain of lines, or a spline.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr double kSpacing = 0.005;  // m between places that are looked at
 
 }  // namespace
 
-Fault Planner::begin(const Chain& chain, const Joints& from) noexcept {
+Fault Planner::begin(const ToolPath& chain, const Joints& from) noexcept {
   begin(from);
   Segment& s = segment_;
   s.move = Move::Line;

@@ -17,7 +17,7 @@ namespace indurop::robot {
 
 struct PlanRequest {
   MoveCommand command;
-  const Chain* chain = nullptr;  // instead of it; stays as it is until the motion has ended
+  const ToolPath* chain = nullptr;  // instead of it; stays as it is until the motion has ended
   Joints from = Joints::Zero();
   bool follows = false;  // on the motion that was planned before, without a stop
 };

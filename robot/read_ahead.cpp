@@ -12,7 +12,7 @@ constexpr std::size_t kLiving = 6;  // chains: one in the making, one that is pl
 }  // namespace
 
 ReadAhead::ReadAhead(const Arm& arm, const ToolLimits& tool)
-    : arm_(arm), tool_(tool), commands_(Chain::kMost), chains_(kLiving) {}
+    : arm_(arm), tool_(tool), commands_(Chain::kMost), chains_(kLiving), splines_(kLiving) {}
 
 void ReadAhead::clear() noexcept {
   count_ = scanned_ = single_ = 0;
@@ -27,7 +27,8 @@ bool ReadAhead::has_room() const noexcept {
     return true;
   }
   const MoveCommand& last = command(count_ - 1);
-  return count_ < Chain::kMost && last.move == Move::Line && last.zone > 0;
+  const bool goes_on = (last.move == Move::Line && last.zone > 0) || (last.move == Move::Spline && last.more);
+  return count_ < Chain::kMost && goes_on;
 }
 
 void ReadAhead::add(const MoveCommand& command) noexcept {
@@ -58,16 +59,48 @@ void ReadAhead::scan() noexcept {
       closed_ = true;
       return;
     }
-    const Pose& end = line.target.is_pose ? line.target.pose : arm_.forward(line.target.joints);
-    chain.add({end, line.zone, line.speed, line.tool_speed, line.source});
+    chain.add({pose_of(line.target), line.zone, line.speed, line.tool_speed, line.source});
     ++scanned_;
     closed_ = line.zone <= 0 || scanned_ == Chain::kMost || !(chain.at_speed() < kLongest);
   }
 }
 
+Pose ReadAhead::pose_of(const Target& target) const noexcept {
+  return target.is_pose ? target.pose : arm_.forward(target.joints);
+}
+
+// With its first point at the front.
+ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
+  int points = 1;
+  while (points < count_ && command(points - 1).more) {
+    ++points;
+  }
+  if (command(points - 1).more) {
+    return {};  // the others are still to come
+  }
+  Spline& spline = splines_[spline_];
+  spline.begin(arm_.forward(from), tool_);
+  for (int i = 0; i < points && spline.count() < Spline::kMost; ++i) {
+    const MoveCommand& point = command(i);
+    spline.add({pose_of(point.target), point.speed, point.tool_speed, point.source});
+  }
+  first_ = (first_ + points - 1) % Chain::kMost;
+  count_ -= points - 1;
+  const MoveCommand& last = take();
+  if (spline.count() == 0) {
+    return {nullptr, &last};  // it is there
+  }
+  spline.finish();
+  spline_ = (spline_ + 1) % splines_.size();
+  return {&spline, nullptr};
+}
+
 ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
   if (empty()) {
     return {};
+  }
+  if (single_ == 0 && scanned_ == 0 && command(0).move == Move::Spline) {
+    return next_spline(from);
   }
   if (single_ == 0 && scanned_ == 0) {
     begin_scan(from);

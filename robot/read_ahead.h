@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions of a job that wait to be planned. Lines whose zones meet become one chain: as many as the job gives before
-// something else comes.
+// something else comes. The points of a spline become one too.
 
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "robot/chain.h"
 #include "robot/segment.h"
+#include "robot/spline.h"
 
 namespace indurop::robot {
 
@@ -27,7 +28,7 @@ class ReadAhead {
 
   // What is to be planned now: one of both, or none as long as it may become longer.
   struct Next {
-    const Chain* chain = nullptr;  // stays as it is while five others are taken
+    const ToolPath* chain = nullptr;  // stays as it is while five others are taken
     const MoveCommand* command = nullptr;
   };
   // It begins at `from`. `more`: other motions may follow at once.
@@ -40,6 +41,8 @@ class ReadAhead {
   void scan() noexcept;
   [[nodiscard]] bool belongs(const MoveCommand& command) const noexcept;
   const MoveCommand& take() noexcept;
+  Next next_spline(const Joints& from) noexcept;
+  [[nodiscard]] Pose pose_of(const Target& target) const noexcept;
 
   const Arm& arm_;
   ToolLimits tool_;
@@ -51,6 +54,8 @@ class ReadAhead {
   bool closed_ = false;
   std::vector<Chain> chains_;
   std::size_t chain_ = 0;
+  std::vector<Spline> splines_;
+  std::size_t spline_ = 0;
 };
 
 }  // namespace indurop::robot

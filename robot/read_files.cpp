@@ -9,6 +9,7 @@
 
 #include "base/read_file.h"
 #include "robot/abilities.h"
+#include "robot/check_splines.h"
 
 namespace indurop::robot {
 
@@ -182,6 +183,7 @@ ReadFiles read_files(const FileNames& names) {
     const Inverse inverse(read.model->arm);
     take_over(check_points(read.book, read.model->arm), read.errors);
     take_over(solve_points(read.book, read.model->arm, inverse), read.errors);
+    take_over(check_splines(read.book, inverse), read.errors);
     read.kind = abilities(read.model->arm, inverse);
   }
   return read;

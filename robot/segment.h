@@ -6,16 +6,17 @@
 
 #include <optional>
 
-#include "robot/chain.h"
 #include "robot/inverse.h"
 #include "robot/joint_timing.h"
 #include "robot/pace.h"
 #include "robot/path_timing.h"
 #include "robot/profile.h"
+#include "robot/tool_path.h"
 
 namespace indurop::robot {
 
-enum class Move : std::uint8_t { Joint, Line, Circle };
+// Splines have one command for each of their points.
+enum class Move : std::uint8_t { Joint, Line, Circle, Spline };
 
 // Where to go: joint angles or a pose of the tool.
 struct Target {
@@ -31,6 +32,7 @@ struct MoveCommand {
   Move move = Move::Joint;
   Target target;
   Target mid;             // of circles
+  bool more = false;      // of splines: there are points behind this one
   double speed = 1;       // part of full speed, above 0 to 1
   double tool_speed = 0;  // m/s, of lines and circles instead of `speed`; 0: none
   double zone = 0;        // m, how far before the target the path may already turn to the next one
@@ -49,7 +51,7 @@ struct Segment {
   Vec3 turn = Vec3::Zero();  // rotation vector from start to end, in the start's frame
   Vec3 center = Vec3::Zero(), radius_x = Vec3::Zero(), radius_y = Vec3::Zero();  // of circles
   double angle = 0;                                                              // of circles, from radius_x on
-  const Chain* chain = nullptr;                                                  // many lines; its owner keeps it
+  const ToolPath* chain = nullptr;                                               // many pieces; its owner keeps it
   double way = 0;                                                                // m, of lines and circles
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m

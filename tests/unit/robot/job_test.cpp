@@ -55,6 +55,24 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   EXPECT_EQ(sut.report(0).state, JobState::Ended);
 }
 
+TEST(Job, A_spline_is_a_motion_for_each_of_its_points) {
+  const JobBook book = good(
+      "POINT A = JOINT 0 10 20 30 40 50\nPOINT B = POSE 500 0 300 RPY 180 0 0\nMOVS A B, A\nMOVJ A STRAIGHT\nMOVJ A\n");
+  JobRunner sut(book);
+  Recorder port;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  ASSERT_EQ(port.moves.size(), 5U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(port.moves[i].move, Move::Spline);
+    EXPECT_EQ(port.moves[i].more, i < 2);
+    EXPECT_FALSE(port.moves[i].straight);
+  }
+  EXPECT_TRUE(port.moves[1].target.is_pose);
+  EXPECT_TRUE(port.moves[3].straight);
+  EXPECT_FALSE(port.moves[4].straight);
+}
+
 TEST(Job, Signals_loops_jumps_and_calls) {
   const auto [book, errors] =
       parse_jobs({{"main.job",
@@ -157,10 +175,14 @@ INSTANTIATE_TEST_SUITE_P(
     Golden, JobErrorsTest,
     testing::Values(
         Bad{"MOVE A\n",
-            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, SET, "
+            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, "
             "WAIT, CALL, LABEL, GOTO, IF, LOOP and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
             "a.job:1:8: error: there is no point 'ABOV'; did you mean 'ABOVE'?"},
+        Bad{"MOVS A\nPOINT A = JOINT 0 0 0 0 0 0\n",
+            "a.job:1:1: error: a spline goes through two points or more; MOVL goes to one"},
+        Bad{"POINT A = JOINT 0 0 0 0 0 0\nMOVS A 5\n",
+            "a.job:2:8: error: expected the name of a point of the spline, found '5'"},
         Bad{"MOVJ\n", "a.job:1:5: error: expected the name of a point, found the end of the line"},
         Bad{"POINT A = JOINT 1 2 3\n",
             "a.job:1:22: error: expected 6 numbers: the angles of the six joints in degrees; "
