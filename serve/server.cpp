@@ -29,6 +29,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.started_ns = rt::now_ns();
   facts.web = Page(options.web).there();
   facts.plant = options.plant;
+  facts.plc = !options.plc.files.empty();
   return facts;
 }
 
@@ -65,6 +66,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return let_wait(std::move(match), ticket);
     case Pace::Plant:
       return ask_plant(std::move(match), ticket);
+    case Pace::Plc:
+      return ask_plc(std::move(match), ticket);
     case Pace::Quick:
       break;
   }
@@ -94,6 +97,21 @@ std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
   }
   match.call.plant = &far_->watch;
   if (!far_->worker.add([this, match = std::move(match), ticket]() mutable {
+        match.call.request = nullptr;
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
+  if (plc_ == nullptr) {
+    return refusal(status::kNotFound, "this server knows no PLC program; start it with --plc FILE");
+  }
+  match.call.boards = &plc_->boards;
+  match.call.plc = &plc_->pictures;
+  if (!plc_->worker.add([this, match = std::move(match), ticket]() mutable {
         match.call.request = nullptr;
         door_->reply(ticket, match.route->answer(api_, match.call));
       })) {
@@ -149,6 +167,9 @@ int Server::run() {
   // Also what makes a signal noticed that came while nothing else happened.
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
+  if (!options_.plc.files.empty()) {
+    plc_ = std::make_unique<Plc>(options_.plc, options_.node);
+  }
   if (options_.plant) {
     far_ = std::make_unique<Far>(options_.link);
   }

@@ -19,6 +19,7 @@
 #include "serve/stream/hub.h"
 #include "tools/command/serve_options.h"
 #include "tools/plant/plant_watch.h"
+#include "tools/plc/plc_pictures.h"
 
 namespace indurop::serve {
 
@@ -43,6 +44,7 @@ class Server final : public House {
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
   std::optional<Reply> let_wait(Match match, Ticket ticket);
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
+  std::optional<Reply> ask_plc(Match match, Ticket ticket);
   // Answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
@@ -63,6 +65,13 @@ class Server final : public House {
     tools::PlantWatch watch;  // of the worker's thread
     Worker worker;
   };
+  struct Plc {
+    Plc(const tools::PlcFiles& files, const std::string& node) : pictures(files), boards(node) {}
+    tools::PlcPictures pictures;  // of the worker's thread
+    Boards boards;
+    Worker worker;
+  };
+  std::unique_ptr<Plc> plc_;                      // null: no program is shown
   std::unique_ptr<Far> far_;                      // null: no plant is looked at
   std::vector<std::unique_ptr<Helper>> waiting_;  // one for each that waits; made when they are needed
 };

@@ -46,6 +46,26 @@ std::vector<std::pair<int, int>> joints_of(const Picture& picture) {
   return joints;
 }
 
+base::SvgPart drawn(const Picture& picture) {
+  base::SvgPart out;
+  for (const Line& each : picture.lines) {
+    out.line(half_x(each.x1), half_y(each.y1), half_x(each.x2), half_y(each.y2),
+             "stroke=\"#1F2D3D\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
+  }
+  for (const auto& [x, y] : joints_of(picture)) {
+    out.circle(half_x(x), half_y(y), 2.6, R"(fill="#1F2D3D")");
+  }
+  if (picture.rails) {
+    for (const int x : {1, 2 * picture.width - 1}) {
+      out.line(half_x(x), 0, half_x(x), picture.height * kCellHeight, "stroke=\"#16324F\" stroke-width=\"4\"");
+    }
+  }
+  for (const Symbol& symbol : picture.symbols) {
+    svg_symbol(symbol, out);
+  }
+  return out;
+}
+
 class Sheets {
  public:
   std::string run(const std::vector<SvgSheet>& sheets) {
@@ -96,31 +116,15 @@ class Sheets {
     y_ += height + kGap;
   }
 
-  static base::SvgPart drawn(const Picture& picture) {
-    base::SvgPart out;
-    for (const Line& each : picture.lines) {
-      out.line(half_x(each.x1), half_y(each.y1), half_x(each.x2), half_y(each.y2),
-               "stroke=\"#1F2D3D\" stroke-width=\"1.6\" stroke-linecap=\"square\"");
-    }
-    for (const auto& [x, y] : joints_of(picture)) {
-      out.circle(half_x(x), half_y(y), 2.6, R"(fill="#1F2D3D")");
-    }
-    if (picture.rails) {
-      for (const int x : {1, 2 * picture.width - 1}) {
-        out.line(half_x(x), 0, half_x(x), picture.height * kCellHeight, "stroke=\"#16324F\" stroke-width=\"4\"");
-      }
-    }
-    for (const Symbol& symbol : picture.symbols) {
-      svg_symbol(symbol, out);
-    }
-    return out;
-  }
-
   base::SvgPart out_;
   int y_ = 0;
 };
 
 }  // namespace
+
+SvgPart draw_network(const Picture& picture) {
+  return {drawn(picture), picture.width * kCellWidth, picture.height * kCellHeight};
+}
 
 std::string draw_svg(const std::vector<SvgSheet>& sheets) {
   return Sheets().run(sheets);

@@ -30,6 +30,9 @@ struct SvgSheet {
   std::vector<SvgNetwork> networks;
 };
 
+// One network at rest, in the places of half_x() and half_y() of plc/draw/svg_symbols.h.
+[[nodiscard]] SvgPart draw_network(const Picture& picture);
+
 [[nodiscard]] std::string draw_svg(const std::vector<SvgSheet>& sheets);
 
 }  // namespace indurop::plc::draw

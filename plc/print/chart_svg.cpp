@@ -43,6 +43,7 @@ class Drawing {
     }
     return {std::move(out_), width_, rows_.back() + kBetween};
   }
+  [[nodiscard]] const std::vector<StepBox>& boxes() const noexcept { return boxes_; }
 
  private:
   [[nodiscard]] int half_step(std::size_t i) const { return std::max(width_of(chart_.steps[i].name) + 20, 64) / 2; }
@@ -123,6 +124,7 @@ class Drawing {
     const int x = x_of(layout_.steps[i]);
     const int y = y_of(layout_.steps[i]);
     const int half = half_step(i);
+    boxes_.push_back({x - half, y, 2 * half, kStep});
     out_.rect(x - half, y, 2 * half, kStep, R"(fill="#F2F6FB" stroke="#2B4C7E" stroke-width="1.6")");
     if (chart_.steps[i].initial) {
       out_.rect(x - half + 4, y + 4, 2 * half - 8, kStep - 8, R"(fill="none" stroke="#2B4C7E" stroke-width="1.2")");
@@ -225,6 +227,7 @@ class Drawing {
 
   const network::Chart& chart_;
   ChartLayout layout_;
+  std::vector<StepBox> boxes_;
   std::vector<int> columns_;
   std::vector<int> rows_;
   int width_ = 0;
@@ -233,8 +236,13 @@ class Drawing {
 
 }  // namespace
 
-draw::SvgPart draw_chart(const network::Chart& chart) {
-  return Drawing(chart).run();
+draw::SvgPart draw_chart(const network::Chart& chart, std::vector<StepBox>* boxes) {
+  Drawing drawing(chart);
+  draw::SvgPart part = drawing.run();
+  if (boxes != nullptr) {
+    *boxes = drawing.boxes();
+  }
+  return part;
 }
 
 }  // namespace indurop::plc

@@ -3,11 +3,22 @@
 
 #pragma once
 
+#include <vector>
+
 #include "plc/draw/svg_picture.h"
 #include "plc/network/chart.h"
 
 namespace indurop::plc {
 
-[[nodiscard]] draw::SvgPart draw_chart(const network::Chart& chart);
+// Where steps are drawn, in their order.
+struct StepBox {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+// `boxes` may be null.
+[[nodiscard]] draw::SvgPart draw_chart(const network::Chart& chart, std::vector<StepBox>* boxes = nullptr);
 
 }  // namespace indurop::plc

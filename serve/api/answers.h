@@ -23,6 +23,9 @@ Reply faults(Api& api, const Call& call);
 Reply forces(Api& api, const Call& call);
 Reply deployments(Api& api, const Call& call);
 Reply robots(Api& api, const Call& call);
+Reply plc(Api& api, const Call& call);
+Reply plc_live(Api& api, const Call& call);
+
 Reply plant(Api& api, const Call& call);
 Reply plant_history(Api& api, const Call& call);
 

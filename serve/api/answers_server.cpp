@@ -23,6 +23,7 @@ Reply server_status(Api& api, const Call& call) {
   body["who"] = call.who;
   body["web"] = facts.web;
   body["plant"] = facts.plant;
+  body["plc"] = facts.plc;
   body["started_wall_ns"] = facts.started_wall_ns;
   body["uptime_ns"] = now - facts.started_ns;
   body["max_clients"] = facts.most_clients;

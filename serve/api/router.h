@@ -13,7 +13,8 @@
 
 namespace indurop::tools {
 class PlantWatch;
-}
+class PlcPictures;
+}  // namespace indurop::tools
 
 namespace indurop::serve {
 
@@ -26,13 +27,14 @@ struct Call {
   const Request* request = nullptr;
   Boards* boards = nullptr;                              // of the thread that answers
   tools::PlantWatch* plant = nullptr;                    // of Pace::Plant
+  tools::PlcPictures* plc = nullptr;                     // of Pace::Plc
   std::string who;                                       // as the gate knows the client
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
 // Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
-// something to happen; the one that hears other boards.
-enum class Pace { Quick, Files, Orders, Wait, Plant };
+// something to happen; the one that hears other boards; the one that knows the PLC program.
+enum class Pace { Quick, Files, Orders, Wait, Plant, Plc };
 
 struct Route {
   Method method;

@@ -31,6 +31,8 @@ std::span<const Route> all_routes() {
       Route{kPost, "/api/v1/boards/{board}/release", Pace::Orders, &answers::release},
       Route{kGet, "/api/v1/boards/{board}/scope", Pace::Wait, &answers::scope},
       Route{kGet, "/api/v1/boards/{board}/robots", Pace::Files, &answers::robots},
+      Route{kGet, "/api/v1/boards/{board}/plc", Pace::Plc, &answers::plc},
+      Route{kGet, "/api/v1/boards/{board}/plc/live", Pace::Plc, &answers::plc_live},
       Route{kGet, "/api/v1/plant", Pace::Plant, &answers::plant},
       Route{kGet, "/api/v1/plant/history", Pace::Plant, &answers::plant_history},
       Route{kGet, "/api/v1/deployments", Pace::Quick, &answers::deployments},

@@ -47,6 +47,14 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::File);
   app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
       .range(1, kMostClients);
+  app.add("--plc", "FILE", options.plc.files, "Show this PLC program with its power flow; it was built with --watch")
+      .one_at_a_time()
+      .completes(base::Completion::File);
+  app.add("--plc-glb", "FILE", options.plc.glb_files, "A .glb file whose variables that program uses")
+      .one_at_a_time()
+      .completes(base::Completion::File);
+  app.add("--plc-name", "NAME", options.plc.name, "Name of its module (default: that of the first file)");
+  app.add("--plc-namespace", "NAME", options.plc.space, "Namespace of its variables (default: the module's name)");
   app.flag("--plant", options.plant, "Show the boards of the network too, by what their agents say");
   deploy::add_link_options(app, options.link);
 }
@@ -74,6 +82,14 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--web", options.web.string());
   value("--audit", options.audit.string());
   value("--clients", std::to_string(options.clients));
+  for (const std::string& file : options.plc.files) {
+    value("--plc", file);
+  }
+  for (const std::string& file : options.plc.glb_files) {
+    value("--plc-glb", file);
+  }
+  value("--plc-name", options.plc.name);
+  value("--plc-namespace", options.plc.space);
   if (options.plant) {
     const std::vector<std::string> more = plant_words(options.link);
     words.insert(words.end(), more.begin(), more.end());

@@ -10,6 +10,7 @@
 
 #include "base/options.h"
 #include "deploy/link/deploy_link.h"
+#include "tools/plc/plc_pictures.h"
 
 namespace indurop::tools {
 
@@ -29,6 +30,7 @@ struct ServeOptions {
   bool quiet = false;
   bool plant = false;  // boards of the network too
   deploy::LinkSettings link;
+  PlcFiles plc;
 };
 
 void declare_serve_options(base::Options& app, ServeOptions& options);

@@ -37,11 +37,6 @@ Style style_of(Run::Look look) {
   return Style::None;
 }
 
-bool is_text(const plc::LiveBody& body) {
-  return body.body->language == plc::network::Body::Language::St ||
-         body.body->language == plc::network::Body::Language::Il;
-}
-
 // Where names of shared variables may stand.
 std::vector<std::string> texts_of(const plc::LiveBody& body) {
   if (is_text(body)) {
@@ -56,12 +51,16 @@ std::vector<std::string> texts_of(const plc::LiveBody& body) {
   return texts;
 }
 
-// What stands before the first statement.
+}  // namespace
+
+bool is_text(const plc::LiveBody& body) {
+  return body.body->language == plc::network::Body::Language::St ||
+         body.body->language == plc::network::Body::Language::Il;
+}
+
 std::string first_indent(const plc::LiveBody& body) {
   return std::string(static_cast<std::size_t>(std::max(1, body.body->text_at.column) - 1), ' ');
 }
-
-}  // namespace
 
 PlcView::PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice)
     : context_(context), plan_(plan), bodies_(std::move(bodies)), choice_(std::move(choice)) {}
@@ -306,30 +305,34 @@ void PlcView::network_lines(const Shown& shown, std::vector<std::string>& lines)
   }
 }
 
-void PlcView::network(const Shown& shown, std::size_t number, std::vector<std::string>& lines) const {
-  const plc::LiveBody& body = *shown.body;
-  const std::string flow = plc::upper(body.flow_variable);
-  const auto on = [&](const auto& points, const auto& key) {
+plc::draw::Live PlcView::live_of(const Shown& shown) const {
+  const auto on = [this, &shown, flow = plc::upper(shown.body->flow_variable)](const auto& points, const auto& key) {
     const auto found = points.find(key);
     return found != points.end() && flag(shown, flow, found->second);
   };
+  const plc::LiveBody& body = *shown.body;
   plc::draw::Live live;
-  live.powered = [&](const plc::network::Source& source) {
+  live.powered = [on, &body](const plc::network::Source& source) {
     return source.element->kind == plc::network::Element::Kind::LeftRail ||
            on(body.power, plc::LiveBody::Key(source.element, source.pin));
   };
-  live.closed = [&](const plc::network::Element& element) {
+  live.closed = [on, &body](const plc::network::Element& element) {
     return body.closed.contains(&element) ? on(body.closed, &element)
                                           : on(body.power, plc::LiveBody::Key(&element, nullptr));
   };
-  live.value = [&](const plc::network::Source& source) { return output_value(shown, source); };
+  live.value = [this, &shown](const plc::network::Source& source) { return output_value(shown, source); };
+  return live;
+}
+
+void PlcView::network(const Shown& shown, std::size_t number, std::vector<std::string>& lines) const {
+  const plc::LiveBody& body = *shown.body;
   const auto& drawn = body.sheet->networks[number];
   const auto remarks = plc::remarks_of(drawn);
   lines.push_back(context_.out.paint(
       Style::Dim, fmt::format("{}{} {} {}{}{}", shown.title, body.action.empty() ? "" : ", action " + body.action,
                               plc::network::word_of(body.body->language), drawn.number, remarks.empty() ? "" : ": ",
                               remarks.empty() ? "" : printable(remarks.front()))));
-  for (const auto& row : plc::draw::draw_text(body.pictures[number], context_.out.unicode(), live)) {
+  for (const auto& row : plc::draw::draw_text(body.pictures[number], context_.out.unicode(), live_of(shown))) {
     std::string line = "  ";
     for (const Run& run : row) {
       line += context_.out.paint(style_of(run.look), run.text);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plc/draw/text_picture.h"
 #include "plc/front/watch_plan.h"
 #include "plc/print/live.h"
 #include "tools/command/verb.h"
@@ -22,6 +23,11 @@ struct ViewChoice {
   int rung = 0;          // 0: all
 };
 
+// Code that is text, not a drawing.
+bool is_text(const plc::LiveBody& body);
+// What stands before its first statement.
+std::string first_indent(const plc::LiveBody& body);
+
 class PlcView {
  public:
   PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice);
@@ -32,6 +38,10 @@ class PlcView {
 
   [[nodiscard]] std::string heading() const;
   [[nodiscard]] std::vector<std::string> lines() const;
+
+  // For other programs: the pictures, once, and what changes in them, in the same order.
+  [[nodiscard]] JsonValue pictures() const;
+  [[nodiscard]] JsonValue live() const;
 
  private:
   // The code of one instance.
@@ -56,6 +66,11 @@ class PlcView {
   [[nodiscard]] std::string value(const Shown& shown, const std::string& path) const;
   [[nodiscard]] std::string shared_value(const std::string& name) const;
   [[nodiscard]] std::string output_value(const Shown& shown, const plc::network::Source& source) const;
+
+  [[nodiscard]] plc::draw::Live live_of(const Shown& shown) const;
+  [[nodiscard]] JsonValue networks_of(const Shown& shown) const;
+  void tell_networks(const Shown& shown, JsonValue& one) const;
+  void tell_steps(const Shown& shown, JsonValue& one) const;
 
   void text_lines(const Shown& shown, std::vector<std::string>& lines) const;
   void chart_lines(const Shown& shown, std::vector<std::string>& lines) const;

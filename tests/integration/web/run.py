@@ -35,6 +35,8 @@ def free_port():
 class Plant:
     """The cell and the server. The browser's script says on its standard output what it wants done, a word per line."""
 
+    node = NODE
+
     def __init__(self, options, folder, port):
         self.options, self.folder, self.port = options, folder, port
         self.environment = {**os.environ, "INDUROP_STATE_DIR": str(folder / "state")}
@@ -54,10 +56,10 @@ class Plant:
         self.indurop("set", "--node", NODE, "CELL::tour", "true", check=True)
 
     def stop_node(self):
-        self.indurop("stop", "--node", NODE)
+        self.indurop("stop", "--node", self.node)
 
-    def start_server(self):
-        command = [f"{self.options.bin}/indurop-serve", "--node", NODE, "--port", str(self.port), "--write",
+    def start_server(self, *more):
+        command = [f"{self.options.bin}/indurop-serve", *more, "--node", self.node, "--port", str(self.port), "--write",
                    "--token-file", str(self.folder / "tokens"), "--web", str(self.options.page), "-q"]
         self.server = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL)
         end = time.monotonic() + PATIENCE
@@ -80,20 +82,23 @@ class Plant:
         if self.server and self.server.poll() is None:
             self.stop_server()
         self.stop_node()
-        self.indurop("clean", "--node", NODE)
+        self.indurop("clean", "--node", self.node)
+
+    def serve_orders(self, script):
+        for line in script.stdout:
+            if line.startswith("do "):
+                self.obey(line[3:].strip())
+                script.stdin.write("done\n")
+                script.stdin.flush()
+            else:
+                print(line, end="", flush=True)
 
 
 def drive(plant, driver, pictures, browser):
     """Runs the browser's script; its exit code."""
     command = ["node", str(HERE / "page.mjs"), str(driver), f"http://127.0.0.1:{plant.port}", TOKEN, NODE, str(pictures), browser]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as script:
-        for line in script.stdout:
-            if line.startswith("do "):
-                plant.obey(line[3:].strip())
-                script.stdin.write("done\n")
-                script.stdin.flush()
-            else:
-                print(line, end="", flush=True)
+        plant.serve_orders(script)
     return script.returncode
 
 

@@ -11,6 +11,7 @@ export interface ServerStatus {
   who: string;
   max_rate_hz: number;
   plant: boolean;
+  plc: boolean;
 }
 
 export interface BoardSummary {
@@ -26,6 +27,60 @@ export interface BoardSummary {
   forces: number;
   trouble: string[];
   layout: string;
+}
+
+export interface PlcNetwork {
+  number: number;
+  remarks: string[];
+  svg: string;
+  width: number;
+  height: number;
+  rail: boolean;
+  wires: [number, number, number, number][];
+  switches: { x: number; y: number; name: string }[];
+  values: [number, number][];
+}
+
+export interface PlcChart {
+  svg: string;
+  width: number;
+  height: number;
+  steps: { name: string; box: [number, number, number, number] }[];
+  conditions: string[];
+}
+
+export interface PlcBody {
+  title: string;
+  action: string;
+  language: string;
+  networks?: PlcNetwork[];
+  chart?: PlcChart;
+  lines?: string[];
+}
+
+export interface PlcProgram {
+  namespace: string;
+  others: string;
+  bodies: PlcBody[];
+}
+
+export interface PlcNetworkLive {
+  power: string;
+  closed: string;
+  values: string[];
+}
+
+export interface PlcBodyLive {
+  networks?: PlcNetworkLive[];
+  active?: string;
+  times?: string[];
+  conditions?: string[];
+  values?: string[];
+}
+
+export interface PlcLive {
+  alive: boolean;
+  bodies: PlcBodyLive[];
 }
 
 export interface FarBoard {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about the PLC program: what is to be drawn, and what changes in it.
+#include <utility>
+
+#include "base/exit_code.h"
+#include "serve/api/answers.h"
+#include "serve/boards/board.h"
+#include "tools/plc/plc_pictures.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+using Ask = Result<base::Json, tools::Failure> (tools::PlcPictures::*)(const std::string& node);
+
+Reply ask(const Call& call, Ask what) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  auto told = (call.plc->*what)((*found)->name());
+  if (!told) {
+    const int code = told.error().code;
+    return refusal(code == kCheckFailed ? status::kFailed : status::kConflict, told.error().text);
+  }
+  base::Json body = about(**found);
+  body.update(*told);
+  return json_reply(body);
+}
+
+}  // namespace
+
+Reply plc(Api& /*api*/, const Call& call) {
+  return ask(call, &tools::PlcPictures::pictures);
+}
+
+Reply plc_live(Api& /*api*/, const Call& call) {
+  return ask(call, &tools::PlcPictures::live);
+}
+
+}  // namespace indurop::serve::answers

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The PLC program as it runs: power in ladders and function blocks, active steps, values beside lines of text.
+
+import "./plc.css";
+import { useMemo } from "preact/hooks";
+import { board_path, get, words } from "../../api/http";
+import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLive, PlcProgram, Variables } from "../../api/types";
+import { plant, useBoard } from "../../shell/plant";
+import { address } from "../../ui/address";
+import { Panel, Waiting } from "../../ui/parts";
+import { useAsked, useStore } from "../../ui/store";
+
+const EVERY_MS = 200;
+const SWITCH_PX = 27;
+const SWITCH_HIGH_PX = 22;
+
+type Find = (name: string) => string | null;  // the shared variable behind a name of the program
+
+function on(bits: string | undefined, i: number): boolean {
+  return bits?.[i] === "1";
+}
+
+// Shared variables are those of the program's namespace, and others by their full names. Case does not count.
+function finder(space: string, names: string[]): Find {
+  const known = new Map(names.map((name) => [name.toLowerCase(), name]));
+  return (text) => {
+    const name = text.toLowerCase().replaceAll(".", "::");
+    const [first, ...rest] = text.split(".");
+    return known.get(`${space.toLowerCase()}::${first.toLowerCase()}`)?.concat(...rest.map((part) => `.${part}`))
+      ?? known.get(name) ?? null;
+  };
+}
+
+function Network({ network, live, find, board }: { network: PlcNetwork; live: PlcNetworkLive | undefined; find: Find; board: string }) {
+  const { number, remarks, svg, width, height, rail, wires, switches, values } = network;
+  return (
+    <figure class="network">
+      <figcaption><span class="rung">{number}</span> {remarks.join(" ")}</figcaption>
+      <div class="scroll" tabIndex={0} role="region" aria-label={`Network ${number}`}>
+        <svg viewBox={`-4 -4 ${width + 90} ${height + 8}`} width={width + 94} height={height + 8} role="group" aria-label={`Network ${number}: ${said(network, live)}`}>
+          {rail && live && <line class="power" x1={4.5} y1={0} x2={4.5} y2={height} />}
+          {wires.map(([x1, y1, x2, y2], i) => on(live?.power, i) && <line key={i} class="power" x1={x1} y1={y1} x2={x2} y2={y2} />)}
+          {switches.map(({ x, y }, i) => on(live?.closed, i) &&
+            <rect key={i} class="closed" x={x} y={y - SWITCH_HIGH_PX / 2} width={SWITCH_PX} height={SWITCH_HIGH_PX} rx={4} />)}
+          <g dangerouslySetInnerHTML={{ __html: svg }} />
+          {values.map(([x, y], i) => live?.values[i] && <text key={i} class="value" x={x} y={y - 5}>{live.values[i]}</text>)}
+          {switches.map(({ x, y, name }, i) => {
+            const variable = find(name);
+            return variable && (
+              <a key={i} href={address("variables", { board, v: variable })} aria-label={`${variable}, ${on(live?.closed, i) ? "lets power through" : "does not let power through"}`}>
+                <title>{`${variable}: show, set, force`}</title>
+                <rect class="hit" x={x - 6} y={y - 32} width={SWITCH_PX + 12} height={44} />
+              </a>);
+          })}
+        </svg>
+      </div>
+    </figure>);
+}
+
+// For those who do not see colours.
+function said({ switches }: PlcNetwork, live: PlcNetworkLive | undefined): string {
+  if (!live) return "no values yet";
+  return switches.map(({ name }, i) => `${name} ${on(live.closed, i) ? "on" : "off"}`).join(", ");
+}
+
+function Chart({ chart, live, title }: { chart: PlcChart; live: PlcBodyLive | undefined; title: string }) {
+  return (
+    <>
+      <div class="scroll" tabIndex={0} role="region" aria-label={`Chart ${title}`}>
+        <svg viewBox={`-4 -4 ${chart.width + 60} ${chart.height + 8}`} width={chart.width + 64} height={chart.height + 8} role="img"
+          aria-label={`Active: ${chart.steps.filter((_, i) => on(live?.active, i)).map(({ name }) => name).join(", ") || "no step"}`}>
+          <g dangerouslySetInnerHTML={{ __html: chart.svg }} />
+          {chart.steps.map(({ name, box: [x, y, width, height] }, i) => on(live?.active, i) && (
+            <g key={name}>
+              <rect class="active" x={x} y={y} width={width} height={height} rx={3} />
+              <text class="value" x={x} y={y - 4}>{live?.times?.[i]}</text>
+            </g>))}
+        </svg>
+      </div>
+      <table class="figures"><tbody>{chart.conditions.map((condition, i) => (
+        <tr key={i}><th scope="row"><code>{condition}</code></th><td>{live?.conditions?.[i]}</td></tr>))}</tbody></table>
+    </>);
+}
+
+function Lines({ lines, values, title }: { lines: string[]; values: string[] | undefined; title: string }) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label={`Text of ${title}`}>
+      <table class="code"><tbody>{lines.map((line, i) => (
+        <tr key={i}><td class="line-number">{i + 1}</td><td><code>{line}</code></td><td class="beside"><code>{values?.[i]}</code></td></tr>))}</tbody></table>
+    </div>);
+}
+
+function Body({ body, live, find, board }: { body: PlcBody; live: PlcBodyLive | undefined; find: Find; board: string }) {
+  const title = body.action ? `${body.title}, action ${body.action}` : body.title;
+  return (
+    <Panel title={title} state={body.language} good>
+      {body.networks?.map((network, i) => <Network key={network.number} network={network} live={live?.networks?.[i]} find={find} board={board} />)}
+      {body.chart && <Chart chart={body.chart} live={live} title={title} />}
+      {body.lines && <Lines lines={body.lines} values={live?.values} title={title} />}
+    </Panel>);
+}
+
+export function Plc() {
+  const board = useBoard();
+  const { status } = useStore(plant);
+  const name = board && status?.plc ? board.board : "";
+  const program = useAsked(name && `${name} ${board?.layout}`, 0, () => get<PlcProgram>(board_path(name, "/plc")), words);
+  const shared = useAsked(name && `${name} ${board?.layout}`, 0, () => get<Variables>(board_path(name, "/variables?values=false")), words);
+  const now = useAsked(program.value ? `${name} ${board?.layout} live` : "", EVERY_MS, () => get<PlcLive>(board_path(name, "/plc/live")), words);
+  const find = useMemo(() => finder(program.value?.namespace ?? "", shared.value?.variables.map((one) => one.name) ?? []), [program.value, shared.value]);
+  if (status && !status.plc) {
+    return <p class="panel">This server knows no PLC program. Build one with <code>indurop plc build FILE --watch</code>, and start the server
+      with <code>indurop serve --plc FILE</code>.</p>;
+  }
+  if (program.error) return <><p class="bad">{program.error}</p><p><button type="button" onClick={program.again}>Look again</button></p></>;
+  if (!board || !program.value) return <Waiting />;
+  return (
+    <div class="plc">
+      <p class="quiet">Green has power; a green contact or coil lets it through. Choose one to see its variable, set or force it.</p>
+      {now.error && <p class="bad">{now.error}</p>}
+      {now.value && !now.value.alive && <p class="warn">The node does not run: these are its last values.</p>}
+      {program.value.others && <p class="quiet">Not shown: {program.value.others}</p>}
+      {program.value.bodies.map((body, i) => <Body key={i} body={body} live={now.value?.bodies[i]} find={find} board={board.board} />)}
+    </div>);
+}
