@@ -36,7 +36,7 @@ tour() {
   wait_for "$2" I14 1
   wait_for "$1" EMERGENCY_STOP.bActive 0
   indurop watch --node "$1" ROBOT_ARM.joint ROBOT_ARM.tool_speed ROBOT_MODULE_STATE.eState ROBOT_JOB.name \
-    EMERGENCY_STOP.bActive I4 I5 O8 O9 --hz 50 --timeout 21s -o csv >"$3" &
+    EMERGENCY_STOP.bActive I4 I5 O8 O9 --hz 50 --timeout 21s -o csv --units >"$3" &
   recorder=$!
   indurop set --node "$2" CELL::tour true
   second=0
@@ -49,6 +49,20 @@ tour() {
   done
   wait $recorder || true
   recorder=
+}
+
+# picture RECORDING FILE TITLE
+picture() {
+  for joint in 0 1 2 3 4 5; do
+    set -- "$@" --name "ROBOT_ARM.joint[$joint]=J$((joint + 1))"
+  done
+  set -- "$@" --name 'ROBOT_ARM.tool_speed=tool speed, mm/s' --name 'ROBOT_ARM.joint=joints, deg'
+  recording=$1 file=$2 title=$3
+  shift 3
+  indurop chart "$recording" --svg "$file" --title "$title" -q "$@" \
+    --words 'ROBOT_MODULE_STATE.eState=0 off, 1 standby, 2 moves, 3 homes, 4 stops, 5 error' \
+    --name ROBOT_MODULE_STATE.eState=robot --name ROBOT_JOB.name=job --name EMERGENCY_STOP.bActive='emergency stop' \
+    --name 'I4=I4: holds a part' --name 'I5=I5: gripper open' --name 'O8=O8: close gripper' --name 'O9=O9: open gripper'
 }
 
 finish() {
@@ -70,7 +84,7 @@ tour cell cell cell.csv
 show indurop jitter --node cell --no-histogram
 show indurop get --node cell EMERGENCY_STOP CELL::world
 show indurop chart cell.csv
-indurop chart cell.csv --svg cell.svg --title "Robot cell: joints, states and signals of twenty seconds" -q
+picture cell.csv cell.svg "Robot cell: joints, states and signals of twenty seconds"
 indurop plan module.xml --svg schedule.svg -q
 finish cell
 
@@ -81,7 +95,7 @@ runner=$!
 tour motion plc cell_two_boards.csv
 show indurop status --node motion
 show indurop get --node plc CELL::world
-indurop chart cell_two_boards.csv --svg cell_two_boards.svg --title "Robot cell on two boards" -q
+picture cell_two_boards.csv cell_two_boards.svg "Robot cell on two boards"
 kill $runner 2>/dev/null || true
 wait $runner || true
 runner=

@@ -17,7 +17,7 @@ namespace {
 constexpr double kWidth = 1040;
 constexpr double kHead = 52;
 constexpr double kLeft = 250;
-constexpr double kRight = 60;
+constexpr double kRight = 90;
 constexpr double kPlot = kWidth - kLeft - kRight;
 constexpr double kLane = 26;
 constexpr double kPanel = 150;
@@ -120,7 +120,7 @@ void panel(const Recording& recording, const Series& series, const Scale& x, dou
     if (series.lines.size() > 1 && last != series.lines[i].rend()) {
       const double line_at = top + kGap + 12 + 15 * static_cast<double>(i);
       out.rect(kLeft + kPlot + 8, line_at - 5, 12, 3, svg_class(fmt::format("s{}", i % kColors)));
-      svg_text(out, kLeft + kPlot + 24, line_at, "start", "label", fmt::format("[{}]", i));
+      svg_text(out, kLeft + kPlot + 24, line_at, "start", "label", part_name(series, i));
     }
   }
 }
@@ -139,9 +139,10 @@ std::string style() {
   return out;
 }
 
+// Left of a panel there are numbers as well.
 std::string name_of(const Series& series) {
-  constexpr std::size_t kMost = 30;
-  return series.name.size() <= kMost ? series.name : "..." + series.name.substr(series.name.size() - kMost + 3);
+  const std::size_t most = series.steps ? 30 : 24;
+  return series.name.size() <= most ? series.name : "..." + series.name.substr(series.name.size() - most + 3);
 }
 
 }  // namespace

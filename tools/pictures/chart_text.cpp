@@ -90,7 +90,9 @@ std::vector<std::string> chart_lines(const Recording& recording, int columns, bo
   std::size_t name_width = 4;
   for (const Series& series : recording.series) {
     for (std::size_t i = 0; i < series.lines.size(); ++i) {
-      std::string name = printable(series.lines.size() > 1 ? fmt::format("{}[{}]", series.name, i) : series.name);
+      std::string name =
+          printable(series.lines.size() > 1 ? series.name + (series.parts.empty() ? "" : " ") + part_name(series, i)
+                                            : series.name);
       name = name.size() <= kMostName ? name : "..." + name.substr(name.size() - kMostName + 3);
       name_width = std::max(name_width, name.size());
       rows.push_back({name, &series.lines[i], &series});

@@ -19,7 +19,28 @@ struct Options {
   std::string file;
   std::string svg_file;
   std::string title;
+  std::vector<std::string> names;
+  std::vector<std::string> words;
 };
+
+bool name_columns(Context& context, const Options& options, Recording& recording) {
+  std::vector<std::string> problems;
+  for (const std::string& rule : options.words) {
+    if (auto problem = give_words(recording, rule)) {
+      problems.push_back("--words: " + *problem);
+    }
+  }
+  for (const std::string& rule : options.names) {
+    if (auto problem = rename(recording, rule)) {
+      problems.push_back("--name: " + *problem);
+    }
+  }
+  for (const std::string& problem : problems) {
+    context.out.error(problem);
+  }
+  drop_common_namespace(recording);
+  return problems.empty();
+}
 
 int chart(Context& context, const Options& options) {
   const bool piped = options.file == "-";
@@ -35,18 +56,22 @@ int chart(Context& context, const Options& options) {
                     options.file, content.error().text, options.file));
     return kFailed;
   }
-  const auto recording = read_recording(text, piped ? "stdin" : options.file);
-  if (!recording) {
-    context.out.message_line(base::to_string(recording.error()));
+  auto read = read_recording(text, piped ? "stdin" : options.file);
+  if (!read) {
+    context.out.message_line(base::to_string(read.error()));
     return kFailed;
   }
+  Recording recording = std::move(read).value();
+  if (!name_columns(context, options, recording)) {
+    return kUsage;
+  }
   if (options.svg_file.empty() && context.format == Format::Table) {
-    for (const std::string& line : chart_lines(*recording, context.out.extent().columns, context.out.unicode())) {
+    for (const std::string& line : chart_lines(recording, context.out.extent().columns, context.out.unicode())) {
       context.out.line(line);
     }
     return kOk;
   }
-  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, *recording);
+  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, recording);
   if (options.svg_file.empty()) {
     context.out.write(picture);
     return kOk;
@@ -64,6 +89,8 @@ Action declare(base::Options& app, Context& context) {
   app.add("file", "FILE.csv", options->file, "Recording; - reads it from stdin").required();
   app.add("--svg", "FILE", options->svg_file, "Write a picture to FILE");
   app.add("--title", "TEXT", options->title, "Heading of the picture");
+  app.add("--name", "OLD=NEW", options->names, "Show a column, or NAME[2] of an array, by another name (repeat it)");
+  app.add("--words", "NAME=0 off, 1 on", options->words, "Show words instead of a column's numbers (repeat it)");
   add_format_option(app, context, {Format::Table, Format::Svg});
   return [options](Context& c) { return chart(c, *options); };
 }
@@ -77,7 +104,8 @@ const Verb kChartVerb{
     "Examples:\n"
     "  indurop watch 'joints' motor_on state --hz 50 --timeout 20s -o csv > run.csv\n"
     "  indurop chart run.csv\n"
-    "  indurop chart run.csv --svg run.svg --title 'First run'\n",
+    "  indurop chart run.csv --svg run.svg --title 'First run'\n"
+    "  indurop chart run.csv --name 'joints[0]=J1' --words 'state=0 idle, 1 moves'\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -25,6 +25,7 @@ struct Options {
   double hz = 10;
   std::uint64_t count = 0;  // 0: without end
   bool once = false;
+  bool units = false;
   std::int64_t timeout_ns = 0;  // 0: none
 };
 
@@ -47,10 +48,12 @@ void print_changes(Context& context, const WatchSource& source, const Rounds& ro
   }
 }
 
-void print_csv_heading(Context& context, const WatchSource& source) {
+void print_csv_heading(Context& context, const WatchSource& source, bool with_units) {
   std::string line = "time_ns";
   for (const auto& value : source.values()) {
-    line += "," + base::csv_field(value.item.name);
+    const std::string& unit = value.item.place.unit;
+    line += "," + base::csv_field(with_units && !unit.empty() ? fmt::format("{} [{}]", value.item.name, unit)
+                                                              : value.item.name);
   }
   context.out.line(line);
 }
@@ -79,7 +82,7 @@ void print_json(Context& context, const WatchSource& source) {
 int stream(Context& context, WatchSource& source, const Options& options) {
   Rounds rounds(options.hz, options.once ? 1 : options.count, options.timeout_ns);
   if (context.format == Format::Csv) {
-    print_csv_heading(context, source);
+    print_csv_heading(context, source, options.units);
   }
   std::string said;
   bool first = true;
@@ -282,6 +285,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("--hz", "RATE", options->hz, "Rounds per second (default 10, at most 1000)").range(kLeastHz, kMostHz);
   app.add("-n,--count", "COUNT", options->count, "Stop after COUNT rounds");
   app.flag("--once", options->once, "One round");
+  app.flag("--units", options->units, "With -o csv: headings as \"NAME [unit]\", for chart");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
   add_node_option(app, context);
   add_far_options(app, context);

@@ -85,6 +85,41 @@ TEST(ChartSvg, A_constant_and_a_column_without_values_can_be_drawn) {
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
+TEST(RecordingNames, Columns_and_lines_get_other_names_and_numbers_words) {
+  Recording sut = read("time,CELL::state [1],CELL::joint [deg]\n0,1,\"[1,2]\"\n1,5,\"[1,2]\"\n");
+  EXPECT_FALSE(rename(sut, "joint[1]=J2"));
+  EXPECT_FALSE(rename(sut, "CELL::joint=joints, deg"));
+  EXPECT_FALSE(give_words(sut, "state=1 ready,  4 stops hard"));
+  drop_common_namespace(sut);
+  EXPECT_EQ(sut.series[0].words, (std::vector<std::string>{"0", "ready", "2", "3", "stops hard", "5"}));
+  EXPECT_EQ(part_name(sut.series[1], 0), "[0]");
+  EXPECT_EQ(part_name(sut.series[1], 1), "J2");
+  const std::string svg = chart_svg("", sut);
+  for (const char* word : {"joints, deg", ">J2<", "ready from 0.000 s"}) {
+    EXPECT_THAT(svg, HasSubstr(word));
+  }
+}
+
+TEST(RecordingNames, What_cannot_be_named_is_told) {
+  Recording sut = read("time,CELL::speed,CELL::on\n0,0.5,1\n1,2,0\n");
+  EXPECT_THAT(rename(sut, "sped=v").value_or(""), HasSubstr("no column 'sped'; there are CELL::speed and CELL::on"));
+  EXPECT_THAT(rename(sut, "speed[0]").value_or(""), HasSubstr("write OLD=NEW"));
+  EXPECT_THAT(rename(sut, "speed[7]=v").value_or(""), HasSubstr("no column"));
+  EXPECT_THAT(give_words(sut, "speed=0 off").value_or(""), HasSubstr("no small whole number"));
+  EXPECT_THAT(give_words(sut, "on=off").value_or(""), HasSubstr("write 0 off, 1 on"));
+  EXPECT_THAT(give_words(sut, "on").value_or(""), HasSubstr("write NAME=0 off"));
+}
+
+TEST(RecordingNames, The_namespace_that_all_have_is_left_out) {
+  Recording sut = read("time,A::x,A::B::y\n0,0.5,1\n1,2,0\n");
+  drop_common_namespace(sut);
+  EXPECT_EQ(sut.series[0].name, "x");
+  EXPECT_EQ(sut.series[1].name, "B::y");
+  Recording other = read("time,A::x,B::y\n0,0.5,1\n1,2,0\n");
+  drop_common_namespace(other);
+  EXPECT_EQ(other.series[0].name, "A::x");
+}
+
 TEST(ChartSvg, Round_values_are_round) {
   EXPECT_THAT(round_values(0, 20, 10), ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20));
   EXPECT_THAT(round_values(-1.2, 1.1, 4), ElementsAre(-1, 0, 1));
