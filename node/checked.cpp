@@ -43,6 +43,13 @@ bool take_files(const std::vector<std::string>& files, config::Config& config,
   return ok;
 }
 
+// The node's core, from the command line: <cores> spreads modules around it.
+void take_core(const Options& options, config::Config& config) {
+  if (config.cores && options.core) {
+    config.core = *options.core;
+  }
+}
+
 Reading read_modules(const Options& options) {
   Reading out;
   config::ReadResult read = config::read_config(options.config);
@@ -55,6 +62,7 @@ Reading read_modules(const Options& options) {
   if (!take_files(options.replay.with, checked.config, out.diagnostics)) {
     return out;
   }
+  take_core(options, checked.config);
   checked.check = config::check_config(checked.config, {.adjust = options.adjust, .machine = !options.simulation.on});
   out.add(checked.check.diagnostics);
   checked.external.configure(checked.config, checked.check);
@@ -70,6 +78,11 @@ Reading read_plant(const Options& options) {
     return out;
   }
   config::Plant& plant = read.plant;
+  for (config::Board& board : plant.boards) {
+    if (board.name == options.board) {
+      take_core(options, board.config);
+    }
+  }
   config::PlantCheck check = config::check_plant(plant, {.adjust = options.adjust, .board = options.board});
   out.add(check.diagnostics);
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {

@@ -66,7 +66,7 @@ Result<Loaded, Ending> load(const Options& options, const Checked& checked, cons
   if (!problems.empty()) {
     return Ending{kSchemaMismatch};
   }
-  loaded.tasks = make_tasks(checked.config, prepared.setup, prepared.rights.core);
+  loaded.tasks = make_tasks(checked.config, checked.check, prepared.setup, prepared.rights.core);
   if (options.simulation.on) {
     set_work_times(loaded.tasks, checked.config, options.simulation.measured);
   }

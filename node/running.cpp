@@ -72,6 +72,7 @@ scheduler::EngineSettings Running::engine_settings() const {
   scheduler::EngineSettings settings;
   settings.basic_period_ns = setup.basic_period_ns;
   settings.primary_core = prepared_.rights.core;
+  settings.order = checked_.config.order;
   settings.realtime = prepared_.rights.realtime() || simulation_;
   settings.spin = simulation_ ? scheduler::SpinSettings{scheduler::SpinMode::Off, 0}
                               : to_spin(spin_setting(options_, checked_.config));

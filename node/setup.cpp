@@ -2,6 +2,7 @@
 #include "node/setup.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace indurop::node {
 namespace {
@@ -68,8 +69,12 @@ scheduler::RunBlockSetup make_run_setup(const config::Config& config, const conf
   return setup;
 }
 
-std::vector<scheduler::Task> make_tasks(const config::Config& config, const scheduler::RunBlockSetup& setup,
-                                        int default_core) {
+std::vector<scheduler::Task> make_tasks(const config::Config& config, const config::CheckResult& check,
+                                        const scheduler::RunBlockSetup& setup, int default_core) {
+  std::vector<std::vector<std::uint32_t>> after(config.modules.size());
+  for (const config::Sharing& sharing : check.sharing) {
+    after[sharing.second].push_back(static_cast<std::uint32_t>(sharing.first));
+  }
   std::vector<scheduler::Task> tasks;
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     const config::Module& module = config.modules[i];
@@ -88,6 +93,7 @@ std::vector<scheduler::Task> make_tasks(const config::Config& config, const sche
     task.budget_ns = setup.modules[i].budget_ns;
     task.after_base = module.after_base;
     task.legacy_signal = module.signal;
+    task.after = std::move(after[i]);
     tasks.push_back(task);
   }
   return tasks;

@@ -20,8 +20,8 @@ scheduler::RunBlockSetup make_run_setup(const config::Config& config, const conf
                                         const std::string& node, const Placement& placement);
 
 // One task per periodic and sporadic module; run and condition of thread modules are left empty.
-std::vector<scheduler::Task> make_tasks(const config::Config& config, const scheduler::RunBlockSetup& setup,
-                                        int default_core);
+std::vector<scheduler::Task> make_tasks(const config::Config& config, const config::CheckResult& check,
+                                        const scheduler::RunBlockSetup& setup, int default_core);
 // In a simulation each run takes as long as <wcet> says, else as `times` does, else no time.
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
                     const config::CheckOptions::Times& times);

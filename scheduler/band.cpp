@@ -42,12 +42,20 @@ bool Band::any_enabled() const noexcept {
   return !processes_.empty();
 }
 
+// Releases that have not begun to be dealt with, or, of threads, that are not over.
+bool Band::outstanding() const noexcept {
+  return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
+}
+
 bool Band::busy() const noexcept {
+  if (outstanding()) {
+    return true;
+  }
   if (plan_.kind == BandKind::Process) {
     const ProcessSlot& slot = *tasks_.front()->slot;
-    return slot.done.load(std::memory_order_acquire) != slot.released.load(kRelaxed);
+    return slot.done.load(std::memory_order_acquire) != slot.released.load(std::memory_order_acquire);
   }
-  return done_.load(std::memory_order_seq_cst) != released_.load(std::memory_order_seq_cst);
+  return false;
 }
 
 std::uint64_t Band::activity() const noexcept {
@@ -89,11 +97,11 @@ void Band::miss_due(std::uint64_t end_tick) noexcept {
 }
 
 void Band::release(const Release& release) noexcept {
-  if (plan_.kind == BandKind::Process) {
+  if (plan_.kind == BandKind::Process && !waits_for_others()) {
     release_process(*tasks_.front(), release);
     return;
   }
-  if (busy()) {
+  if (outstanding()) {
     if (plan_.kind == BandKind::Handler) {
       return;  // still checking the events of an earlier tick: one check serves both
     }
@@ -272,7 +280,7 @@ void Band::loop() noexcept {
 }
 
 void Band::drain() noexcept {
-  while (!stop_.load(std::memory_order_acquire) && busy()) {
+  while (!stop_.load(std::memory_order_acquire) && outstanding()) {
     const std::uint64_t number = done_.load(kRelaxed);
     const Release now = pending_[number % kBacklog];
     bool poll = false;
@@ -286,7 +294,11 @@ void Band::drain() noexcept {
       kernel_.sleep_until(kernel_.now() + kPoll);
       continue;
     }
-    runner_.run(tasks_, now.tick, now.time);
+    if (plan_.kind == BandKind::Process) {
+      release_process(*tasks_.front(), now);
+    } else {
+      runner_.run(tasks_, now.tick, now.time);
+    }
     for (TaskState* process : processes_) {
       release_process(*process, now);
     }

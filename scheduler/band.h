@@ -36,6 +36,8 @@ class Band {
 
   // Bands that must have finished their part of a tick before this one starts it, nearest last. Set once, before start.
   void set_predecessors(std::vector<Band*> bands) { predecessors_ = std::move(bands); }
+  // Then a process module, too, has a thread here, which wakes it when these are done.
+  [[nodiscard]] bool waits_for_others() const noexcept { return !predecessors_.empty(); }
 
   // Tick thread: does what is due in ticks (last seen, tick]. Several missed releases become one, the rest are
   // counted as skipped.
@@ -47,7 +49,7 @@ class Band {
   // Tick thread, only bands that run in it: here and now. `lost` = ticks that never began.
   void run_inline(std::uint64_t tick, rt::MonoTime release, std::uint64_t lost) noexcept;
 
-  // Band thread: body. Returns when stop() was called.
+  // Band thread (of a process: the one that waits in its place): body. Returns when stop() was called.
   void loop() noexcept;
   void stop() noexcept;
   // The part of it between two sleeps: runs every outstanding release whose predecessors are done.
@@ -85,6 +87,7 @@ class Band {
   void find_inline_overrun(std::uint64_t tick, std::int64_t release_ns) noexcept;
   void apply_policy(TaskState& culprit, std::uint64_t tick, std::int64_t own_ns) noexcept;
   void record_overrun(TaskState& culprit, std::uint64_t tick, bool started, std::int64_t release_ns) noexcept;
+  [[nodiscard]] bool outstanding() const noexcept;
   [[nodiscard]] bool busy() const noexcept;
   [[nodiscard]] bool gate_open(std::uint64_t tick, bool& poll) const noexcept;
   [[nodiscard]] bool any_enabled() const noexcept;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "scheduler/core_order.h"
 #include "scheduler/task.h"
 
 namespace indurop::scheduler {
@@ -44,9 +45,12 @@ inline constexpr int kHandlerPriority = 3;
 inline constexpr int kSporadicProcessPriority = 2;
 inline constexpr int kMirrorPriority = 1;
 
-// Bands of the periodic tasks in execution order. Uses all of one FIFO level per band and core.
+// Bands of the periodic tasks in execution order, that of their first tasks. Uses all of one FIFO level per band and
+// core. CoreOrder::Data: neighbours on one core, whatever runs on others between them; a band begins with a task that
+// waits for one of another core, and ends with one that such a task waits for, so bands never wait in a circle.
 // A band runs inline if it is the first on its core, has the basic period and no offset, consists of thread modules,
 // and no band of another core has to run before it in the same tick.
-std::vector<BandPlan> make_bands(std::span<const Task> periodic, std::int64_t basic_period_ns);
+std::vector<BandPlan> make_bands(std::span<const Task> periodic, std::int64_t basic_period_ns,
+                                 CoreOrder order = CoreOrder::Total);
 
 }  // namespace indurop::scheduler

@@ -20,15 +20,28 @@ std::int64_t warm_up_ns(std::int64_t basic_period_ns) noexcept {
   return std::max<std::int64_t>(kWarmUpNs / basic_period_ns, 3) * basic_period_ns;
 }
 
+bool data_flows(const Band& from, const Band& to) noexcept {
+  const auto waits = [&](const TaskState* earlier, const TaskState* later) {
+    const auto& after = later->task.after;
+    return std::find(after.begin(), after.end(), earlier->task.index) != after.end();
+  };
+  return std::any_of(to.tasks().begin(), to.tasks().end(), [&](const TaskState* later) {
+    return std::any_of(from.tasks().begin(), from.tasks().end(),
+                       [&](const TaskState* earlier) { return waits(earlier, later); });
+  });
+}
+
 // What a band has to find done when it starts. Event handling waits for everything periodic; what is handled right
 // after the base modules does not wait for others, nor they for it.
-bool comes_before(const Band& other, const Band& band) noexcept {
+bool comes_before(const Band& other, const Band& band, CoreOrder order) noexcept {
   if (other.plan().kind == BandKind::AfterBase || band.plan().kind == BandKind::AfterBase) {
     return false;
   }
-  return band.plan().kind == BandKind::Handler || other.tasks().empty() ||
-         other.tasks().front()->task.priority < band.tasks().front()->task.priority ||
-         other.plan().core == band.plan().core;
+  if (band.plan().kind == BandKind::Handler || other.tasks().empty() || other.plan().core == band.plan().core) {
+    return true;
+  }
+  return order == CoreOrder::Data ? data_flows(other, band)
+                                  : other.tasks().front()->task.priority < band.tasks().front()->task.priority;
 }
 
 }  // namespace
@@ -100,7 +113,7 @@ void Engine::build_periodic(const std::vector<TaskState*>& periodic) {
   for (const TaskState* state : periodic) {
     plain.push_back(state->task);
   }
-  for (const BandPlan& plan : make_bands(plain, settings_.basic_period_ns)) {
+  for (const BandPlan& plan : make_bands(plain, settings_.basic_period_ns, settings_.order)) {
     std::vector<TaskState*> members;
     for (const std::uint32_t i : plan.tasks) {
       members.push_back(periodic[i]);
@@ -133,7 +146,8 @@ void Engine::build_sporadic(const std::vector<TaskState*>& sporadic) {
   }
 }
 
-// Needed only where FIFO priorities of one core do not already give the order: several cores, or no real-time rights.
+// Needed only where FIFO priorities of one core do not already give the order: several cores, no real-time rights, or
+// a band that waits for another core and so lets those behind it pass.
 void Engine::connect_predecessors() {
   if (!gated_) {
     return;
@@ -143,7 +157,10 @@ void Engine::connect_predecessors() {
     std::vector<Band*> before;
     for (std::size_t k = 0; k < i; ++k) {
       Band& other = *bands_[k];
-      if (comes_before(other, band) && (!settings_.realtime || other.plan().core != band.plan().core)) {
+      const bool overtakes =
+          other.waits_for_others() && (band.plan().kind == BandKind::Handler || data_flows(other, band));
+      const bool priorities_suffice = settings_.realtime && other.plan().core == band.plan().core && !overtakes;
+      if (comes_before(other, band, settings_.order) && !priorities_suffice) {
         before.push_back(&other);
       }
     }
@@ -161,7 +178,7 @@ void Engine::wake_waiting() noexcept {
 Status Engine::start_band_threads() {
   for (const auto& band : bands_) {
     const BandPlan& plan = band->plan();
-    if (in_tick_thread(plan.kind) || plan.kind == BandKind::Process) {
+    if (in_tick_thread(plan.kind) || (plan.kind == BandKind::Process && !band->waits_for_others())) {
       continue;
     }
     rt::ThreadSettings settings;
@@ -320,7 +337,7 @@ void Engine::step(std::uint64_t tick, rt::MonoTime epoch) noexcept {
     do_tick(*core, tick, 0);
   }
   for (const auto& band : bands_) {
-    if (band->plan().kind == BandKind::Thread || band->plan().kind == BandKind::Handler) {
+    if (!in_tick_thread(band->plan().kind)) {
       band->drain();
     }
   }

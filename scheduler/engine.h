@@ -14,6 +14,7 @@
 
 #include "rt/thread.h"
 #include "scheduler/band.h"
+#include "scheduler/core_order.h"
 #include "scheduler/spinner.h"
 
 namespace indurop::scheduler {
@@ -21,6 +22,7 @@ namespace indurop::scheduler {
 struct EngineSettings {
   std::int64_t basic_period_ns = 0;
   int primary_core = 0;
+  CoreOrder order = CoreOrder::Total;
   bool realtime = true;  // false: SCHED_FIFO is not to be had; order is then kept by waiting
   SpinSettings spin;
   // Tick 0 falls on a time that leaves the remainder `phase_ns` when divided by `grid_ns`; 0: as soon as possible.

@@ -2,6 +2,7 @@
 #include "scheduler/response_time.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace indurop::scheduler {
@@ -13,7 +14,12 @@ class Walk {
  public:
   Walk(std::span<const Demand> demands, Nanos basic, const DispatchCost& cost, bool with_offsets)
       : demands_(demands), basic_(basic), cost_(cost), with_offsets_(with_offsets), jobs_(demands.size()) {
-    worst_.resize(demands.size());
+    found_.worst.resize(demands.size());
+    std::map<int, std::size_t> known;
+    for (const Demand& demand : demands) {
+      cores_.push_back(known.try_emplace(demand.core, known.size()).first->second);
+    }
+    used_.resize(known.size());
   }
 
   // Until ticks repeat themselves: at once without offsets, else after the longest offset and two macro periods (Leung
@@ -31,7 +37,7 @@ class Walk {
     return macro > most && with_offsets_ ? 0 : needed > most ? 0 : needed;
   }
 
-  std::vector<Nanos> run(std::int64_t ticks) {
+  WorstResponses run(std::int64_t ticks) {
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
       release(tick);
       execute(tick);
@@ -39,16 +45,17 @@ class Walk {
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       // The first of all releases is the worst one; of later ones some are still under way.
       if (jobs_[i].left > Nanos::zero() && jobs_[i].released == Nanos::zero() && !with_offsets_) {
-        worst_[i] = WorstResponses::kNotDone;
+        found_.worst[i] = WorstResponses::kNotDone;
       }
     }
-    return std::move(worst_);
+    return std::move(found_);
   }
 
  private:
   struct Job {
     Nanos left{};
     Nanos released{};
+    Nanos ended{};  // in this tick; its end if it is not over then
   };
 
   void release(std::int64_t tick) {
@@ -59,26 +66,39 @@ class Walk {
         continue;
       }
       if (jobs_[i].left > Nanos::zero()) {
-        worst_[i] = WorstResponses::kNotDone;
+        found_.worst[i] = WorstResponses::kNotDone;
         continue;
       }
-      jobs_[i] = {demands_[i].execution + (demands_[i].own_thread ? cost_.wake : Nanos::zero()), now};
+      const Nanos woken = demands_[i].own_thread ? cost_.wake : Nanos::zero();
+      jobs_[i] = {demands_[i].execution + woken + demands_[i].waiting, now, {}};
     }
   }
 
   void execute(std::int64_t tick) {
-    Nanos used = std::min(cost_.tick, basic_);
-    for (std::size_t i = 0; i < jobs_.size() && used < basic_; ++i) {
+    std::fill(used_.begin(), used_.end(), std::min(cost_.tick, basic_));
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
       Job& job = jobs_[i];
       if (job.left == Nanos::zero()) {
+        job.ended = Nanos::zero();
         continue;
+      }
+      Nanos& used = used_[cores_[i]];
+      for (const std::uint32_t earlier : demands_[i].after) {
+        used = std::max(used, jobs_[earlier].ended);
       }
       const Nanos share = std::min(job.left, basic_ - used);
       used += share;
       job.left -= share;
-      if (job.left == Nanos::zero() && worst_[i] != WorstResponses::kNotDone) {
-        worst_[i] = std::max(worst_[i], tick * basic_ + used - job.released);
+      job.ended = job.left == Nanos::zero() ? used : basic_;
+      if (job.left == Nanos::zero() && found_.worst[i] != WorstResponses::kNotDone) {
+        found_.worst[i] = std::max(found_.worst[i], tick * basic_ + used - job.released);
       }
+    }
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      used_[cores_[i]] += jobs_[i].left;
+    }
+    for (const Nanos used : used_) {
+      found_.busiest = std::max(found_.busiest, used);
     }
   }
 
@@ -87,7 +107,9 @@ class Walk {
   DispatchCost cost_;
   bool with_offsets_;
   std::vector<Job> jobs_;
-  std::vector<Nanos> worst_;
+  std::vector<std::size_t> cores_;  // by demand, into used_
+  std::vector<Nanos> used_;
+  WorstResponses found_;
 };
 
 }  // namespace
@@ -95,15 +117,13 @@ class Walk {
 WorstResponses worst_responses(std::span<const Demand> demands, Nanos basic_period, const DispatchCost& cost) {
   const bool offsets =
       std::any_of(demands.begin(), demands.end(), [](const Demand& demand) { return demand.offset != Nanos::zero(); });
-  WorstResponses found;
   Walk exact(demands, basic_period, cost, offsets);
   if (const std::int64_t ticks = exact.ticks(); ticks > 0) {
-    found.worst = exact.run(ticks);
-    return found;
+    return exact.run(ticks);
   }
-  found.with_offsets = false;
   Walk together(demands, basic_period, cost, false);
-  found.worst = together.run(std::max<std::int64_t>(together.ticks(), 1));
+  WorstResponses found = together.run(std::max<std::int64_t>(together.ticks(), 1));
+  found.with_offsets = false;
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <indurop/module.h>
 
 #include <cstdint>
+#include <vector>
 
 #include "scheduler/run_block.h"
 
@@ -26,6 +27,9 @@ struct Task {
   int legacy_signal = 0;       // process woken by this signal instead of its slot
   void (*run)() = nullptr;     // thread modules
   Condition condition;         // sporadic thread modules
+  // CoreOrder::Data: tasks (by `index`, earlier in the order) that have to be done with a tick before this one begins
+  // it. Does nothing between tasks of one core, which are in order anyway.
+  std::vector<std::uint32_t> after;
 };
 
 }  // namespace indurop::scheduler

@@ -21,6 +21,7 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     check_machine(context);
     check_files(context);
     check_access(context);
+    check_load(context);
     if (options.simulation) {
       check_determinism(context);
     }
@@ -28,6 +29,9 @@ CheckResult check_config(Config& config, const CheckOptions& options) {
     check_agreement(alone, context.report);
     const Uses uses(alone);
     check_use(uses, check_external(context, uses), context.report);
+  }
+  if (!options.files) {
+    check_load(context);
   }
   context.report.add_summary(result.diagnostics);
   sort_by_severity(result.diagnostics);

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,29 @@ struct Timing {
   base::Nanos worst{};  // scheduler::WorstResponses::kNotDone: not before its next release
 };
 
+// Two modules whose order matters: on one core they are in order, on two the second waits for the first.
+struct Sharing {
+  std::size_t first = 0;  // indices into Config::modules
+  std::size_t second = 0;
+  std::string why;  // the data, or what says so
+};
+
+// What <cores> made of the periodic modules.
+struct Spreading {
+  struct One {
+    std::size_t module = 0;  // index into Config::modules
+    int core = 0;
+    base::Nanos execution{};  // as told, measured, or assumed
+    base::Nanos moved{};      // its offset, by so much
+    std::string why;
+  };
+  std::vector<int> cores;    // the node's own first
+  std::vector<One> modules;  // in order of execution
+  bool holds = false;        // as far as execution times are right
+  bool reordered = false;    // the modules have new priorities
+  base::Nanos busiest{};     // from the begin of a basic period until a core is done, at most
+};
+
 struct CheckResult {
   std::vector<base::Diagnostic> diagnostics;
   scheduler::PeriodTable table;       // periodic modules, indices into `periodic`
@@ -48,6 +72,8 @@ struct CheckResult {
   // Modules that read or write by names known only at run time, indices into Config::modules.
   std::vector<std::size_t> unknown_readers;
   std::vector<std::size_t> unknown_writers;
+  std::vector<Sharing> sharing;  // in order of execution; of one core only if its files were looked at
+  std::optional<Spreading> spreading;
   [[nodiscard]] bool ok() const noexcept;  // no errors; warnings allowed
 };
 
@@ -63,5 +89,8 @@ struct CheckOptions {
 };
 
 CheckResult check_config(Config& config, const CheckOptions& options);
+
+// Modules that are not all on one core, whichever that is.
+bool uses_several_cores(const Config& config);
 
 }  // namespace indurop::config

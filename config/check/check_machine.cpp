@@ -11,27 +11,6 @@
 namespace indurop::config {
 namespace {
 
-// Processors this process may use, ascending.
-std::vector<int> usable_cores() {
-  // The kernel refuses a mask smaller than its own; grow until it fits.
-  std::vector<int> cores;
-  for (std::size_t count = 1024; count <= 65536; count *= 2) {
-    const std::size_t size = CPU_ALLOC_SIZE(count);
-    std::vector<cpu_set_t> mask(size / sizeof(cpu_set_t) + 1);
-    const std::size_t bytes = mask.size() * sizeof(cpu_set_t);
-    if (::sched_getaffinity(0, bytes, mask.data()) != 0) {
-      continue;
-    }
-    for (std::size_t core = 0; core < bytes * 8; ++core) {
-      if (CPU_ISSET_S(core, bytes, mask.data())) {
-        cores.push_back(static_cast<int>(core));
-      }
-    }
-    break;
-  }
-  return cores;
-}
-
 void check_core(CheckContext& context, const std::vector<int>& cores, int core, base::SourcePlace place) {
   for (const int usable : cores) {
     if (usable == core) {
@@ -53,6 +32,26 @@ void check_core(CheckContext& context, const std::vector<int>& cores, int core, 
 }
 
 }  // namespace
+
+std::vector<int> usable_cores() {
+  // The kernel refuses a mask smaller than its own; grow until it fits.
+  std::vector<int> cores;
+  for (std::size_t count = 1024; count <= 65536; count *= 2) {
+    const std::size_t size = CPU_ALLOC_SIZE(count);
+    std::vector<cpu_set_t> mask(size / sizeof(cpu_set_t) + 1);
+    const std::size_t bytes = mask.size() * sizeof(cpu_set_t);
+    if (::sched_getaffinity(0, bytes, mask.data()) != 0) {
+      continue;
+    }
+    for (std::size_t core = 0; core < bytes * 8; ++core) {
+      if (CPU_ISSET_S(core, bytes, mask.data())) {
+        cores.push_back(static_cast<int>(core));
+      }
+    }
+    break;
+  }
+  return cores;
+}
 
 void check_machine(CheckContext& context) {
   const std::vector<int> cores = context.options.machine ? usable_cores() : std::vector<int>{};

@@ -14,6 +14,7 @@
 #include "base/diagnostics.h"
 #include "config/check/check.h"
 #include "config/check/uses.h"
+#include "scheduler/response_time.h"
 #include "scheduler/task.h"
 
 namespace indurop::config {
@@ -36,12 +37,20 @@ struct CheckContext {
   SchemaTexts& texts;
 };
 
-// Basic and macro period, --adjust, number of bands, and times. Fills table, periodic, sporadic, non_real, timings.
+// Basic and macro period, --adjust. Fills table, periodic, sporadic, non_real.
 void check_schedule(CheckContext& context);
+// After it, and after check_access() where files are looked at: cores of modules, number of bands, and whether what
+// says how long it executes ends in time. Fills sharing, spreading, timings.
+void check_load(CheckContext& context);
 // What bands are made of: a task for each of CheckResult::periodic, in its order.
 std::vector<scheduler::Task> periodic_tasks(const CheckContext& context);
-// Its last part: whether what says how long it executes ends in time.
+// Parts of check_load().
+void find_sharing(CheckContext& context);
+void take_measured_times(CheckContext& context);
+void place_modules(CheckContext& context);
 void check_times(CheckContext& context);
+scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic);
+std::vector<int> usable_cores();  // by this process, ascending
 // Cores, time that spinning leaves.
 void check_machine(CheckContext& context);
 // Files, ABI, symbols. Fills facts and schema.

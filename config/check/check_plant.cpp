@@ -49,6 +49,7 @@ class PlantCheckRun {
       check_between();
     }
     for (CheckContext& context : contexts_) {
+      check_load(context);
       context.report.add_summary(context.result.diagnostics);
     }
     for (CheckResult& board : result_.boards) {

@@ -237,7 +237,8 @@ void check_macro_period(CheckContext& context, const std::vector<PeriodicItem>& 
 void check_bands(CheckContext& context) {
   const Config& config = context.config;
   std::map<int, std::size_t> levels;
-  for (const auto& band : scheduler::make_bands(periodic_tasks(context), context.result.table.basic_period.count())) {
+  for (const auto& band :
+       scheduler::make_bands(periodic_tasks(context), context.result.table.basic_period.count(), config.order)) {
     if (band.kind != scheduler::BandKind::Inline && ++levels[band.core] == kMaxBands + 1) {
       context.report.error(config.modules[context.result.periodic[band.tasks.front()]].place,
                            "from this module on the schedule needs more than the " + std::to_string(kMaxBands) +
@@ -251,6 +252,7 @@ void check_bands(CheckContext& context) {
 
 std::vector<scheduler::Task> periodic_tasks(const CheckContext& context) {
   std::vector<scheduler::Task> tasks;
+  std::vector<std::size_t> place(context.config.modules.size(), context.config.modules.size());
   for (const std::size_t i : context.result.periodic) {
     const Module& module = context.config.modules[i];
     scheduler::Task task;
@@ -260,7 +262,14 @@ std::vector<scheduler::Task> periodic_tasks(const CheckContext& context) {
     task.period_ns = module.period.count();
     task.offset_ns = module.offset.count();
     task.overrun = module.overrun;
+    task.index = static_cast<std::uint32_t>(i);
+    place[i] = tasks.size();
     tasks.push_back(task);
+  }
+  for (const Sharing& sharing : context.result.sharing) {
+    if (place[sharing.first] < tasks.size() && place[sharing.second] < tasks.size()) {
+      tasks[place[sharing.second]].after.push_back(static_cast<std::uint32_t>(sharing.first));
+    }
   }
   return tasks;
 }
@@ -281,6 +290,22 @@ void check_schedule(CheckContext& context) {
   } else if (auto table = scheduler::make_period_table(items)) {
     result.table = std::move(table.value());
   }
+}
+
+void check_load(CheckContext& context) {
+  if (context.options.files) {
+    find_sharing(context);
+  } else if (uses_several_cores(context.config)) {
+    // A plan works without files; what they say is not judged, but decides who may run beside whom.
+    std::vector<base::Diagnostic> ignored;
+    CheckContext looking{context.config, context.options, context.result,
+                         base::Diagnostics(context.config.file.string(), ignored), context.texts};
+    check_files(looking);
+    check_access(looking);
+    find_sharing(context);
+  }
+  take_measured_times(context);
+  place_modules(context);
   check_bands(context);
   check_times(context);
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "config/check/check_parts.h"
 #include "scheduler/bands.h"
@@ -20,14 +22,7 @@ using scheduler::WorstResponses;
 // wake-up of the tick thread itself likewise (docs/benchmarks.md).
 constexpr base::Nanos kTickCost{std::chrono::microseconds(5)};
 constexpr base::Nanos kWakeCost{std::chrono::microseconds(10)};
-
-scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic) {
-  const SpinSetting spin = config.spin.value_or(SpinSetting{});
-  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::Spinner::kMostMeanShare,
-                                                                           base::Nanos{scheduler::Spinner::kMostMeanNs})
-                                                                : spin.fixed;
-  return {kTickCost + spun, kWakeCost};
-}
+constexpr base::Nanos kLookCost{std::chrono::microseconds(50)};  // who waits for a process looks at it so often
 
 // Modules of a board in the order of execution, and what each demands.
 struct Order {
@@ -43,7 +38,6 @@ class Times {
   void run() {
     CheckResult& result = context_.result;
     result.timings.assign(config_.modules.size(), {});
-    take_measured();
     const base::Nanos basic = result.table.basic_period;
     const bool declared = std::any_of(config_.modules.begin(), config_.modules.end(), [](const Module& module) {
       return module.wcet > base::Nanos::zero() && module.operation != scheduler::Operation::NonReal;
@@ -53,8 +47,10 @@ class Times {
     }
     basic_ = basic;
     cost_ = dispatch_cost(config_, basic);
-    result.dispatch_share = static_cast<double>(cost_.tick.count()) / static_cast<double>(basic.count());
     make_order();
+    place_on_cores();
+    result.dispatch_share = static_cast<double>(cost_.tick.count()) / static_cast<double>(basic.count()) *
+                            static_cast<double>(cores_.size());
     keep_known();
     find();
     for (std::size_t i = 0; i < order_.modules.size(); ++i) {
@@ -63,20 +59,6 @@ class Times {
   }
 
  private:
-  void take_measured() {
-    if (context_.options.times == nullptr) {
-      return;
-    }
-    for (Module& module : context_.config.modules) {
-      const auto measured = context_.options.times->find(module.name);
-      if (module.wcet == base::Nanos::zero() && module.operation != scheduler::Operation::NonReal &&
-          measured != context_.options.times->end()) {
-        module.wcet = measured->second;
-        module.places.wcet = module.place;
-      }
-    }
-  }
-
   void add(std::size_t index, bool own_thread) {
     const Module& module = config_.modules[index];
     const bool sporadic = module.operation == scheduler::Operation::Sporadic;
@@ -97,7 +79,8 @@ class Times {
       }
       after_base_added = true;
     };
-    for (const scheduler::BandPlan& band : scheduler::make_bands(periodic_tasks(context_), basic_.count())) {
+    for (const scheduler::BandPlan& band :
+         scheduler::make_bands(periodic_tasks(context_), basic_.count(), config_.order)) {
       if (band.kind != scheduler::BandKind::Inline) {
         add_after_base();
       }
@@ -114,11 +97,49 @@ class Times {
     }
   }
 
+  [[nodiscard]] int core_of(const Module& module) const { return module.core >= 0 ? module.core : config_.core; }
+
+  // Which core each is on, and what it waits for there. Without that, as if all were on one.
+  void place_on_cores() {
+    for (const std::size_t i : order_.modules) {
+      cores_.insert(core_of(config_.modules[i]));
+    }
+    cores_known_ = cores_.size() == 1 || !cores_.contains(-1);
+    if (cores_.size() == 1 || !cores_known_) {
+      cores_ = {-1};
+      return;
+    }
+    std::map<std::size_t, std::set<std::size_t>> earlier;
+    for (const Sharing& sharing : context_.result.sharing) {
+      earlier[sharing.second].insert(sharing.first);
+    }
+    for (std::size_t i = 0; i < order_.modules.size(); ++i) {
+      const Module& module = config_.modules[order_.modules[i]];
+      Demand& demand = order_.demands[i];
+      demand.core = core_of(module);
+      for (std::size_t k = 0; k < std::min(i, order_.periodic); ++k) {
+        const Module& other = config_.modules[order_.modules[k]];
+        const bool told = config_.order == scheduler::CoreOrder::Total
+                              ? other.priority < module.priority
+                              : earlier[order_.modules[i]].contains(order_.modules[k]);
+        const bool waits = i >= order_.periodic || (told && !module.after_base && !other.after_base);
+        if (core_of(other) != demand.core && waits) {
+          demand.after.push_back(static_cast<std::uint32_t>(k));
+          const bool process = module.type == scheduler::ModuleType::Process;
+          demand.waiting = std::max(
+              demand.waiting, kWakeCost + (process ? kWakeCost : base::Nanos::zero()) +
+                                  (other.type == scheduler::ModuleType::Process ? kLookCost : base::Nanos::zero()));
+        }
+      }
+    }
+  }
+
   // Of what runs behind a module that does not say how long nothing can be said.
   void keep_known() {
     const auto unknown = std::find_if(order_.demands.begin(), order_.demands.end(),
                                       [](const Demand& demand) { return demand.execution == base::Nanos::zero(); });
     const auto known = static_cast<std::size_t>(unknown - order_.demands.begin());
+    complete_ = known >= order_.periodic;
     order_.demands.resize(known);
     order_.modules.resize(known);
     order_.periodic = std::min(order_.periodic, known);
@@ -135,16 +156,22 @@ class Times {
     const auto periodic = scheduler::worst_responses(
         std::span(after_base ? together : order_.demands).first(order_.periodic), basic_, cost_);
     const auto all = order_.periodic < together.size() ? scheduler::worst_responses(together, basic_, cost_) : periodic;
+    if (context_.result.spreading && complete_) {
+      context_.result.spreading->busiest = periodic.busiest;  // with bands and all that waiting costs
+    }
     for (std::size_t i = 0; i < order_.modules.size(); ++i) {
       context_.result.timings[order_.modules[i]] = {true, i < order_.periodic ? periodic.worst[i] : all.worst[i]};
     }
   }
 
-  // Share of the processor of the modules up to this one in the order, and of the platform.
+  // Share of its processor of the modules up to this one in the order, and of the platform.
   [[nodiscard]] double share_up_to(std::size_t last) const {
-    double share = context_.result.dispatch_share;
+    double share = context_.result.dispatch_share / static_cast<double>(cores_.size());
     for (std::size_t i = 0; i <= last; ++i) {
       const Demand& demand = order_.demands[i];
+      if (demand.core != order_.demands[last].core) {
+        continue;
+      }
       const base::Nanos taken = demand.execution + (demand.own_thread ? cost_.wake : base::Nanos::zero());
       share += static_cast<double>(taken.count()) / static_cast<double>(demand.period.count());
     }
@@ -168,13 +195,11 @@ class Times {
     } else {
       return;
     }
-    // Here all modules share one core. With several the real figure is better, so it is no error.
-    const bool cores = std::any_of(order_.modules.begin(), order_.modules.end(), [&](std::size_t i) {
-      return config_.modules[i].core != config_.modules[order_.modules.front()].core;
-    });
     text += "; make what runs up to it shorter, its period longer, or take modules to another board";
-    if (cores) {
-      context_.report.warning(module.places.wcet, text + " (counted as if all modules were on one core)");
+    if (!cores_known_) {
+      context_.report.warning(
+          module.places.wcet,
+          text + " (counted as if all modules were on one core; with <core> for the node, too, it is exact)");
     } else {
       context_.report.error(module.places.wcet, std::move(text));
     }
@@ -185,9 +210,34 @@ class Times {
   base::Nanos basic_{};
   scheduler::DispatchCost cost_;
   Order order_;
+  std::set<int> cores_;  // used; -1: whichever the node chooses
+  bool cores_known_ = true;
+  bool complete_ = false;  // all periodic modules say how long they execute
 };
 
 }  // namespace
+
+scheduler::DispatchCost dispatch_cost(const Config& config, base::Nanos basic) {
+  const SpinSetting spin = config.spin.value_or(SpinSetting{});
+  const base::Nanos spun = spin.mode == SpinSetting::Mode::Auto ? std::min(basic / scheduler::Spinner::kMostMeanShare,
+                                                                           base::Nanos{scheduler::Spinner::kMostMeanNs})
+                                                                : spin.fixed;
+  return {kTickCost + spun, kWakeCost};
+}
+
+void take_measured_times(CheckContext& context) {
+  if (context.options.times == nullptr) {
+    return;
+  }
+  for (Module& module : context.config.modules) {
+    const auto measured = context.options.times->find(module.name);
+    if (module.wcet == base::Nanos::zero() && module.operation != scheduler::Operation::NonReal &&
+        measured != context.options.times->end()) {
+      module.wcet = measured->second;
+      module.places.wcet = module.place;
+    }
+  }
+}
 
 void check_times(CheckContext& context) {
   Times(context).run();

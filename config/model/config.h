@@ -12,6 +12,7 @@
 
 #include "base/diagnostic.h"
 #include "base/duration.h"
+#include "scheduler/core_order.h"
 #include "scheduler/module_kind.h"
 
 namespace indurop::config {
@@ -50,6 +51,7 @@ struct ModulePlaces {
   base::SourcePlace core;
   base::SourcePlace standby;
   base::SourcePlace signal;
+  std::vector<base::SourcePlace> after;   // parallel to Module::after
   std::vector<base::SourcePlace> reads;   // parallel to Module::reads
   std::vector<base::SourcePlace> writes;  // parallel to Module::writes
 };
@@ -73,6 +75,7 @@ struct Module {
   bool after_base = false;  // sporadic: <position>after-base</position>
   int signal = 0;           // legacy process: POSIX signal number each release, 0: none
   std::vector<std::string> arguments;
+  std::vector<std::string> after;  // modules whose runs of a basic period this one's comes after, on whatever core
   std::vector<std::string> reads;  // <access> by name (channel): variables read / written
   std::vector<std::string> writes;
   Restart restart;
@@ -87,6 +90,14 @@ struct SpinSetting {
   enum class Mode { Auto, Off, Fixed } mode = Mode::Auto;
   base::Nanos fixed{};
 };
+
+// <cores>: modules without a <core> are spread over several.
+struct CoresSetting {
+  int most = 0;                // so many; 0: all this process may use
+  bool split_sharing = false;  // also modules that share data, which then wait for one another
+  base::SourcePlace place;
+};
+inline constexpr int kMostSpreadCores = 64;
 
 // What <variable> says about one variable beyond its .glb declaration.
 struct VariableRule {
@@ -122,6 +133,8 @@ struct Config {
   std::optional<base::Nanos> minimum_period;  // <minimum_period>; default kDefaultMinimumPeriod
   std::optional<SpinSetting> spin;
   int core = -1;  // -1: the last one this process may use
+  std::optional<CoresSetting> cores;
+  scheduler::CoreOrder order = scheduler::CoreOrder::Data;  // <order>
   base::SourcePlace core_place;
   base::SourcePlace spin_place;
   ExternalPlane external;  // of a module.xml

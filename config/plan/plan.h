@@ -14,6 +14,9 @@ namespace indurop::config {
 
 std::string plan_table(const Config& config, const CheckResult& check);
 std::string plan_csv(const Config& config, const CheckResult& check);
+// Which core each periodic module is on, why, and what waits for what.
+std::string plan_why(const Config& config, const CheckResult& check);
+std::string plan_why(const Plant& plant, const PlantCheck& check);
 // {"basic_period_ns","macro_period_ns","slots":[{"slot","time_ns","modules":[names in order]}],"sporadic":[...],
 //  "non_real":[...]}
 std::string plan_json(const Config& config, const CheckResult& check);

@@ -48,6 +48,26 @@ std::string times_json(const Config& config, const CheckResult& check) {
          lines + "\n  ]";
 }
 
+// Of <cores>.
+std::string cores_json(const Config& config, const CheckResult& check) {
+  if (!check.spreading) {
+    return {};
+  }
+  const Spreading& spreading = *check.spreading;
+  std::string lines;
+  for (const Spreading::One& one : spreading.modules) {
+    const Module& module = config.modules[one.module];
+    Json row;
+    row["module"] = module.name;
+    row["core"] = one.core;
+    row["offset_ns"] = module.offset.count();
+    row["priority"] = module.priority;
+    row["why"] = one.why;
+    lines += (lines.empty() ? "\n    " : ",\n    ") + text(row);
+  }
+  return ",\n  \"busiest_ns\": " + std::to_string(spreading.busiest.count()) + ",\n  \"cores\": [" + lines + "\n  ]";
+}
+
 // Everything between the braces.
 std::string plan_fields(const Config& config, const CheckResult& check) {
   const scheduler::PeriodTable& table = check.table;
@@ -64,6 +84,7 @@ std::string plan_fields(const Config& config, const CheckResult& check) {
   plan += ",\n  \"sporadic\": " + text(names_json(config, check.sporadic));
   plan += ",\n  \"non_real\": " + text(names_json(config, check.non_real));
   plan += times_json(config, check);
+  plan += cores_json(config, check);
   if (table.slot_count > table.slots.size()) {
     plan += ",\n  \"slots_left_out\": " + std::to_string(table.slot_count - table.slots.size());
   }

@@ -16,6 +16,28 @@ std::vector<std::string> names_of(const Config& config, const CheckResult& check
   return names;
 }
 
+int core_of(const Config& config, const Module& module) {
+  return module.core >= 0 ? module.core : config.core;
+}
+
+std::vector<std::size_t> waited_for(const Config& config, const CheckResult& check, std::size_t module) {
+  std::vector<std::size_t> earlier;
+  if (config.order == scheduler::CoreOrder::Data) {
+    for (const Sharing& sharing : check.sharing) {
+      if (sharing.second == module) {
+        earlier.push_back(sharing.first);
+      }
+    }
+    return earlier;
+  }
+  for (const std::size_t other : check.periodic) {
+    if (config.modules[other].priority < config.modules[module].priority) {
+      earlier.push_back(other);
+    }
+  }
+  return earlier;
+}
+
 std::string in_order(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "base/svg.h"
 #include "base/text.h"
@@ -118,10 +119,13 @@ class Diagram {
     height_ = bottom_ + 56 + legend_height();
   }
 
-  static std::string rule_of(const Module& m) {
+  [[nodiscard]] std::string rule_of(const Module& m) const {
     switch (m.operation) {
       case scheduler::Operation::Periodic:
-        return "every " + base::format_duration(m.period) +
+        return (uses_several_cores(config_) && core_of(config_, m) >= 0
+                    ? "core " + std::to_string(core_of(config_, m)) + ", "
+                    : "") +
+               "every " + base::format_duration(m.period) +
                (m.offset > base::Nanos::zero() ? " + " + base::format_duration(m.offset) : "") + ", priority " +
                std::to_string(m.priority);
       case scheduler::Operation::Sporadic:
@@ -216,10 +220,17 @@ class Diagram {
 
   void draw_slot(base::Svg& svg, std::size_t number) const {
     const scheduler::Slot& slot = check_.table.slots[number];
-    int x = slot_x(number) + 4;
-    int y = 0;
+    // Where each core is: its next box, and the lane of its last one.
+    struct Way {
+      int x;
+      int y = 0;
+    };
+    std::map<int, Way> ways;
+    std::vector<int> ends(config_.modules.size());  // of the boxes of this slot
+    const auto way_of = [&](int core) -> Way& { return ways.try_emplace(core, Way{slot_x(number) + 4}).first->second; };
     bool base_done = false;
     const auto sporadic = [&](bool after_base) {
+      auto& [x, y] = way_of(config_.core);
       for (const std::size_t module : check_.sporadic) {
         if (config_.modules[module].after_base == after_base) {
           step(svg, x, y, lanes_[module].y);
@@ -234,13 +245,23 @@ class Diagram {
         base_done = true;
         sporadic(true);
       }
-      const int lane = lanes_[check_.periodic[item]].y;
+      const std::size_t index = check_.periodic[item];
+      const int lane = lanes_[index].y;
+      auto& [x, y] = way_of(core_of(config_, module));
+      for (const std::size_t earlier : waited_for(config_, check_, index)) {
+        x = std::max(x, ends[earlier]);
+      }
       step(svg, x, y, lane);
       module_box(svg, x, lane, box_width_ - 2, colour(module.period), module.type);
       x += box_width_;
+      ends[index] = x;
     }
     if (!base_done) {
       sporadic(true);
+    }
+    auto& [x, y] = way_of(config_.core);
+    for (const int end : ends) {
+      x = std::max(x, end);
     }
     if (!check_.sporadic.empty()) {
       step(svg, x, y, handler_y_);

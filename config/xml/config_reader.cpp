@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "config/xml/after_rules.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/external_reader.h"
 #include "config/xml/module_reader.h"
@@ -29,13 +30,14 @@ class ConfigReader {
     }
     external_.end();
     name_modules();
+    check_after(config_, report_);
   }
 
  private:
   void read_child(const base::Element& child) {
-    static const std::vector<std::string> kBoardNames{"module", "minimum_period", "spin", "core"};
-    static const std::vector<std::string> kRootNames{"module",   "minimum_period", "spin",    "core",
-                                                     "external", "types",          "variable"};
+    static const std::vector<std::string> kBoardNames{"module", "minimum_period", "spin", "core", "cores", "order"};
+    static const std::vector<std::string> kRootNames{"module", "minimum_period", "spin",  "core",    "cores",
+                                                     "order",  "external",       "types", "variable"};
     const std::vector<std::string>& names = container_.name == "root" ? kRootNames : kBoardNames;
     if (child.name == "module") {
       config_.modules.push_back(read_module(child, folder_, report_));
@@ -50,6 +52,16 @@ class ConfigReader {
       config_.core = read_core(child, report_);
       return;
     }
+    if (child.name == "cores") {
+      read_cores(child);
+      return;
+    }
+    if (child.name == "order") {
+      if (const auto word = choose(child, {"data", "total"}, report_)) {
+        config_.order = *word == 0 ? scheduler::CoreOrder::Data : scheduler::CoreOrder::Total;
+      }
+      return;
+    }
     check_attributes(child, {}, report_);
     if (!is_leaf(child, report_)) {
       return;
@@ -59,6 +71,31 @@ class ConfigReader {
     } else {
       read_minimum(child);
     }
+  }
+
+  void read_cores(const base::Element& e) {
+    check_attributes(e, {"sharing"}, report_);
+    if (!is_leaf(e, report_)) {
+      return;
+    }
+    CoresSetting cores;
+    cores.place = e.text_place;
+    const auto most = e.text == "auto" ? std::optional<std::int64_t>(0) : read_integer(e.text, 1, kMostSpreadCores);
+    if (!most) {
+      report_.error(e.text_place,
+                    "<cores>: " + (e.text.empty() ? "no value given" : base::in_quotes(e.text) + " is not possible") +
+                        "; write auto, or how many cores from 1 to " + std::to_string(kMostSpreadCores));
+      return;
+    }
+    cores.most = static_cast<int>(*most);
+    if (const base::Attribute* sharing = find_attribute(e, "sharing"); sharing != nullptr) {
+      cores.split_sharing = sharing->value == "split";
+      if (!cores.split_sharing && sharing->value != "together") {
+        report_.error(sharing->value_place,
+                      base::in_quotes(sharing->value) + " is not a value of sharing; write together or split");
+      }
+    }
+    config_.cores = cores;
   }
 
   void read_minimum(const base::Element& e) {

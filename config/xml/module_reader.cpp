@@ -41,7 +41,7 @@ class ModuleReader {
     void (ModuleReader::*read)(const base::Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 20> kKnown{{
+    static constexpr std::array<Known, 21> kKnown{{
         {"filename", false, &ModuleReader::read_file},     {"name", false, &ModuleReader::read_name},
         {"moduletype", false, &ModuleReader::read_type},   {"operationtype", false, &ModuleReader::read_operation},
         {"period", false, &ModuleReader::read_period},     {"offset", false, &ModuleReader::read_offset},
@@ -52,6 +52,7 @@ class ModuleReader {
         {"argument", true, &ModuleReader::read_argument},  {"access", false, &ModuleReader::read_access},
         {"restart", false, &ModuleReader::read_restart},   {"failsafe", true, &ModuleReader::read_failsafe},
         {"property", true, &ModuleReader::read_property},  {"wcet", false, &ModuleReader::read_wcet},
+        {"after", true, &ModuleReader::read_after},
     }};
     return kKnown;
   }
@@ -166,6 +167,13 @@ class ModuleReader {
   void read_core_element(const base::Element& e) {
     module_.places.core = e.text_place;
     module_.core = read_core(e, report_);
+  }
+
+  void read_after(const base::Element& e) {
+    if (const auto text = text_of(e, "control", report_)) {
+      module_.places.after.push_back(e.text_place);
+      module_.after.push_back(*text);
+    }
   }
 
   void read_standby(const base::Element& e) {

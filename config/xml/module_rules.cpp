@@ -80,7 +80,8 @@ class Rules {
   void check_sporadic() {
     require("deadline", "this sporadic <module>", "1ms");
     require("priority", "this sporadic <module>", "1");
-    without_effect({"period", "offset"}, "sporadic");
+    without_effect({"period", "offset", "after"}, "sporadic");
+    module_.after.clear();
     module_.period = base::Nanos::zero();
     module_.offset = base::Nanos::zero();
     if (given_.type && module_.type == ModuleType::Process) {
@@ -93,8 +94,9 @@ class Rules {
   }
 
   void check_non_real() {
-    without_effect({"offset", "priority", "deadline", "wcet", "budget", "overrun", "position", "signal"},
+    without_effect({"offset", "priority", "deadline", "wcet", "budget", "overrun", "position", "signal", "after"},
                    "non-real-time");
+    module_.after.clear();
     module_.offset = base::Nanos::zero();
     module_.deadline = base::Nanos::zero();
     module_.wcet = base::Nanos::zero();

@@ -16,6 +16,7 @@ struct Options {
   std::string file;
   std::string svg_file;
   bool adjust = false;
+  bool why = false;
   config::CheckOptions::Times times;
 };
 
@@ -40,7 +41,8 @@ int show(Context& context, const Options& options, const Content& content, const
   }
   switch (context.format) {
     case Format::Table:
-      context.out.write(with_line_end(config::plan_table(content, check)));
+      context.out.write(with_line_end(config::plan_table(content, check)) +
+                        (options.why ? config::plan_why(content, check) : ""));
       break;
     case Format::Json:
       context.out.write(with_line_end(config::plan_json(content, check)));
@@ -77,6 +79,7 @@ Action declare(base::Options& app, Context& context) {
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.add("--svg", "FILE", options->svg_file, "Write the timing diagram to FILE");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
+  app.flag("--why", options->why, "Explain which core each module is on, and what waits for what");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   return [options](Context& c) { return plan(c, *options); };
@@ -92,7 +95,7 @@ const Verb kPlanVerb{"plan", "Before it runs",
                      "Examples:\n"
                      "  indurop plan\n"
                      "  indurop plan plant.xml -o svg > plan.svg\n"
-                     "  indurop plan module.xml --times report.json\n",
+                     "  indurop plan module.xml --times report.json --why\n",
                      &declare};
 
 }  // namespace indurop::tools

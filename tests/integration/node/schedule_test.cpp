@@ -113,16 +113,19 @@ TEST_F(Schedule, Interrupts_a_long_module_for_those_with_a_higher_priority) {
   EXPECT_EQ(order_violations(*run()), 0);
 }
 
-TEST_F(Schedule, On_several_cores_keeps_the_order_of_different_priorities) {
+TEST_F(Schedule, On_several_cores_keeps_the_total_order_if_told_so) {
   const auto cores = rt::allowed_cores();
   if (cores.size() < 2) {
     GTEST_SKIP() << "needs two cores";
   }
   const auto on = [&](std::size_t i) { return "<core>" + std::to_string(cores[i]) + "</core>"; };
-  Program& sut = start_and_wait({{.file = "label.so", .name = "a", .priority = 1, .more = on(0)},
-                                 {.file = "label.so", .name = "b", .priority = 2, .more = on(1)},
-                                 {.file = "label.so", .name = "c", .period = "2ms", .priority = 3, .more = on(0)},
-                                 {.file = "label.so", .name = "d", .period = "2ms", .priority = 4, .more = on(1)}});
+  std::string text = xml({{.file = "label.so", .name = "a", .priority = 1, .more = on(0)},
+                          {.file = "label.so", .name = "b", .priority = 2, .more = on(1)},
+                          {.file = "label.so", .name = "c", .period = "2ms", .priority = 3, .more = on(0)},
+                          {.file = "label.so", .name = "d", .period = "2ms", .priority = 4, .more = on(1)}});
+  text.insert(text.find("<root>") + 6, "<order>total</order>");
+  Program& sut = start_file(write("total.xml", text));
+  ASSERT_TRUE(wait_until_running(sut));
   for (const char* name : {"a", "b", "c", "d"}) {
     ASSERT_TRUE(runs_reach(name, 200)) << name;
   }

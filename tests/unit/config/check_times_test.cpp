@@ -59,10 +59,22 @@ TEST(Times, Too_much_for_a_core_is_an_error_with_the_share) {
                                                  "need 110 % of a core")));
 }
 
-TEST(Times, With_several_cores_it_is_a_warning) {
-  const Checked sut = check(root(periodic("a.so", "1ms", 1, wcet("600us") + "<core>0</core>") +
-                                 periodic("b.so", "1ms", 2, wcet("500us") + "<core>1</core>")),
-                            kScheduleOnly);
+TEST(Times, Of_several_cores_count_what_waits_for_another_one) {
+  const auto lines = [](const std::string& settings) {
+    // Without files all may share data.
+    return check(root(settings + periodic("a.so", "1ms", 1, wcet("600us") + "<core>0</core>") +
+                      periodic("b.so", "1ms", 2, wcet("500us") + "<core>1</core>")),
+                 {.files = false})
+        .lines();
+  };
+  EXPECT_THAT(lines("<order>data</order>"), ElementsAre(HasSubstr("error: b is not done before its next release")));
+  EXPECT_THAT(lines("<order>total</order>"), ElementsAre(HasSubstr("error: b is not done before its next release")));
+}
+
+TEST(Times, With_a_core_that_the_node_chooses_it_is_a_warning) {
+  const Checked sut = check(
+      root(periodic("a.so", "1ms", 1, wcet("600us")) + periodic("b.so", "1ms", 2, wcet("500us") + "<core>1</core>")),
+      {.files = false});
   EXPECT_TRUE(sut.result.ok());
   EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("as if all modules were on one core")));
 }

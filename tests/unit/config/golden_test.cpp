@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole configurations against what is expected of them, one folder each. Files of a case that exist are compared:
-// expected.err (diagnostics of reading and of the schedule), .table, .json, .csv, .svg, and .adjusted (the table with
+// expected.err (diagnostics of reading and of the schedule), .table, .json, .csv, .svg, .why, and .adjusted (the table
+// with
 // --adjust). INDUROP_UPDATE_GOLDEN=1 writes them instead.
 
 #include <gmock/gmock.h>
@@ -20,7 +21,7 @@ class Golden : public testing::TestWithParam<std::string> {
   void compare(const std::string& name, const std::string& sut) {
     const std::filesystem::path file = folder() / ("expected." + name);
     if (golden::updating()) {
-      if (std::filesystem::exists(file) || (name != "svg" && name != "csv")) {
+      if (std::filesystem::exists(file) || !may_be_missing(name)) {
         std::ofstream(file, std::ios::binary) << sut;
       }
       return;
@@ -28,9 +29,10 @@ class Golden : public testing::TestWithParam<std::string> {
     if (std::filesystem::exists(file)) {
       EXPECT_EQ(sut, golden::slurp(file)) << file;
     } else {
-      EXPECT_TRUE(name == "svg" || name == "csv") << file << " is missing";
+      EXPECT_TRUE(may_be_missing(name)) << file << " is missing";
     }
   }
+  static bool may_be_missing(const std::string& name) { return name == "svg" || name == "csv" || name == "why"; }
   template <class Kind>
   void run();
   [[nodiscard]] static std::filesystem::path folder() { return std::filesystem::path(GOLDEN_CONFIG) / GetParam(); }
@@ -72,10 +74,10 @@ void Golden::run() {
     return;
   }
   Kind& kind = content(read_file);
-  const auto checked = check(kind, {.files = false, .adjust = false});
+  const auto checked = check(kind, {.files = false, .adjust = false, .machine = false});
   compare("err", text(read_file.diagnostics) + text(checked.diagnostics));
   if (!checked.ok()) {
-    const auto adjusted = check(kind, {.files = false, .adjust = true});
+    const auto adjusted = check(kind, {.files = false, .adjust = true, .machine = false});
     compare("adjusted", plan_table(kind, adjusted));
     return;
   }
@@ -83,6 +85,7 @@ void Golden::run() {
   compare("json", plan_json(kind, checked));
   compare("csv", plan_csv(kind, checked));
   compare("svg", plan_svg(kind, checked));
+  compare("why", plan_why(kind, checked));
 }
 
 TEST_P(Golden, Is_as_expected) {

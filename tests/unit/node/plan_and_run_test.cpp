@@ -120,7 +120,7 @@ TEST_P(PlanAndRun, Every_basic_period_runs_what_its_slot_shows_in_that_order) {
     const auto plan = nlohmann::json::parse(config::plan_json(config_, check));
 
     const scheduler::RunBlockSetup setup = make_run_setup(config_, check, "test", {0, true});
-    std::vector<scheduler::Task> tasks = make_tasks(config_, setup, 0);
+    std::vector<scheduler::Task> tasks = make_tasks(config_, check, setup, 0);
     for (scheduler::Task& task : tasks) {
       task.run = [] {};
       task.condition = []() -> bool { return true; };

@@ -81,5 +81,32 @@ TEST(Bands, An_offset_is_a_band_of_its_own) {
   EXPECT_EQ(make_bands(tasks, 100).size(), 2U);
 }
 
+TEST(Bands, Where_data_keeps_the_order_another_core_does_not_part_neighbours) {
+  const std::vector<Task> tasks = {task(100, 1), task(100, 2, ModuleType::Thread, 1), task(100, 3)};
+  EXPECT_EQ(make_bands(tasks, 100, CoreOrder::Total).size(), 3U);
+  const auto sut = make_bands(tasks, 100, CoreOrder::Data);
+  ASSERT_EQ(sut.size(), 2U);
+  EXPECT_THAT(sut[0].tasks, ElementsAre(0, 2));
+  EXPECT_EQ(sut[0].kind, BandKind::Inline);
+  EXPECT_EQ(sut[1].kind, BandKind::Inline);
+}
+
+TEST(Bands, A_band_begins_with_what_waits_for_another_core_and_ends_with_what_it_waits_for) {
+  std::vector<Task> tasks;
+  for (int i = 0; i < 6; ++i) {
+    tasks.push_back(task(100, i, ModuleType::Thread, i == 2 ? 1 : 0));
+    tasks.back().index = static_cast<std::uint32_t>(10 + i);
+  }
+  tasks[2].after = {10};  // of core 1, for the first of core 0
+  tasks[4].after = {12};  // and back
+  const auto sut = make_bands(tasks, 100, CoreOrder::Data);
+  ASSERT_EQ(sut.size(), 4U);
+  EXPECT_THAT(sut[0].tasks, ElementsAre(0));
+  EXPECT_THAT(sut[1].tasks, ElementsAre(1, 3));
+  EXPECT_THAT(sut[2].tasks, ElementsAre(2));
+  EXPECT_THAT(sut[3].tasks, ElementsAre(4, 5));
+  EXPECT_EQ(sut[2].kind, BandKind::Thread) << "it waits, so not in the tick thread";
+}
+
 }  // namespace
 }  // namespace indurop::scheduler
