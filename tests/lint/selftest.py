@@ -15,6 +15,7 @@ import check_readme
 import check_run
 import check_symbols
 import check_text
+import check_tick
 import check_tidy
 
 HERE = pathlib.Path(__file__).parent
@@ -271,6 +272,32 @@ class Symbols(Sample):
 
     def test_lost_export(self):
         self.found(self.check("one\nthree\ntwo\n"), "no longer exported: three")
+
+
+class Tick(Sample):
+    def check(self, listed):
+        self.put("a.cpp", 'extern "C" { void given(); void other(); void left_out(); }\n'
+                          'extern "C" [[gnu::noinline]] void rare() { left_out(); }\n'
+                          'static void middle() { given(); rare(); }\n'
+                          'extern "C" void tick() { middle(); }\n'
+                          'extern "C" void elsewhere() { other(); }\n')
+        library = str(self.root / "liba.a")
+        subprocess.run(["g++", "-O2", "-c", "-o", str(self.root / "a.o"), str(self.root / "a.cpp")], check=True)
+        subprocess.run(["ar", "rc", library, str(self.root / "a.o")], check=True)
+        self.put("list.txt", listed)
+        return check_tick.check(str(self.root / "list.txt"), [library])
+
+    def test_complete_list(self):
+        self.assertEqual(self.check("# head\nroot tick\nleaf rare\nservice given  a reason\n"), [])
+
+    def test_service_that_is_not_listed(self):
+        self.found(self.check("root tick\nservice given\n"), "left_out is not in", "reached by tick")
+
+    def test_service_nobody_uses(self):
+        self.found(self.check("root tick\nleaf rare\nservice given\nservice other\n"), "nothing on the tick path uses other")
+
+    def test_root_that_is_gone(self):
+        self.found(self.check("root tick\nroot tock\nleaf rare\nservice given\n"), "no function is called tock")
 
 
 class Readme(Sample):
