@@ -35,7 +35,7 @@ wait_for() {
 tour() {
   wait_for "$2" I14 1
   wait_for "$1" EMERGENCY_STOP.bActive 0
-  indurop watch --node "$1" ROBOT_ARM.joint ROBOT_ARM.tool_speed ROBOT_MODULE_STATE.eState ROBOT_JOB.name \
+  indurop watch --node "$1" ROBOT_ARM.joint ROBOT_ARM.position ROBOT_ARM.tool_speed ROBOT_MODULE_STATE.eState ROBOT_JOB.name \
     EMERGENCY_STOP.bActive I4 I5 O8 O9 --hz 50 --timeout 21s -o csv --units >"$3" &
   recorder=$!
   indurop set --node "$2" CELL::tour true
@@ -59,7 +59,7 @@ picture() {
   set -- "$@" --name 'ROBOT_ARM.tool_speed=tool speed, mm/s' --name 'ROBOT_ARM.joint=joints, deg'
   recording=$1 file=$2 title=$3
   shift 3
-  indurop chart "$recording" --svg "$file" --title "$title" -q "$@" \
+  indurop chart "$recording" --svg "$file" --title "$title" -q --way ROBOT_ARM.position "$@" \
     --words 'ROBOT_MODULE_STATE.eState=0 off, 1 standby, 2 moves, 3 homes, 4 stops, 5 error' \
     --name ROBOT_MODULE_STATE.eState=robot --name ROBOT_JOB.name=job --name EMERGENCY_STOP.bActive='emergency stop' \
     --name 'I4=I4: holds a part' --name 'I5=I5: gripper open' --name 'O8=O8: close gripper' --name 'O9=O9: open gripper'

@@ -10,6 +10,7 @@
 
 #include "tools/command/units.h"
 #include "tools/pictures/svg_parts.h"
+#include "tools/pictures/way_svg.h"
 
 namespace indurop::tools {
 namespace {
@@ -163,7 +164,7 @@ std::vector<double> round_values(double from, double to, int about) {
   return out;
 }
 
-std::string chart_svg(const std::string& heading, const Recording& recording) {
+std::string chart_svg(const std::string& heading, const Recording& recording, const Series* way) {
   const double begin = recording.time_s.front();
   const double end = std::max(recording.time_s.back(), begin + 1e-9);
   const Scale x{begin, end, kLeft, kPlot};
@@ -188,7 +189,13 @@ std::string chart_svg(const std::string& heading, const Recording& recording) {
   if (recording.marked) {
     svg_line(out, x.at(0), kHead - 8, x.at(0), y + 4, "mark");
   }
-  return base::svg_document(static_cast<int>(kWidth), static_cast<int>(y) + 34, out, style());
+  constexpr double kFoot = 34;
+  y += kFoot;
+  if (way != nullptr) {
+    out.part(0, static_cast<int>(y), way_svg(*way, kWidth - kGap));
+    y += kWayHeight;
+  }
+  return base::svg_document(static_cast<int>(kWidth), static_cast<int>(y), out, style());
 }
 
 }  // namespace indurop::tools

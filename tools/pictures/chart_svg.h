@@ -9,7 +9,8 @@
 
 namespace indurop::tools {
 
-std::string chart_svg(const std::string& heading, const Recording& recording);
+// `way`: drawn below, as way_svg() does it.
+std::string chart_svg(const std::string& heading, const Recording& recording, const Series* way = nullptr);
 
 // Round values between the ends, about as many as wanted.
 std::vector<double> round_values(double from, double to, int about);

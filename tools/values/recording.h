@@ -37,6 +37,8 @@ std::string part_name(const Series& series, std::size_t line);
 std::optional<std::string> rename(Recording& recording, std::string_view rule);
 // "NAME=0 off, 1 on": words for numbers.
 std::optional<std::string> give_words(Recording& recording, std::string_view rule);
+// Takes a column out, to be drawn otherwise; nothing if there is none of this name.
+std::optional<Series> take_series(Recording& recording, std::string_view name);
 // Leaves out the namespace that all names begin with.
 void drop_common_namespace(Recording& recording);
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/text.h"
 #include "tools/values/recording.h"
@@ -119,6 +120,16 @@ std::optional<std::string> give_words(Recording& recording, std::string_view rul
   series->words = std::move(words);
   series->steps = series->lines.size() == 1;
   return std::nullopt;
+}
+
+std::optional<Series> take_series(Recording& recording, std::string_view name) {
+  Series* series = find(recording, name);
+  if (series == nullptr) {
+    return std::nullopt;
+  }
+  Series taken = std::move(*series);
+  recording.series.erase(recording.series.begin() + (series - recording.series.data()));
+  return taken;
 }
 
 void drop_common_namespace(Recording& recording) {

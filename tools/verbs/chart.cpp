@@ -4,10 +4,12 @@
 
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "base/text.h"
 #include "tools/pictures/chart_svg.h"
 #include "tools/pictures/chart_text.h"
 #include "tools/verbs/verbs.h"
@@ -19,6 +21,7 @@ struct Options {
   std::string file;
   std::string svg_file;
   std::string title;
+  std::string way;
   std::vector<std::string> names;
   std::vector<std::string> words;
 };
@@ -62,6 +65,16 @@ int chart(Context& context, const Options& options) {
     return kFailed;
   }
   Recording recording = std::move(read).value();
+  std::optional<Series> way;
+  if (!options.way.empty()) {
+    way = take_series(recording, options.way);
+    if (!way || way->lines.size() < 2) {
+      context.out.error(fmt::format("--way: {} is no column of x, y and z", base::in_quotes(options.way)));
+      return kUsage;
+    }
+    const std::size_t space = way->name.rfind("::");
+    way->name.erase(0, space == std::string::npos ? 0 : space + 2);
+  }
   if (!name_columns(context, options, recording)) {
     return kUsage;
   }
@@ -71,7 +84,8 @@ int chart(Context& context, const Options& options) {
     }
     return kOk;
   }
-  const std::string picture = chart_svg(options.title.empty() ? options.file : options.title, recording);
+  const std::string picture =
+      chart_svg(options.title.empty() ? options.file : options.title, recording, way ? &*way : nullptr);
   if (options.svg_file.empty()) {
     context.out.write(picture);
     return kOk;
@@ -89,6 +103,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("file", "FILE.csv", options->file, "Recording; - reads it from stdin").required();
   app.add("--svg", "FILE", options->svg_file, "Write a picture to FILE");
   app.add("--title", "TEXT", options->title, "Heading of the picture");
+  app.add("--way", "NAME", options->way, "Draw an array x, y, z as a way, from above and from the side");
   app.add("--name", "OLD=NEW", options->names, "Show a column, or NAME[2] of an array, by another name (repeat it)");
   app.add("--words", "NAME=0 off, 1 on", options->words, "Show words instead of a column's numbers (repeat it)");
   add_format_option(app, context, {Format::Table, Format::Svg});

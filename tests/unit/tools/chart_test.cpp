@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "tools/pictures/chart_svg.h"
 #include "tools/pictures/chart_text.h"
+#include "tools/pictures/way_svg.h"
 #include "tools/values/recording.h"
 
 namespace indurop::tools {
@@ -118,6 +120,39 @@ TEST(RecordingNames, The_namespace_that_all_have_is_left_out) {
   Recording other = read("time,A::x,B::y\n0,0.5,1\n1,2,0\n");
   drop_common_namespace(other);
   EXPECT_EQ(other.series[0].name, "A::x");
+}
+
+TEST(ChartSvg, A_way_is_seen_from_above_and_from_the_side_in_one_scale) {
+  Recording sut = read("time,A::p [mm],A::on\n0,\"[0,0,5]\",1\n1,\"[100,0,5]\",0\n2,\"[100,50,25]\",1\n");
+  EXPECT_FALSE(take_series(sut, "q"));
+  const auto way = take_series(sut, "p");
+  ASSERT_TRUE(way);
+  EXPECT_EQ(sut.series.size(), 1U);
+  const std::string svg = way_svg(*way, 1000).elements();
+  EXPECT_THAT(svg, HasSubstr("A::p [mm]: x across, y up"));
+  EXPECT_THAT(svg, HasSubstr("A::p [mm]: x across, z up"));
+  // Of 100 mm across and 50 up, or 20: the same number of pixels for 100 mm in both.
+  std::vector<double> across;
+  for (std::size_t at = svg.find("d=\"M"); at != std::string::npos; at = svg.find("d=\"M", at + 1)) {
+    double x1 = 0;
+    double y1 = 0;
+    double x2 = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + at, "d=\"M%lf %lfL%lf", &x1, &y1, &x2), 3) << svg;
+    across.push_back(x2 - x1);
+  }
+  ASSERT_EQ(across.size(), 2U);
+  EXPECT_NEAR(across[0], across[1], 0.2);
+  EXPECT_GT(across[0], 300);
+}
+
+TEST(ChartSvg, A_way_that_stands_or_has_no_values_is_no_problem) {
+  for (const char* text :
+       {"time,p\n0,\"[1,1,1]\"\n1,\"[1,1,1]\"\n", "time,p\n0,\"[null,null]\"\n1,\"[null,null]\"\n"}) {
+    Recording sut = read(text);
+    const std::string svg = way_svg(*take_series(sut, "p"), 800).elements();
+    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    EXPECT_THAT(svg, Not(HasSubstr("inf")));
+  }
 }
 
 TEST(ChartSvg, Round_values_are_round) {
