@@ -123,6 +123,20 @@ def test_fifty_clients(setting):
     wait_for(lambda: server.get(API + "/status").json()["clients"] == [], "all to be gone")
 
 
+def test_five_thousand_variables(setting):
+    server, client = begin(setting, node=("many", "5000"))
+    assert len(server.get(f"{API}/boards/{setting.node}/variables?match=many::*").json()["variables"]) == 5000
+    client.say(type="subscribe", id=1, names=["many::*"], rate_hz=25, binary=True)
+    told = client.heard("subscribed")
+    assert len(told["variables"]) == 5000 and not told["missing"]
+    first = client.heard("binary")
+    assert len(first) == told["record_size"] > 5000 * 9
+    wait_for(lambda: client.heard("binary")[40:48] != first[40:48], "other values")
+    client.say(type="subscribe", id=2, names=["many::*"], rate_hz=5)
+    assert len(client.heard("values")["values"]) == 5000
+    client.close()
+
+
 def test_no_more_clients_than_allowed(setting):
     server, first = begin(setting, "--clients", "2")
     second = WebSocket(server.port)
