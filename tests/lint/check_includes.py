@@ -19,6 +19,7 @@ THIRD_PARTY = {
     "openssl": ("openssl/",),
     "modbus": ("modbus/",),
     "websockets": ("libwebsockets.h",),
+    "curses": ("curses.h",),
     "zstd": ("zstd.h",),
     "lz4": ("lz4frame.h",),
     "eigen": ("Eigen/",),

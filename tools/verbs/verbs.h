@@ -39,6 +39,8 @@ extern const Verb kSetVerb;
 extern const Verb kStartVerb;
 extern const Verb kStatusVerb;
 extern const Verb kStopVerb;
+extern const Verb kStreamVerb;
+extern const Verb kTopVerb;
 extern const Verb kTypeofVerb;
 extern const Verb kUnforceVerb;
 extern const Verb kVarsVerb;

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop stream: values as datagrams of JSON, as PlotJuggler's UDP server takes them.
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "rt/clock.h"
+#include "tools/command/gentle.h"
+#include "tools/command/rounds.h"
+#include "tools/values/node_choice.h"
+#include "tools/values/watch_source.h"
+#include "tools/verbs/verbs.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::size_t kMostBytes = 60'000;  // of a datagram; UDP has room for 65507
+
+struct Options {
+  std::vector<std::string> names;
+  bool plotjuggler = false;
+  std::string to = "127.0.0.1:9870";
+  double hz = 50;
+  std::uint64_t count = 0;
+  std::int64_t timeout_ns = 0;
+};
+
+// Datagrams to one address.
+class Sender {
+ public:
+  explicit Sender(int socket) : socket_(socket) {}
+  Sender(Sender&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
+  Sender& operator=(Sender&&) = delete;
+  Sender(const Sender&) = delete;
+  Sender& operator=(const Sender&) = delete;
+  ~Sender() {
+    if (socket_ >= 0) {
+      ::close(socket_);
+    }
+  }
+
+  // "host:9870", "[::1]:9870".
+  static Result<Sender, Failure> open(const std::string& to) {
+    const std::size_t colon = to.rfind(':');
+    if (colon == std::string::npos || colon == 0) {
+      return Failure{kUsage, fmt::format("'{}' is no address; write HOST:PORT, 127.0.0.1:9870", to)};
+    }
+    std::string host = to.substr(0, colon);
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
+      host = host.substr(1, host.size() - 2);
+    }
+    addrinfo wish{};
+    wish.ai_socktype = SOCK_DGRAM;
+    addrinfo* found = nullptr;
+    if (const int code = ::getaddrinfo(host.c_str(), to.c_str() + colon + 1, &wish, &found); code != 0) {
+      return Failure{kFailed, fmt::format("cannot send to '{}': {}", to, ::gai_strerror(code))};
+    }
+    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> list(found, &::freeaddrinfo);
+    Sender sender(::socket(list->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    if (sender.socket_ < 0 || ::connect(sender.socket_, list->ai_addr, list->ai_addrlen) != 0) {
+      return Failure{kFailed, fmt::format("cannot send to '{}': {}", to, std::strerror(errno))};
+    }
+    return sender;
+  }
+
+  // That nobody listens is no failure: somebody may later.
+  void send(const std::string& text) const { (void)::send(socket_, text.data(), text.size(), MSG_NOSIGNAL); }
+
+ private:
+  int socket_;
+};
+
+// The object for "knu::Robot::tick" inside of `root`: its namespaces are objects one in the other.
+JsonValue& place_of(JsonValue& root, const std::string& name) {
+  JsonValue* at = &root;
+  std::size_t begin = 0;
+  for (std::size_t end = name.find("::"); end != std::string::npos; end = name.find("::", begin)) {
+    at = &(*at)[name.substr(begin, end - begin)];
+    begin = end + 2;
+  }
+  return (*at)[name.substr(begin)];
+}
+
+class Stream {
+ public:
+  Stream(Context& context, Sender sender) : context_(context), sender_(std::move(sender)) {}
+
+  // All values, in as many datagrams as they need.
+  void send(const WatchSource& source) {
+    JsonValue message = begin();
+    std::size_t bytes = 0;
+    for (const WatchedValue& value : source.values()) {
+      if (value.gone) {
+        continue;
+      }
+      JsonValue raw = raw_value(value.item.place.type, value.bytes);
+      const std::size_t size = raw.dump().size() + value.item.name.size() + 8;
+      if (size > kMostBytes) {
+        too_large(value.item.name);
+        continue;
+      }
+      if (bytes + size > kMostBytes) {
+        sender_.send(message.dump());
+        message = begin();
+        bytes = 0;
+      }
+      place_of(message, value.item.name) = std::move(raw);
+      bytes += size;
+    }
+    sender_.send(message.dump());
+  }
+
+ private:
+  JsonValue begin() const {
+    JsonValue message = JsonValue::object();
+    message["timestamp"] = static_cast<double>(rt::wall_ns()) / 1e9;
+    return message;
+  }
+  void too_large(const std::string& name) {
+    if (!told_) {
+      context_.out.error(fmt::format("{} does not fit into a datagram and is left out; name parts of it", name));
+      told_ = true;
+    }
+  }
+
+  Context& context_;
+  Sender sender_;
+  bool told_ = false;
+};
+
+int stream(Context& context, const Options& options) {
+  if (!options.plotjuggler) {
+    context.out.error("to whom? --plotjuggler sends what PlotJuggler's UDP server takes (see: indurop help stream)");
+    return kUsage;
+  }
+  auto sender = Sender::open(options.to);
+  if (!sender) {
+    return report(context.out, sender.error());
+  }
+  WatchSource source(context.node, options.names);
+  if (const auto opened = source.open(context); !opened) {
+    return report(context.out, opened.error());
+  }
+  if (context.values->here()) {
+    be_gentle(source.node());
+  }
+  context.out.note(fmt::format("{} values to {}, {:g} times a second", source.values().size(), options.to, options.hz));
+  Stream out(context, std::move(sender).value());
+  Rounds rounds(options.hz, options.count, options.timeout_ns);
+  for (bool key = false; rounds.wait(-1, key); rounds.done()) {
+    source.sample(context, 0, SIZE_MAX);
+    if (source.alive()) {
+      out.send(source);
+    }
+  }
+  return interrupted() ? interrupt_code() : kOk;
+}
+
+Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  constexpr double kMostHz = 1000;
+  constexpr double kLeastHz = 0.001;
+  app.add("names", "GLOB", options->names, "Variables, parts of them, or globs")
+      .required()
+      .completes(base::Completion::Variable);
+  app.flag("--plotjuggler", options->plotjuggler, "Send JSON over UDP, as PlotJuggler's UDP server takes it");
+  app.add("--to", "HOST:PORT", options->to, "Where to (default 127.0.0.1:9870)");
+  app.add("--hz", "RATE", options->hz, "Rounds per second (default 50, at most 1000)").range(kLeastHz, kMostHz);
+  app.add("-n,--count", "COUNT", options->count, "Stop after COUNT rounds");
+  add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
+  add_node_option(app, context);
+  add_far_options(app, context);
+  return [options](Context& c) { return stream(c, *options); };
+}
+
+}  // namespace
+
+const Verb kStreamVerb{
+    "stream", "Variables", "Send values to a program that draws them",
+    "In PlotJuggler: start the UDP server with JSON, and let it use the field 'timestamp' (seconds since 1970).\n"
+    "Namespaces are objects, so 'knu::Robot::tick' is shown as /knu/Robot/tick. What happens in every tick is seen by\n"
+    "indurop scope and indurop record.\n"
+    "Examples:\n"
+    "  indurop stream 'knu::Robot::*' --plotjuggler\n"
+    "  indurop stream joints --plotjuggler --to 192.168.1.5:9870 --hz 100\n",
+    &declare};
+
+}  // namespace indurop::tools
