@@ -91,8 +91,9 @@ Rights simulated_rights(const Options& options, const config::Config& config) {
 
 Result<void, Ending> lock_memory(const Options& options, const Rights& rights, scheduler::RunBlock& run,
                                  const Console& console) {
-  // Used while starting, and by the threads that talk to other boards, which are not real-time.
-  constexpr std::array<std::string_view, 5> kNotNeeded{"libddsc", "libcrypto", "libssl", "libiceoryx", "libtinyxml2"};
+  // Used while starting, and by the threads that record and talk to other boards, which are not real-time.
+  constexpr std::array<std::string_view, 7> kNotNeeded{"libddsc",     "libcrypto", "libssl", "libiceoryx",
+                                                       "libtinyxml2", "libzstd",   "liblz4"};
   if (const Status locked = rt::lock_memory(kNotNeeded); locked) {
     run.obtained.memory_locked = 1;
   } else if (rights.realtime()) {
