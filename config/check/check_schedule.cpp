@@ -258,7 +258,7 @@ std::vector<scheduler::Task> periodic_tasks(const CheckContext& context) {
     scheduler::Task task;
     task.type = module.type;
     task.priority = module.priority;
-    task.core = module.core;
+    task.core = module.core >= 0 ? module.core : context.config.core;
     task.period_ns = module.period.count();
     task.offset_ns = module.offset.count();
     task.overrun = module.overrun;

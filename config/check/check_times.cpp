@@ -28,6 +28,7 @@ constexpr base::Nanos kLookCost{std::chrono::microseconds(50)};  // who waits fo
 struct Order {
   std::vector<std::size_t> modules;  // indices into Config::modules
   std::vector<Demand> demands;
+  std::vector<int> front;    // priority of the first module of its band
   std::size_t periodic = 0;  // so many of them are before the event handler
 };
 
@@ -81,12 +82,13 @@ class Times {
     };
     for (const scheduler::BandPlan& band :
          scheduler::make_bands(periodic_tasks(context_), basic_.count(), config_.order)) {
-      if (band.kind != scheduler::BandKind::Inline) {
+      if (band.kind != scheduler::BandKind::Inline && band.core == context_.config.core) {
         add_after_base();
       }
       for (const std::uint32_t task : band.tasks) {
         add(result.periodic[task], band.kind != scheduler::BandKind::Inline && task == band.tasks.front());
       }
+      order_.front.resize(order_.modules.size(), config_.modules[result.periodic[band.tasks.front()]].priority);
     }
     add_after_base();
     order_.periodic = order_.modules.size();
@@ -95,6 +97,7 @@ class Times {
         add(i, true);
       }
     }
+    order_.front.resize(order_.modules.size());
   }
 
   [[nodiscard]] int core_of(const Module& module) const { return module.core >= 0 ? module.core : config_.core; }
@@ -119,8 +122,9 @@ class Times {
       demand.core = core_of(module);
       for (std::size_t k = 0; k < std::min(i, order_.periodic); ++k) {
         const Module& other = config_.modules[order_.modules[k]];
+        // Who waits for a band waits for all of it.
         const bool told = config_.order == scheduler::CoreOrder::Total
-                              ? other.priority < module.priority
+                              ? order_.front[k] < order_.front[i]
                               : earlier[order_.modules[i]].contains(order_.modules[k]);
         const bool waits = i >= order_.periodic || (told && !module.after_base && !other.after_base);
         if (core_of(other) != demand.core && waits) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fixture.h"
+#include "scheduler/bands.h"
+#include "scheduler/response_time.h"
 #include "scheduler/simulated_kernel.h"
 
 namespace indurop::scheduler {
@@ -162,6 +164,82 @@ TEST(DataOrder, On_up_to_four_cores_every_run_reads_what_it_reads_on_one) {
     earlier += together.longest.back() < alone.longest.back() ? 1 : 0;
   }
   EXPECT_GT(earlier, 100) << "what need not wait does not";
+}
+
+// Work of any length, up to several basic periods.
+std::vector<Task> long_tasks(Random& random, std::vector<Access>& access, int cores) {
+  std::vector<Task> tasks = random_tasks(random, access);
+  for (Task& task : tasks) {
+    task.core = random.upto(0, cores - 1);
+    task.work_ns = random.upto(1, static_cast<int>(task.period_ns / 1000 / 3)) * 1000;
+  }
+  connect(tasks, access);
+  return tasks;
+}
+
+// By task. Empty: not all are done before their next release.
+std::vector<std::int64_t> bounds_of(const std::vector<Task>& tasks, CoreOrder order) {
+  std::vector<std::uint32_t> turn;
+  std::vector<int> front;  // priority of the first task of its band
+  for (const BandPlan& band : make_bands(tasks, kBasic, order)) {
+    turn.insert(turn.end(), band.tasks.begin(), band.tasks.end());
+    front.resize(turn.size(), tasks[band.tasks.front()].priority);
+  }
+  std::vector<Demand> demands;
+  for (std::uint32_t i = 0; i < turn.size(); ++i) {
+    const Task& task = tasks[turn[i]];
+    Demand demand{Nanos(task.period_ns), Nanos(task.offset_ns), Nanos(task.work_ns), false, task.core};
+    for (std::uint32_t k = 0; k < i; ++k) {
+      const Task& other = tasks[turn[k]];
+      const bool told = order == CoreOrder::Total
+                            ? front[k] < front[i]
+                            : std::find(task.after.begin(), task.after.end(), other.index) != task.after.end();
+      if (told && other.core != task.core) {
+        demand.after.push_back(k);
+      }
+    }
+    demands.push_back(demand);
+  }
+  const WorstResponses found = worst_responses(demands, Nanos(kBasic), {});
+  std::vector<std::int64_t> bounds(tasks.size());
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    bounds[turn[i]] = found.worst[i].count();
+    if (found.worst[i] == WorstResponses::kNotDone || bounds[turn[i]] > tasks[turn[i]].period_ns) {
+      return {};
+    }
+  }
+  return bounds;
+}
+
+TEST(DataOrder, No_run_on_several_cores_ends_later_than_its_bound_says) {
+  int looked_at = 0;
+  int exact = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random{std::mt19937(seed)};
+    std::vector<Access> access;
+    const std::vector<Task> tasks = long_tasks(random, access, random.upto(2, 4));
+    const CoreOrder order = random.upto(0, 3) == 0 ? CoreOrder::Total : CoreOrder::Data;
+    const std::vector<std::int64_t> bounds = bounds_of(tasks, order);
+    if (bounds.empty()) {
+      continue;
+    }
+    ++looked_at;
+    // With the longest work, and with less, where others can begin earlier and be in the way.
+    for (const int share : {100, random.upto(10, 90)}) {
+      std::vector<Task> shorter = tasks;
+      for (Task& task : shorter) {
+        task.work_ns = task.work_ns * (random.upto(0, 1) == 0 ? share : 100) / 100;
+      }
+      const Outcome sut = run(shorter, access, order);
+      for (std::size_t i = 0; i < tasks.size(); ++i) {
+        ASSERT_LE(sut.longest[i], bounds[i]) << "task " << i;
+        exact += share == 100 && sut.longest[i] == bounds[i] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(looked_at, 200);
+  EXPECT_GT(exact, 600) << "and it is not far off";
 }
 
 }  // namespace
