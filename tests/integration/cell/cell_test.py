@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The robot cell (examples/robot_cell) with its tour: parts are picked and placed, the light curtain and the emergency stop
-stop the robot, it goes on after reset and start; and all of it in the same order on one board and on two."""
+stop the robot, it goes on after reset and start; and all of it in the same order on one board, on two, and on one with the
+PLC program on a core of its own. Without devices and in virtual time its values are the same on one core and on two."""
 
 import argparse
+import json
 import os
 import socket
 import subprocess
@@ -66,6 +68,34 @@ class RunningCell(Cell):
         return changes
 
 
+def on_two_cores(folder, cores):
+    """The board's file with the PLC program, which gets its data from the others, on another core."""
+    with open(os.path.join(folder, "module.xml"), encoding="utf-8") as file:
+        text = file.read()
+    text = text.replace("<root>", f"<root><core>{cores[-1]}</core>")
+    with open(os.path.join(folder, "cores.xml"), "w", encoding="utf-8") as file:
+        file.write(text.replace("<priority>3</priority>", f"<priority>3</priority><core>{cores[0]}</core>"))
+
+
+def without_devices(folder, name, arguments):
+    """All values of the cell after five seconds of virtual time, of which its modules take some."""
+    with open(os.path.join(folder, name), encoding="utf-8") as file:
+        modules = file.read().split("<module>")
+    modules = [m for m in modules if "iodispat" not in m and "world" not in m]
+    modules = [m.replace("<priority>", f"<wcet>{i}00us</wcet><priority>", 1) for i, m in enumerate(modules)]
+    with open(os.path.join(folder, f"sim_{name}"), "w", encoding="utf-8") as file:
+        file.write("<module>".join(modules) + ("" if "</root>" in modules[-1] else "</root>"))
+    node = f"sim_{name[:4]}"
+    tools = Cell(arguments, folder, node, node)
+    done = tools.indurop("run", f"sim_{name}", "--sim", "--until", "5s", "--node", node, "-q")
+    assert done.returncode == 0, done.stderr
+    values = tools.indurop("vars", "--node", node, "-o", "json").stdout
+    tools.indurop("clean", "--node", node)
+    shown = {v["name"]: v["value"] for v in json.loads(values)["variables"]}
+    shown["PLC_ROBOT::EMERGENCY_STOP"].pop("tReaction")  # a time, and shorter where others run elsewhere
+    return shown
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bin", required=True)
@@ -78,12 +108,22 @@ def main():
             one = cell.tour()
         with RunningCell(arguments, folder, ["plant.xml", "--local"], "plc", "motion") as cell:
             two = cell.tour()
+        cores = sorted(os.sched_getaffinity(0))
+        on_two_cores(folder, cores)
+        beside = one
+        if len(cores) > 1:
+            with RunningCell(arguments, folder, ["cores.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
+                beside = cell.tour()
+        values = without_devices(folder, "module.xml", arguments)
+        assert values == without_devices(folder, "cores.xml", arguments), "not the values of one core"
     states = {int(state) for state, _ in one}
     assert {1, 2, 5} <= states, f"standby, moving and error stop were not all seen: {sorted(states)}"
     assert jobs(one)[:3] == ["home", "pick", "place"], jobs(one)
     common = min(len(jobs(one)), len(jobs(two))) - 1  # the last one is whatever was on when it ended
     assert common >= 6, (jobs(one), jobs(two))
     assert jobs(one)[:common] == jobs(two)[:common], f"one board: {jobs(one)}\ntwo boards: {jobs(two)}"
+    common = min(common, len(jobs(beside)) - 1)
+    assert common >= 6 and jobs(one)[:common] == jobs(beside)[:common], f"one core: {jobs(one)}\ntwo cores: {jobs(beside)}"
     print(f"one board and two: {' '.join(jobs(one)[:common])}")
     return 0
 
