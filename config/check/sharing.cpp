@@ -129,9 +129,11 @@ class Finder {
 
 bool uses_several_cores(const Config& config) {
   const auto timed = [](const Module& module) { return module.operation != scheduler::Operation::NonReal; };
+  const auto core_of = [&](const Module& module) { return module.core >= 0 ? module.core : config.core; };
   const auto first = std::find_if(config.modules.begin(), config.modules.end(), timed);
-  return config.cores || std::any_of(first, config.modules.end(),
-                                     [&](const Module& module) { return timed(module) && module.core != first->core; });
+  return config.cores || std::any_of(first, config.modules.end(), [&](const Module& module) {
+           return timed(module) && core_of(module) != core_of(*first);
+         });
 }
 
 void find_sharing(CheckContext& context) {
