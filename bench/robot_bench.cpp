@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "robot/chain.h"
 #include "robot/follower.h"
 #include "robot/planner.h"
 #include "robot/urdf.h"
