@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "mirror/frames/plane_topics.h"
+#include "mirror/frames/board_time.h"
 #include "rt/machine.h"
 
 namespace indurop::mirror {
@@ -14,29 +14,16 @@ constexpr std::chrono::milliseconds kEvery{500};
 
 }  // namespace
 
-Beacons::Beacons(const Settings& settings, std::uint64_t session, MirrorBlock& block)
-    : board_(settings.network.board), session_(session), block_(block) {
+Beacons::Beacons(const vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block)
+    : store_(store), board_(settings.network.board), session_(session), block_(block) {
   for (const std::string& name : settings.boards) {
     peers_.push_back({name, 0, {}});
   }
 }
 
-Result<void, base::Problem> Beacons::open(dds::Handle participant, const Settings& settings) {
-  // A beacon that is repeated late would only tell a wrong time.
-  const dds::Qos qos = plane_qos(settings, Stream::BestEffort);
-  const std::string topic = beacon_topic(settings.plant);
-  writer_ = dds::make_writer(participant, indurop_wire_Beacon_desc, topic, qos);
-  reader_ =
-      dds::make_reader(participant, indurop_wire_Beacon_desc, topic, qos, dds::data_listener(&Beacons::on_data, this));
-  if (!writer_.ok() || !reader_.ok()) {
-    return base::Problem{"cannot exchange beacons: " + (writer_.ok() ? reader_.why() : writer_.why())};
-  }
-  return {};
-}
-
-void Beacons::close() noexcept {
-  reader_.reset();
-  writer_.reset();
+Plane::Opened Beacons::open(Plane& plane) {
+  plane_ = &plane;
+  return plane.exchange_beacons(*this);
 }
 
 rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept {
@@ -66,24 +53,15 @@ rt::MonoTime Beacons::cycle(rt::MonoTime now, const Schedule& schedule) noexcept
   beacon.synchronised = sync.synchronised;
   beacon.heard._length = beacon.heard._maximum = static_cast<std::uint32_t>(heard.size());
   beacon.heard._buffer = heard.data();
-  beacon.source_time_ns = rt::wall_ns();
-  if (!dds::write(writer_.get(), beacon).ok()) {
+  beacon.source_time_ns = board_wall_ns(store_);
+  if (!plane_->send(beacon)) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
   }
   return due_;
 }
 
-void Beacons::on_data(dds::Handle reader, void* self) {
-  static_cast<Beacons*>(self)->take(reader);
-}
-
-void Beacons::take(dds::Handle reader) noexcept {
-  const rt::WallTime arrival = rt::WallClock::now();
-  dds::take_all<indurop_wire_Beacon>(reader, [&](const indurop_wire_Beacon& beacon, const dds::SampleInfo& info) {
-    if (info.valid) {
-      heard(beacon, arrival);
-    }
-  });
+void Beacons::beacon_came(const indurop_wire_Beacon& beacon) noexcept {
+  heard(beacon, rt::wall_time(board_wall_ns(store_)));
 }
 
 void Beacons::heard(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept {

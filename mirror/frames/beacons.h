@@ -3,32 +3,30 @@
 
 #pragma once
 
-#include <indurop/idl/wire.h>
-#include <indurop/result.h>
-
 #include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "base/problem.h"
-#include "dds/endpoint.h"
 #include "mirror/frames/clock_compare.h"
 #include "mirror/frames/mirror_block.h"
+#include "mirror/frames/plane.h"
 #include "mirror/frames/schedule.h"
 #include "mirror/frames/settings.h"
 #include "rt/clock.h"
+#include "vars/store.h"
 
 namespace indurop::mirror {
 
-class Beacons {
+class Beacons final : public BeaconListener {
  public:
-  Beacons(const Settings& settings, std::uint64_t session, MirrorBlock& block);
+  // `store`, whose time counts, is borrowed until the end.
+  Beacons(const vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
   Beacons(const Beacons&) = delete;
   Beacons& operator=(const Beacons&) = delete;
 
-  Result<void, base::Problem> open(dds::Handle participant, const Settings& settings);
-  void close() noexcept;
+  // `plane` is used until it is closed.
+  Plane::Opened open(Plane& plane);
   // Sends one if it is time. Returns when the next is due.
   rt::MonoTime cycle(rt::MonoTime now, const Schedule& schedule) noexcept;
 
@@ -38,17 +36,16 @@ class Beacons {
     std::uint64_t session = 0;
     ClockCompare clock;
   };
-  static void on_data(dds::Handle reader, void* self);
-  void take(dds::Handle reader) noexcept;
+  void beacon_came(const indurop_wire_Beacon& beacon) noexcept override;
   void heard(const indurop_wire_Beacon& beacon, rt::WallTime arrival) noexcept;
 
+  const vars::Store& store_;
   std::string board_;
   std::uint64_t session_;
   MirrorBlock& block_;
   std::mutex mutex_;  // between the receive thread and the manager
   std::vector<Peer> peers_;
-  dds::Endpoint writer_;
-  dds::Endpoint reader_;
+  Plane* plane_ = nullptr;
   rt::MonoTime due_{};
 };
 

@@ -4,33 +4,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
-#include <vector>
 
 #include "dds/joining.h"
 #include "dds/log.h"
 #include "dds/other_releases.h"
 #include "mirror/frames/anticipation.h"
-#include "mirror/frames/beacons.h"
-#include "mirror/frames/landing.h"
-#include "mirror/frames/mirror_block.h"
+#include "mirror/frames/dds_plane.h"
+#include "mirror/frames/exchange.h"
 #include "mirror/frames/plane_topics.h"
-#include "mirror/frames/receiver.h"
-#include "mirror/frames/sender.h"
 #include "rt/clock.h"
 #include "rt/signal_word.h"
 #include "rt/thread.h"
-#include "vars/shm_file.h"
 
 namespace indurop::mirror {
 namespace {
 
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
-constexpr std::int64_t kLookNs = 10'000'000;  // without a notification: somebody else may have written
+constexpr std::int64_t kUntilUpNs = 10'000'000;  // between two looks whether the network is there
 constexpr std::int64_t kOthersNs = 500'000'000;
-constexpr std::int64_t kBulkLookNs = 20'000'000;
-constexpr std::int64_t kLookAgainNs = 100'000;  // for the end of a run that nobody tells
 
 // Until `wake`, awake in the window. False if the time passed without.
 bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Window& window) noexcept {
@@ -47,26 +39,17 @@ bool wait(rt::SignalWord& wake, std::int64_t deadline_ns, const Anticipation::Wi
   return wake.wait_until(rt::mono_time(deadline_ns));
 }
 
-void copy_name(char (&to)[kBoardName], const std::string& from) noexcept {
-  const std::size_t length = std::min(from.size(), sizeof to - 1);
-  std::memcpy(to, from.data(), length);
-  to[length] = '\0';
-}
-
 }  // namespace
 
 struct Mirror::Impl {
-  Impl(Settings wanted, vars::Store& values, const std::atomic<std::uint64_t>& ticks, vars::ShmFile&& memory)
-      : settings(std::move(wanted)),
-        store(values),
-        tick(ticks),
-        file(std::move(memory)),
-        block(*reinterpret_cast<MirrorBlock*>(file.data())),
-        session(static_cast<std::uint64_t>(rt::wall_ns())),
+  explicit Impl(std::unique_ptr<Exchange> with)
+      : exchange(std::move(with)),
+        settings(exchange->settings()),
+        block(exchange->block()),
+        plane(settings),
         joining(
             settings.network, [this](dds::Handle participant) { return open(participant); }, [this] { close(); }) {}
 
-  void make_receivers();
   Status run();
   void end() noexcept;
   void manage();
@@ -75,25 +58,16 @@ struct Mirror::Impl {
   void take_catalogues() noexcept;
   void look_for_other_releases();
   void send_loop(bool bulk) noexcept;
+  std::int64_t send(bool bulk) noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
 
-  Settings settings;
-  vars::Store& store;
-  const std::atomic<std::uint64_t>& tick;
-  vars::ShmFile file;
+  std::unique_ptr<Exchange> exchange;
+  const Settings& settings;
   MirrorBlock& block;
-  std::uint64_t session;
+  DdsPlane plane;
   std::string refused;  // what was said last about keys
-
-  Landing* landing_of(const std::string& variable);
-
-  std::unique_ptr<Sender> sender;
-  std::unique_ptr<Beacons> beacons;
   std::mutex schedule_mutex;
   Schedule schedule;
-  std::mutex landings_mutex;
-  std::vector<std::unique_ptr<Landing>> landings;
-  std::vector<std::unique_ptr<Receiver>> receivers;
   dds::Endpoint catalogues;
   dds::OtherReleases others;
   dds::Joining joining;
@@ -107,59 +81,10 @@ struct Mirror::Impl {
   rt::Thread bulk;
 };
 
-// Null if the store does not hold it.
-Landing* Mirror::Impl::landing_of(const std::string& variable) {
-  const auto* entry = store.find(abi::fnv1a64(variable.data(), variable.size()));
-  if (entry == nullptr) {
-    return nullptr;
-  }
-  const auto found = std::find_if(landings.begin(), landings.end(),
-                                  [entry](const auto& landing) { return &landing->entry() == entry; });
-  if (found != landings.end()) {
-    return found->get();
-  }
-  landings.push_back(std::make_unique<Landing>(store, *entry, rt::now_ns() + settings.network.lease_ns));
-  return landings.back().get();
-}
-
-// One per board, with what is read from it.
-void Mirror::Impl::make_receivers() {
-  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
-    std::vector<Landing*> from_it;
-    for (const Incoming& in : settings.incoming) {
-      if (in.owner != settings.boards[i]) {
-        continue;
-      }
-      if (Landing* landing = landing_of(in.variable); landing != nullptr) {
-        from_it.push_back(landing);
-        block.variables()[block.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
-                                               static_cast<std::uint32_t>(i), 0};
-      }
-    }
-    receivers.push_back(std::make_unique<Receiver>(settings.boards[i], from_it, landings_mutex, block.peers()[i]));
-  }
-}
-
 Status Mirror::Impl::run() {
   wake_manager.init(false);
   wake_sender.init(false);
   wake_bulk.init(false);
-  block.abi = kMirrorAbi;
-  block.peer_count = static_cast<std::uint32_t>(settings.boards.size());
-  copy_name(block.plant, settings.plant);
-  copy_name(block.board, settings.network.board);
-  block.domain = settings.network.domain;
-  block.session.store(session, std::memory_order_relaxed);
-  for (std::size_t i = 0; i < settings.boards.size(); ++i) {
-    copy_name(block.peers()[i].name, settings.boards[i]);
-  }
-  sender = std::make_unique<Sender>(store, settings, session, block);
-  beacons = std::make_unique<Beacons>(settings, session, block);
-  make_receivers();
-  block.magic.store(kMirrorMagic, std::memory_order_release);
-  if (Status published = file.publish(); !published) {
-    return published;
-  }
   rt::ThreadSettings thread;
   thread.fifo_priority = settings.network.fifo_priority;
   thread.stack_bytes = kStackBytes;
@@ -181,12 +106,12 @@ Status Mirror::Impl::run() {
   if (Status started = launch("irp-mirror-mgr", manager, [this] { manage(); }); !started) {
     return started;
   }
-  if (!sender->empty()) {
+  if (exchange->sends()) {
     if (Status started = launch("irp-mirror", prompt, [this] { send_loop(false); }); !started) {
       return started;
     }
   }
-  if (sender->has_bulk()) {
+  if (exchange->sends_bulk()) {
     thread.fifo_priority = 0;
     return launch("irp-mirror-bulk", bulk, [this] { send_loop(true); });
   }
@@ -194,10 +119,8 @@ Status Mirror::Impl::run() {
 }
 
 Result<void, base::Problem> Mirror::Impl::open(dds::Handle participant) {
-  if (auto opened = sender->open(participant, settings); !opened) {
-    return opened;
-  }
-  if (auto opened = beacons->open(participant, settings); !opened) {
+  plane.enter(participant);
+  if (auto opened = exchange->open(plane); !opened) {
     return opened;
   }
   catalogues = dds::make_reader(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant),
@@ -209,11 +132,7 @@ Result<void, base::Problem> Mirror::Impl::open(dds::Handle participant) {
 }
 
 void Mirror::Impl::close() noexcept {
-  for (const auto& receiver : receivers) {
-    receiver->close();
-  }
-  beacons->close();
-  sender->close();
+  exchange->close();
   catalogues.reset();
   others.close();
 }
@@ -239,13 +158,7 @@ void Mirror::Impl::manage() {
       const std::lock_guard<std::mutex> guard(schedule_mutex);
       current = schedule;
     }
-    std::int64_t next = rt::to_ns(beacons->cycle(rt::mono_time(now), current));
-    {
-      const std::lock_guard<std::mutex> guard(landings_mutex);
-      for (const auto& landing : landings) {
-        next = std::min(next, landing->expire(now));
-      }
-    }
+    const std::int64_t next = exchange->look(now, current);
     block.dds_messages.store(dds::dds_message_count(), std::memory_order_relaxed);
     // Why boards do not come that are expected, or who knocks.
     if (const std::string now_refused = dds::last_refusal(); now_refused != refused) {
@@ -258,13 +171,11 @@ void Mirror::Impl::manage() {
 
 void Mirror::Impl::take_catalogues() noexcept {
   dds::take_all<indurop_wire_Catalogue>(catalogues.get(), [this](const auto& catalogue, const dds::SampleInfo& info) {
-    const auto found = std::find_if(receivers.begin(), receivers.end(),
-                                    [&](const auto& receiver) { return receiver->board() == catalogue.board; });
-    if (found != receivers.end()) {
+    if (exchange->knows(catalogue.board)) {
       if (!info.alive) {
-        (*found)->silent();
+        exchange->gone(catalogue.board);
       } else if (info.valid) {
-        (*found)->announced(catalogue, joining.participant(), settings);
+        exchange->announced(catalogue);
       }
     } else if (settings.network.board == catalogue.board) {  // and not from here: own samples are left out
       block.problem.set(!info.alive ? ""
@@ -279,17 +190,33 @@ void Mirror::Impl::look_for_other_releases() {
     return;
   }
   const auto speakers = others.speakers();
-  for (const auto& receiver : receivers) {
+  exchange->other_releases([&](const std::string& board) {
     const auto found = std::find_if(speakers.begin(), speakers.end(), [&](const auto& speaker) {
-      return speaker.topic.plant == settings.plant &&
-             (speaker.topic.board == receiver->board() || speaker.name == receiver->board());
+      return speaker.topic.plant == settings.plant && (speaker.topic.board == board || speaker.name == board);
     });
-    receiver->other_release(
-        found == speakers.end()
-            ? std::string{}
-            : fmt::format("it speaks protocol {} of another release, this board {}: install the same release on both",
-                          found->topic.protocol, schema::protocol()));
+    return found == speakers.end()
+               ? std::string{}
+               : fmt::format(
+                     "it speaks protocol {} of another release, this board {}: install the same release on both",
+                     found->topic.protocol, schema::protocol());
+  });
+}
+
+// Returns when to look again.
+std::int64_t Mirror::Impl::send(bool of_bulk) noexcept {
+  const std::int64_t now = rt::now_ns();
+  if (!up.load(std::memory_order_acquire)) {
+    return now + kUntilUpNs;
   }
+  const std::int64_t next = exchange->send(now, of_bulk);
+  if (!of_bulk) {
+    const std::int64_t took = rt::now_ns() - now;
+    block.cycle_ns.store(took, std::memory_order_relaxed);
+    if (took > block.cycle_max_ns.load(std::memory_order_relaxed)) {
+      block.cycle_max_ns.store(took, std::memory_order_relaxed);
+    }
+  }
+  return next;
 }
 
 void Mirror::Impl::send_loop(bool of_bulk) noexcept {
@@ -297,29 +224,16 @@ void Mirror::Impl::send_loop(bool of_bulk) noexcept {
   Anticipation anticipation;
   while (!stopping()) {
     const std::int64_t now = rt::now_ns();
-    std::int64_t next = now + (of_bulk ? kBulkLookNs : kLookNs);
-    if (up.load(std::memory_order_acquire)) {
-      const std::uint64_t begun = tick.load(std::memory_order_acquire);
-      if (sender->cycle(now, begun > 0 ? begun - 1 : 0, of_bulk)) {
-        next = now + kLookAgainNs;
-      }
-      if (!of_bulk) {
-        const std::int64_t took = rt::now_ns() - now;
-        block.cycle_ns.store(took, std::memory_order_relaxed);
-        if (took > block.cycle_max_ns.load(std::memory_order_relaxed)) {
-          block.cycle_max_ns.store(took, std::memory_order_relaxed);
-        }
-      }
-    }
+    const std::int64_t next = send(of_bulk);
     const Anticipation::Window window = settings.spin && !of_bulk ? anticipation.next(now) : Anticipation::Window{};
     if (wait(wake, next, window)) {
-      anticipation.reported(tick.load(std::memory_order_acquire), rt::now_ns());
+      anticipation.reported(exchange->tick(), rt::now_ns());
     }
     while (wake.try_wait()) {
     }
   }
   if (up.load(std::memory_order_acquire)) {
-    (void)sender->cycle(rt::now_ns(), tick.load(std::memory_order_acquire), of_bulk);  // what was written last
+    exchange->send_last(of_bulk);  // what was written last
   }
 }
 
@@ -336,12 +250,11 @@ void Mirror::Impl::end() noexcept {
 
 Result<Mirror> Mirror::start(Settings settings, const std::string& node, vars::Store& store,
                              const std::atomic<std::uint64_t>& tick) {
-  auto file = vars::ShmFile::create(vars::mirror_file(node),
-                                    mirror_block_size(settings.boards.size(), settings.incoming.size()));
-  if (!file) {
-    return file.error();
+  auto exchange = Exchange::make(std::move(settings), node, store, tick);
+  if (!exchange) {
+    return exchange.error();
   }
-  auto impl = std::make_unique<Impl>(std::move(settings), store, tick, std::move(file).value());
+  auto impl = std::make_unique<Impl>(std::move(exchange).value());
   if (Status running = impl->run(); !running) {
     impl->end();
     return running.error();

@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "mirror/frames/plane_topics.h"
-#include "rt/clock.h"
+#include "mirror/frames/board_time.h"
 
 namespace indurop::mirror {
 namespace {
@@ -17,17 +16,15 @@ constexpr std::size_t kMostParts = 100'000;  // of a sane catalogue
 
 }  // namespace
 
-Receiver::Receiver(std::string board, const std::vector<Landing*>& landings, std::mutex& mutex, PeerRecord& record)
-    : board_(std::move(board)), mutex_(mutex), record_(record) {
+Receiver::Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings,
+                   std::mutex& mutex, PeerRecord& record)
+    : board_(std::move(board)), store_(store), mutex_(mutex), record_(record) {
   std::atomic<std::uint64_t>* room = nullptr;
   for (Landing* landing : landings) {
     items_.push_back({landing, landing->add_source()});
     room = room == nullptr ? landing->lend_room_for_word() : room;
   }
   word_ = UpdateWord(room);
-  for (Port& port : ports_) {
-    port.receiver = this;
-  }
   record_.wanted = static_cast<std::uint32_t>(items_.size());
 }
 
@@ -78,7 +75,7 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
   return inboxes;
 }
 
-void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds::Handle participant, const Settings& settings) {
+void Receiver::announced(const indurop_wire_Catalogue& catalogue, Plane& plane) {
   if (std::exchange(other_release_, false)) {
     record_.problem.set({});
   }
@@ -107,34 +104,24 @@ void Receiver::announced(const indurop_wire_Catalogue& catalogue, dds::Handle pa
   record_.session.store(session_, std::memory_order_relaxed);
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   for (std::size_t i = 0; i < kStreams && matched_ && !items_.empty(); ++i) {
-    const auto stream = static_cast<Stream>(i);
-    ports_[i].reader =
-        dds::make_reader(participant, indurop_wire_Frame_desc, frames_topic(settings.plant, board_, stream),
-                         plane_qos(settings, stream), dds::data_listener(&Receiver::on_data, &ports_[i]));
-    if (!ports_[i].reader.ok()) {
-      record_.problem.set("cannot receive: " + ports_[i].reader.why());
+    auto heard = plane.hear(board_, static_cast<Stream>(i), *this);
+    if (heard) {
+      ports_[i].subscription = std::move(heard).value();
+    } else {
+      record_.problem.set(heard.error().text);
     }
   }
 }
 
 void Receiver::close() noexcept {
   for (Port& port : ports_) {
-    port.reader.reset();  // waits for a listener that is running
+    port.subscription.reset();  // waits for a listener that is running
   }
 }
 
-void Receiver::on_data(dds::Handle reader, void* port) {
-  auto& arrived = *static_cast<Port*>(port);
-  arrived.receiver->take(reader, arrived);
-}
-
-void Receiver::take(dds::Handle reader, Port& port) noexcept {
+void Receiver::frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept {
   const std::lock_guard<std::mutex> guard(mutex_);
-  dds::take_all<indurop_wire_Frame>(reader, [&](const indurop_wire_Frame& frame, const dds::SampleInfo& info) {
-    if (info.valid) {
-      accept(frame, port);
-    }
-  });
+  accept(frame, ports_[static_cast<std::size_t>(stream)]);
 }
 
 void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
@@ -150,7 +137,7 @@ void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
     }
     port.newest_update = frame.update;
   }
-  const std::int64_t now = rt::now_ns();
+  const std::int64_t now = board_ns(store_);
   if (frame.update_sum != 0) {
     apply_together(frame, now);
   } else {
@@ -160,7 +147,7 @@ void Receiver::accept(const indurop_wire_Frame& frame, Port& port) noexcept {
     return;  // holds nothing this board reads
   }
   record_.heard_ns.store(now, kRelaxed);
-  record_.delay_ns.store(rt::wall_ns() - frame.source_time_ns, kRelaxed);
+  record_.delay_ns.store(board_wall_ns(store_) - frame.source_time_ns, kRelaxed);
   record_.tick.store(frame.tick, kRelaxed);
   record_.frames.fetch_add(1, kRelaxed);
 }
@@ -200,7 +187,7 @@ void Receiver::silent() noexcept {
     return;
   }
   record_.losses.fetch_add(1, std::memory_order_relaxed);
-  const std::int64_t now = rt::now_ns();
+  const std::int64_t now = board_ns(store_);
   // What a standby takes over must not be read together with what is still this board's.
   word_.begin();
   for (const Item& item : items_) {

@@ -9,26 +9,29 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/problem.h"
-#include "dds/endpoint.h"
 #include "mirror/frames/landing.h"
 #include "mirror/frames/mirror_block.h"
 #include "mirror/frames/packing.h"
-#include "mirror/frames/settings.h"
+#include "mirror/frames/plane.h"
 #include "mirror/frames/staging.h"
 #include "mirror/frames/update_word.h"
+#include "vars/store.h"
 
 namespace indurop::mirror {
 
-class Receiver {
+class Receiver final : public FrameListener {
  public:
-  // `mutex` guards the landings; taken by DDS's receive thread and the mirror's manager, never by the control loop.
-  Receiver(std::string board, const std::vector<Landing*>& landings, std::mutex& mutex, PeerRecord& record);
+  // `mutex` guards the landings; taken by the plane's receive thread and the mirror's manager, never by the control
+  // loop. `store`, whose time counts, and all other references are borrowed until the end.
+  Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings, std::mutex& mutex,
+           PeerRecord& record);
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
@@ -36,7 +39,7 @@ class Receiver {
 
   // The board announced itself (again). Compares its variables with this board's and, if they agree, reads its frames
   // from now on; last values arrive at once. Called by the mirror's manager only.
-  void announced(const indurop_wire_Catalogue& catalogue, dds::Handle participant, const Settings& settings);
+  void announced(const indurop_wire_Catalogue& catalogue, Plane& plane);
   // The board fell silent: its values are no longer confirmed.
   void silent() noexcept;
   // The board is there, but with a release whose protocol is another one; an empty problem: not any more. Called by the
@@ -59,14 +62,12 @@ class Receiver {
     std::uint64_t update = 0;  // newest one taken over, if it travels alone
     std::vector<Arrival> content;
   };
-  struct Port {  // one per stream, known to DDS's listener
-    Receiver* receiver = nullptr;
-    dds::Endpoint reader;
+  struct Port {  // one per stream
+    std::unique_ptr<Subscription> subscription;
     std::uint64_t newest_update = 0;
   };
 
-  static void on_data(dds::Handle reader, void* port);
-  void take(dds::Handle reader, Port& port) noexcept;
+  void frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept override;
   void accept(const indurop_wire_Frame& frame, Port& port) noexcept;
   void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
   void apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
@@ -75,6 +76,7 @@ class Receiver {
   Result<std::vector<Inbox>, base::Problem> match(const indurop_wire_Catalogue& catalogue) const;
 
   std::string board_;
+  const vars::Store& store_;
   std::mutex& mutex_;
   PeerRecord& record_;
   std::vector<Item> items_;

@@ -6,8 +6,7 @@
 #include <algorithm>
 
 #include "dds/lent.h"
-#include "mirror/frames/plane_topics.h"
-#include "rt/clock.h"
+#include "mirror/frames/board_time.h"
 
 namespace indurop::mirror {
 namespace {
@@ -66,36 +65,21 @@ bool Sender::has_bulk() const noexcept {
   return std::any_of(parts_.begin(), parts_.end(), [](const Outbox& out) { return out.part.stream == Stream::Bulk; });
 }
 
-Result<void, base::Problem> Sender::open(dds::Handle participant, const Settings& settings) {
+Plane::Opened Sender::open(Plane& plane) {
+  plane_ = &plane;
   for (const Outbox& out : parts_) {
-    dds::Endpoint& writer = writers_[static_cast<std::size_t>(out.part.stream)];
-    if (writer.ok()) {
-      continue;
-    }
-    writer = dds::make_writer(participant, indurop_wire_Frame_desc,
-                              frames_topic(settings.plant, settings.network.board, out.part.stream),
-                              plane_qos(settings, out.part.stream));
-    if (!writer.ok()) {
-      return base::Problem{"cannot send values: " + writer.why()};
+    if (auto offered = plane.offer_frames(out.part.stream); !offered) {
+      return offered;
     }
   }
-  catalogue_ = dds::make_writer(participant, indurop_wire_Catalogue_desc, catalogue_topic(settings.plant),
-                                plane_qos(settings, Stream::Prompt));
-  if (!catalogue_.ok()) {
-    return base::Problem{"cannot send the catalogue: " + catalogue_.why()};
+  if (auto offered = plane.offer_catalogue(); !offered) {
+    return offered;
   }
   for (Outbox& out : parts_) {
     out.dirty = true;
   }
   publish_catalogue();
   return {};
-}
-
-void Sender::close() noexcept {
-  for (dds::Endpoint& writer : writers_) {
-    writer.reset();
-  }
-  catalogue_.reset();
 }
 
 void Sender::publish_catalogue() noexcept {
@@ -116,7 +100,7 @@ void Sender::publish_catalogue() noexcept {
   sample.entries._length = sample.entries._maximum = static_cast<std::uint32_t>(entries.size());
   sample.entries._buffer = entries.data();
   sample.schema = schema_text_.data();
-  if (!dds::write(catalogue_.get(), sample).ok()) {
+  if (!plane_->send(sample)) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
   }
 }
@@ -166,10 +150,10 @@ void Sender::send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns)
   frame.update = out.update;
   frame.update_sum = out.together() ? update_sum_ : 0;
   frame.tick = tick;
-  frame.source_time_ns = rt::wall_ns();
+  frame.source_time_ns = board_wall_ns(store_);
   frame.data._length = frame.data._maximum = static_cast<std::uint32_t>(out.image.size());
   frame.data._buffer = out.image.data();
-  if (!dds::write(writers_[static_cast<std::size_t>(out.part.stream)].get(), frame).ok()) {
+  if (!plane_->send(frame, out.part.stream)) {
     block_.send_errors.fetch_add(1, std::memory_order_relaxed);
     return;  // stays dirty; who waits for it gets it with the next update
   }

@@ -4,18 +4,15 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
-#include <indurop/idl/wire.h>
-#include <indurop/result.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "base/problem.h"
-#include "dds/endpoint.h"
 #include "mirror/frames/collector.h"
 #include "mirror/frames/mirror_block.h"
 #include "mirror/frames/packing.h"
+#include "mirror/frames/plane.h"
 #include "mirror/frames/settings.h"
 #include "schema/schema.h"
 #include "vars/store.h"
@@ -28,10 +25,8 @@ class Sender {
   // `store` and `settings.writers` are borrowed until the end.
   Sender(vars::Store& store, const Settings& settings, std::uint64_t session, MirrorBlock& block);
 
-  // Makes the writers and publishes the catalogue.
-  Result<void, base::Problem> open(dds::Handle participant, const Settings& settings);
-  // Deletes them. Nobody may be in cycle().
-  void close() noexcept;
+  // Publishes the catalogue; from then on `plane` carries what is sent, until it is closed.
+  Plane::Opened open(Plane& plane);
 
   // Sends what changed, and what has not been sent for its keep-alive time. Only with `bulk` the large values. One
   // thread at a time for each of the two. True: look again soon, values wait for the end of a run nobody tells.
@@ -65,8 +60,7 @@ class Sender {
   std::string schema_text_;
   std::vector<Outbox> parts_;
   std::array<Collector, 2> collectors_;  // of the prompt and of the bulk thread
-  std::array<dds::Endpoint, kStreams> writers_;
-  dds::Endpoint catalogue_;
+  Plane* plane_ = nullptr;
   std::array<std::uint64_t, 2> updates_{};  // likewise
   std::uint64_t update_sum_ = 0;            // of the parts that change together
 };

@@ -5,6 +5,8 @@
 
 #include "board_schema.h"
 #include "boards.h"
+#include "dds/endpoint.h"
+#include "mirror/frames/dds_plane.h"
 #include "mirror/frames/sender.h"
 #include "rt/clock.h"
 
@@ -103,16 +105,18 @@ TEST_F(JoiningTest, A_sender_that_was_closed_sends_in_the_next_network) {
   Settings settings = on_loopback();
   settings.outgoing = {{"t::count"}, {"t::large"}};
   Sender sut(store.value(), settings, 1, *block);
+  DdsPlane plane(settings);
   for (int i = 0; i < 2; ++i) {
     const auto here = dds::join_network(settings.network);
     ASSERT_TRUE(here.ok()) << here.error().text;
-    const auto opened = sut.open(here->participant.get(), settings);
+    plane.enter(here->participant.get());
+    const auto opened = sut.open(plane);
     ASSERT_TRUE(opened.ok()) << opened.error().text;
     const std::uint64_t sent = block->frames.load();
     sut.cycle(rt::now_ns(), 0, false);
     EXPECT_GT(block->frames.load(), sent);
     EXPECT_EQ(block->send_errors.load(), 0U);
-    sut.close();
+    plane.close();
     EXPECT_EQ(entities_of(here->participant.get()), 0);
   }
   (void)vars::remove_node(node);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane of boards in a network: a topic for each board and stream, as plane_topics.h says.
+
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "dds/endpoint.h"
+#include "mirror/frames/plane.h"
+#include "mirror/frames/settings.h"
+
+namespace indurop::mirror {
+
+class DdsPlane final : public Plane {
+ public:
+  // `settings` is borrowed until the end.
+  explicit DdsPlane(const Settings& settings) : settings_(settings) {}
+
+  // Everything that is opened from now on is this participant's.
+  void enter(dds::Handle participant) noexcept { participant_ = participant; }
+
+  Opened offer_frames(Stream stream) override;
+  Opened offer_catalogue() override;
+  Opened exchange_beacons(BeaconListener& listener) override;
+  Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
+                                                            FrameListener& listener) override;
+  void close() noexcept override;
+  bool send(const indurop_wire_Frame& frame, Stream stream) noexcept override;
+  bool send(const indurop_wire_Catalogue& catalogue) noexcept override;
+  bool send(const indurop_wire_Beacon& beacon) noexcept override;
+
+ private:
+  static void on_beacon(dds::Handle reader, void* listener);
+
+  const Settings& settings_;
+  dds::Handle participant_{};
+  std::array<dds::Endpoint, kStreams> frames_;
+  dds::Endpoint catalogue_;
+  dds::Endpoint beacons_;
+  dds::Endpoint heard_;  // beacons of others
+};
+
+}  // namespace indurop::mirror

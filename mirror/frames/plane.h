@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What carries frames, catalogues and beacons between boards: the network, or a simulated one.
+
+#pragma once
+
+#include <indurop/idl/wire.h>
+#include <indurop/result.h>
+
+#include <memory>
+#include <string>
+
+#include "base/problem.h"
+#include "mirror/frames/packing.h"
+
+namespace indurop::mirror {
+
+// Called by the plane's own threads.
+class FrameListener {
+ public:
+  virtual void frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept = 0;
+
+ protected:
+  ~FrameListener() = default;
+};
+
+class BeaconListener {
+ public:
+  virtual void beacon_came(const indurop_wire_Beacon& beacon) noexcept = 0;
+
+ protected:
+  ~BeaconListener() = default;
+};
+
+// Frames come as long as this lives; its end waits for a listener that is running.
+class Subscription {
+ public:
+  Subscription() = default;
+  virtual ~Subscription() = default;
+  Subscription(const Subscription&) = delete;
+  Subscription& operator=(const Subscription&) = delete;
+};
+
+class Plane {
+ public:
+  using Opened = Result<void, base::Problem>;
+
+  Plane() = default;
+  virtual ~Plane() = default;
+  Plane(const Plane&) = delete;
+  Plane& operator=(const Plane&) = delete;
+
+  // Before anything is sent. Again is no error.
+  virtual Opened offer_frames(Stream stream) = 0;
+  virtual Opened offer_catalogue() = 0;
+  // The listener is borrowed until close().
+  virtual Opened exchange_beacons(BeaconListener& listener) = 0;
+  // Whoever comes late gets the last frame of each part. The listener is borrowed until the subscription's end.
+  virtual Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
+                                                                    FrameListener& listener) = 0;
+  // Takes back all offers and hears no beacons any more.
+  virtual void close() noexcept = 0;
+
+  // False: it was not sent.
+  virtual bool send(const indurop_wire_Frame& frame, Stream stream) noexcept = 0;
+  virtual bool send(const indurop_wire_Catalogue& catalogue) noexcept = 0;
+  virtual bool send(const indurop_wire_Beacon& beacon) noexcept = 0;
+};
+
+}  // namespace indurop::mirror
