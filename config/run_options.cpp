@@ -7,6 +7,7 @@
 
 #include "base/duration.h"
 #include "config/measured_times.h"
+#include "config/network_option.h"
 #include "config/xml/plant_rules.h"
 
 namespace indurop::config {
@@ -62,6 +63,20 @@ void declare_simulation(base::Options& line, Simulation& simulation) {
            "With --sim: modules without <wcet> take as long as they took at most in this report of --report")
       .needs(sim)
       .completes(base::Completion::File);
+  const auto network = [&simulation](const std::string& text) {
+    SimulatedNetwork ignored;
+    simulation.network = text;
+    return read_network(text, ignored);
+  };
+  line.add("--network", "SETTINGS", network,
+           "With --sim of a plant: delay=200us,jitter=50us,loss=0.001,seed=7 between its boards")
+      .needs(sim);
+  line.add("--script", "FILE", simulation.script,
+           "With --sim of a plant: when boards are killed, cut off and returned: lines like 500ms kill sensor")
+      .needs(sim)
+      .completes(base::Completion::File);
+  line.add("--conductor", "FD", simulation.conductor, "Part of a simulated plant (given by whoever simulates it)")
+      .needs(sim);
 }
 
 std::string spin_word(const SpinSetting& spin) {
@@ -142,6 +157,9 @@ std::vector<std::string> words_of(const RunOptions& options) {
   flag("--step", options.simulation.step);
   value("--speed", options.simulation.speed > 0 ? fmt::format("{}", options.simulation.speed) : "");
   value("--times", options.simulation.times);
+  value("--network", options.simulation.network);
+  value("--script", options.simulation.script.string());
+  value("--conductor", options.simulation.conductor ? std::to_string(*options.simulation.conductor) : "");
   flag("--quiet", options.quiet);
   if (!options.config.empty()) {
     words.insert(words.end(), {"--", options.config.string()});

@@ -22,6 +22,9 @@ struct Simulation {
   double speed = 0;              // times real time; 0: as fast as the machine allows
   std::string times;             // report of a run that says how long modules take; empty: only what <wcet> says
   CheckOptions::Times measured;  // what it says
+  std::string network;           // of a plant, other than its manifest says; as read_network() takes it
+  std::filesystem::path script;  // of a plant, what befalls its boards; empty: nothing
+  std::optional<int> conductor;  // of a board: the open socket to who simulates the plant
 };
 
 inline constexpr std::uint64_t kTapeMegabytes = 8;

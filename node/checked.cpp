@@ -83,7 +83,8 @@ Reading read_plant(const Options& options) {
       take_core(options, board.config);
     }
   }
-  config::PlantCheck check = config::check_plant(plant, {.adjust = options.adjust, .board = options.board});
+  config::PlantCheck check =
+      config::check_plant(plant, {.adjust = options.adjust, .machine = !options.simulation.on, .board = options.board});
   out.add(check.diagnostics);
   for (std::size_t i = 0; i < plant.boards.size(); ++i) {
     out.boards.push_back(plant.boards[i].name);

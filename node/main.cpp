@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/exit_code.h"
+#include "node/conductor.h"
 #include "node/node.h"
 #include "node/options.h"
 #include "node/trampoline.h"
@@ -48,6 +49,9 @@ int main(int argc, char** argv) {
   const auto options = indurop::node::parse_options(argc, argv, exit_code);
   if (!options) {
     return exit_code;
+  }
+  if (indurop::node::simulates_plant(*options)) {
+    return indurop::node::run_plant(*options);
   }
   // Modules that look for their node by name, through a channel for example, are to find this one.
   ::setenv("INDUROP_NODE", options->node.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): before any thread

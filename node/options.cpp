@@ -4,10 +4,16 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "config/xml/plant_reader.h"
 #include "vars/node_lock.h"
 #include "vars/shm_file.h"
 
 namespace indurop::node {
+
+bool simulates_plant(const Options& options) {
+  return options.simulation.on && options.board.empty() && options.replay.file.empty() &&
+         config::is_plant_file(options.config);
+}
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
@@ -35,6 +41,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   if (options.config.empty()) {
     std::fputs("indurop-node: error: name a module.xml or a plant's manifest with --board\n", stderr);
     return std::nullopt;
+  }
+  if (simulates_plant(options)) {
+    return options;  // its boards have names
   }
   if (options.node.empty()) {
     options.node = options.board.empty() ? vars::default_node() : options.board;

@@ -16,4 +16,7 @@ using Options = config::RunOptions;
 // version, usage error; said already).
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code);
 
+// All boards of a plant are to run in virtual time.
+bool simulates_plant(const Options& options);
+
 }  // namespace indurop::node

@@ -44,6 +44,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       run_(prepared.run()),
       tasks_(loaded.tasks),
       kernel_(make_kernel()),
+      mirror_(options, checked, prepared, console),
       engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
       phases_(checked.config, run_, loaded.libraries, console, signals, plain_hooks(), kernel_),
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
@@ -79,7 +80,7 @@ scheduler::EngineSettings Running::engine_settings() const {
   if (checked_.mirror) {
     // Boards with the same macro period begin it together, as far as their clocks agree. A long one is not waited for.
     settings.grid_ns = setup.macro_period_ns <= rt::kNanosPerSecond ? setup.macro_period_ns : setup.basic_period_ns;
-    settings.phase_ns = (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
+    settings.phase_ns = simulation_ ? 0 : (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
   }
   return settings;
 }
@@ -100,12 +101,7 @@ scheduler::Hooks Running::plain_hooks() {
     self.engine_.request_stop();
   };
   if (checked_.mirror) {
-    hooks.worked = [](void* context) noexcept {
-      auto& self = *static_cast<Running*>(context);
-      if (self.mirror_) {
-        self.mirror_->notify();
-      }
-    };
+    hooks.worked = [](void* context) noexcept { static_cast<Running*>(context)->mirror_.notify(); };
   }
   return hooks;
 }
@@ -227,15 +223,16 @@ Result<void, Ending> Running::start_schedule() {
   if (prepared_.retainer) {
     prepared_.retainer->start();
   }
-  if (auto mirrored = start_mirror(); !mirrored) {
+  if (auto mirrored = mirror_.start(simulation_ ? &*simulation_ : nullptr); !mirrored) {
     return mirrored;
   }
   const config::Config& config = checked_.config;
   if (!simulation_) {
-    checked_.external.start(options_.node, *prepared_.store, mirror_ ? &mirror_->block() : nullptr,
+    checked_.external.start(options_.node, *prepared_.store, mirror_.block(),
                             cores_without_modules(config, prepared_.rights), console_);
   }
   if (simulation_) {
+    simulation_->watch_end([this] { return engine_.finished(); });
     hang_watch_.emplace(simulation_->kernel(), engine_);
   }
   if (recording_ && !simulation_) {
@@ -246,11 +243,7 @@ Result<void, Ending> Running::start_schedule() {
     return Ending{kFailed};
   }
   const scheduler::RunBlockSetup& setup = prepared_.setup;
-  if (mirror_) {
-    mirror_->announce({rt::WallClock::now() + (rt::mono_time(run_.epoch_ns) - rt::MonoClock::now()),
-                       std::chrono::nanoseconds{setup.basic_period_ns},
-                       std::chrono::nanoseconds{setup.macro_period_ns}});
-  }
+  mirror_.announce();
   normal_threads_.start();
   run_.state.store(scheduler::NodeState::Running);
   console_.info("running {} modules of {}: basic period {}, macro period {}{}", config.modules.size(),
@@ -272,27 +265,6 @@ std::uint64_t Running::ticks() const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(1, (options_.duration->count() + basic - 1) / basic));
 }
 
-Result<void, Ending> Running::start_mirror() {
-  if (!checked_.mirror || simulation_) {
-    return {};
-  }
-  mirror::Settings& settings = *checked_.mirror;
-  const bool realtime = prepared_.rights.realtime();
-  settings.network.fifo_priority = realtime ? scheduler::kMirrorPriority : 0;
-  // Not where the modules are, if there is another core.
-  const std::vector<int> cores = cores_without_modules(checked_.config, prepared_.rights);
-  const auto spin = spin_setting(options_, checked_.config);
-  settings.spin = !cores.empty() && spin.mode != config::SpinSetting::Mode::Off && realtime;
-  settings.cores = cores.empty() ? rt::allowed_cores() : cores;
-  auto started = mirror::Mirror::start(std::move(settings), options_.node, *prepared_.store, run_.tick);
-  if (!started) {
-    console_.error("cannot start the mirror to other boards: {}", describe(started.error()));
-    return Ending{kFailed};
-  }
-  mirror_ = std::move(started).value();
-  return {};
-}
-
 // Until it is time to look again. Returns a stop signal, 0 if none has come.
 int Running::pass() {
   return simulation_ ? simulation_->pass(kLook) : signals_.wait(kLook);
@@ -312,7 +284,7 @@ Ending Running::supervise() {
       break;
     }
     if (simulation_ && simulation_->left()) {
-      ending = {kOk, "end of the steps"};
+      ending = {kOk, simulation_->place() != nullptr ? "end of the simulation" : "end of the steps"};
       break;
     }
     if (processes_.supervise(now, kernel_.now()) || (simulation_ && !await_processes(now + kEnrolInSimulation))) {
@@ -355,7 +327,7 @@ bool Running::stop() {
     (void)phases_.call_all("stop", &ModuleDescriptor::stop);
   }
   checked_.external.stop();
-  mirror_.reset();  // what stop() wrote still travels; then the other boards see at once that this one is gone
+  mirror_.stop();  // what stop() wrote still travels
   return recorded;
 }
 

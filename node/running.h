@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "mirror/frames/mirror.h"
 #include "node/black_box.h"
+#include "node/board_mirror.h"
 #include "node/force_watch.h"
 #include "node/hang_watch.h"
 #include "node/loaded.h"
@@ -41,7 +41,6 @@ class Running {
  private:
   Result<void, Ending> start_modules();
   Result<void, Ending> launch_processes();
-  Result<void, Ending> start_mirror();
   Result<void, Ending> start_schedule();
   [[nodiscard]] std::uint64_t ticks() const noexcept;
   scheduler::Kernel& make_kernel();
@@ -65,7 +64,7 @@ class Running {
   std::optional<Simulation> simulation_;  // in virtual time
   scheduler::Kernel& kernel_;             // of the two, what the schedule runs on
   ForceWatch forces_;
-  std::optional<mirror::Mirror> mirror_;  // of a board of a plant
+  BoardMirror mirror_;
   scheduler::Engine engine_;
   std::optional<HangWatch> hang_watch_;  // of a simulation
   Phases phases_;

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/simulation.h"
 
-#include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
-
-#include <cstdio>
+#include <csignal>
 #include <utility>
 
-#include "base/duration.h"
 #include "rt/clock.h"
 
 namespace indurop::node {
 namespace {
 
-// Every run begins at the same time, and none at 0, which means real time.
-constexpr rt::MonoTime kBegin = rt::mono_time(rt::kNanosPerSecond);
-constexpr std::chrono::milliseconds kLook{20};  // for a stop signal, while standard input is waited for
+// Whoever simulates the plant says it first of all.
+BoardPlace receive_place(std::optional<BoardChannel>& conductor) {
+  BoardPlace place;
+  place.begin_ns = rt::to_ns(Simulation::kBegin);
+  if (conductor) {
+    while (conductor->receive(place) == BoardChannel::Got::Nothing) {
+    }
+  }
+  return place;
+}
 
 }  // namespace
 
@@ -25,15 +27,65 @@ Simulation::Simulation(const config::Simulation& settings, vars::Store& store, s
     : settings_(settings),
       run_(run),
       signals_(signals),
-      kernel_(kBegin, {&store.virtual_time(), &run.virtual_ns}, std::move(watch)),
+      conductor_(settings.conductor ? std::optional<BoardChannel>(*settings.conductor) : std::nullopt),
+      place_(receive_place(conductor_)),
+      kernel_(rt::mono_time(place_.begin_ns), {&store.virtual_time(), &run.virtual_ns}, std::move(watch)),
       began_(rt::MonoClock::now()) {}
 
 int Simulation::pass(std::chrono::nanoseconds look) {
+  if (conductor_) {
+    return follow(look);
+  }
   if (settings_.step) {
     return step();
   }
   kernel_.sleep_until(kernel_.now() + look);
   return keep_pace();
+}
+
+// As far as the plant is, until so much time has passed.
+int Simulation::follow(std::chrono::nanoseconds look) {
+  const rt::MonoTime end = kernel_.now() + look;
+  if (!std::exchange(ready_told_, true)) {
+    kernel_.sleep_until(kernel_.now());
+    (void)answer();
+  }
+  BoardOrder order;
+  while (kernel_.now() < end && !ended_()) {
+    const BoardChannel::Got got = conductor_->receive(order);
+    if (got == BoardChannel::Got::Nothing) {
+      if (const int number = signals_.wait(std::chrono::nanoseconds{0}); number != 0) {
+        return number;
+      }
+      continue;
+    }
+    if (got == BoardChannel::Got::End || order.end) {
+      left_ = got == BoardChannel::Got::Word && order.signal == 0;
+      return left_ ? 0 : got == BoardChannel::Got::End ? SIGTERM : order.signal;
+    }
+    for (const mirror::Message& message : order.arrivals) {
+      kernel_.sleep_until(rt::mono_time(message.time_ns));
+      link_.arrived(message);
+      kernel_.sleep_until(kernel_.now());  // whom it woke
+    }
+    kernel_.sleep_until(rt::mono_time(order.until_ns));
+    if (!answer()) {
+      return SIGTERM;
+    }
+  }
+  return signals_.wait(std::chrono::nanoseconds{0});
+}
+
+// False: nobody is there to hear it.
+bool Simulation::answer() {
+  BoardAnswer answer;
+  answer.now_ns = rt::to_ns(kernel_.now());
+  answer.next_ns = rt::to_ns(kernel_.next_event());
+  answer.epoch_ns = run_.epoch_ns;
+  answer.basic_period_ns = run_.basic_period_ns;
+  answer.ended = ended_();
+  answer.sent = link_.take_sent();
+  return conductor_->send(answer);
 }
 
 int Simulation::keep_pace() {
@@ -52,60 +104,17 @@ int Simulation::step() {
   if (stands_at_ == rt::MonoTime{}) {
     stands_at_ = rt::mono_time(run_.epoch_ns) + std::chrono::nanoseconds(-1);
     kernel_.sleep_until(stands_at_);
-    tell_place();
+    tell_place(run_.tick.load(), run_.basic_period_ns);
   }
-  for (;;) {
-    if (const auto end = input_.find('\n'); end != std::string::npos) {
-      const std::string line = input_.substr(0, end);
-      input_.erase(0, end + 1);
-      left_ = !obey(line);
-      return signals_.wait(std::chrono::nanoseconds{0});
-    }
-    if (const int number = signals_.wait(std::chrono::nanoseconds{0}); number != 0) {
-      return number;
-    }
-    pollfd input{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&input, 1, static_cast<int>(kLook.count())) <= 0) {
-      continue;
-    }
-    char text[256];
-    const ssize_t count = ::read(STDIN_FILENO, text, sizeof text);
-    if (count <= 0) {
-      left_ = true;
-      return 0;
-    }
-    input_.append(text, static_cast<std::size_t>(count));
+  const StepInput::Order order = input_.next(signals_, run_.basic_period_ns);
+  left_ = order.end;
+  if (order.end || order.signal != 0) {
+    return order.signal;
   }
-}
-
-// False: it is to end.
-bool Simulation::obey(const std::string& line) {
-  if (line == "q" || line == "quit") {
-    return false;
-  }
-  std::int64_t ticks = 1;
-  if (!line.empty()) {
-    const base::DurationText read = base::read_duration(line, false, base::PlainNumber::Nanoseconds);
-    const bool is_count = line.find_first_not_of("0123456789") == std::string::npos;
-    if (!read.value || read.value->count() <= 0) {
-      fmt::print(stderr,
-                 "'{}' is not understood: Enter goes on by one tick, 10 by ten, 20ms by a time, q ends the run\n",
-                 line);
-      return true;
-    }
-    ticks = is_count ? read.value->count() : (read.value->count() + run_.basic_period_ns - 1) / run_.basic_period_ns;
-  }
-  stands_at_ += std::chrono::nanoseconds(ticks * run_.basic_period_ns);
+  stands_at_ += std::chrono::nanoseconds(order.ticks * run_.basic_period_ns);
   kernel_.sleep_until(stands_at_);
-  tell_place();
-  return true;
-}
-
-void Simulation::tell_place() {
-  const std::uint64_t tick = run_.tick.load();
-  fmt::print("tick {}, {}\n", tick,
-             base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * run_.basic_period_ns)));
-  std::fflush(stdout);
+  tell_place(run_.tick.load(), run_.basic_period_ns);
+  return signals_.wait(std::chrono::nanoseconds{0});
 }
 
 }  // namespace indurop::node

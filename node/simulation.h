@@ -5,10 +5,15 @@
 
 #include <chrono>
 #include <cstdint>
-#include <string>
+#include <functional>
+#include <optional>
+#include <vector>
 
 #include "base/stop_signal.h"
 #include "config/run_options.h"
+#include "mirror/simulated/message.h"
+#include "node/board_channel.h"
+#include "node/step_input.h"
 #include "scheduler/simulated_kernel.h"
 #include "vars/store.h"
 
@@ -16,32 +21,50 @@ namespace indurop::node {
 
 class Simulation {
  public:
+  // Every run begins at the same time, and none at 0, which means real time.
+  static constexpr rt::MonoTime kBegin = rt::mono_time(rt::kNanosPerSecond);
+
   // Shows its time in the store and in the run block, both borrowed.
   Simulation(const config::Simulation& settings, vars::Store& store, scheduler::RunBlock& run,
              base::StopSignal& signals, scheduler::ProcessWatch watch);
 
   scheduler::SimulatedKernel& kernel() noexcept { return kernel_; }
 
+  // Where this board is in a simulated plant; null: it is none of one, or there is none.
+  [[nodiscard]] const BoardPlace* place() const noexcept { return conductor_ ? &place_ : nullptr; }
+  // What the board exchanges with others, and whether it has come to its end.
+  struct Link {
+    std::function<void(const mirror::Message&)> arrived;
+    std::function<std::vector<mirror::Message>()> take_sent;
+  };
+  void connect(Link link) { link_ = std::move(link); }
+  void watch_end(std::function<bool()> ended) { ended_ = std::move(ended); }
+
   // Lets `look` of virtual time pass, in --step mode what standard input asks for. Returns a stop signal, 0 if none has
   // come.
   int pass(std::chrono::nanoseconds look);
-  // Standard input of --step has ended, or asked for it.
+  // Standard input of --step has ended, or asked for it; or the plant's simulation is over.
   [[nodiscard]] bool left() const noexcept { return left_; }
 
  private:
+  int follow(std::chrono::nanoseconds look);
+  bool answer();
   int keep_pace();
   int step();
-  bool obey(const std::string& line);
-  void tell_place();
 
   const config::Simulation& settings_;
   scheduler::RunBlock& run_;
   base::StopSignal& signals_;
+  std::optional<BoardChannel> conductor_;  // of a plant
+  BoardPlace place_;
   scheduler::SimulatedKernel kernel_;
   rt::MonoTime began_;  // in real time, when virtual time began to pass
-  std::string input_;
+  StepInput input_;
   rt::MonoTime stands_at_{};
   bool left_ = false;
+  Link link_;
+  std::function<bool()> ended_;
+  bool ready_told_ = false;
 };
 
 }  // namespace indurop::node

@@ -34,7 +34,7 @@ struct SimulatedKernel::Thread {
   rt::Fiber fiber;
   State state = State::Ready;
   std::uint64_t ready_since = 0;   // place among those of the same priority
-  std::int64_t until_ns = 0;       // Sleeping
+  std::int64_t until_ns = 0;       // Sleeping; Waiting: at most
   std::int64_t left_ns = 0;        // Working
   rt::SignalWord* word = nullptr;  // Waiting
 };
@@ -107,11 +107,21 @@ void SimulatedKernel::sleep_until(rt::MonoTime deadline) noexcept {
 }
 
 void SimulatedKernel::wait(rt::SignalWord& word) noexcept {
-  if (!word.try_wait()) {
-    running_->state = State::Waiting;
-    running_->word = &word;
-    rt::Fiber::pause();
+  (void)wait_until(word, kNever);
+}
+
+bool SimulatedKernel::wait_until(rt::SignalWord& word, rt::MonoTime deadline) noexcept {
+  if (word.try_wait()) {
+    return true;
   }
+  if (deadline <= now()) {
+    return false;
+  }
+  running_->state = State::Waiting;
+  running_->until_ns = rt::to_ns(deadline);
+  running_->word = &word;
+  rt::Fiber::pause();
+  return running_->word == nullptr;
 }
 
 void SimulatedKernel::work(std::int64_t ns) noexcept {
@@ -125,6 +135,7 @@ void SimulatedKernel::work(std::int64_t ns) noexcept {
 void SimulatedKernel::take_wake_ups() noexcept {
   for (const auto& thread : threads_) {
     if (thread->state == State::Waiting && thread->word->try_wait()) {
+      thread->word = nullptr;  // it was woken, its time has not passed
       thread->state = State::Ready;
       thread->ready_since = ++became_ready_;
     }
@@ -192,7 +203,7 @@ bool SimulatedKernel::at_work(const Thread& thread) const noexcept {
 rt::MonoTime SimulatedKernel::next_event() const noexcept {
   std::int64_t next = INT64_MAX;
   for (const auto& thread : threads_) {
-    if (thread->state == State::Sleeping) {
+    if (thread->state == State::Sleeping || thread->state == State::Waiting) {
       next = std::min(next, thread->until_ns);
     } else if (at_work(*thread)) {
       next = std::min(next, now_ns_.load(kRelaxed) + thread->left_ns);
@@ -221,7 +232,8 @@ void SimulatedKernel::pass_time(rt::MonoTime until) noexcept {
       }
     }
     for (const auto& thread : threads_) {
-      if (thread->state == State::Sleeping && thread->until_ns <= next) {
+      const bool waits = thread->state == State::Sleeping || thread->state == State::Waiting;
+      if (waits && thread->until_ns <= next) {
         thread->state = State::Ready;
         thread->ready_since = ++became_ready_;
       }

@@ -41,6 +41,8 @@ class SimulatedKernel final : public Kernel {
   // From outside all threads: lets time pass until then.
   void sleep_until(rt::MonoTime deadline) noexcept override;
   void wait(rt::SignalWord& word) noexcept override;
+  // From inside a thread. False: the time passed without a wake-up.
+  bool wait_until(rt::SignalWord& word, rt::MonoTime deadline) noexcept;
   void wake_process(const Task& task, ProcessSlot& slot, ModuleRecord& record) noexcept override;
   [[nodiscard]] bool is_virtual() const noexcept override { return true; }
   void work(std::int64_t ns) noexcept override;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "config/model/config.h"
+#include "config/model/simulated_network.h"
 
 namespace indurop::config {
 
@@ -33,6 +34,7 @@ struct Plant : TypeFiles {
   std::filesystem::path security;                     // folder of its keys (docs/security.md); empty: open to anyone
   base::SourcePlace security_place;                   // of the folder, else of <plant>
   base::Nanos lease{std::chrono::milliseconds(500)};  // a board not heard for so long is gone
+  SimulatedNetwork network;                           // between its boards in a simulation
   std::vector<Board> boards;                          // in file order
   std::vector<VariableRule> variables;
   static constexpr int kDefaultDomain = 77;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
 
 #include "base/text.h"
+#include "config/xml/attributes.h"
 #include "config/xml/config_reader.h"
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
@@ -90,13 +92,14 @@ class PlantReader {
     void (PlantReader::*read)(const base::Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 8> kKnown{{
+    static constexpr std::array<Known, 9> kKnown{{
         {"board", true, &PlantReader::read_board},
         {"variable", true, &PlantReader::read_variable},
         {"domain", false, &PlantReader::read_domain},
         {"external", false, &PlantReader::read_external},
         {"multicast", false, &PlantReader::read_multicast},
         {"lease", false, &PlantReader::read_lease},
+        {"network", false, &PlantReader::read_network},
         {"security", false, &PlantReader::read_security},
         {"types", true, &PlantReader::read_types},
     }};
@@ -160,6 +163,19 @@ class PlantReader {
       return;
     }
     plant_.lease = value.value_or(plant_.lease);
+  }
+
+  void read_network(const base::Element& e) {
+    using Network = SimulatedNetwork;
+    Attributes attributes(e, report_);
+    Network& to = plant_.network;
+    to.delay = attributes.duration("delay", Network::kLeastDelay, Network::kLongest).value_or(to.delay);
+    to.jitter = attributes.duration("jitter", base::Nanos{0}, Network::kLongest).value_or(to.jitter);
+    to.repeat = attributes.duration("repeat", Network::kLeastDelay, Network::kLongest).value_or(to.repeat);
+    to.loss = attributes.real("loss", 0, Network::kMostLoss).value_or(to.loss);
+    to.seed = attributes.integer("seed", 0, INT64_MAX).value_or(to.seed);
+    attributes.finish();
+    check_no_text(e, report_);
   }
 
   void read_security(const base::Element& e) {

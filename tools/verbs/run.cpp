@@ -41,19 +41,17 @@ int run(Context& context, Request& request) {
       context.out.error("--local runs all boards, --board runs one of them: choose one");
       return kUsage;
     }
+    if (options.simulation.on) {
+      context.out.error("--sim runs all boards of a plant on this host anyway: leave out --local");
+      return kUsage;
+    }
     if (request.detach) {
       context.out.error("--detach starts one node: start each board with --board NAME --one-host --detach");
       return kUsage;
     }
     return run_local(context, program, options);
   }
-  if (plant && options.board.empty() && options.simulation.on) {
-    context.out.error(
-        fmt::format("{} is the manifest of a plant; --sim simulates one of its boards: name it with --board",
-                    options.config.string()));
-    return kUsage;
-  }
-  if (plant && options.board.empty()) {
+  if (plant && options.board.empty() && !options.simulation.on) {
     context.out.error(
         fmt::format("{} is the manifest of a plant; run all its boards on this host with --local, or be "
                     "one of them with --board NAME",
@@ -81,7 +79,8 @@ const Verb kRunVerb{"run", "Start and stop", "Run a configuration, or with --loc
                     "  indurop run module.xml --duration 10s\n"
                     "  indurop run module.xml --detach\n"
                     "  indurop run module.xml --sim --until 1min\n"
-                    "  indurop run plant.xml --local\n",
+                    "  indurop run plant.xml --local\n"
+                    "  indurop run plant.xml --sim --until 1min --network delay=200us,loss=0.001\n",
                     &declare};
 
 }  // namespace indurop::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane of a board in a simulated plant: what it sends is handed to whoever simulates the network, what arrives is
+// handed in. Without threads: all in one.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mirror/frames/exchange.h"
+#include "mirror/frames/plane.h"
+#include "mirror/simulated/message.h"
+#include "vars/store.h"
+
+namespace indurop::mirror {
+
+class SimulatedPlane final : public Plane {
+ public:
+  // `boards`: of the plant, in the manifest's order; `own` is the place of this one. `store`, whose time counts, is
+  // borrowed until the end.
+  SimulatedPlane(std::vector<std::string> boards, std::size_t own, const vars::Store& store);
+
+  // What was sent since the last call.
+  std::vector<Message> take_sent() { return std::exchange(sent_, {}); }
+  // Something arrived, now. `exchange` is what was opened with this plane.
+  void arrived(const Message& message, Exchange& exchange);
+
+  Opened offer_frames(Stream stream) override;
+  Opened offer_catalogue() override;
+  Opened exchange_beacons(BeaconListener& listener) override;
+  Result<std::unique_ptr<Subscription>, base::Problem> hear(const std::string& board, Stream stream,
+                                                            FrameListener& listener) override;
+  void close() noexcept override;
+  bool send(const indurop_wire_Frame& frame, Stream stream) noexcept override;
+  bool send(const indurop_wire_Catalogue& catalogue) noexcept override;
+  bool send(const indurop_wire_Beacon& beacon) noexcept override;
+
+ private:
+  class Heard;
+  void put(Message::Kind kind, std::uint32_t part, std::vector<std::uint8_t> body);
+
+  std::vector<std::string> boards_;
+  std::uint32_t own_;
+  const vars::Store& store_;
+  std::vector<Message> sent_;
+  std::vector<std::array<FrameListener*, kStreams>> listeners_;  // by board
+  BeaconListener* beacons_ = nullptr;
+};
+
+}  // namespace indurop::mirror

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// This board's mirror: in the network, in a simulated plant, or none.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "mirror/frames/mirror.h"
+#include "node/checked.h"
+#include "node/options.h"
+#include "node/prepared.h"
+#include "node/simulated_mirror.h"
+#include "node/simulation.h"
+
+namespace indurop::node {
+
+class BoardMirror {
+ public:
+  // All is borrowed.
+  BoardMirror(const Options& options, Checked& checked, Prepared& prepared, const Console& console)
+      : options_(options), checked_(checked), prepared_(prepared), console_(console) {}
+
+  // None is started for a module.xml, nor in the simulation of one board. `simulation` null: in real time.
+  Result<void, Ending> start(Simulation* simulation);
+  // When the schedule began in real time. Once it has.
+  void announce() noexcept;
+  // Something may have changed in the store. Real-time safe.
+  void notify() noexcept;
+  [[nodiscard]] const mirror::MirrorBlock* block() const noexcept;
+  // The other boards see at once that this one is gone.
+  void stop() noexcept;
+
+ private:
+  Result<void, Ending> start_in_network();
+  Result<void, Ending> start_simulated(Simulation& simulation);
+
+  const Options& options_;
+  Checked& checked_;
+  Prepared& prepared_;
+  const Console& console_;
+  std::optional<mirror::Mirror> mirror_;
+  std::unique_ptr<SimulatedMirror> simulated_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// One board of a simulated plant as its conductor has it: an indurop-node, and the channel to it.
+
+#pragma once
+
+#include <indurop/result.h>
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/stop_signal.h"
+#include "node/board_channel.h"
+#include "node/options.h"
+
+namespace indurop::node {
+
+class ConductorBoard {
+ public:
+  explicit ConductorBoard(std::string name) : name_(std::move(name)) {}
+  ConductorBoard(ConductorBoard&& other) noexcept;
+  ConductorBoard& operator=(ConductorBoard&&) = delete;
+  ConductorBoard(const ConductorBoard&) = delete;
+  ConductorBoard& operator=(const ConductorBoard&) = delete;
+  ~ConductorBoard();  // kills it if it runs
+
+  // Starts its program, which then stands before virtual time goes on from `place.begin_ns`. `options` are the
+  // plant's; empty `options.duration`: until it is told.
+  Status start(const Options& options, const BoardPlace& place);
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // There is somebody to talk to.
+  [[nodiscard]] bool runs() const noexcept { return channel_.has_value(); }
+  [[nodiscard]] std::int64_t next_ns() const noexcept { return answer_.next_ns; }
+  [[nodiscard]] const BoardAnswer& answer() const noexcept { return answer_; }
+
+  void order(const BoardOrder& order);
+  // Waits for the answer to an order, or for the first. False: it has ended without. A stop signal is passed on to a
+  // board that does not answer.
+  bool await_answer(base::StopSignal& signals);
+  std::vector<mirror::Message> take_sent() { return std::exchange(answer_.sent, {}); }
+
+  // From now on nobody talks to it: it ends by itself.
+  void let_go() noexcept { channel_.reset(); }
+  // Ends it at once, as without power.
+  void kill() noexcept;
+  // Waits for its end: the exit code, 128 + number after a signal. Kills what does not end in time. 0 after kill().
+  int await_end();
+
+ private:
+  std::string name_;
+  std::optional<BoardChannel> channel_;
+  pid_t pid_ = -1;
+  int status_ = 0;  // exit code of an earlier end
+  int starts_ = 0;
+  BoardAnswer answer_;
+};
+
+}  // namespace indurop::node

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What befalls the boards of a simulated plant, and when: a file with lines like "500ms kill sensor".
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+
+namespace indurop::node {
+
+struct PlantEvent {
+  enum class What {
+    Kill,    // it loses its power
+    Cut,     // its cable is pulled
+    Return,  // what happened to it is undone: it starts anew, or its cable is put back
+  };
+  std::chrono::nanoseconds at{};  // since the first tick
+  What what = What::Kill;
+  std::size_t board = 0;
+  std::string text;  // "kill sensor"
+};
+
+struct PlantScript {
+  std::vector<PlantEvent> events;  // by time
+  std::vector<base::Diagnostic> diagnostics;
+};
+
+// `file`: what the diagnostics are about.
+PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards);
+PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards);
+
+}  // namespace indurop::node

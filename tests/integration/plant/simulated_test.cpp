@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop run PLANT --sim: all boards in virtual time, the same on every run.
+
+#include <iterator>
+
+#include "turning_table_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SimulatedPlant : public TurningTable {
+ protected:
+  SimulatedPlant() : plant_(two_boards()) {}
+  Program& run(std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", plant_, "--sim"});
+    return indurop(more);
+  }
+  [[nodiscard]] std::string recording(const std::string& name, const std::string& what = "") const {
+    std::ifstream file(folder() / ("r." + board(name) + what + ".mcap"), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::string script(const std::string& text) {
+    const std::string file = path("script.txt");
+    std::ofstream(file) << text;
+    return file;
+  }
+  // All that every board saw and wrote, as two files.
+  std::pair<std::string, std::string> record(std::vector<std::string> more) {
+    for (const auto& file : std::filesystem::directory_iterator(folder())) {
+      if (file.path().extension() == ".mcap") {
+        std::filesystem::remove(file);
+      }
+    }
+    more.insert(more.end(), {"-q", "--record", path("r.mcap")});
+    Program& sut = run(std::move(more));
+    EXPECT_EQ(sut.wait(), 0) << sut.err();
+    return {recording("sensor"), recording("control")};
+  }
+  static double at_end(const std::string& name, const std::string& variable, std::uint32_t offset = 0) {
+    return number<double>(name + "-sim", variable, offset);
+  }
+  const std::string plant_;
+};
+
+TEST_F(SimulatedPlant, Closes_its_loop_and_ends_after_its_time) {
+  EXPECT_EQ(run({"-q", "--until", "20s"}).wait(), 0);
+  EXPECT_NEAR(at_end("sensor", "cell::encoder", 8), 2, 0.001) << "rad/s";
+  EXPECT_NEAR(at_end("sensor", "cell::torque"), 0.04, 0.001);
+  EXPECT_EQ(number("sensor-sim", "cell::encoder", 16), 20'000U) << "ticks";
+  EXPECT_EQ(number("sensor-sim", "cell::lag"), 2U) << "one tick there, one back";
+}
+
+TEST_F(SimulatedPlant, Is_the_same_to_the_last_bit_on_every_run) {
+  const std::string befalls = script("300ms kill " + board("control") + "\n900ms return " + board("control") +
+                                     "\n1500ms cut " + board("sensor") + "\n2s return " + board("sensor") + "\n");
+  const std::vector<std::string> words = {"--until", "3s",        "--script",
+                                          befalls,   "--network", "delay=150us,jitter=900us,loss=0.05,seed=5"};
+  const auto first = record(words);
+  const std::string returned = recording("control", ".2");
+  EXPECT_GT(first.first.size(), 100'000U);
+  EXPECT_GT(returned.size(), 50'000U) << "the board that came back has a recording of its own";
+  EXPECT_TRUE(first == record(words));
+  EXPECT_TRUE(returned == recording("control", ".2"));
+  std::vector<std::string> other = words;
+  other.back() = "delay=150us,jitter=900us,loss=0.05,seed=6";
+  EXPECT_FALSE(first == record(other)) << "another seed is another chance";
+}
+
+TEST_F(SimulatedPlant, Waits_longer_for_values_when_the_network_is_slow) {
+  EXPECT_EQ(run({"-q", "--until", "2s", "--network", "delay=4200us"}).wait(), 0);
+  EXPECT_EQ(number("sensor-sim", "cell::lag"), 10U) << "five ticks there, five back";
+}
+
+TEST_F(SimulatedPlant, What_a_board_without_power_sent_is_too_old_soon) {
+  const std::string befalls = script("1s kill " + board("control") + "\n");
+  EXPECT_EQ(run({"-q", "--until", "1005ms", "--script", befalls}).wait(), 0);
+  EXPECT_GT(at_end("sensor", "cell::torque"), 0.03);
+  EXPECT_EQ(run({"-q", "--until", "1300ms", "--script", befalls}).wait(), 0);
+  EXPECT_EQ(at_end("sensor", "cell::torque"), 0) << "the declared fallback";
+}
+
+TEST_F(SimulatedPlant, Stands_after_each_tick_and_goes_on_as_standard_input_says) {
+  Program& sut = run({"--step"});
+  ASSERT_TRUE(sut.prints("tick 0, "));
+  sut.input("\n");
+  ASSERT_TRUE(sut.prints("tick 1, 1 ms"));
+  sut.input("20ms\n");
+  ASSERT_TRUE(sut.prints("tick 21, 21 ms"));
+  EXPECT_EQ(number("sensor-sim", "cell::encoder", 16), 21U);
+  sut.input("q\n");
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+}
+
+TEST_F(SimulatedPlant, Says_what_is_wrong_before_anything_runs) {
+  Program& wrong = run({"--script", script("1s kil " + board("sensor") + "\n")});
+  EXPECT_EQ(wrong.wait(), 4);
+  EXPECT_THAT(wrong.err(), HasSubstr("script.txt:1:1: error: 'kil' befalls no board; did you mean 'kill'?"));
+  Program& slow = run({"--network", "delay=0"});
+  EXPECT_EQ(slow.wait(), 2);
+  EXPECT_THAT(slow.err(), HasSubstr("delay: 0 ns is not possible; write a time from 1 us to 10 s"));
+}
+
+TEST_F(SimulatedPlant, A_board_that_crashes_leaves_the_others_and_the_code_tells) {
+  Program& sut = run({"--speed", "1"});
+  ASSERT_TRUE(wait_until([&] { return number("sensor-sim", "cell::encoder", 16) > 10; })) << sut.err();
+  ::kill(pid_of("control-sim"), SIGKILL);
+  EXPECT_TRUE(sut.says("board " + board("control") + " has ended; the others go on"));
+  sut.signal(SIGINT);
+  EXPECT_EQ(sut.wait(), 130);
+}
+
+}  // namespace
+}  // namespace indurop::test
