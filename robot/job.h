@@ -11,34 +11,37 @@
 
 #include "base/diagnostic.h"
 #include "base/source_place.h"
+#include "robot/job_formula.h"
 #include "robot/segment.h"
 
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,        // index: point; mid: point; value: 1 if a joint motion is to be straight,
-               // or if points of a spline follow
-  Speed,       // value: part of full speed, or m/s if index is 1
-  Zone,        // value: m
-  Set,         // index: signal; value
-  WaitSignal,  // index: signal; compare; value; timeout
-  WaitTime,    // value: s
-  Call,        // index: job
-  Goto,        // index: step
-  If,          // signal in mid; compare; value; index: step if true
-  Loop,        // value: times, 0: for ever; index: step behind its End
-  End          // index: step of its Loop
+  Move,       // index: point; mid: point; value: 1 if a joint motion is to be straight,
+              // or if points of a spline follow
+  Speed,      // value: part of full speed, or m/s if index is 1
+  Zone,       // value: m
+  Set,        // index: signal; formula
+  Assign,     // index: variable of the job; formula
+  WaitUntil,  // formula; timeout
+  WaitTime,   // value: s
+  Call,       // index: job; formula: the first of its arguments; mid: how many
+  Return,
+  Goto,    // index: step; loops between here and there are left or entered
+  If,      // formula; index: step if true, as Goto
+  Unless,  // formula; index: step if false, behind a block
+  Again,   // index: step at the beginning of the block
+  Loop,    // value: times, 0: for ever; index: step behind its End
+  End      // index: step of its Loop
 };
-
-enum class Compare : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual };
 
 struct Step {
   Op op = Op::Move;
   Move move = Move::Joint;
-  Compare compare = Compare::Equal;
   std::uint32_t line = 0;
   int index = -1;
   int mid = -1;
+  int formula = -1;
   double value = 0;
   double timeout = 0;  // s; 0: none
 };
@@ -54,12 +57,18 @@ struct Job {
   std::string name;  // of the file, without folder and ending
   std::string file;
   std::vector<Step> steps;
+  std::vector<std::string>
+      variables{};  // its own; parameters first, those without a name are the job's own limits of FOR
+  std::size_t parameters = 0;
 };
+
+inline constexpr std::size_t kMostVariables = 32;  // of one job
 
 struct JobBook {
   std::vector<Point> points;
   std::vector<Job> jobs;
   std::vector<std::string> signals;
+  std::vector<Formula> formulas;
 
   // Index of the point called P<number>; -1 if there is none.
   [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
@@ -83,7 +92,5 @@ struct ArmShape {
 };
 // All files together: points and jobs may be used before and beyond the file that declares them. Not real-time safe.
 ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape = {});
-
-[[nodiscard]] bool holds(Compare compare, double left, double right) noexcept;
 
 }  // namespace indurop::robot

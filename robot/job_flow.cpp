@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements of a job that do not move the arm: signals, waiting, jumps and loops.
+// Statements of a job that do not move the arm: signals, variables, waiting, jumps and blocks.
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "robot/job_parser.h"
 
@@ -14,24 +16,6 @@ namespace {
 constexpr std::size_t kDeepest = 8;
 
 }  // namespace
-
-bool holds(Compare compare, double left, double right) noexcept {
-  switch (compare) {
-    case Compare::Equal:
-      return left == right;
-    case Compare::NotEqual:
-      return left != right;
-    case Compare::Less:
-      return left < right;
-    case Compare::LessEqual:
-      return left <= right;
-    case Compare::Greater:
-      return left > right;
-    case Compare::GreaterEqual:
-      return left >= right;
-  }
-  return false;
-}
 
 int JobParser::signal(const char* what) {
   const JobToken name = take();
@@ -50,45 +34,72 @@ int JobParser::signal(const char* what) {
 void JobParser::set() {
   const int index = signal("the name of a variable");
   accept("=");
-  double value = 1;
-  if (accept("OFF")) {
-    value = 0;
-  } else if (!accept("ON") && !numbers(1, &value, "ON, OFF or the value")) {
-    return;
-  }
+  const int formula = failed_ ? -1 : expression("ON, OFF or the value");
   Step& step = add(Op::Set);
   step.index = index;
-  step.value = value;
+  step.formula = formula;
 }
 
-// "I2", "I2 ON", "I2 OFF", "I2 >= 5"
-void JobParser::condition(Step& step, int& index) {
-  static constexpr std::pair<const char*, Compare> kSigns[] = {
-      {"=", Compare::Equal}, {"==", Compare::Equal},     {"!=", Compare::NotEqual}, {"<>", Compare::NotEqual},
-      {"<", Compare::Less},  {"<=", Compare::LessEqual}, {">", Compare::Greater},   {">=", Compare::GreaterEqual},
-  };
-  index = signal("the name of a variable");
-  step.compare = Compare::NotEqual;
-  step.value = 0;
-  if (failed_ || accept("ON")) {
+int JobParser::variable_called(std::string_view name) const noexcept {
+  const std::vector<std::string>& variables = book_.jobs.back().variables;
+  const auto found = std::find(variables.begin(), variables.end(), name);
+  return found == variables.end() ? -1 : static_cast<int>(found - variables.begin());
+}
+
+int JobParser::new_variable(const JobToken& name) {
+  const bool plain = name.kind == JobToken::Kind::Word && name.text.find_first_of(".:[]") == std::string_view::npos;
+  if (!plain || is_reserved(name.text)) {
+    error(name, "expected the name of a variable, letters and digits, found " + shown(name));
+    return -1;
+  }
+  if (variable_called(name.text) >= 0) {
+    error(name, "there is already a variable " + in_quotes(name.text));
+    return -1;
+  }
+  if (job().variables.size() >= kMostVariables) {
+    error(name, "more than " + std::to_string(kMostVariables) + " variables; split the job and use CALL");
+    return -1;
+  }
+  job().variables.emplace_back(name.text);
+  return static_cast<int>(job().variables.size()) - 1;
+}
+
+void JobParser::variable() {
+  const JobToken name = take();
+  int formula = -1;
+  if (accept("=")) {
+    formula = expression("its value");  // which cannot look at the variable itself
+  }
+  const int index = failed_ ? -1 : new_variable(name);
+  Step& step = add(Op::Assign);
+  step.index = index;
+  step.formula = formula >= 0 ? formula : keep(Formula::number(0));
+}
+
+void JobParser::parameters() {
+  if (!job().steps.empty() || !job().variables.empty()) {
+    error(tokens_[0], "PARAM comes first in a job, once");
     return;
   }
-  if (accept("OFF")) {
-    step.compare = Compare::Equal;
-    return;
+  while (!failed_ && peek().kind != JobToken::Kind::End) {
+    new_variable(take());
+    accept(",");
   }
-  for (const auto& [sign, compare] : kSigns) {
-    if (accept(sign)) {
-      step.compare = compare;
-      const bool on = accept("ON");
-      if (on || accept("OFF")) {
-        step.value = on ? 1 : 0;
-      } else {
-        numbers(1, &step.value, "the value to compare with");
-      }
-      return;
-    }
+  job().parameters = job().variables.size();
+}
+
+void JobParser::assign() {
+  const JobToken name = take();
+  accept("=");
+  const int index = variable_called(name.text);
+  if (index < 0) {
+    error(name, "this job has no variable " + in_quotes(name.text) + "; declare it, VAR " + std::string(name.text) +
+                    " = 0, or write SET for a shared one");
   }
+  const int formula = expression("its value");
+  Step& step = add(Op::Assign);
+  step.index = index;
+  step.formula = formula;
 }
 
 bool JobParser::duration(double& seconds) {
@@ -117,37 +128,113 @@ void JobParser::wait() {
     }
     return;
   }
-  Step step;
-  condition(step, step.index);
+  const int formula = expression("a condition");
+  double timeout = 0;
   if (!failed_ && accept("TIMEOUT")) {
-    duration(step.timeout);
+    duration(timeout);
   }
-  Step& added = add(Op::WaitSignal);
-  step.op = added.op;
-  step.line = added.line;
-  added = step;
+  Step& step = add(Op::WaitUntil);
+  step.formula = formula;
+  step.timeout = timeout;
 }
 
-void JobParser::jump(Op op) {
-  add(op);
-  const bool call = op == Op::Call;
-  reference(call ? JobReference::To::Job : JobReference::To::Label, call ? "job" : "label");
+void JobParser::call() {
+  add(Op::Call).mid = 0;
+  reference(JobReference::To::Job, "job");
+  int count = 0;
+  int first = -1;
+  while (!failed_ && peek().kind != JobToken::Kind::End) {
+    if (count > 0 && !accept(",")) {
+      error(peek(), "expected ',' and another value, found " + shown(peek()));
+      break;
+    }
+    const int formula = expression("a value");
+    first = count++ == 0 ? formula : first;
+  }
+  job().steps.back().formula = first;
+  job().steps.back().mid = count;
 }
 
+void JobParser::jump() {
+  add(Op::Goto);
+  reference(JobReference::To::Label, "label");
+}
+
+// "IF ... GOTO label" in one line, or the beginning of a block.
 void JobParser::if_goto() {
-  Step step;
-  condition(step, step.mid);
-  if (!failed_ && !accept("GOTO")) {
-    error(peek(), "expected GOTO and a label, found " + shown(peek()));
+  const int formula = expression("a condition");
+  if (failed_) {
     return;
   }
-  Step& added = add(Op::If);
-  step.op = added.op;
-  step.line = added.line;
-  added = step;
-  if (!failed_) {
+  const bool jumps = accept("GOTO");
+  add(jumps ? Op::If : Op::Unless).formula = formula;
+  if (jumps) {
     reference(JobReference::To::Label, "label");
+    return;
   }
+  blocks_.push_back({"IF", line_, job().steps.size() - 1, job().steps.size() - 1, {}, -1, 1, false});
+}
+
+void JobParser::otherwise(bool condition) {
+  if (blocks_.empty() || std::string_view(blocks_.back().word) != "IF" || blocks_.back().has_else) {
+    error(tokens_[0], std::string(condition ? "ELSEIF" : "ELSE") + " without IF");
+    return;
+  }
+  Block& block = blocks_.back();
+  block.ends.push_back(job().steps.size());
+  add(Op::Again);
+  job().steps[block.pending].index = static_cast<int>(job().steps.size());
+  block.pending = kNone;
+  block.has_else = !condition;
+  if (condition) {
+    const int formula = expression("a condition");
+    block.pending = job().steps.size();
+    add(Op::Unless).formula = formula;
+  }
+}
+
+void JobParser::while_block() {
+  const int formula = expression("a condition");
+  const std::size_t start = job().steps.size();
+  add(Op::Unless).formula = formula;
+  blocks_.push_back({"WHILE", line_, start, start, {}, -1, 1, false});
+}
+
+// FOR i = first TO last STEP by
+void JobParser::for_block() {
+  const JobToken name = take();
+  const int known = variable_called(name.text);
+  if (!accept("=")) {
+    error(peek(), "expected '=', found " + shown(peek()) + "; FOR i = 1 TO 10");
+    return;
+  }
+  const int first = expression("the first value");
+  if (!failed_ && !accept("TO")) {
+    error(peek(), "expected TO and the last value, found " + shown(peek()));
+  }
+  const int last = failed_ ? -1 : expression("the last value");
+  double by = 1;
+  const JobToken step = peek();
+  if (!failed_ && accept("STEP") && numbers(1, &by, "how much further each time") && by == 0) {
+    error(step, "a FOR with STEP 0 would never end");
+  }
+  const int counter = failed_ ? -1 : known >= 0 ? known : new_variable(name);
+  if (failed_ || job().variables.size() >= kMostVariables) {
+    error(name, "more than " + std::to_string(kMostVariables) + " variables; split the job and use CALL");
+    return;
+  }
+  const int limit = static_cast<int>(job().variables.size());
+  job().variables.emplace_back();
+  Step& begins = add(Op::Assign);
+  begins.index = counter;
+  begins.formula = first;
+  Step& ends = add(Op::Assign);
+  ends.index = limit;
+  ends.formula = last;
+  const std::size_t start = job().steps.size();
+  const FormulaOp goes_on = by > 0 ? FormulaOp::LessEqual : FormulaOp::GreaterEqual;
+  add(Op::Unless).formula = keep(Formula::joined(Formula::variable(counter), Formula::variable(limit), goes_on));
+  blocks_.push_back({"FOR", line_, start, start, {}, counter, by, false});
 }
 
 void JobParser::label() {
@@ -171,21 +258,43 @@ void JobParser::loop() {
       error(times, "a LOOP runs a whole number of times, from 1; without a number it runs for ever");
     }
   }
-  if (loops_.size() >= kDeepest) {
+  const auto loops = std::count_if(blocks_.begin(), blocks_.end(),
+                                   [](const Block& block) { return std::string_view(block.word) == "LOOP"; });
+  if (static_cast<std::size_t>(loops) >= kDeepest) {
     error(tokens_[0], "at most " + std::to_string(kDeepest) + " LOOPs inside each other; use CALL");
   }
-  loops_.push_back(job().steps.size() - 1);
+  blocks_.push_back({"LOOP", line_, job().steps.size() - 1, kNone, {}, -1, 1, false});
 }
 
-void JobParser::end_loop() {
-  if (loops_.empty()) {
-    error(tokens_[0], "END without LOOP");
+void JobParser::end_block() {
+  if (blocks_.empty()) {
+    error(tokens_[0], "END without LOOP, IF, WHILE or FOR");
     return;
   }
-  const std::size_t start = loops_.back();
-  loops_.pop_back();
-  add(Op::End).index = static_cast<int>(start);
-  job().steps[start].index = static_cast<int>(job().steps.size());
+  const Block block = std::move(blocks_.back());
+  blocks_.pop_back();
+  const std::string_view word = block.word;
+  if (word == "LOOP") {
+    add(Op::End).index = static_cast<int>(block.start);
+    job().steps[block.start].index = static_cast<int>(job().steps.size());
+    return;
+  }
+  if (word == "FOR") {
+    const int next = keep(Formula::joined(Formula::variable(block.counter), Formula::number(block.by), FormulaOp::Add));
+    Step& step = add(Op::Assign);
+    step.index = block.counter;
+    step.formula = next;
+  }
+  if (word != "IF") {
+    add(Op::Again).index = static_cast<int>(block.start);
+  }
+  const auto behind = static_cast<int>(job().steps.size());
+  if (block.pending != kNone) {
+    job().steps[block.pending].index = behind;
+  }
+  for (const std::size_t end : block.ends) {
+    job().steps[end].index = behind;
+  }
 }
 
 }  // namespace indurop::robot

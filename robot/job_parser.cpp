@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, LABEL, GOTO, IF, LOOP and END";
+    "POINT, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, "
+    "WHILE, "
+    "FOR, LOOP and END";
 
 std::string name_of(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -58,9 +60,9 @@ void JobParser::expect_end() {
 }
 
 void JobParser::read(const JobFile& file) {
-  book_.jobs.push_back({name_of(file.path), file.path, {}});
+  book_.jobs.push_back({name_of(file.path), file.path, {}, {}, 0});
   labels_.emplace_back();
-  loops_.clear();
+  blocks_.clear();
   std::string_view rest = file.text;
   if (rest.starts_with("\xEF\xBB\xBF")) {
     rest.remove_prefix(3);
@@ -80,8 +82,8 @@ void JobParser::read(const JobFile& file) {
   if (job().steps.size() > kMostSteps) {
     error(start, "more than " + std::to_string(kMostSteps) + " steps; split the job and use CALL");
   }
-  for (const std::size_t loop : loops_) {
-    error_in(file.path, job().steps[loop].line, 1, "LOOP without END");
+  for (const Block& block : blocks_) {
+    error_in(file.path, block.line, 1, std::string(block.word) + " without END");
   }
 }
 
@@ -95,10 +97,13 @@ void JobParser::statement() {
       {"ZONE", [](JobParser& p) { p.zone(); }},           {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
       {"MOVL", [](JobParser& p) { p.move(Move::Line); }}, {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
       {"MOVS", [](JobParser& p) { p.spline(); }},         {"SET", [](JobParser& p) { p.set(); }},
-      {"WAIT", [](JobParser& p) { p.wait(); }},           {"CALL", [](JobParser& p) { p.jump(Op::Call); }},
-      {"LABEL", [](JobParser& p) { p.label(); }},         {"GOTO", [](JobParser& p) { p.jump(Op::Goto); }},
+      {"WAIT", [](JobParser& p) { p.wait(); }},           {"CALL", [](JobParser& p) { p.call(); }},
+      {"LABEL", [](JobParser& p) { p.label(); }},         {"GOTO", [](JobParser& p) { p.jump(); }},
       {"IF", [](JobParser& p) { p.if_goto(); }},          {"LOOP", [](JobParser& p) { p.loop(); }},
-      {"END", [](JobParser& p) { p.end_loop(); }},
+      {"END", [](JobParser& p) { p.end_block(); }},       {"VAR", [](JobParser& p) { p.variable(); }},
+      {"PARAM", [](JobParser& p) { p.parameters(); }},    {"RETURN", [](JobParser& p) { p.add(Op::Return); }},
+      {"ELSE", [](JobParser& p) { p.otherwise(false); }}, {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
+      {"WHILE", [](JobParser& p) { p.while_block(); }},   {"FOR", [](JobParser& p) { p.for_block(); }},
   };
   for (const Known& known : kKnown) {
     if (accept(known.word)) {
@@ -108,6 +113,13 @@ void JobParser::statement() {
       }
       return;
     }
+  }
+  if (peek().kind == JobToken::Kind::Word && tokens_[at_ + 1].text == "=") {
+    assign();
+    if (!failed_) {
+      expect_end();
+    }
+    return;
   }
   error(peek(), "unknown statement " + shown(peek()) + "; known are " + kStatements);
 }

@@ -52,15 +52,35 @@ class JobParser {
   void speed();
   void zone();
   void set();
+  void assign();
+  void variable();
+  void parameters();
   void wait();
-  void jump(Op op);
+  void call();
+  void jump();
   void if_goto();
+  void otherwise(bool condition);
+  void while_block();
+  void for_block();
   void label();
   void loop();
-  void end_loop();
-  void condition(Step& step, int& index);
+  void end_block();
   bool duration(double& seconds);
   int signal(const char* what);
+  static bool is_reserved(std::string_view word) noexcept;
+  [[nodiscard]] int variable_called(std::string_view name) const noexcept;
+  int new_variable(const JobToken& name);
+  // The number of the formula in the book.
+  int expression(const char* what);
+  int keep(Formula formula);
+  Formula disjunction(const char* what, int depth);
+  Formula conjunction(const char* what, int depth);
+  Formula negation(const char* what, int depth);
+  Formula comparison(const char* what, int depth);
+  Formula sum(const char* what, int depth);
+  Formula product(const char* what, int depth);
+  Formula operand(const char* what, int depth);
+  Formula named();
   void reference(JobReference::To to, const char* what);
   void expect_end();
 
@@ -80,7 +100,19 @@ class JobParser {
   std::size_t at_ = 0;
   std::size_t line_ = 0;
   bool failed_ = false;  // one message per line is enough
-  std::vector<std::size_t> loops_;
+  // What END closes: LOOP, IF, WHILE and FOR.
+  struct Block {
+    const char* word = "";
+    std::size_t line = 0;
+    std::size_t start = 0;            // the step at its beginning
+    std::size_t pending = kNone;      // the step that goes behind this part of it
+    std::vector<std::size_t> ends{};  // steps that go behind it
+    int counter = -1;                 // FOR: its variable
+    double by = 1;
+    bool has_else = false;
+  };
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<Block> blocks_;
   std::vector<JobReference> references_;
   std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // of each job
   std::map<std::string, std::string, std::less<>> point_places_;

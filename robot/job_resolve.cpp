@@ -53,6 +53,10 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 void JobParser::resolve() {
@@ -72,7 +76,16 @@ void JobParser::resolve() {
       found == labels.end() ? fail(reference, "label", known) : void(step.index = static_cast<int>(found->second.step));
     } else if (reference.to == JobReference::To::Job) {
       step.index = index_of(book_.jobs, reference.name);
-      step.index < 0 ? fail(reference, "job", names_of(book_.jobs)) : void();
+      if (step.index < 0) {
+        fail(reference, "job", names_of(book_.jobs));
+        continue;
+      }
+      const Job& called = book_.jobs[static_cast<std::size_t>(step.index)];
+      if (called.parameters != static_cast<std::size_t>(step.mid)) {
+        error_in(book_.jobs[reference.job].file, reference.line, reference.column,
+                 "job '" + reference.name + "' takes " + count_of(called.parameters, "value") + ", here " +
+                     (step.mid == 1 ? "is 1" : "are " + std::to_string(step.mid)));
+      }
     } else {
       const int point = index_of(book_.points, reference.name);
       (reference.to == JobReference::To::Mid ? step.mid : step.index) = point;

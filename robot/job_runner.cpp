@@ -2,6 +2,7 @@
 #include "robot/job_runner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace indurop::robot {
@@ -9,17 +10,43 @@ namespace indurop::robot {
 namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
+constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
 constexpr int kLineBits = 20;        // MoveCommand::source = job and line
-
-bool touches_world(Op op) noexcept {
-  return op == Op::Set || op == Op::WaitSignal || op == Op::WaitTime || op == Op::If;
-}
 
 std::uint32_t line_of(int source) noexcept {
   return static_cast<std::uint32_t>(source) & ((1U << kLineBits) - 1);
 }
 
 }  // namespace
+
+std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept {
+  const int count = step.formula < 0 ? 0 : step.op == Op::Call ? step.mid : 1;
+  return count == 0 ? std::span<const Formula>()
+                    : std::span(book_.formulas)
+                          .subspan(static_cast<std::size_t>(step.formula), static_cast<std::size_t>(count));
+}
+
+bool JobRunner::touches_world(const Step& step) const noexcept {
+  const auto formulas = formulas_of(step);
+  return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime ||
+         std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
+}
+
+int JobRunner::cost_of(const Step& step) const noexcept {
+  int parts = 0;
+  for (const Formula& formula : formulas_of(step)) {
+    parts += static_cast<int>(formula.size());
+  }
+  return 1 + parts / kPartsPerStep;
+}
+
+bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
+  value = book_.formulas[static_cast<std::size_t>(formula)].value(frame().variables, signals);
+  if (std::isnan(value)) {
+    fail({ErrorCode::Line}, "this has no value; is there a division by 0?", 0);
+  }
+  return !std::isnan(value);
+}
 
 void JobRunner::start(int job) noexcept {
   state_ = JobState::Runs;
@@ -72,14 +99,16 @@ const Step* JobRunner::present() const noexcept {
 }
 
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
-  for (int i = 0; i < kStepsPerPeriod && running(); ++i) {
+  bool first = true;
+  for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = present();
+    left -= step == nullptr ? 1 : cost_of(*step);
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(port);
-    } else if (!touches_world(step->op) || port.settled()) {
+    } else if (!touches_world(*step) || port.settled()) {
       line_ = step->line;
-      next = run(*step, i == 0 ? seconds : 0, signals, port);
+      next = run(*step, first ? seconds : 0, signals, port);
     }
     if (next == Next::Wait) {
       return;
@@ -103,17 +132,21 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
 
 JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   Next next = Next::Go;
+  double value = 0;
   switch (step.op) {
     case Op::Move:
       return move(step, port);
-    case Op::WaitSignal:
-      next = wait_signal(step, seconds, signals);
+    case Op::WaitUntil:
+      next = wait_until(step, seconds, signals);
       break;
     case Op::WaitTime:
       next = wait_time(step, seconds);
       break;
     case Op::Call:
-      return call(step);
+      return call(step, signals);
+    case Op::Return:
+      frame().step = static_cast<int>(job_of(frame().job).steps.size());
+      return Next::Go;
     case Op::Speed:
       (step.index == 1 ? tool_speed_ : speed_) = step.value;
       tool_speed_ = step.index == 1 ? tool_speed_ : 0;
@@ -122,17 +155,26 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       zone_ = step.value;
       break;
     case Op::Set:
-      signals.write(static_cast<std::size_t>(step.index), step.value);
+      if (!compute(step.formula, signals, value)) {
+        return Next::Wait;
+      }
+      signals.write(static_cast<std::size_t>(step.index), value);
+      break;
+    case Op::Assign:
+      if (!compute(step.formula, signals, value)) {
+        return Next::Wait;
+      }
+      frame().variables[static_cast<std::size_t>(step.index)] = value;
       break;
     case Op::Goto:
       jump(step.index);
       return Next::Go;
     case Op::If:
-      if (holds(step.compare, signals.read(static_cast<std::size_t>(step.mid)), step.value)) {
-        jump(step.index);
-        return Next::Go;
-      }
-      break;
+    case Op::Unless:
+      return branch(step, signals);
+    case Op::Again:
+      frame().step = step.index;
+      return Next::Go;
     case Op::Loop:
       loop(step);
       break;
@@ -168,8 +210,27 @@ JobRunner::Next JobRunner::move(const Step& step, MotionPort& port) noexcept {
   return Next::Go;
 }
 
-JobRunner::Next JobRunner::wait_signal(const Step& step, double seconds, Signals& signals) noexcept {
-  if (holds(step.compare, signals.read(static_cast<std::size_t>(step.index)), step.value)) {
+JobRunner::Next JobRunner::branch(const Step& step, Signals& signals) noexcept {
+  double value = 0;
+  if (!compute(step.formula, signals, value)) {
+    return Next::Wait;
+  }
+  if (step.op == Op::If && value != 0) {
+    jump(step.index);
+  } else if (step.op == Op::Unless && value == 0) {
+    frame().step = step.index;
+  } else {
+    ++frame().step;
+  }
+  return Next::Go;
+}
+
+JobRunner::Next JobRunner::wait_until(const Step& step, double seconds, Signals& signals) noexcept {
+  double value = 0;
+  if (!compute(step.formula, signals, value)) {
+    return Next::Wait;
+  }
+  if (value != 0) {
     return Next::Go;
   }
   state_ = JobState::Waits;
@@ -188,15 +249,21 @@ JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept 
   return waited_ + kRounding >= step.value ? Next::Go : Next::Wait;
 }
 
-JobRunner::Next JobRunner::call(const Step& step) noexcept {
+JobRunner::Next JobRunner::call(const Step& step, Signals& signals) noexcept {
   if (depth_ + 1 >= kDeepest) {
-    fail({ErrorCode::Line}, "jobs call each other too deep", 0);
+    fail({ErrorCode::Line}, "jobs call each other too deep; does one call itself without end?", 0);
     return Next::Wait;
+  }
+  Frame called;
+  called.job = step.index;
+  for (int i = 0; i < step.mid; ++i) {
+    if (!compute(step.formula + i, signals, called.variables[static_cast<std::size_t>(i)])) {
+      return Next::Wait;
+    }
   }
   ++frame().step;
   ++depth_;
-  frame() = {};
-  frame().job = step.index;
+  frame() = called;
   return Next::Go;
 }
 

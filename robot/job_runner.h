@@ -7,6 +7,7 @@
 #include <indurop/robot/controller.h>
 
 #include <array>
+#include <span>
 
 #include "robot/errors.h"
 #include "robot/job.h"
@@ -52,14 +53,21 @@ class JobRunner {
     int step = 0;
     int loops = 0;
     std::array<double, kDeepest> left{};  // times the open loops still run
+    std::array<double, kMostVariables> variables{};
   };
 
   [[nodiscard]] const Step* present() const noexcept;
   Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
   Next move(const Step& step, MotionPort& port) noexcept;
-  Next wait_signal(const Step& step, double seconds, Signals& signals) noexcept;
+  // False: it has no value, and the job has failed.
+  bool compute(int formula, Signals& signals, double& value) noexcept;
+  Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
+  Next branch(const Step& step, Signals& signals) noexcept;
   Next wait_time(const Step& step, double seconds) noexcept;
-  Next call(const Step& step) noexcept;
+  Next call(const Step& step, Signals& signals) noexcept;
+  [[nodiscard]] std::span<const Formula> formulas_of(const Step& step) const noexcept;
+  [[nodiscard]] int cost_of(const Step& step) const noexcept;
+  [[nodiscard]] bool touches_world(const Step& step) const noexcept;
   void jump(int step) noexcept;
   void loop(const Step& step) noexcept;
   void end_loop(const Step& step) noexcept;

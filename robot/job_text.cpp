@@ -49,8 +49,9 @@ JobToken next_token(std::string_view text) noexcept {
   } else if (const std::size_t n = number_length(text, token.value); n > 0) {
     token.kind = JobToken::Kind::Number;
     token.text = text.substr(0, n);
-  } else if (std::string_view("=<>!%,/").find(text.front()) != std::string_view::npos) {
-    const bool two = text.size() > 1 && text[1] == '=' && text[0] != '%' && text[0] != ',';
+  } else if (std::string_view("=<>!%,/+-*()").find(text.front()) != std::string_view::npos) {
+    const bool two =
+        text.size() > 1 && text[1] == '=' && std::string_view("=<>!").find(text[0]) != std::string_view::npos;
     const bool unequal = text.starts_with("<>");
     token.kind = JobToken::Kind::Sign;
     token.text = text.substr(0, two || unequal ? 2 : 1);

@@ -1,34 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared variables that jobs set and wait for, by name. All are numbers of 16 bits like the PLC's points I0 and O0;
-// name them in <access> of module.xml, so that the checks know them.
+// The shared variables that jobs set and look at, by name: any number or bool. Name them in <access> of module.xml, so
+// that the checks know them.
 #pragma once
 
 #include <indurop/channel.h>
 #include <indurop/robot/controller.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 class JobSignals final : public indurop::robot::Signals {
  public:
   // The first access by a name looks it up, the others are real-time safe.
-  explicit JobSignals(const std::vector<std::string>& names) : names_(names) {
-    for (const std::string& name : names_) {
-      if (!channel::read<short>(handle_, name).ok()) {
-        throw std::runtime_error("a job names the variable " + name + ", which is no short of this node");
+  explicit JobSignals(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      Signal signal{name, nullptr, nullptr};
+      const bool found = is<short>(signal) || is<bool>(signal) || is<std::int32_t>(signal) || is<double>(signal) ||
+                         is<std::uint8_t>(signal) || is<std::int8_t>(signal) || is<std::uint16_t>(signal) ||
+                         is<std::uint32_t>(signal) || is<std::int64_t>(signal) || is<std::uint64_t>(signal) ||
+                         is<float>(signal);
+      if (!found) {
+        throw std::runtime_error("a job names the variable " + name + ", which is no number or bool of this node");
       }
+      signals_.push_back(signal);
     }
   }
-  double read(std::size_t index) noexcept override {
-    const auto value = channel::read<short>(handle_, names_[index]);
-    return value.ok() ? value.value() : 0;
-  }
+  double read(std::size_t index) noexcept override { return signals_[index].read(handle_, signals_[index].name); }
+  // A value that the variable cannot hold becomes the nearest one.
   void write(std::size_t index, double value) noexcept override {
-    static_cast<void>(channel::write(handle_, names_[index], static_cast<short>(value)));
+    signals_[index].write(handle_, signals_[index].name, value);
   }
 
  private:
+  struct Signal {
+    std::string name;
+    double (*read)(channel::Handle&, const std::string&) noexcept;
+    void (*write)(channel::Handle&, const std::string&, double) noexcept;
+  };
+
+  template <class T>
+  bool is(Signal& signal) {
+    if (!channel::read<T>(handle_, signal.name).ok()) {
+      return false;
+    }
+    signal.read = [](channel::Handle& handle, const std::string& name) noexcept {
+      const auto value = channel::read<T>(handle, name);
+      return value.ok() ? static_cast<double>(value.value()) : 0.0;
+    };
+    signal.write = [](channel::Handle& handle, const std::string& name, double value) noexcept {
+      static_cast<void>(channel::write(handle, name, nearest<T>(value)));
+    };
+    return true;
+  }
+
+  template <class T>
+  static T nearest(double value) noexcept {
+    if constexpr (std::is_same_v<T, bool>) {
+      return value != 0;
+    } else if constexpr (std::is_floating_point_v<T>) {
+      constexpr auto kMost = static_cast<double>(std::numeric_limits<T>::max());
+      return static_cast<T>(std::clamp(value, -kMost, kMost));
+    } else {
+      // The largest whole number may be none that a double can say; then the next one counts as too large.
+      const double whole = std::round(value);
+      if (!(whole > static_cast<double>(std::numeric_limits<T>::min()))) {
+        return std::numeric_limits<T>::min();
+      }
+      return whole >= static_cast<double>(std::numeric_limits<T>::max()) ? std::numeric_limits<T>::max()
+                                                                         : static_cast<T>(whole);
+    }
+  }
+
   channel::Handle handle_;
-  std::vector<std::string> names_;
+  std::vector<Signal> signals_;
 };

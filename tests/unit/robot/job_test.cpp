@@ -146,7 +146,7 @@ TEST(Job, Endless_loops_and_recursion_do_not_hang) {
   JobRunner deep(recursion);
   deep.start(0);
   deep.step(0.01, port, port);
-  EXPECT_STREQ(deep.report(0).message, "a.job:1: jobs call each other too deep");
+  EXPECT_STREQ(deep.report(0).message, "a.job:1: jobs call each other too deep; does one call itself without end?");
 }
 
 TEST(Job, Numbered_points_are_found_by_their_number) {
@@ -175,8 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
     Golden, JobErrorsTest,
     testing::Values(
         Bad{"MOVE A\n",
-            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, "
-            "WAIT, CALL, LABEL, GOTO, IF, LOOP and END"},
+            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, "
+            "MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
             "a.job:1:8: error: there is no point 'ABOV'; did you mean 'ABOVE'?"},
         Bad{"MOVS A\nPOINT A = JOINT 0 0 0 0 0 0\n",
@@ -202,12 +202,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"WAIT I2 ON now\n", "a.job:1:12: error: unexpected 'now'; one statement per line"},
         Bad{"GOTO nowhere\n", "a.job:1:6: error: there is no label 'nowhere'"},
         Bad{"LABEL a\nLABEL a\n", "a.job:2:7: error: there is already a label 'a' in line 1"},
-        Bad{"LOOP 2\n", "a.job:1:1: error: LOOP without END"}, Bad{"END\n", "a.job:1:1: error: END without LOOP"},
+        Bad{"LOOP 2\n", "a.job:1:1: error: LOOP without END"},
+        Bad{"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE or FOR"},
         Bad{"LOOP 0\nEND\n",
             "a.job:1:6: error: a LOOP runs a whole number of times, from 1; without a number it runs for ever"},
         Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'; did you mean 'a'?"},
         Bad{"SET 5 ON\n", "a.job:1:5: error: expected the name of a variable, found '5'"},
-        Bad{"IF I0 = 3\n", "a.job:1:10: error: expected GOTO and a label, found the end of the line"},
+        Bad{"IF I0 = 3 GO on\n", "a.job:1:11: error: unexpected 'GO'; one statement per line"},
         Bad{"SET O1 $\n", "a.job:1:8: error: expected ON, OFF or the value, found '$'"}));
 
 TEST(Job, All_errors_at_once) {
