@@ -29,6 +29,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.started_ns = rt::now_ns();
   facts.web = Page(options.web).there();
   facts.plant = options.plant;
+  facts.recordings = options.recordings;
   facts.plc = !options.plc.files.empty();
   return facts;
 }

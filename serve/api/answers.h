@@ -23,6 +23,10 @@ Reply faults(Api& api, const Call& call);
 Reply forces(Api& api, const Call& call);
 Reply deployments(Api& api, const Call& call);
 Reply robots(Api& api, const Call& call);
+Reply recordings(Api& api, const Call& call);
+Reply recording(Api& api, const Call& call);
+Reply recorded_values(Api& api, const Call& call);
+
 Reply plc(Api& api, const Call& call);
 Reply plc_live(Api& api, const Call& call);
 

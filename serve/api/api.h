@@ -35,8 +35,9 @@ struct ServerFacts {
   std::string version;
   std::size_t most_clients = 0;
   bool web = false;
-  bool plant = false;  // boards elsewhere are looked at too
-  bool plc = false;    // so is a PLC program
+  std::filesystem::path recordings;  // folder; empty: black boxes only
+  bool plant = false;                // boards elsewhere are looked at too
+  bool plc = false;                  // so is a PLC program
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;

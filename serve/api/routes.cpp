@@ -35,6 +35,9 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/boards/{board}/plc/live", Pace::Plc, &answers::plc_live},
       Route{kGet, "/api/v1/plant", Pace::Plant, &answers::plant},
       Route{kGet, "/api/v1/plant/history", Pace::Plant, &answers::plant_history},
+      Route{kGet, "/api/v1/recordings", Pace::Files, &answers::recordings},
+      Route{kGet, "/api/v1/recordings/{name}", Pace::Files, &answers::recording},
+      Route{kGet, "/api/v1/recordings/{name}/values", Pace::Files, &answers::recorded_values},
       Route{kGet, "/api/v1/deployments", Pace::Quick, &answers::deployments},
       Route{kGet, "/api/v1/audit", Pace::Files, &answers::audit},
   };

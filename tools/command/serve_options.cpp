@@ -45,6 +45,8 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::Folder);
   app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
       .completes(base::Completion::File);
+  app.add("--recordings", "DIR", options.recordings, "Show the recordings in this folder too, beside black boxes")
+      .completes(base::Completion::Folder);
   app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
       .range(1, kMostClients);
   app.add("--plc", "FILE", options.plc.files, "Show this PLC program with its power flow; it was built with --watch")
@@ -81,6 +83,7 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   }
   value("--web", options.web.string());
   value("--audit", options.audit.string());
+  value("--recordings", options.recordings.string());
   value("--clients", std::to_string(options.clients));
   for (const std::string& file : options.plc.files) {
     value("--plc", file);

@@ -25,6 +25,7 @@ struct ServeOptions {
   std::filesystem::path client_ca;
   std::filesystem::path web;
   std::filesystem::path audit;
+  std::filesystem::path recordings;
   std::vector<std::string> hosts;
   std::uint64_t clients = 64;
   bool quiet = false;

@@ -118,6 +118,19 @@ const tests = {
     }
   },
 
+  async "Charts show a recording"() {
+    await order("start-tour");
+    await order("record");
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open(`plots?m=recording&r=run.mcap&c=${JOINTS}&c=PLC_ROBOT::ROBOT_ARM.tool_speed`, size);
+      await sees(page, "run.mcap");
+      await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 2);
+      await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
+      await browser.judge(page, `plots-recording-${screen}`);
+      await page.close();
+    }
+  },
+
   async "The schedule shows runs and explains them"() {
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open("schedule?z=16&m=Robot&n=1", size);

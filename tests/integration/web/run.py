@@ -41,6 +41,7 @@ class Plant:
         self.options, self.folder, self.port = options, folder, port
         self.environment = {**os.environ, "INDUROP_STATE_DIR": str(folder / "state")}
         self.server = None
+        (folder / "recordings").mkdir()
         (folder / "tokens").write_text(f"tester {TOKEN}\n")
         (folder / "tokens").chmod(0o600)
 
@@ -55,12 +56,16 @@ class Plant:
         """The robot moves for twenty seconds."""
         self.indurop("set", "--node", NODE, "CELL::tour", "true", check=True)
 
+    def record(self):
+        self.indurop("record", "--node", NODE, "-o", "recordings/run.mcap", "--duration", "3s", check=True)
+
     def stop_node(self):
         self.indurop("stop", "--node", self.node)
 
     def start_server(self, *more):
         command = [f"{self.options.bin}/indurop-serve", *more, "--node", self.node, "--port", str(self.port), "--write",
-                   "--token-file", str(self.folder / "tokens"), "--web", str(self.options.page), "-q"]
+                   "--token-file", str(self.folder / "tokens"), "--web", str(self.options.page), "-q",
+                   "--recordings", str(self.folder / "recordings")]
         self.server = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL)
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
@@ -76,7 +81,7 @@ class Plant:
 
     def obey(self, word):
         {"start-node": self.start_node, "stop-node": self.stop_node, "start-server": self.start_server,
-         "stop-server": self.stop_server, "start-tour": self.start_tour}[word]()
+         "stop-server": self.stop_server, "start-tour": self.start_tour, "record": self.record}[word]()
 
     def end(self):
         if self.server and self.server.poll() is None:

@@ -83,6 +83,28 @@ export interface PlcLive {
   bodies: PlcBodyLive[];
 }
 
+export interface RecordingFile {
+  name: string;
+  node: string;
+  reason: string;
+  black_box: boolean;
+  bytes: number;
+  wall_ns: number;
+}
+
+export interface RecordingContents extends RecordingFile {
+  begin_ns: number;
+  end_ns: number;
+  complete: boolean;
+  channels: { name: string; unit: string; numbers: string[] }[];
+}
+
+export interface RecordedValues {
+  begin_ns: number;
+  end_ns: number;
+  lines: { name: string; values: (number | null)[] }[];
+}
+
 export interface FarBoard {
   board: string;
   host: string;

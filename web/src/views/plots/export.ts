@@ -4,7 +4,7 @@
 import type uPlot from "uplot";
 import { colour } from "../../shell/theme";
 import type { Line, Shown } from "./chart";
-import type { Recorder } from "./recorder";
+import type { Samples } from "./recorder";
 
 const LINE_PX = 20;
 
@@ -24,7 +24,7 @@ function quoted(text: string): string {
   return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-export function csv_of(recorder: Recorder, lines: Line[], { from, to }: Shown): string {
+export function csv_of(recorder: Samples & { board_times: Float64Array }, lines: Line[], { from, to }: Shown): string {
   const heads = ["utc", "board_time_s", ...lines.map(({ name, part }) => (part?.unit ? `${name} [${part.unit}]` : name))];
   const rows = [heads.map(quoted).join(",")];
   for (let i = recorder.index_at(from); i < recorder.size && recorder.times[i] <= to; i++) {
@@ -40,7 +40,7 @@ export function save_text(csv: string): void {
   download(file_name("csv"), new Blob([csv], { type: "text/csv" }));
 }
 
-export function save_csv(recorder: Recorder, lines: Line[], shown: Shown): void {
+export function save_csv(recorder: Samples & { board_times: Float64Array }, lines: Line[], shown: Shown): void {
   save_text(csv_of(recorder, lines, shown));
 }
 

@@ -9,8 +9,8 @@ export interface Layout {
   rate_hz: number;
 }
 
-export type Mode = "strip" | "single" | "normal" | "auto";
-export const MODES: Mode[] = ["strip", "single", "normal", "auto"];
+export type Mode = "strip" | "single" | "normal" | "auto" | "recording";
+export const MODES: Mode[] = ["strip", "single", "normal", "auto", "recording"];
 
 // m is the mode, t the trigger, pre and post how many ticks before and after it.
 export interface Wish {

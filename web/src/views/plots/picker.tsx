@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// All numbers of a board, to be clicked or dragged into a chart.
+// All numbers there are, to be clicked or dragged into a chart.
 
-import { useMemo, useState } from "preact/hooks";
-import type { Variable } from "../../api/types";
-import { numbers_of, whole } from "../../ui/paths";
+import { useState } from "preact/hooks";
 
 const MOST = 100;
 
-export function Picker({ variables, add }: { variables: Variable[]; add: (name: string) => void }) {
+export function Picker({ names, add }: { names: string[]; add: (name: string) => void }) {
   const [search, look_for] = useState("");
-  const names = useMemo(() => variables.flatMap((variable) => numbers_of(whole(variable))), [variables]);
   const wanted = search.toLowerCase().split(/\s+/).filter(Boolean);
   const found = names.filter((name) => wanted.every((word) => name.toLowerCase().includes(word)));
   return (

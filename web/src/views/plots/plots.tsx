@@ -9,13 +9,22 @@ import type { Variables } from "../../api/types";
 import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
 import { Waiting } from "../../ui/parts";
-import { is_number, part_named } from "../../ui/paths";
+import { is_number, numbers_of, part_named, whole } from "../../ui/paths";
 import { useAsked, useStore } from "../../ui/store";
 import { Choice } from "./choice";
 import { layout_of, MODES, show_charts, wish_of } from "./layout";
 import { Picker } from "./picker";
+import { Recorded } from "./recorded";
 import { Strip } from "./strip";
 import { Triggered } from "./triggered";
+
+const HINTS = {
+  strip: "Values as they come.",
+  single: "Every tick around a trigger, once.",
+  normal: "Every tick around each trigger.",
+  auto: "Every tick around each trigger, or the newest if none comes.",
+  recording: "What was recorded, black boxes included.",
+};
 
 export function Plots() {
   const board = useBoard();
@@ -28,6 +37,11 @@ export function Plots() {
     () => get<Variables>(board_path(board!.board, "/variables?values=false")), words);
   const variables = asked.value?.variables ?? [];
   const parts = useMemo(() => new Map(names.map((name) => [name, part_named(variables, name)])), [variables, names.join()]);
+  const numbers = useMemo(() => variables.flatMap((variable) => numbers_of(whole(variable))), [variables]);
+  const choice = (
+    <div class="bar"><Choice label="Show" value={wish.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
+      <span class="quiet">{HINTS[wish.mode]}</span></div>);
+  if (wish.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} /></>;
   if (!board) return <Waiting />;
 
   const drawable = names.filter((name) => { const part = parts.get(name); return part && is_number(part); });
@@ -45,8 +59,7 @@ export function Plots() {
   const unknown = variables.length > 0 ? names.filter((name) => !parts.get(name)) : [];
   return (
     <>
-      <div class="bar"><Choice label="Show" value={wish.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
-        <span class="quiet">{wish.mode === "strip" ? "Values as they come." : "Every tick around a trigger."}</span></div>
+      {choice}
       {unknown.length > 0 && <p class="warn">This board has no {unknown.join(", ")}.</p>}
       <div class="plots">
         <div>
@@ -56,7 +69,7 @@ export function Plots() {
             onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>
             Drag a number here for a new chart. In a chart: drag over a part of it to zoom, double-click to go on, click twice to measure.</p>
         </div>
-        {asked.error ? <p class="bad">{asked.error}</p> : <Picker variables={variables} add={(name) => add(name, Math.max(0, charts.length - 1))} />}
+        {asked.error ? <p class="bad">{asked.error}</p> : <Picker names={numbers} add={(name) => add(name, Math.max(0, charts.length - 1))} />}
       </div>
     </>);
 }

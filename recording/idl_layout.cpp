@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/idl_layout.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace indurop::recording {
+namespace {
+
+using base::Problem;
+using Kind = IdlLeaf::Kind;
+
+constexpr int kMostDepth = 32;
+
+struct Member {
+  std::string type;  // "string" for all texts
+  std::string name;
+  std::vector<std::uint64_t> dims;
+};
+struct Definition {
+  bool is_enum = false;
+  std::vector<Member> members;
+};
+
+std::optional<Kind> kind_of(std::string_view type) {
+  constexpr std::array<std::pair<std::string_view, Kind>, 13> kKinds{{{"boolean", Kind::Bool},
+                                                                      {"char", Kind::Char},
+                                                                      {"int8", Kind::I8},
+                                                                      {"uint8", Kind::U8},
+                                                                      {"int16", Kind::I16},
+                                                                      {"uint16", Kind::U16},
+                                                                      {"int32", Kind::I32},
+                                                                      {"uint32", Kind::U32},
+                                                                      {"int64", Kind::I64},
+                                                                      {"uint64", Kind::U64},
+                                                                      {"float", Kind::F32},
+                                                                      {"double", Kind::F64},
+                                                                      {"string", Kind::Text}}};
+  for (const auto& [name, kind] : kKinds) {
+    if (name == type) {
+      return kind;
+    }
+  }
+  return std::nullopt;
+}
+
+class IdlReader {
+ public:
+  explicit IdlReader(std::string_view text) : text_(text) {}
+
+  bool read() {
+    while (next()) {
+      if (token_ == "module") {
+        next();
+        scopes_.push_back(token_);
+        next();  // {
+      } else if (token_ == "}") {
+        if (scopes_.empty()) {
+          return false;
+        }
+        scopes_.pop_back();
+      } else if (token_ == "struct") {
+        if (!structure()) {
+          return false;
+        }
+      } else if (token_ == "enum") {
+        if (!enumeration()) {
+          return false;
+        }
+      } else if (token_ == "@") {
+        next();  // its name
+      } else if (token_ != ";") {
+        return false;
+      }
+    }
+    return scopes_.empty();
+  }
+  [[nodiscard]] const std::map<std::string, Definition>& definitions() const noexcept { return definitions_; }
+
+ private:
+  static bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  }
+
+  // Words with their "::", else one sign at a time.
+  bool next() {
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\t' || text_[at_] == '\r')) {
+      ++at_;
+    }
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && (is_word(text_[at_]) || text_.substr(at_, 2) == "::")) {
+      at_ += is_word(text_[at_]) ? 1U : 2U;
+    }
+    at_ += at_ == begin && at_ < text_.size() ? 1U : 0U;
+    token_ = std::string(text_.substr(begin, at_ - begin));
+    return !token_.empty();
+  }
+
+  std::string full_name() const {
+    std::string out;
+    for (const std::string& scope : scopes_) {
+      out += scope + "::";
+    }
+    return out + token_;
+  }
+  static std::string plain(const std::string& name) { return name.starts_with('_') ? name.substr(1) : name; }
+
+  std::optional<std::uint64_t> number() {
+    next();
+    std::uint64_t value = 0;
+    const auto [end, code] = std::from_chars(token_.data(), token_.data() + token_.size(), value);
+    return code == std::errc() && end == token_.data() + token_.size() ? std::optional(value) : std::nullopt;
+  }
+
+  bool structure() {
+    next();
+    Definition& made = definitions_[full_name()];
+    next();
+    while (token_ == "{" && next()) {
+      while (token_ != "}") {
+        if (!member(made) || !next()) {
+          return false;
+        }
+      }
+      return true;
+    }
+    return false;
+  }
+
+  bool member(Definition& to) {
+    Member one;
+    one.type = token_;
+    next();
+    if (one.type == "string" && token_ == "<") {
+      if (!number() || !next() || token_ != ">") {
+        return false;
+      }
+      next();
+    }
+    one.name = plain(token_);
+    next();
+    while (token_ == "[") {
+      const auto size = number();
+      if (!size || !next() || token_ != "]") {
+        return false;
+      }
+      one.dims.push_back(*size);
+      next();
+    }
+    to.members.push_back(std::move(one));
+    return token_ == ";";
+  }
+
+  bool enumeration() {
+    next();
+    definitions_[full_name()].is_enum = true;
+    while (next()) {
+      if (token_ == "}") {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::string token_;
+  std::vector<std::string> scopes_;
+  std::map<std::string, Definition> definitions_;
+};
+
+class Flattener {
+ public:
+  explicit Flattener(const std::map<std::string, Definition>& definitions) : definitions_(definitions) {}
+
+  bool add(const std::string& type, const std::string& name, int depth) {
+    if (const auto kind = kind_of(type)) {
+      leaves.push_back({name, *kind});
+      return leaves.size() <= kMostLeaves;
+    }
+    const auto found = definitions_.find(type);
+    if (found == definitions_.end() || depth > kMostDepth) {
+      return false;
+    }
+    if (found->second.is_enum) {
+      leaves.push_back({name, Kind::Enum});
+      return leaves.size() <= kMostLeaves;
+    }
+    const auto& members = found->second.members;
+    // What stands for its only member has no name of its own.
+    const bool wraps = type.starts_with("indurop::value_") && members.size() == 1 && members[0].name == "value";
+    for (const Member& member : members) {
+      if (!add_elements(member, 0, wraps ? name : name + "." + member.name, depth + 1)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<IdlLeaf> leaves;
+
+ private:
+  bool add_elements(const Member& member, std::size_t dim, const std::string& name, int depth) {
+    if (dim == member.dims.size()) {
+      return add(member.type, name, depth);
+    }
+    for (std::uint64_t i = 0; i < member.dims[dim]; ++i) {
+      if (!add_elements(member, dim + 1, fmt::format("{}[{}]", name, i), depth)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const std::map<std::string, Definition>& definitions_;
+};
+
+// Takes values off the front of a CDR message.
+class CdrCursor {
+ public:
+  explicit CdrCursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  bool take(double& to) {
+    T value{};
+    if (!raw(value)) {
+      return false;
+    }
+    to = static_cast<double>(value);
+    return true;
+  }
+  bool skip_text() {
+    std::uint32_t length = 0;
+    if (!raw(length) || length > bytes_.size() - at_) {
+      return false;
+    }
+    at_ += length;
+    return true;
+  }
+
+ private:
+  template <class T>
+  bool raw(T& value) {
+    at_ = (at_ + sizeof(T) - 1) / sizeof(T) * sizeof(T);
+    if (at_ > bytes_.size() || sizeof(T) > bytes_.size() - at_) {
+      return false;
+    }
+    std::memcpy(&value, bytes_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return true;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+bool take(CdrCursor& cursor, Kind kind, double& to) {
+  switch (kind) {
+    case Kind::Bool:
+    case Kind::Char:
+    case Kind::U8:
+      return cursor.take<std::uint8_t>(to);
+    case Kind::I8:
+      return cursor.take<std::int8_t>(to);
+    case Kind::I16:
+      return cursor.take<std::int16_t>(to);
+    case Kind::U16:
+      return cursor.take<std::uint16_t>(to);
+    case Kind::I32:
+    case Kind::Enum:
+      return cursor.take<std::int32_t>(to);
+    case Kind::U32:
+      return cursor.take<std::uint32_t>(to);
+    case Kind::I64:
+      return cursor.take<std::int64_t>(to);
+    case Kind::U64:
+      return cursor.take<std::uint64_t>(to);
+    case Kind::F32:
+      return cursor.take<float>(to);
+    case Kind::F64:
+      return cursor.take<double>(to);
+    case Kind::Text:
+      to = std::nan("");
+      return cursor.skip_text();
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<std::vector<IdlLeaf>, Problem> idl_layout(std::string_view text, std::string_view name) {
+  IdlReader reader(text);
+  if (!reader.read()) {
+    return Problem{fmt::format("the definition of {} is not understood", name)};
+  }
+  Flattener flat(reader.definitions());
+  if (!flat.add(std::string(name), "", 0)) {
+    return Problem{fmt::format("{} is too large, or not defined", name)};
+  }
+  return std::move(flat.leaves);
+}
+
+bool read_leaves(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, std::vector<double>& values) {
+  constexpr std::size_t kHead = 4;
+  constexpr std::uint8_t kLittleEndian = 1;
+  if (cdr.size() < kHead || cdr[0] != 0 || cdr[1] != kLittleEndian) {
+    return false;
+  }
+  CdrCursor cursor(cdr.subspan(kHead));
+  values.resize(layout.size());
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    if (!take(cursor, layout[i].kind, values[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace indurop::recording

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the messages of a channel are made of, by its OMG IDL: the numbers of a struct one after the other, as CDR has
+// them. For readers of recordings who do not know our types; understands what recording/omg_idl.h writes.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/problem.h"
+
+namespace indurop::recording {
+
+struct IdlLeaf {
+  enum class Kind : std::uint8_t { Bool, Char, I8, U8, I16, U16, I32, U32, I64, U64, F32, F64, Enum, Text };
+  std::string name;  // behind the channel's: ".x", "[2].y"; empty: it is the whole
+  Kind kind{};
+};
+
+inline constexpr std::size_t kMostLeaves = 4096;
+
+// The numbers of struct `name` of this text, in the order of its bytes. A struct of module indurop with one member
+// `value` stands for that member. Errors: what is not understood; more than kMostLeaves.
+Result<std::vector<IdlLeaf>, base::Problem> idl_layout(std::string_view text, std::string_view name);
+
+// A number for each leaf; texts are NaN. False if `cdr` is no such message.
+bool read_leaves(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, std::vector<double>& values);
+
+}  // namespace indurop::recording
