@@ -9,7 +9,7 @@ import { address } from "../ui/address";
 import { count, percent, plural, span } from "../ui/format";
 import { useAsked, useStore } from "../ui/store";
 import { Figure, Panel, Waiting } from "../ui/parts";
-import { PlantPanel } from "./plant";
+import { PlantPanel, usePlant } from "./plant";
 
 const EVERY_MS = 2000;
 
@@ -149,31 +149,34 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
 }
 
 // One sentence for the whole plant.
-function Headline({ boards }: { boards: BoardSummary[] }) {
+function Headline({ boards, far }: { boards: BoardSummary[]; far: string[] }) {
   const running = boards.filter(({ alive }) => alive);
   const wrong = running.filter(({ trouble, faults, overruns }) => trouble.length > 0 || faults > 0 || overruns > 0);
   const gone = boards.length - running.length;
   const forced = running.reduce((sum, { forces }) => sum + forces, 0);
-  const parts = [];
+  const parts = far.map((text) => `${text[0].toUpperCase()}${text.slice(1)}.`);
   if (wrong.length > 0) parts.push(...wrong.map(({ board, trouble }) => `${board}: ${trouble[0] ?? "something is wrong"}.`));
   else if (running.length > 0) parts.push(running.length === 1 ? "The board runs, nothing is wrong." : `All ${running.length} boards that run are well.`);
-  else parts.push("No board runs.");
+  else if (far.length === 0) parts.push("No board runs.");
   if (gone > 0 && running.length > 0) parts.push(`${plural(gone, "board does", "boards do")} not run.`);
   if (forced > 0) parts.push(`${plural(forced, "value is", "values are")} forced.`);
-  return <p class={`headline ${wrong.length > 0 || running.length === 0 ? "is-bad" : gone > 0 || forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
+  return <p class={`headline ${far.length + wrong.length > 0 || running.length === 0 ? "is-bad" : gone > 0 || forced > 0 ? "is-warn" : "is-good"}`}>{parts.join(" ")}</p>;
 }
 
 export function Overview() {
   const { boards, status } = useStore(plant);
+  const far = usePlant();
   if (!boards) return <Waiting />;
+  // Boards of this host say themselves what is wrong with them.
+  const silent = far.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
   const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
   const gone = sorted.filter(({ alive }) => !alive);
   const shown = gone.length > 3 ? sorted.filter(({ alive }) => alive) : sorted;
   return (
     <>
-      {boards.length > 0 && <Headline boards={sorted} />}
-      {status?.plant && <PlantPanel />}
+      {(boards.length > 0 || silent.length > 0) && <Headline boards={sorted} far={silent} />}
+      {status?.plant && <PlantPanel value={far.value} error={far.error} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
       {shown.length < sorted.length && (
         <details class="panel">

@@ -7,7 +7,7 @@ import { plant as here } from "../shell/plant";
 import { address } from "../ui/address";
 import { clock, count, span } from "../ui/format";
 import { Panel, Waiting } from "../ui/parts";
-import { useAsked, useStore } from "../ui/store";
+import { type Asked, useAsked, useStore } from "../ui/store";
 
 const EVERY_MS = 1000;
 const SHOWN_ID = 12;
@@ -40,8 +40,13 @@ function state_of({ boards, trouble, problem }: PlantNow): [string, boolean] {
   return trouble.length > 0 ? ["something is wrong", false] : [`all ${boards.length} heard`, true];
 }
 
-export function PlantPanel() {
-  const { value, error } = useAsked("plant", EVERY_MS, () => get<PlantNow>("plant"), words);
+// Nothing is asked of a server that does not look at a plant.
+export function usePlant(): Asked<PlantNow> {
+  const { status } = useStore(here);
+  return useAsked(status?.plant ? "plant" : "", EVERY_MS, () => get<PlantNow>("plant"), words);
+}
+
+export function PlantPanel({ value, error }: { value: PlantNow | null; error: string }) {
   if (!value) return <Panel title="Plant">{error ? <p class="bad">{error}</p> : <Waiting />}</Panel>;
   const [state, good] = state_of(value);
   return (
