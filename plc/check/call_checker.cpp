@@ -155,6 +155,12 @@ void CallChecker::no_function(const Expression& call) {
                    "this C code gives the time as a number, declare the variable it goes to as UDINT or ULINT");
     return;
   }
+  if (same_name(callee.name, "__NEW") || same_name(callee.name, "__DELETE")) {
+    context_.error(call.at, fmt::format("{} is not supported, because a program that runs in real time asks for no "
+                                        "memory; declare the instance, or an array of them",
+                                        callee.name));
+    return;
+  }
   if (const std::string why = why_left_out(context_.program.project, callee.name); !why.empty()) {
     context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name, why));
     return;

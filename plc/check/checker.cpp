@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "plc/check/configured.h"
 #include "plc/check/constant_order.h"
 #include "plc/check/enable.h"
 #include "plc/check/global_table.h"
@@ -11,6 +12,7 @@
 #include "plc/check/object_checker.h"
 #include "plc/check/pou_checker.h"
 #include "plc/check/shared_names.h"
+#include "plc/check/starts.h"
 #include "plc/check/task_checker.h"
 #include "plc/check/type_builder.h"
 
@@ -56,10 +58,13 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   declare_globals(context, true);
   declare_types(context);
   declare_globals(context, false);
+  apply_configured(context);
   declare_variables(context);
+  declare_starts(context);
   check_objects(context);
   name_types(context);
   check_bodies(context);
+  use_starts(context);
   order_pous(context);
   plan_tasks(context);
   return program;

@@ -29,6 +29,8 @@ class ExpressionChecker {
   const Type* reference(ast::Expression& expression);
   // A call as a statement: functions and instances of function blocks.
   void call_statement(ast::Expression& expression);
+  // Whether the call is one of an action of another instance.
+  [[nodiscard]] bool is_action(ast::Expression& callee);
   [[nodiscard]] bool is_whole(const Type& type) const noexcept;
   // The variable of x.a[3].b
   static const ast::Expression& root_of(const ast::Expression& expression) noexcept;

@@ -8,6 +8,7 @@
 
 #include "plc/check/call_checker.h"
 #include "plc/model/make.h"
+#include "plc/model/walk.h"
 
 namespace indurop::plc {
 namespace {
@@ -126,6 +127,21 @@ const Type* ExpressionChecker::object(Expression& expression) {
   const Type* type = known ? expression.type : typed(expression, nullptr);  // calls behind calls only once
   reading_ = reading;
   return type != nullptr && has_methods(*type) ? type : nullptr;
+}
+
+// pump.Restart; the instance is as before then.
+bool ExpressionChecker::is_action(Expression& callee) {
+  const Type* type = object(callee.operands[0]);
+  const Pou* method =
+      type != nullptr && type->kind == Type::Kind::Block ? find_method(*type->pou, callee.name) : nullptr;
+  if (method == nullptr || !method->tree->is_action) {
+    return false;
+  }
+  ast::each_expression(callee.operands[0], [](Expression& each) {
+    each.type = nullptr;
+    each.resolved = nullptr;
+  });
+  return true;
 }
 
 // x.Speed or Speed as a value: a call of its GET. Null without an error: it is none.

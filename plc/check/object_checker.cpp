@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "plc/check/starts.h"
+
 namespace indurop::plc {
 namespace {
 
@@ -223,13 +225,7 @@ class ObjectChecker {
 
   void own(const Pou& method) {
     const ast::Pou& tree = *method.tree;
-    for (const std::string_view special : {"FB_Init", "FB_Exit", "FB_Reinit"}) {
-      if (same_name(tree.name, special)) {
-        context_.error(tree.at,
-                       fmt::format("{} is not called here, give initial values to the variables instead", special));
-      }
-    }
-    const bool program = pou_.tree->kind == Kind::Program && context_.codesys();
+    const bool program = pou_.tree->kind == Kind::Program && (context_.codesys() || tree.name == kStart);
     if (!program && pou_.tree->kind != Kind::FunctionBlock && pou_.tree->kind != Kind::Class &&
         pou_.tree->kind != Kind::Interface) {
       context_.error(tree.at, "only function blocks, classes and interfaces have methods, write a FUNCTION");
@@ -247,6 +243,9 @@ class ObjectChecker {
   }
 
   void replaced(Pou& method) {
+    if (same_name(method.name, kInit) || method.name == kStart) {
+      return;  // each has its own values, and runs that of its base
+    }
     const Pou* other = pou_.base != nullptr ? find_method(*pou_.base, method.name, method.tree->accessor) : nullptr;
     if (other == nullptr || other->owner->tree->kind == Kind::Interface) {
       if (method.tree->overrides && other == nullptr) {

@@ -8,6 +8,7 @@
 
 #include "plc/check/generic_functions.h"
 #include "plc/check/global_table.h"
+#include "plc/check/late_value.h"
 #include "plc/check/object_checker.h"
 #include "plc/check/places.h"
 #include "plc/check/statement_checker.h"
@@ -49,6 +50,7 @@ class VariableDeclarer {
       return;
     }
     const std::size_t before = context_.diagnostics.errors();
+    set_late_value(declared, *type, pou_);
     check_kind(declared, *type);
     Variable* made = remember(declared, type);
     if (made == nullptr || context_.diagnostics.errors() != before) {
@@ -84,7 +86,8 @@ class VariableDeclarer {
         declared.section != Section::External) {
       context_.error(declared.at, abstract_instance(*held_one));
     }
-    const bool has_memory = !pou_.is_callable() || declared.is_static || declared.of_instance;
+    const bool has_memory =
+        !pou_.is_callable() || declared.is_static || declared.of_instance || context_.codesys();  // for this call
     const bool given = declared.section == Section::Input || declared.section == Section::InOut;
     if (!has_memory && !given && declared.section != Section::External) {
       context_.error(declared.at, pou_.owner != nullptr
@@ -303,6 +306,14 @@ Pou& declare_further(Context& context, ast::Pou& tree) {
   return pou;
 }
 
+void declare_method(Context& context, Pou& owner, ast::Pou& tree) {
+  Pou& method = add(context, tree);
+  method.owner = &owner;
+  owner.methods.push_back(&method);
+  owner.uses.insert(&method);
+  declare_variables_of(context, method);
+}
+
 namespace {
 
 // What only shows when the variables of all function blocks are known.
@@ -315,7 +326,7 @@ void check_instances(Context& context) {
         continue;
       }
       const bool lasts = !one.declared->is_static && !one.declared->of_instance && !pou.is_callable() &&
-                         one.section != Section::Temp && one.section != Section::Input;
+                         one.section != Section::Temp && (one.section != Section::Input || context.codesys());
       if (!lasts && holds_places(*one.type)) {
         context.error(one.declared->at,
                       fmt::format("{} has variables AT %I* or %Q*, which only an instance in VAR of a program or "
@@ -353,7 +364,8 @@ void check_bodies(Context& context) {
   }
   for (Pou* pou : fine) {  // methods use variables of their instances, too
     context.pou = pou;
-    if (pou->result != nullptr && !pou->result_assigned) {
+    const bool special = pou->owner != nullptr && upper(pou->name).starts_with("FB_");  // nobody looks at its result
+    if (pou->result != nullptr && !pou->result_assigned && !special) {
       context.warning(pou->tree->at, fmt::format("the {} never gives its result, assign it: {} := ...;",
                                                  pou->owner != nullptr ? "method" : "function", pou->name));
     }

@@ -17,5 +17,7 @@ void order_pous(Context& context);
 
 // One more function, which a call asks for: its body is checked after those before it.
 Pou& declare_further(Context& context, ast::Pou& tree);
+// One more method.
+void declare_method(Context& context, Pou& owner, ast::Pou& tree);
 
 }  // namespace indurop::plc

@@ -20,7 +20,7 @@ const Pou* Pou::self() const noexcept {
 }
 
 std::string Pou::title() const {
-  return owner != nullptr ? owner->name + "." + name : name;
+  return owner == nullptr ? name : name.starts_with('@') ? owner->name : owner->name + "." + name;
 }
 
 std::vector<const Variable*> all_variables(const Pou& pou) {

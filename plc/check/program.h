@@ -174,6 +174,8 @@ struct Program {
   std::map<std::string, Pou*> pou_names;
   std::map<std::string, const ast::Pou*> generic_functions;  // with inputs such as ANY_NUM, in capitals
   std::deque<ast::Pou> made_functions;                       // of them, for the types they are called with
+  std::map<std::string, const Global*> placed;  // where VAR_CONFIG puts AT %I* of instances: "MAIN_MOTOR_RUNNING"
+  std::map<const Global*, const Pou*> starts;   // functions that run what their instances begin with
   bool types_known = false;
   bool has_objects = false;                                     // classes, interfaces, methods
   std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <utility>
 
 #include "plc/model/make.h"
@@ -54,7 +55,9 @@ void StatementChecker::statement(Statement& one) {
       assign(one);
       break;
     case Statement::Kind::Call:
-      expressions_.call_statement(*one.value);
+      if (!action_with_values(one)) {
+        expressions_.call_statement(*one.value);
+      }
       break;
     case Statement::Kind::If:
       if_statement(one);
@@ -90,6 +93,36 @@ void StatementChecker::statement(Statement& one) {
       }
       break;
   }
+}
+
+// pump.Restart(speed := 5, running => r): the action Restart has no values of its own, they are those of pump.
+bool StatementChecker::action_with_values(Statement& one) {
+  ast::Expression& callee = one.value->operands[0];
+  if (callee.kind != ast::Expression::Kind::Member || one.value->arguments.empty() || !context_.program.has_objects) {
+    return false;
+  }
+  if (!expressions_.is_action(callee)) {
+    return false;
+  }
+  ast::Body before;
+  ast::Body after;
+  for (ast::Argument& each : std::exchange(one.value->arguments, {})) {
+    if (each.name.empty() || each.negated) {
+      context_.error(each.at, fmt::format("values of an action are those of its instance: {} := ...",
+                                          each.name.empty() ? "input" : each.name));
+    } else if (each.value) {
+      ast::Expression pin = make::member(each.at, "", each.name);
+      pin.operands[0] = callee.operands[0];
+      (each.output ? after : before)
+          .push_back(each.output ? make::assign(std::move(*each.value), std::move(pin))
+                                 : make::assign(std::move(pin), std::move(*each.value)));
+    }
+  }
+  before.push_back(make::call_statement(std::move(*one.value)));
+  std::move(after.begin(), after.end(), std::back_inserter(before));
+  one = make::when(make::truth(one.at, true), std::move(before));
+  statement(one);
+  return true;
 }
 
 void StatementChecker::condition(ast::Expression& expression) {

@@ -23,6 +23,7 @@ class StatementChecker {
   void attempt(ast::Statement& one);
   void assign(ast::Statement& one);
   bool infer(ast::Statement& one);
+  bool action_with_values(ast::Statement& one);
   void condition(ast::Expression& expression);
   void if_statement(ast::Statement& one);
   void case_statement(ast::Statement& one);

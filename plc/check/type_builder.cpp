@@ -98,6 +98,11 @@ class TypeBuilder {
 
   const Type* named(ast::TypeSpec& spec) {
     const auto found = context_.program.type_names.find(upper(spec.name));
+    if (found != context_.program.type_names.end() && !spec.starts.empty() && found->second->pou == nullptr) {
+      context_.error(spec.at, fmt::format("{} is no function block that FB_Init gives values to; write := behind it",
+                                          to_string(*found->second)));
+      return nullptr;
+    }
     if (found != context_.program.type_names.end()) {
       return found->second;
     }
@@ -132,6 +137,10 @@ class TypeBuilder {
     Type type;
     type.kind = Type::Kind::Pointer;
     type.pointer = spec.pointer;
+    if (!spec.element->starts.empty()) {
+      context_.error(spec.element->at, "a pointer has no values for FB_Init, the instance it leads to has them");
+      return nullptr;
+    }
     const bool later = !context_.program.types_known && spec.element->kind == ast::TypeSpec::Kind::Named &&
                        !context_.program.type_names.contains(upper(spec.element->name));
     type.element = later ? nullptr : build(*spec.element, "");

@@ -77,6 +77,9 @@ class GlbEmitter {
     }
     for (const TaskPlan& task : program_.tasks) {
       for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
+        if (program_.placed.contains(upper(one.name))) {
+          continue;  // VAR_CONFIG puts it where a global is
+        }
         need(*one.type);
         variable(std::string(last_name(one.shared_name)), *one.type, one.initial, one.retain, one.comment, one.at);
       }

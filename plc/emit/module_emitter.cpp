@@ -7,8 +7,10 @@
 
 #include <algorithm>
 
+#include "plc/check/starts.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/exchange_emitter.h"
+#include "plc/emit/object_emitter.h"
 #include "plc/emit/pou_emitter.h"
 #include "plc/emit/task_use.h"
 #include "plc/emit/text_writer.h"
@@ -26,6 +28,7 @@ class ModuleEmitter {
         globals_.push_back(&global);
       }
     }
+    find_start();
   }
 
   std::string run() {
@@ -79,6 +82,7 @@ class ModuleEmitter {
     }
     debugger();
     emit_exchange(use_, globals_, out_);
+    define_start();
     out_.line("}  // namespace");
     out_.line();
     entry();
@@ -209,6 +213,45 @@ class ModuleEmitter {
     out_.line();
   }
 
+  // What runs before the first scan: that of globals, then that of programs.
+  void find_start() {
+    const auto program = [&](const Pou& pou, const std::string& instance) {
+      if (const Pou* method = find_method(pou, kStart)) {
+        start_.push_back(instance + "." + method_name(*method) + "();");
+      }
+    };
+    for (const Global* global : globals_) {
+      if (const auto function = program_.starts.find(global); function != program_.starts.end()) {
+        start_.push_back("plc::" + cpp_name(std::string_view(function->second->name)) + "();");
+      }
+      const Pou* pou = global->kind == Global::Kind::Private ? global->type->pou : nullptr;
+      const bool runs = std::any_of(task_.programs.begin(), task_.programs.end(),
+                                    [&](const TaskProgram& one) { return one.pou->instance == global; });
+      if (pou != nullptr && pou->tree->kind == ast::Pou::Kind::Program && !runs) {
+        program(*pou, "plc::" + cpp_name(*global));
+      }
+    }
+    for (const TaskProgram& one : task_.programs) {
+      program(*one.pou, instance_of(one));
+    }
+  }
+
+  void define_start() {
+    if (start_.empty()) {
+      return;
+    }
+    out_.line("// Before the first scan: FB_Init, and initial values that are computed.");
+    out_.open("void start()");
+    out_.line("static bool done = false;");
+    out_.line("if (done) { return; }");
+    out_.line("done = true;");
+    for (const std::string& one : start_) {
+      out_.line(one);
+    }
+    out_.close();
+    out_.line();
+  }
+
   void run_programs() {
     const bool debug = options_.debug != nullptr;
     if (debug) {
@@ -236,6 +279,9 @@ class ModuleEmitter {
     if (options_.debug != nullptr) {
       out_.line(fmt::format("plc::debugger.begin(scan.time_ns, {}, &debug_globals);", options_.debug->globals.bytes));
     }
+    if (!start_.empty()) {
+      out_.line("start();");
+    }
     run_programs();
     out_.line("write_shared();");
     if (options_.watch) {
@@ -253,6 +299,7 @@ class ModuleEmitter {
   const ModuleOptions& options_;
   TaskUse use_;
   std::vector<const Global*> globals_;
+  std::vector<std::string> start_;
   TextWriter out_;
 };
 

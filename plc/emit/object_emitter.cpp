@@ -62,6 +62,9 @@ void forward(const Pou& pou, const Pou& interface, std::vector<std::string>& don
 }  // namespace
 
 std::string method_name(const Pou& method) {
+  if (method.name.starts_with('@')) {
+    return "method_" + method.name.substr(1);  // those of users are in capitals
+  }
   const char* kind = method.tree->accessor == ast::Accessor::None  ? "method_"
                      : method.tree->accessor == ast::Accessor::Get ? "getter_"
                                                                    : "setter_";
@@ -119,6 +122,10 @@ void declare_methods(const Pou& pou, TextWriter& out) {
         const std::string value = cpp_initial(*one.type, one.declared->initial ? &*one.declared->initial : nullptr);
         out.line(fmt::format("{} {}{};", cpp_type(*one.type), kept_name(one), value == "{}" ? value : " = " + value));
       }
+    }
+    if (method->name.starts_with('@')) {  // made by the checker, and called where the type is known
+      out.line(fmt::format("void {}();", method_name(*method)));
+      continue;
     }
     const bool over = method->replaces != nullptr || is_asked_for(pou, *method);
     out.line(fmt::format("{}{} {}({}){}{};", over ? "" : "virtual ", result_of(*method), method_name(*method),

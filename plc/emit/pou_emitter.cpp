@@ -131,7 +131,7 @@ void define_callable(const Pou& pou, TextWriter& out, DebugTable* debug) {
                (one.is_constant ? "const " : "") + declaration(one));
     }
   }
-  code(pou, out, debug);
+  code(pou, out, pou.name.starts_with('@') ? nullptr : debug);  // it stands in no line of the user
   if (pou.result != nullptr) {
     out.line(fmt::format("return {};", ExpressionEmitter::result_name(pou)));
   }

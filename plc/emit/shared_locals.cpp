@@ -117,7 +117,9 @@ class Finder {
     SharedLocal made;
     made.cpp = way.cpp;
     made.name = way.name;
-    made.shared_name = program_.space + "::" + name_of_shared(way.name);
+    const auto placed = program_.placed.find(upper(way.name));
+    made.shared_name = placed != program_.placed.end() ? placed->second->shared_name
+                                                       : program_.space + "::" + name_of_shared(way.name);
     made.type = &type;
     made.initial = way.initial;
     made.retain = way.retain;

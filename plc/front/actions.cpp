@@ -13,8 +13,8 @@ namespace indurop::plc {
 void make_methods_of_actions(Project& project) {
   std::set<std::string> called;
   const ast::Visit note = [&](ast::Expression& one) {
-    const bool behind_dot = one.kind == ast::Expression::Kind::Call && one.arguments.empty() &&
-                            one.operands[0].kind == ast::Expression::Kind::Member;
+    const bool behind_dot =
+        one.kind == ast::Expression::Kind::Call && one.operands[0].kind == ast::Expression::Kind::Member;
     if (behind_dot) {
       called.insert(upper(one.operands[0].name));
     }
@@ -30,6 +30,7 @@ void make_methods_of_actions(Project& project) {
   for (ast::Pou& pou : project.pous) {
     for (ast::Pou& action : pou.actions) {
       if (called.contains(upper(action.name))) {
+        action.is_action = true;
         pou.methods.push_back(std::move(action));
       }
     }

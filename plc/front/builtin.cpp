@@ -16,6 +16,7 @@
 #include "plc/library/hidden.h"
 #include "plc/model/elementary.h"
 #include "plc/model/make.h"
+#include "plc/model/walk.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc {
@@ -31,6 +32,65 @@ VAR_INPUT TRIG : BOOL; MSG : STRING; LEVEL : LOGLEVEL := INFO; END_VAR
 VAR before : BOOL; END_VAR
 END_FUNCTION_BLOCK
 )";
+
+// Table 36 of the standard: functions with several outputs, written in the language.
+struct Split {
+  std::string_view name;
+  std::string_view text;  // behind FUNCTION and the name
+};
+constexpr std::string_view kSplitDay = R"( VAR_OUTPUT YEAR, MONTH, DAY : INT; END_VAR
+VAR text_ : STRING[20]; END_VAR
+text_ := DATE_TO_STRING(IN);
+YEAR := STRING_TO_INT(MID(text_, 4, 3));
+MONTH := STRING_TO_INT(MID(text_, 2, 8));
+DAY := STRING_TO_INT(MID(text_, 2, 11));
+END_FUNCTION
+)";
+constexpr std::string_view kSplitTime = R"( VAR_OUTPUT HOUR, MINUTE, SECOND, MILLISECOND : INT; END_VAR
+VAR rest_ : DINT; END_VAR
+rest_ := TOD_TO_DINT(IN);
+HOUR := DINT_TO_INT(rest_ / 3600000);
+MINUTE := DINT_TO_INT(rest_ / 60000 MOD 60);
+SECOND := DINT_TO_INT(rest_ / 1000 MOD 60);
+MILLISECOND := DINT_TO_INT(rest_ MOD 1000);
+END_FUNCTION
+)";
+constexpr std::string_view kSplitBoth =
+    R"( VAR_OUTPUT YEAR, MONTH, DAY, HOUR, MINUTE, SECOND, MILLISECOND : INT; END_VAR
+VAR text_ : STRING[20]; rest_ : DINT; END_VAR
+text_ := DATE_TO_STRING(DT_TO_DATE(IN));
+YEAR := STRING_TO_INT(MID(text_, 4, 3));
+MONTH := STRING_TO_INT(MID(text_, 2, 8));
+DAY := STRING_TO_INT(MID(text_, 2, 11));
+rest_ := TOD_TO_DINT(DT_TO_TOD(IN));
+HOUR := DINT_TO_INT(rest_ / 3600000);
+MINUTE := DINT_TO_INT(rest_ / 60000 MOD 60);
+SECOND := DINT_TO_INT(rest_ / 1000 MOD 60);
+MILLISECOND := DINT_TO_INT(rest_ MOD 1000);
+END_FUNCTION
+)";
+constexpr std::array<Split, 6> kSplits{{{"DATE", kSplitDay},
+                                        {"LDATE", kSplitDay},
+                                        {"TOD", kSplitTime},
+                                        {"LTOD", kSplitTime},
+                                        {"DT", kSplitBoth},
+                                        {"LDT", kSplitBoth}}};
+
+std::set<std::string> called_functions(Project& project) {
+  std::set<std::string> names;
+  const ast::Visit note = [&](ast::Expression& one) {
+    if (one.kind == ast::Expression::Kind::Call && one.operands[0].kind == ast::Expression::Kind::Name) {
+      names.insert(upper(one.operands[0].name));
+    }
+  };
+  for (ast::Pou& pou : project.pous) {
+    ast::each_expression(pou.body, note);
+    for (ast::Pou& method : pou.methods) {
+      ast::each_expression(method.body, note);
+    }
+  }
+  return names;
+}
 
 void use(const ast::TypeSpec& type, std::set<std::string>& names) {
   if (type.kind == ast::TypeSpec::Kind::Named) {
@@ -77,6 +137,14 @@ bool declares(const Project& project, std::string_view name) {
          std::any_of(project.pous.begin(), project.pous.end(), same);
 }
 
+Project parsed(std::string_view text, const char* whose) {
+  Place at;
+  at.within = std::make_shared<const std::string>(whose);
+  Diagnostics quiet;
+  std::vector<st::WrittenBody> others;
+  return st::parse_project({text, at}, others, quiet);
+}
+
 // IF TRIG AND NOT before THEN write the line; END_IF; before := TRIG;
 ast::Body logger_body(const Place& at) {
   std::vector<ast::Argument> values;
@@ -95,7 +163,26 @@ ast::Body logger_body(const Place& at) {
 
 }  // namespace
 
+namespace {
+
+void add_splits(Project& project) {
+  const std::set<std::string> called = called_functions(project);
+  std::string text;
+  for (const Split& one : kSplits) {
+    const std::string name = fmt::format("SPLIT_{}", one.name);
+    if (called.contains(name) && !declares(project, name)) {
+      text += fmt::format("FUNCTION {} VAR_INPUT IN : {}; END_VAR{}", name, one.name, one.text);
+    }
+  }
+  if (!text.empty()) {
+    append(project, parsed(text, "the library of the standard"));
+  }
+}
+
+}  // namespace
+
 void add_builtin(Project& project) {
+  add_splits(project);
   const std::set<std::string> names = used_types(project);
   const auto misses = [&](const std::string& name) { return names.contains(name) && !declares(project, name); };
   std::string text;
@@ -115,11 +202,7 @@ void add_builtin(Project& project) {
   if (text.empty()) {
     return;
   }
-  Place at;
-  at.within = std::make_shared<const std::string>("what Beremiz brings along");
-  Diagnostics quiet;
-  std::vector<st::WrittenBody> others;
-  Project made = st::parse_project({text, at}, others, quiet);
+  Project made = parsed(text, "what Beremiz brings along");
   for (ast::Pou& pou : made.pous) {
     pou.body = logger_body(pou.at);
   }

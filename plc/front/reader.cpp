@@ -32,7 +32,7 @@ bool has_step_type(const Project& project) {
 void lower_bodies(std::vector<st::WrittenBody>& others, Project& project, const ReadOptions& options,
                   Diagnostics& diagnostics) {
   for (st::WrittenBody& other : others) {
-    if (other.code.body.language == network::Body::Language::Sfc && !has_step_type(project)) {
+    if (lower::has_chart(other.code) && !has_step_type(project)) {
       project.types.push_back(lower::step_type());
     }
     lower::lower_pou(other.code, options, project, project.pous[other.pou], diagnostics);

@@ -191,6 +191,13 @@ ast::TypeDeclaration step_type() {
   return declared;
 }
 
+bool has_chart(const network::PouCode& code) {
+  using Language = network::Body::Language;
+  return code.body.language == Language::Sfc ||
+         std::any_of(code.actions.begin(), code.actions.end(),
+                     [](const network::NamedBody& one) { return one.body.language == Language::Sfc; });
+}
+
 Lowered lower_chart(const Chart& chart, const ChartSurroundings& around, Diagnostics& diagnostics) {
   return ChartLowering(chart, around, diagnostics).run();
 }

@@ -25,6 +25,8 @@ inline constexpr const char* kStepType = "SFC_STEP";
 // That of the standard, whatever the program calls TON.
 inline constexpr const char* kTimerType = "@TON";
 [[nodiscard]] ast::TypeDeclaration step_type();
+// Whether the body or an action is a chart, so that the type is needed.
+[[nodiscard]] bool has_chart(const network::PouCode& code);
 
 // What a chart finds in its POU.
 struct ChartSurroundings {

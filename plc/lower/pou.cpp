@@ -11,6 +11,7 @@
 #include "plc/library/standard.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/flow.h"
+#include "plc/lower/inner_charts.h"
 #include "plc/lower/list.h"
 #include "plc/lower/networks.h"
 #include "plc/model/make.h"
@@ -71,10 +72,12 @@ class PouLowering {
         project_(project),
         pou_(pou),
         diagnostics_(diagnostics),
-        what_("POU " + pou.name) {}
+        what_("POU " + pou.name),
+        charts_(pou_code, pou) {}
 
   void run() {
-    Lowered code = pou_code_.body.language == Language::Sfc ? chart() : lower(pou_code_.body, what_, "");
+    Lowered code =
+        pou_code_.body.language == Language::Sfc ? chart(pou_code_.body, what_) : lower(pou_code_.body, what_, "");
     keep(code);
     pou_.body = std::move(code.body);
     const bool callable = pou_.kind == ast::Pou::Kind::Program || pou_.kind == ast::Pou::Kind::FunctionBlock;
@@ -101,7 +104,9 @@ class PouLowering {
       Diagnostics& said = known ? again : diagnostics_;
       PouLowering inner(pou_code_, read_options_, project_, pou_, said);
       inner.shown_ = shown_;
+      std::swap(inner.charts_, charts_);
       code = inner.action(named.body, prefix);
+      std::swap(inner.charts_, charts_);
       shown_ = std::move(inner.shown_);
     }
     ast::Pou made;
@@ -151,7 +156,7 @@ class PouLowering {
         break;
       }
       case Language::Sfc:
-        diagnostics_.error(body.at, "a chart inside a chart is not supported; write this action in another language");
+        code = inner_chart(body);
         break;
     }
     return code;
@@ -218,10 +223,19 @@ class PouLowering {
     }
   }
 
+  Lowered inner_chart(Body& body) {
+    if (!open_charts_.insert(&body).second) {
+      diagnostics_.error(body.at, "recursion is not possible: this chart is an action of itself");
+      return {};
+    }
+    Lowered code = charts_.use(body, [this, &body] { return chart(body, what_of(body)); });
+    open_charts_.erase(&body);
+    return code;
+  }
+
   // Contacts and boxes of a chart are conditions of transitions.
-  Lowered chart() {
-    Body& body = pou_code_.body;
-    const Sheet sheet = network::make_sheet(body, what_, diagnostics_);
+  Lowered chart(Body& body, const std::string& what) {
+    const Sheet sheet = network::make_sheet(body, what, diagnostics_);
     const network::Chart read = network::read_chart(body.diagram, diagnostics_);
     NetworkOptions options;
     options.project = &project_;
@@ -314,8 +328,10 @@ class PouLowering {
   ast::Pou& pou_;
   Diagnostics& diagnostics_;
   std::string what_;
+  InnerCharts charts_;
   std::unordered_set<std::string> conditions_;
   std::unordered_set<const Body*> open_actions_;
+  std::unordered_set<const Body*> open_charts_;
   std::unordered_set<const Body*> lowered_actions_;
   std::unordered_set<const Body*> shown_;
   int calls_ = 0;

@@ -168,6 +168,9 @@ struct InitialElement {
   Initial value;
 };
 
+// What FB_Init of an instance is given where that is declared: fb : Motor(5, speed := 3).
+using StartArguments = std::vector<Argument>;
+
 struct Dimension {
   Expression low;
   Expression high;
@@ -202,6 +205,7 @@ struct TypeSpec {
   Place at;
   Elementary elementary = Elementary::Int;
   std::string name;
+  std::vector<StartArguments> starts;  // Named: for all instances, or one for each element of the array around it
   std::optional<Expression> length;
   std::vector<Dimension> dimensions;
   std::shared_ptr<TypeSpec> element;  // Array, Pointer; of a Struct what it extends
@@ -232,6 +236,7 @@ struct Variable {
   std::optional<Access> access;  // VAR PUBLIC
   Edge edge = Edge::None;
   std::string comment;
+  std::optional<Expression> late;  // checker: the initial value, where only the running program knows it
 };
 
 // The name of another declaration, where it is needed.
@@ -274,6 +279,7 @@ struct Pou {
   bool is_abstract = false;
   bool is_final = false;
   bool overrides = false;  // METHOD OVERRIDE
+  bool is_action = false;  // Method: an ACTION that others call
   Access access = Access::Public;
   Accessor accessor = Accessor::None;
   std::vector<NameAt> bases;       // EXTENDS; several of an interface

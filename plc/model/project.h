@@ -30,6 +30,15 @@ struct ProgramInstance {
   std::string type;
 };
 
+// Of VAR_CONFIG: plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
+struct Configured {
+  Place at;
+  std::vector<std::string> path;
+  std::optional<ast::DirectAddress> address;
+  ast::TypeSpec type;
+  std::optional<ast::Initial> initial;
+};
+
 struct Resource {
   Place at;
   std::string name;
@@ -50,6 +59,7 @@ struct Project {
   std::vector<ast::Pou> pous;
   std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
   std::vector<Configuration> configurations;
+  std::vector<Configured> configured;
   std::vector<ast::NameAt> left_out;      // POUs with C code, and where that stands
   bool incomplete = false;                // something that is not supported was left out, so that names may miss
   Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say

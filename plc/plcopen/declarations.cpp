@@ -19,13 +19,12 @@
 namespace indurop::plc::plcopen {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ast::Section>, 7> kLists{{{"localVars", ast::Section::Local},
+constexpr std::array<std::pair<std::string_view, ast::Section>, 6> kLists{{{"localVars", ast::Section::Local},
                                                                            {"inputVars", ast::Section::Input},
                                                                            {"outputVars", ast::Section::Output},
                                                                            {"inOutVars", ast::Section::InOut},
                                                                            {"tempVars", ast::Section::Temp},
-                                                                           {"externalVars", ast::Section::External},
-                                                                           {"globalVars", ast::Section::Global}}};
+                                                                           {"externalVars", ast::Section::External}}};
 
 bool is_true(const Node& node, std::string_view attribute) {
   return node.attribute(attribute) == "true" || node.attribute(attribute) == "1";
@@ -55,6 +54,29 @@ ast::Edge edge_of(const Node& variable) {
   return ast::Edge::None;
 }
 
+// fb : Motor(speed := 3), which CODESYS and TwinCAT keep beside the type.
+void read_starts(const Node& variable, const std::string& what, ast::TypeSpec& type, Diagnostics& diagnostics) {
+  ast::StartArguments given;
+  for (const Node& data : children_of(variable.child("addData"))) {
+    const Node* list = data.attribute("name") == kStartExtension ? data.child("InputAssignments") : nullptr;
+    for (const Node& one : children_of(list)) {
+      const Node* name = one.child("Name");
+      const Node* value = one.child("Value");
+      if (value == nullptr) {
+        continue;
+      }
+      ast::Argument& made = given.emplace_back();
+      made.at = within(value->at, what);
+      made.name = name != nullptr ? name->text : "";
+      made.value = st::parse_expression({value->text, within(value->text_at, what)}, diagnostics);
+    }
+  }
+  if (!given.empty()) {
+    ast::TypeSpec& of = type.kind == ast::TypeSpec::Kind::Array ? *type.element : type;
+    of.starts.push_back(std::move(given));
+  }
+}
+
 void read_variable(const Node& node, ast::Variable variable, const std::string& what, std::vector<ast::Variable>& into,
                    Diagnostics& diagnostics) {
   variable.name = std::string(node.attribute("name"));
@@ -71,6 +93,7 @@ void read_variable(const Node& node, ast::Variable variable, const std::string& 
     return;
   }
   variable.type = std::move(*read);
+  read_starts(node, whole, variable.type, diagnostics);
   if (!node.attribute("address").empty()) {
     read_address(node, variable, diagnostics);
   }
@@ -107,7 +130,12 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
   for (const Node& node : interface.children) {
     const auto* list =
         std::find_if(kLists.begin(), kLists.end(), [&](const auto& known) { return known.first == node.name; });
-    if (list != kLists.end()) {
+    if (node.name == "globalVars") {  // VAR_STAT, as CODESYS and TwinCAT write it
+      const std::size_t before = pou.variables.size();
+      read_variables(node, ast::Section::Local, what, pou.variables, diagnostics);
+      std::for_each(pou.variables.begin() + static_cast<std::ptrdiff_t>(before), pou.variables.end(),
+                    [](ast::Variable& one) { one.is_static = true; });
+    } else if (list != kLists.end()) {
       read_variables(node, list->second, what, pou.variables, diagnostics);
     } else if (node.name == "returnType") {
       pou.result = read_type(node, what, diagnostics);

@@ -17,6 +17,9 @@ inline constexpr std::string_view kExtensionsOfCodesys = "http://www.3s-software
 // Of a variable: BOOL R_EDGE is "rising", BOOL F_EDGE is "falling". The format has no place for it.
 inline constexpr std::string_view kEdgeExtension = "https://indurop.org/plcopenxml/edge";
 
+// Of a variable: what FB_Init of the instance is given.
+inline constexpr std::string_view kStartExtension = "http://www.3s-software.com/plcopenxml/inputassignments";
+
 // Entry, main and exit action of a step.
 inline constexpr std::array<std::pair<std::string_view, const char*>, 3> kStepActions{
     {{"a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", "P1"},

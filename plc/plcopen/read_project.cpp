@@ -13,7 +13,7 @@ Project lower(Document& document, const ReadOptions& options, Diagnostics& diagn
   bool charts = false;
   for (PouDocument& each : document.pous) {
     project.pous.push_back(std::move(each.pou));  // all are known before the first is translated
-    charts = charts || each.code.body.language == network::Body::Language::Sfc;
+    charts = charts || lower::has_chart(each.code);
   }
   if (charts) {
     project.types.push_back(lower::step_type());

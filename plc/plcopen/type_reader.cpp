@@ -134,6 +134,11 @@ class Reader {
       error(node, "<derived> lacks the name of its type");
       return false;
     }
+    if (out.name.find(' ') != std::string::npos) {  // REFERENCE TO Motor, as TwinCAT writes it
+      auto read = st::parse_type({out.name, place(node.value_at("name"))}, diagnostics_);
+      out = read ? std::move(*read) : TypeSpec();
+      return read.has_value();
+    }
     if (const auto known = elementary_named(out.name)) {
       elementary(*known, out);
       out.name.clear();

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <iterator>
+#include <utility>
 
 #include "plc/model/elementary.h"
 
@@ -156,8 +158,14 @@ bool ChartParser::action() {
   network::NamedBody made;
   made.at = in_.here();
   made.name = in_.take().text;
-  in_.accept(":");  // TwinCAT has none
-  made.body = code_until("END_ACTION", at_instruction_list() ? Body::Language::Il : Body::Language::St);
+  in_.accept(":");   // TwinCAT has none
+  if (at_chart()) {  // a chart of its own, whose actions are those of the POU
+    WrittenBody inner = ChartParser(in_).chart("END_ACTION");
+    made.body = std::move(inner.code.body);
+    std::move(inner.code.actions.begin(), inner.code.actions.end(), std::back_inserter(out_.code.actions));
+  } else {
+    made.body = code_until("END_ACTION", at_instruction_list() ? Body::Language::Il : Body::Language::St);
+  }
   out_.code.actions.push_back(std::move(made));
   return in_.expect("END_ACTION", "to close the ACTION");
 }

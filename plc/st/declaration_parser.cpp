@@ -58,7 +58,10 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   const auto* known =
       std::find_if(kSections.begin(), kSections.end(), [&](const SectionWord& s) { return word.is(s.word); });
   if (known == kSections.end()) {
-    in_.unsupported(word, fmt::format("{} is not supported, use VAR_GLOBAL and VAR_EXTERNAL", word.text));
+    in_.unsupported(word,
+                    fmt::format("{} is not supported, use {}", word.text,
+                                word.is("VAR_GENERIC") ? "VAR_IN_OUT with ARRAY[*], or a function block for each size"
+                                                       : "VAR_GLOBAL and VAR_EXTERNAL"));
     return std::nullopt;
   }
   Block out;
@@ -153,7 +156,12 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
                     : in_.accept("F_EDGE") ? ast::Edge::Falling
                                            : ast::Edge::None;
   std::optional<ast::Initial> initial;
-  if (in_.accept(":=")) {
+  const bool binds = spec->kind == ast::TypeSpec::Kind::Pointer && in_.peek().is("REF") && in_.peek(1).is("=");
+  if (binds) {
+    in_.take();
+    in_.take();
+  }
+  if (binds || in_.accept(":=")) {
     initial = expressions_.initial(spec->kind == ast::TypeSpec::Kind::Array);
     if (!initial) {
       return broken(found, to);
@@ -171,6 +179,53 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     to.push_back(std::move(one));
   }
   return true;
+}
+
+void DeclarationParser::configured(std::vector<Configured>& to) {
+  const int line = in_.previous().line;
+  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
+    const std::size_t from = in_.position();
+    Configured one;
+    if (configured(one)) {
+      to.push_back(std::move(one));
+    } else {
+      recover("END_VAR");
+    }
+    if (in_.position() == from) {
+      break;
+    }
+  }
+  if (in_.expect("END_VAR", fmt::format("to close the VAR_CONFIG of line {}", line))) {
+    in_.accept(";");
+  }
+}
+
+// plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
+bool DeclarationParser::configured(Configured& out) {
+  out.at = in_.here();
+  do {
+    if (!in_.expect_name("a resource, program, instance or variable")) {
+      return false;
+    }
+    out.path.emplace_back(in_.take().text);
+  } while (in_.accept("."));
+  ast::Variable place;
+  if (in_.accept("AT") && !address(place)) {
+    return false;
+  }
+  out.address = place.address;
+  auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
+  if (!spec) {
+    return false;
+  }
+  out.type = std::move(*spec);
+  if (in_.accept(":=")) {
+    out.initial = expressions_.initial(out.type.kind == ast::TypeSpec::Kind::Array);
+    if (!out.initial) {
+      return false;
+    }
+  }
+  return in_.expect_end("behind the variable");
 }
 
 bool DeclarationParser::address(ast::Variable& out) {

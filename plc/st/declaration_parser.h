@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "plc/model/project.h"
 #include "plc/st/expression_parser.h"
 
 namespace indurop::plc::st {
@@ -20,8 +21,11 @@ class DeclarationParser {
   // VAR ... END_VAR
   void variables(std::vector<ast::Variable>& to);
   // Behind TYPE, up to and with END_TYPE.
-  void types(std::vector<ast::TypeDeclaration>& to);
+  // As it stands behind the name of a variable.
   [[nodiscard]] std::optional<ast::TypeSpec> type();
+  // Behind VAR_CONFIG.
+  void configured(std::vector<Configured>& to);
+  void types(std::vector<ast::TypeDeclaration>& to);
 
  private:
   struct Block {
@@ -43,11 +47,13 @@ class DeclarationParser {
   [[nodiscard]] bool structure(ast::TypeSpec& out, std::string_view end);
   [[nodiscard]] bool enumeration(ast::TypeSpec& out);
   [[nodiscard]] bool dimension(ast::Dimension& out);
+  [[nodiscard]] bool starts(ast::TypeSpec& out);
   [[nodiscard]] bool string_length(ast::TypeSpec& out);
   [[nodiscard]] bool named(ast::TypeSpec& out);
   // The comment behind the ';' on its line, else the one on lines of its own before the declaration, which begins with
   // `first` and stands behind line `before`.
   [[nodiscard]] std::string comment(const Token& first, int before) const;
+  [[nodiscard]] bool configured(Configured& out);
   // Behind the next ';', or before `end`.
   void recover(std::string_view end);
 

@@ -278,6 +278,16 @@ bool ExpressionParser::call(Expression& base) {
     return false;
   }
   base = wrap(Expression::Kind::Call, std::move(base));
+  return argument_list(base.arguments);
+}
+
+std::optional<std::vector<ast::Argument>> ExpressionParser::arguments() {
+  std::vector<ast::Argument> out;
+  in_.take();
+  return argument_list(out) ? std::optional(std::move(out)) : std::nullopt;
+}
+
+bool ExpressionParser::argument_list(std::vector<ast::Argument>& to) {
   if (in_.accept(")")) {
     return true;
   }
@@ -286,7 +296,7 @@ bool ExpressionParser::call(Expression& base) {
     if (!one) {
       return false;
     }
-    base.arguments.push_back(std::move(*one));
+    to.push_back(std::move(*one));
   } while (in_.accept(","));
   return in_.expect(")", "to close the arguments");
 }

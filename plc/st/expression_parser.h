@@ -21,6 +21,8 @@ class ExpressionParser {
   // A value, [1, 2, 3(0)] or (x := 1).
   // `is_list`: for an array, whose values may stand without brackets.
   [[nodiscard]] std::optional<ast::Initial> initial(bool is_list = false);
+  // (5, speed := 3)
+  [[nodiscard]] std::optional<std::vector<ast::Argument>> arguments();
 
  private:
   [[nodiscard]] std::optional<ast::Expression> binary(int level);
@@ -32,6 +34,7 @@ class ExpressionParser {
   [[nodiscard]] bool index(ast::Expression& base);
   [[nodiscard]] bool call(ast::Expression& base);
   [[nodiscard]] std::optional<ast::Argument> argument();
+  [[nodiscard]] bool argument_list(std::vector<ast::Argument>& to);
   [[nodiscard]] std::optional<ast::Initial> one_initial();
   [[nodiscard]] std::optional<ast::Initial> array_initial();
   [[nodiscard]] std::optional<ast::InitialElement> array_element();

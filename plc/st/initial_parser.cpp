@@ -34,7 +34,7 @@ std::optional<ast::Initial> ExpressionParser::one_initial() {
   if (token.is("[")) {
     return array_initial();
   }
-  if (token.is("(") && in_.peek(1).kind == TokenKind::Word && in_.peek(2).is(":=")) {
+  if (token.is("(") && ((in_.peek(1).kind == TokenKind::Word && in_.peek(2).is(":=")) || in_.peek(1).is(")"))) {
     return struct_initial();
   }
   ast::Initial out;
@@ -80,6 +80,9 @@ std::optional<ast::Initial> ExpressionParser::struct_initial() {
   ast::Initial out;
   out.kind = ast::Initial::Kind::Struct;
   out.at = in_.place(in_.take());
+  if (in_.accept(")")) {  // as the type has it
+    return out;
+  }
   do {
     ast::InitialElement element;
     if (!in_.expect_name("a field")) {

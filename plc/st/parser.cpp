@@ -57,6 +57,10 @@ std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& d
   return alone(text, diagnostics, [](TokenReader& in) { return ExpressionParser(in).expression(); });
 }
 
+std::optional<ast::TypeSpec> parse_type(const Text& text, Diagnostics& diagnostics) {
+  return alone(text, diagnostics, [](TokenReader& in) { return DeclarationParser(in).type(); });
+}
+
 std::optional<ast::Initial> parse_initial(const Text& text, Diagnostics& diagnostics) {
   return alone(text, diagnostics, [](TokenReader& in) { return ExpressionParser(in).initial(); });
 }

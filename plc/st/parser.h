@@ -32,6 +32,7 @@ struct Text {
 [[nodiscard]] ast::Body parse_body(const Text& text, std::optional<Place>& c_code, Diagnostics& diagnostics);
 // Exactly one; none after an error.
 [[nodiscard]] std::optional<ast::Expression> parse_expression(const Text& text, Diagnostics& diagnostics);
+[[nodiscard]] std::optional<ast::TypeSpec> parse_type(const Text& text, Diagnostics& diagnostics);
 [[nodiscard]] std::optional<ast::Initial> parse_initial(const Text& text, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::st

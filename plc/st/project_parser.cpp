@@ -71,8 +71,10 @@ bool ProjectParser::element(Project& out) {
     using_directive(scope_.uses);
   } else if (scope_.space.empty() && in_.peek().is("VAR_GLOBAL")) {
     declarations_.variables(out.globals);
+  } else if (scope_.space.empty() && in_.accept("VAR_CONFIG")) {
+    declarations_.configured(out.configured);
   } else if (scope_.space.empty() && in_.accept("CONFIGURATION")) {
-    configuration(out.configurations);
+    configuration(out);
   } else {
     return false;
   }
@@ -221,7 +223,7 @@ void ProjectParser::recover() {
   }
 }
 
-void ProjectParser::configuration(std::vector<Configuration>& to) {
+void ProjectParser::configuration(Project& to) {
   Configuration out;
   const int line = in_.previous().line;
   out.at = in_.here();
@@ -231,7 +233,9 @@ void ProjectParser::configuration(std::vector<Configuration>& to) {
   Resource direct;  // tasks and programs outside of any resource
   direct.at = out.at;
   while (!in_.at_end() && !is_end_word(in_.peek())) {
-    if (declarations_.at_variables()) {
+    if (in_.accept("VAR_CONFIG")) {
+      declarations_.configured(to.configured);
+    } else if (declarations_.at_variables()) {
       declarations_.variables(out.globals);
     } else if (in_.accept("RESOURCE")) {
       resource(out.resources);
@@ -245,7 +249,7 @@ void ProjectParser::configuration(std::vector<Configuration>& to) {
   if (!direct.tasks.empty() || !direct.programs.empty()) {
     out.resources.push_back(std::move(direct));
   }
-  to.push_back(std::move(out));
+  to.configurations.push_back(std::move(out));
 }
 
 // RESOURCE name ON processor

@@ -56,7 +56,7 @@ class ProjectParser {
   void object(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
 
   [[nodiscard]] bool has_actions(std::string_view end) const;
-  void configuration(std::vector<Configuration>& to);
+  void configuration(Project& to);
   void resource(std::vector<Resource>& to);
   [[nodiscard]] bool resource_item(Resource& out);
   [[nodiscard]] bool task(Resource& out);

@@ -55,7 +55,7 @@ bool DeclarationParser::named(ast::TypeSpec& out) {
       }
       out.name += "." + std::string(in_.take().text);
     }
-    return true;
+    return starts(out);
   }
   out.elementary = *elementary;
   if (*elementary == Elementary::String) {
@@ -72,6 +72,25 @@ bool DeclarationParser::named(ast::TypeSpec& out) {
   out.kind = ast::TypeSpec::Kind::Subrange;
   out.range.emplace();
   return dimension(*out.range) && in_.expect(")", "behind the range");
+}
+
+// Motor(5, speed := 3); of elements of an array also Motor[(1), (2)]
+bool DeclarationParser::starts(ast::TypeSpec& out) {
+  const bool several = in_.peek().is("[") && in_.peek(1).is("(");
+  if (!several && !in_.peek().is("(")) {
+    return true;
+  }
+  if (several) {
+    in_.take();
+  }
+  do {
+    auto arguments = in_.peek().is("(") ? expressions_.arguments() : std::nullopt;
+    if (!arguments) {
+      return in_.expect("(", "before what FB_Init is given") && false;
+    }
+    out.starts.push_back(std::move(*arguments));
+  } while (several && in_.accept(","));
+  return !several || in_.expect("]", "behind what FB_Init is given");
 }
 
 bool DeclarationParser::string_length(ast::TypeSpec& out) {

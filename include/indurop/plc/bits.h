@@ -5,7 +5,12 @@
 
 #include <indurop/plc/types.h>
 
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace indurop::iec {
@@ -116,6 +121,45 @@ template <BitString P, BitString T>
 constexpr void set_part(T& value, unsigned first, P to) noexcept {
   const std::uint64_t mask = std::uint64_t{std::numeric_limits<P>::max()} << first;
   value = static_cast<T>((std::uint64_t{value} & ~mask) | (std::uint64_t{to} << first));
+}
+
+namespace detail {
+template <std::integral T>
+constexpr T swapped(T in) noexcept {
+  auto rest = static_cast<std::make_unsigned_t<T>>(in);
+  std::make_unsigned_t<T> out = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    out = static_cast<std::make_unsigned_t<T>>((std::uint64_t{out} << 8U) | (rest & 0xFFU));
+    rest = static_cast<std::make_unsigned_t<T>>(std::uint64_t{rest} >> 8U);
+  }
+  return static_cast<T>(out);
+}
+
+// The value with its bytes in the order `to`; texts and single bytes have none.
+template <std::endian to, class T>
+constexpr T ordered(const T& in) noexcept {
+  if constexpr (to == std::endian::native || std::same_as<T, bool> || Text<T>) {
+    return in;
+  } else if constexpr (Timelike<T>) {
+    return T{swapped(in.ns)};
+  } else if constexpr (std::same_as<T, float>) {
+    return std::bit_cast<float>(swapped(std::bit_cast<std::uint32_t>(in)));
+  } else if constexpr (std::same_as<T, double>) {
+    return std::bit_cast<double>(swapped(std::bit_cast<std::uint64_t>(in)));
+  } else {
+    return swapped(in);
+  }
+}
+}  // namespace detail
+
+// TO_BIG_ENDIAN and FROM_BIG_ENDIAN: the value with its bytes in that order, or back.
+template <class T>
+constexpr T big_endian(const T& in) noexcept {
+  return detail::ordered<std::endian::big>(in);
+}
+template <class T>
+constexpr T little_endian(const T& in) noexcept {
+  return detail::ordered<std::endian::little>(in);
 }
 
 }  // namespace indurop::iec

@@ -124,6 +124,17 @@ constexpr To from_bcd(From value) noexcept {
   return static_cast<To>(result);
 }
 
+// Whether each of its digits is one, 0 to 9.
+template <BitString From>
+constexpr bool is_valid_bcd(From value) noexcept {
+  std::uint64_t rest = value;
+  bool valid = true;
+  for (; rest != 0; rest >>= 4) {
+    valid = valid && (rest & 0xFU) < 10;
+  }
+  return valid;
+}
+
 // 1234 is 16#1234. Digits that have no room are lost, the high ones: USINT_TO_BCD_BYTE(123) is 16#23.
 template <BitString To, Integer From>
 constexpr To to_bcd(From value) noexcept {

@@ -73,6 +73,42 @@ END_PROGRAM
   EXPECT_THAT(written.substr(0, written.find("\n};")), Not(HasSubstr("level")));
 }
 
+// VAR_CONFIG of the configuration, or as CODESYS has it.
+TEST(PlcInstances, The_configuration_gives_places_and_initial_values) {
+  const std::string program = std::string(kPump) + R"(PROGRAM Main
+VAR one : Pump; own AT %IX* : BOOL; limit : INT := 1; last AT %Q* : BOOL; direct : BOOL; END_VAR
+  one(go := own);
+  last := one.starts > limit;
+  direct := %QX2.0;
+END_PROGRAM
+)";
+  const std::string resource = "RESOURCE r ON pc TASK t (INTERVAL := T#1ms); PROGRAM plc WITH t : Main; END_RESOURCE ";
+  const Compiled sut = compiled(program + "CONFIGURATION c " + resource +
+                                "VAR_CONFIG r.plc.own AT %IX1.0 : BOOL; plc.limit : INT := 7; r.plc.one.level AT %IW3 "
+                                ": INT; plc.one.open AT %QX2.0 : BOOL; END_VAR END_CONFIGURATION");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(sut.glb, HasSubstr("bool own;  // %IX1.0"));
+  EXPECT_THAT(sut.glb, HasSubstr("int16_t IW3;  // %IW3"));
+  EXPECT_THAT(sut.glb, HasSubstr("bool QX2_0;  // %QX2.0"));
+  EXPECT_THAT(sut.glb, Not(HasSubstr("plc_one_level")));
+  EXPECT_THAT(sut.glb, Not(HasSubstr("plc_one_open")));
+  EXPECT_THAT(written(sut), HasSubstr("limit = std::int16_t{7};"));
+  EXPECT_THAT(written(sut), HasSubstr("(::sut::IW3)::tag_type::ref(), &instance_plc.one.level, nullptr}"));
+  const auto refused = [&](const std::string& entry) {
+    return wrong(program + "CONFIGURATION c " + resource + "VAR_CONFIG " + entry + " END_VAR END_CONFIGURATION");
+  };
+  EXPECT_THAT(refused("r.plc.limit AT %IW0 : INT;"), HasSubstr("limit gets a place of %I only if it is declared as"));
+  EXPECT_THAT(refused("r.plc.own AT %QX0.0 : BOOL;"), HasSubstr("own gets a place of %Q only if it is declared as"));
+  EXPECT_THAT(refused("r.plc.none AT %QX0.0 : BOOL;"), HasSubstr("Main has no variable 'none'"));
+  EXPECT_THAT(refused("r.plc.limit : REAL := 1.0;"), HasSubstr("limit is an INT where it is declared"));
+  EXPECT_THAT(refused("r.other.limit : INT := 1;"),
+              HasSubstr("there is no program 'r', write resource.program.variab"));
+  EXPECT_THAT(refused("r.plc.limit.x : INT := 1;"), HasSubstr("limit is no instance of a function block"));
+  const Compiled editor = codesys(program + "VAR_CONFIG Main.one.level AT %IW5 : INT; END_VAR");
+  ASSERT_TRUE(editor.ok) << messages(editor);
+  EXPECT_THAT(editor.glb, HasSubstr("int16_t IW5;  // %IW5"));
+}
+
 TEST(PlcInstances, Inputs_of_instances_are_not_written) {
   EXPECT_THAT(wrong("FUNCTION_BLOCK F VAR x AT %I* : INT; END_VAR x := 1; END_FUNCTION_BLOCK\n"
                     "PROGRAM Main VAR f : F; END_VAR f(); END_PROGRAM"),

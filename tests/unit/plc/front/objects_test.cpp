@@ -111,8 +111,6 @@ TEST(PlcObjects, What_extends_and_implements) {
            Row{"FUNCTION_BLOCK A METHOD Go END_METHOD METHOD go END_METHOD" + main, "'go' is already declared at"},
            Row{"FUNCTION_BLOCK A VAR go : INT; END_VAR METHOD Go END_METHOD" + main,
                "'Go' is the name of the variable at in.st:12:22 too"},
-           Row{"FUNCTION_BLOCK A METHOD FB_Init : BOOL VAR_INPUT r, c : BOOL; END_VAR END_METHOD" + main,
-               "FB_Init is not called here"},
            Row{"FUNCTION_BLOCK A METHOD Go VAR t : TON; END_VAR t(); END_METHOD" + main,
                "a METHOD has no memory for function blocks"},
            Row{"FUNCTION_BLOCK A METHOD Go : INT Go := Back(); END_METHOD METHOD Back : INT Back := THIS^.Go(); "
@@ -130,6 +128,32 @@ TEST(PlcObjects, What_extends_and_implements) {
                "i.Speed(); END_IF;" +
                    main,
                "cannot be compared"},
+       }) {
+    expect_one_error(row);
+  }
+}
+
+TEST(PlcObjects, Values_for_FB_Init) {
+  const std::string main = "\nEND_FUNCTION_BLOCK\n" + main_with("d(io := x);");
+  for (const Row& row : {
+           Row{"FUNCTION_BLOCK A METHOD FB_Init : BOOL VAR_INPUT r : BOOL; END_VAR END_METHOD" + main,
+               "FB_Init begins with the inputs bInitRetains : BOOL; bInCopyCode : BOOL;"},
+           Row{"FUNCTION_BLOCK B METHOD FB_Init : BOOL VAR_INPUT r, c : BOOL; k : INT; END_VAR END_METHOD "
+               "END_FUNCTION_BLOCK FUNCTION_BLOCK A VAR b : B; END_VAR" +
+                   main,
+               "FB_Init of B wants values where an instance is declared: B(k := ...)"},
+           Row{"FUNCTION_BLOCK B METHOD FB_Init : BOOL VAR_INPUT r, c : BOOL; k : INT; END_VAR END_METHOD "
+               "END_FUNCTION_BLOCK FUNCTION_BLOCK A EXTENDS B METHOD FB_Init : BOOL VAR_INPUT r, c : BOOL; END_VAR "
+               "END_METHOD" +
+                   main,
+               "FB_Init of B wants 'k', so this one has that input too"},
+           Row{"FUNCTION_BLOCK B END_FUNCTION_BLOCK FUNCTION_BLOCK A VAR b : B(5); END_VAR" + main,
+               "B has no METHOD FB_Init that takes values"},
+           Row{"FUNCTION_BLOCK B METHOD FB_Init : BOOL VAR_INPUT r, c : BOOL; k : INT; END_VAR END_METHOD "
+               "END_FUNCTION_BLOCK FUNCTION_BLOCK A VAR b : ARRAY[1..3] OF B[(1), (2)]; END_VAR" +
+                   main,
+               "values for FB_Init of 2 instances are given, and there are 3"},
+           Row{"FUNCTION_BLOCK A VAR b : TON(5); END_VAR" + main, "TON has no METHOD FB_Init that takes values"},
        }) {
     expect_one_error(row);
   }
