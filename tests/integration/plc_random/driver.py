@@ -101,8 +101,9 @@ def observed(program):
     return out
 
 
-def driver_text(module, programs):
-    structs, runs = [], []
+def driver_text(module, programs, starts):
+    structs = []
+    runs = [f"  time_of_test = {TIMES[0]};\n  start();\n"] if starts else []
     for program in programs:
         for type_ in program.types:
             if type_.kind == "struct":
@@ -149,10 +150,13 @@ def compile_batch(build, folder, programs, optimize):
         for program in programs:
             file.write("\n".join(program.text()) + "\n")
     checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet"], folder)
-    check_export(build, folder)
+    if not any(program.starts for program in programs):
+        check_export(build, folder)
     checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
     with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
-        file.write(driver_text("batch", programs))
+        with open(os.path.join(folder, "batch.cpp"), encoding="utf-8") as code:
+            starts = "void start() {" in code.read()
+        file.write(driver_text("batch", programs, starts))
     compiler = os.environ.get("CXX") or "g++"
     checked_call([compiler, *FLAGS, optimize, f"-isystem{build}/include", "-isystem.", "driver.cpp", "-o", "driver",
                   f"-L{build}/lib", "-lindurop", f"-Wl,-rpath,{build}/lib"], folder)

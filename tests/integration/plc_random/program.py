@@ -11,9 +11,9 @@ from chart import Chart
 from kinds import BITS, BOOL, ELEMENTARY, INT, INTS, STRING, TIME, Type, clone, string
 from statements import Writer
 from tree import Fault, Frame, Return, indent, sequence, text_of
-from units import Function, LibraryBlock, Parameter, UserBlock, declared
+from units import START, Function, LibraryBlock, Parameter, Start, Started, UserBlock, declared
 
-TIMES = [ms * 10**6 for ms in (1000, 1010, 1020, 1040, 1540, 1550, 3050, 3060)]
+TIMES = [START, *(ms * 10**6 for ms in (1010, 1020, 1040, 1540, 1550, 3050, 3060))]
 
 
 # Words of C++ and IDL, macros, and what the compiler itself may call something.
@@ -28,6 +28,7 @@ class Program:
         self.seed = seed
         self.number = number
         self.prefix = f"P{number}"
+        self.starts = (seed - 1) // 100 % 2 == 1  # FB_Init, which PLCopen XML does not have
         self.palette = self.rng.sample(ELEMENTARY, 5) + [INT, BOOL]  # so that variables have types in common
         self.type_lines = []
         self.types = []
@@ -159,13 +160,47 @@ class Program:
         body = Writer(rng, parts.Scope(variables, self.functions)).outermost(rng.randint(2, 7))
         block.run_body = sequence(body)
         block.lines = text_of(body)
+        if self.starts and rng.random() < 0.6:
+            block.start = self.start_of(variables)
         self.blocks.append(block)
+
+    def start_of(self, variables):
+        """FB_Init of a function block with these variables."""
+        self.hard = []
+        given = self.parameters("VAR_INPUT", "a", 3, 0, self.plain_type)
+        for one in given:
+            one.initial = None
+        seen = [one for one in variables if one.name[0] in "iov" and one.name[:2] != "io" and one.instance is None]
+        seen = [one for one in seen if one.name not in HARD] + [parts.Variable(one.name, one.type) for one in given]
+        seen += [parts.Variable(name, BOOL, writable=False) for name in ("bInitRetains", "bInCopyCode")]
+        body = Writer(self.rng, parts.Scope(seen, self.functions)).outermost(self.rng.randint(1, 4))
+        return Start(given, text_of(body), sequence(body))
+
+    def plain_type(self):
+        while True:
+            found = self.any_type()
+            if found.kind not in ("array", "struct"):
+                return found
 
     def instances(self, count):
         known = [LibraryBlock(one) for one in library_blocks.ALL]
         chosen = [self.rng.choice(self.blocks) if self.blocks and self.rng.random() < 0.5 else self.rng.choice(known)
                   for _ in range(count)]
-        return [Parameter(f"b{i}", one, "VAR_BLOCK") for i, one in enumerate(chosen)]
+        return [self.instance(f"b{i}", one) for i, one in enumerate(chosen)]
+
+    def instance(self, name, type_):
+        if getattr(type_, "start", None) is None:
+            return Parameter(name, type_, "VAR_BLOCK")
+        for _ in range(5):
+            wanted = [one.type for one in type_.start.parameters]
+            given = [literals.of_value(self.rng, one, literals.some_value(self.rng, one)) for one in wanted]
+            made = Started(name, type_, "VAR_BLOCK", given=given, by_position=self.rng.randint(0, len(given)))
+            try:
+                made.new()
+                return made
+            except Fault:
+                continue
+        return Parameter(name, LibraryBlock(library_blocks.ALL[0]), "VAR_BLOCK")  # all values end in a fault
 
     # The program
 
@@ -209,7 +244,7 @@ class Program:
     def scans(self):
         """After each scan: (fault or None, the values)."""
         values = {one.name: one.first() for one in (*self.variables, *self.constants)}
-        values |= {one.name: one.type.new() for one in self.blocks_used}
+        values |= {one.name: one.new() for one in self.blocks_used}
         values |= self.chart.first_values() if self.chart else {}
         for now in TIMES:
             fault = None

@@ -8,6 +8,9 @@ from kinds import BOOL, clone, zero
 from tree import Expr, Frame, Return, Stmt, indent
 
 
+START = 10**9  # when instances are started: the time of the first scan
+
+
 @dataclasses.dataclass
 class Parameter:
     name: str
@@ -22,6 +25,48 @@ class Parameter:
     def line(self):
         initial = f" := {self.initial.text}" if self.initial is not None else ""
         return f"{self.name} : {self.type.name}{' ' + self.edge if self.edge else ''}{initial};"
+
+    def new(self):
+        """Of an instance."""
+        return self.type.new()
+
+
+@dataclasses.dataclass
+class Started(Parameter):
+    """An instance whose FB_Init gets values."""
+    given: list = dataclasses.field(default_factory=list)  # Expr
+    by_position: int = 0  # so many of them; the others by name
+
+    def line(self):
+        names = [one.name for one in self.type.start.parameters]
+        shown = [(f"{name} := " if i >= self.by_position else "") + expr.text
+                 for i, (name, expr) in enumerate(zip(names, self.given))]
+        return f"{self.name} : {self.type.name}({', '.join(shown)});"
+
+    def new(self):
+        made, start = self.type.new(), self.type.start
+        inputs = {one.name: expr.run(None) for one, expr in zip(start.parameters, self.given)}
+        inputs |= {"bInitRetains": False, "bInCopyCode": False}
+        made.values |= inputs
+        try:
+            start.run_body(Frame(made.values, START))
+        except Return:
+            pass
+        for name in inputs:
+            del made.values[name]
+        return made
+
+
+@dataclasses.dataclass
+class Start:
+    """FB_Init of a function block: what runs before the first scan."""
+    parameters: list
+    lines: list
+    run_body: object
+
+    def text(self):
+        return ["METHOD FB_Init : BOOL", "VAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR", *declared(self.parameters),
+                *indent(self.lines), "END_METHOD"]
 
 
 def declared(parameters):
@@ -131,8 +176,11 @@ class Function(Unit):
 class UserBlock(Unit):
     """A FUNCTION_BLOCK; `new()` makes an instance."""
 
+    start = None  # FB_Init
+
     def text(self):
-        return [f"FUNCTION_BLOCK {self.name}", *declared(self.parameters), *indent(self.lines), "END_FUNCTION_BLOCK"]
+        start = self.start.text() if self.start else []
+        return [f"FUNCTION_BLOCK {self.name}", *declared(self.parameters), *start, *indent(self.lines), "END_FUNCTION_BLOCK"]
 
     def new(self):
         return Instance(self)
@@ -153,7 +201,7 @@ class Instance:
     def __init__(self, unit):
         self.unit = unit
         self.values = {one.name: one.first() for one in unit.of("VAR_INPUT", "VAR_OUTPUT", "VAR")}
-        self.values |= {one.name: one.type.new() for one in unit.of("VAR_BLOCK")}
+        self.values |= {one.name: one.new() for one in unit.of("VAR_BLOCK")}
         self.before = {one.name: one.edge == "F_EDGE" for one in unit.parameters if one.edge}
 
     def call(self, now, refs):
