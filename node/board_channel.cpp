@@ -151,6 +151,7 @@ bool BoardChannel::send(const BoardAnswer& answer) {
   out.put(answer.next_ns);
   out.put(answer.epoch_ns);
   out.put(answer.basic_period_ns);
+  out.put(answer.took_ns);
   out.put(answer.ended);
   put_messages(out, answer.sent);
   return send(out.take());
@@ -164,6 +165,7 @@ BoardChannel::Got BoardChannel::receive(BoardAnswer& answer) {
     answer.next_ns = in.get<std::int64_t>();
     answer.epoch_ns = in.get<std::int64_t>();
     answer.basic_period_ns = in.get<std::int64_t>();
+    answer.took_ns = in.get<std::int64_t>();
     answer.ended = in.get<bool>();
     answer.sent = get_messages(in);
   }

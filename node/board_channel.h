@@ -34,7 +34,8 @@ struct BoardAnswer {
   std::int64_t next_ns = 0;   // when it does something next by itself
   std::int64_t epoch_ns = 0;  // of its tick 0
   std::int64_t basic_period_ns = 0;
-  bool ended = false;  // its duration is over, or a module has ended it
+  std::int64_t took_ns = 0;  // processor time since the last answer
+  bool ended = false;        // its duration is over, or a module has ended it
   std::vector<mirror::Message> sent;
 };
 

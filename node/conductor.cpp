@@ -19,6 +19,7 @@
 #include "node/conductor_board.h"
 #include "node/console.h"
 #include "node/ending.h"
+#include "node/one_core.h"
 #include "node/plant_script.h"
 #include "node/simulation.h"
 #include "node/step_input.h"
@@ -93,6 +94,7 @@ class Conductor {
   std::int64_t basic_period_ns_ = kNever;  // the shortest
   std::int64_t stands_at_ns_ = kNever;     // --step
   std::vector<bool> returned_;
+  OneCore core_;
   StepInput input_;
   rt::MonoTime began_;  // in real time
 };
@@ -121,6 +123,7 @@ Ending Conductor::start() {
     epoch_ns_ = std::min(epoch_ns_, boards_[i].answer().epoch_ns);
     basic_period_ns_ = std::min(basic_period_ns_, boards_[i].answer().basic_period_ns);
     take_answer(i, now_ns_);
+    core_.add(boards_[i].pid());
   }
   began_ = rt::MonoClock::now();
   stands_at_ns_ = options_.simulation.step ? epoch_ns_ - 1 : kNever;
@@ -164,17 +167,20 @@ void Conductor::advance(std::int64_t until_ns, bool all) {
     }
   }
   now_ns_ = until_ns;
+  std::chrono::nanoseconds took{};
   for (std::size_t i = 0; i < boards_.size(); ++i) {
     if (!asked[i]) {
       continue;
     }
     if (boards_[i].await_answer(signals_)) {
+      took += std::chrono::nanoseconds(boards_[i].answer().took_ns);
       take_answer(i, until_ns);
     } else {
       console_.warning("board {} has ended; the others go on", boards_[i].name());
       network_.leave(i, until_ns);
     }
   }
+  core_.round(took);
 }
 
 void Conductor::befall(const PlantEvent& event) {
@@ -207,6 +213,7 @@ void Conductor::bring_back(std::size_t number) {
     return;
   }
   if (boards_[number].await_answer(signals_)) {
+    core_.add(boards_[number].pid());
     network_.start(number, now_ns_);
     take_answer(number, now_ns_);
   }

@@ -35,6 +35,8 @@ class ConductorBoard {
   [[nodiscard]] std::int64_t next_ns() const noexcept { return answer_.next_ns; }
   [[nodiscard]] const BoardAnswer& answer() const noexcept { return answer_; }
 
+  [[nodiscard]] pid_t pid() const noexcept { return pid_; }
+
   void order(const BoardOrder& order);
   // Waits for the answer to an order, or for the first. False: it has ended without. A stop signal is passed on to a
   // board that does not answer.

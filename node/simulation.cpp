@@ -2,12 +2,19 @@
 #include "node/simulation.h"
 
 #include <csignal>
+#include <ctime>
 #include <utility>
 
 #include "rt/clock.h"
 
 namespace indurop::node {
 namespace {
+
+std::int64_t thread_time_ns() {
+  timespec time{};
+  (void)::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return time.tv_sec * rt::kNanosPerSecond + time.tv_nsec;
+}
 
 // Whoever simulates the plant says it first of all.
 BoardPlace receive_place(std::optional<BoardChannel>& conductor) {
@@ -83,6 +90,8 @@ bool Simulation::answer() {
   answer.next_ns = rt::to_ns(kernel_.next_event());
   answer.epoch_ns = run_.epoch_ns;
   answer.basic_period_ns = run_.basic_period_ns;
+  const std::int64_t busy = thread_time_ns();
+  answer.took_ns = busy - std::exchange(busy_ns_, busy);
   answer.ended = ended_();
   answer.sent = link_.take_sent();
   return conductor_->send(answer);

@@ -65,6 +65,7 @@ class Simulation {
   Link link_;
   std::function<bool()> ended_;
   bool ready_told_ = false;
+  std::int64_t busy_ns_ = 0;  // processor time of this thread at the last answer
 };
 
 }  // namespace indurop::node
