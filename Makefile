@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench docs install clean help
+.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -75,6 +75,12 @@ bench: ## compare with cyclictest, raw globals and futexes; prints ratios
 	@cmake --preset bench --log-level=WARNING >/dev/null
 	@cmake --build --preset bench -j $(JOBS)
 	@cmake --build --preset bench --target run-bench
+
+bench-peers: ## compare with cyclictest, roscpp, iceoryx and Cyclone DDS; wants an idle machine
+	@.ci/install-deps build bench peers
+	@cmake --preset bench --log-level=WARNING >/dev/null
+	@cmake --build --preset bench -j $(JOBS)
+	@cmake --build --preset bench --target run-peers
 
 docs: ## API pages of the public headers, in build/docs/html/index.html
 	@.ci/install-deps docs

@@ -27,6 +27,7 @@ THIRD_PARTY = {
     "kdl": ("kdl/",),
     "gtest": ("gtest/", "gmock/"),
     "benchmark": ("benchmark/",),
+    "ros": ("ros/", "std_msgs/"),
 }
 POSIX_FOLDERS = ("sys/", "linux/", "net/", "netinet/", "arpa/", "asm/", "bits/", "valgrind/", "sanitizer/")
 INCLUDE = re.compile(r'^\s*#\s*include(?:_next)?\s*([<"])([^">]+)[">]', re.MULTILINE)
