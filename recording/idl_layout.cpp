@@ -182,6 +182,10 @@ class Flattener {
   explicit Flattener(const std::map<std::string, Definition>& definitions) : definitions_(definitions) {}
 
   bool add(const std::string& type, const std::string& name, int depth) {
+    // Structs without members are none of the leaves.
+    if (++steps_ > kMostSteps) {
+      return false;
+    }
     if (const auto kind = kind_of(type)) {
       leaves.push_back({name, *kind});
       return leaves.size() <= kMostLeaves;
@@ -220,7 +224,10 @@ class Flattener {
     return true;
   }
 
+  static constexpr std::size_t kMostSteps = 4 * kMostLeaves;
+
   const std::map<std::string, Definition>& definitions_;
+  std::size_t steps_ = 0;
 };
 
 // Takes values off the front of a CDR message.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever bytes a recording holds: it is read to its end, or refused; messages come in the order of time, and nothing
-// beyond the sizes that records.h allows is reserved.
+// Whatever bytes a recording holds: it is read to its end, or refused; messages come in the order of time, nothing
+// beyond the sizes that records.h allows is reserved, and numbers are found in messages or not.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -8,15 +8,41 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "recording/idl_layout.h"
 #include "recording/mcap_reader.h"
 
 namespace {
 
 using namespace indurop::recording;
 
+// By channel.
+using Layouts = std::map<std::uint16_t, std::vector<IdlLeaf>>;
+
+Layouts layouts_of(const Contents& contents) {
+  Layouts layouts;
+  for (const auto& [id, channel] : contents.channels) {
+    const auto schema = contents.schemas.find(channel.schema);
+    if (schema == contents.schemas.end()) {
+      continue;
+    }
+    if (auto layout = idl_layout(schema->second.data, schema->second.name)) {
+      if (layout->size() > kMostLeaves) {
+        std::abort();
+      }
+      layouts.emplace(id, *std::move(layout));
+    }
+  }
+  return layouts;
+}
+
 void read_all(McapReader& reader) {
+  const Layouts layouts = layouts_of(reader.contents());
+  std::vector<double> values;
   std::uint64_t before = 0;
   // Each error passes over a segment or a message, of which a file has no more than bytes when not compressed.
   while (true) {
@@ -31,6 +57,9 @@ void read_all(McapReader& reader) {
       std::abort();
     }
     before = (*next)->log_time_ns;
+    if (const auto layout = layouts.find((*next)->channel); layout != layouts.end()) {
+      (void)read_leaves(layout->second, (*next)->data.view, values);
+    }
   }
 }
 

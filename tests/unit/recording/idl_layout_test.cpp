@@ -100,5 +100,14 @@ TEST(IdlLayout, What_is_not_understood_is_an_error) {
   }
 }
 
+TEST(IdlLayout, What_has_no_end_is_given_up) {
+  EXPECT_FALSE(idl_layout("struct a { }; struct b { a x[4000000000]; };", "b").ok());
+  std::string tree = "struct t30 { };";
+  for (int i = 30; i > 0; --i) {
+    tree += " struct t" + std::to_string(i - 1) + " { t" + std::to_string(i) + " x; t" + std::to_string(i) + " y; };";
+  }
+  EXPECT_FALSE(idl_layout(tree, "t0").ok());
+}
+
 }  // namespace
 }  // namespace indurop::recording
