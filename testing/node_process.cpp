@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <filesystem>
@@ -17,6 +18,8 @@
 
 #include "base/spawn.h"
 #include "rt/clock.h"
+#include "vars/node_lock.h"
+#include "vars/store.h"
 
 namespace indurop::testing {
 namespace {
@@ -44,9 +47,9 @@ std::filesystem::path find_program() {
 
 }  // namespace
 
-NodeProcess::NodeProcess(const std::string& node, const std::vector<std::string>& arguments,
+NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
                          std::chrono::seconds patience)
-    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)) {
+    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
   std::array<int, 2> ends{-1, -1};
   if (output_ < 0 || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error("cannot make a pipe to a node");
@@ -102,8 +105,46 @@ bool NodeProcess::has_ended() {
   return pid_ <= 0;
 }
 
-scheduler::RunBlock& NodeProcess::run() const noexcept {
-  return *static_cast<scheduler::RunBlock*>(file_->data());
+std::int64_t NodeProcess::basic_period_ns() const noexcept {
+  std::int64_t shortest = boards_[0].run().basic_period_ns;
+  for (const Board& board : boards_) {
+    shortest = std::min(shortest, board.run().basic_period_ns);
+  }
+  return shortest;
+}
+
+// The boards of a plant are all there when it says that it stands.
+void NodeProcess::find_boards() {
+  if (plant_ && printed().find("tick 0, ") == std::string::npos) {
+    return;
+  }
+  const std::string prefix = node_ + "-";
+  for (const std::string& node : plant_ ? vars::list_nodes() : std::vector<std::string>{node_}) {
+    if (plant_ && !node.starts_with(prefix)) {
+      continue;
+    }
+    if (auto opened =
+            vars::RunFile::open(node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock))) {
+      boards_.push_back({plant_ ? node.substr(prefix.size()) : "", node, std::move(opened).value()});
+    }
+  }
+  std::sort(boards_.begin(), boards_.end(), [](const Board& a, const Board& b) { return a.name < b.name; });
+}
+
+// Just before the next tick of all that run.
+bool NodeProcess::stands() const {
+  std::int64_t epoch = boards_[0].run().epoch_ns;
+  for (const Board& board : boards_) {
+    epoch = std::min(epoch, board.run().epoch_ns);
+  }
+  if (epoch == 0) {
+    return false;
+  }
+  const std::int64_t place = epoch + static_cast<std::int64_t>(ticks_) * basic_period_ns() - 1;
+  return std::all_of(boards_.begin(), boards_.end(), [&](const Board& board) {
+    return board.run().virtual_ns.load(std::memory_order_acquire) == place ||
+           (plant_ && vars::running_node(board.node) == 0);
+  });
 }
 
 std::string NodeProcess::printed() const {
@@ -130,15 +171,10 @@ void NodeProcess::wait_until_it_stands() {
   const rt::MonoTime give_up = rt::MonoClock::now() + patience_;
   for (;;) {
     const bool ended = has_ended();
-    if (!file_ && !ended) {
-      if (auto opened =
-              vars::RunFile::open(node_, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock))) {
-        file_ = std::move(opened).value();
-      }
+    if (boards_.empty() && !ended) {
+      find_boards();
     }
-    if (file_ && run().epoch_ns != 0 &&
-        run().virtual_ns.load(std::memory_order_acquire) ==
-            run().epoch_ns + static_cast<std::int64_t>(ticks_) * run().basic_period_ns - 1) {
+    if (!boards_.empty() && stands()) {
       return;
     }
     if (ended) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An indurop-node --sim --step of this process: told how far to go, and watched while it goes there.
+// An indurop-node --sim --step of this process: told how far to go, and watched while it goes there. Of a plant it is
+// the node that simulates it, and those of its boards.
 
 #pragma once
 
@@ -7,7 +8,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +18,10 @@ namespace indurop::testing {
 
 class NodeProcess {
  public:
-  // Starts it and waits until it stands before its first tick. Throws std::runtime_error.
-  NodeProcess(const std::string& node, const std::vector<std::string>& arguments, std::chrono::seconds patience);
+  // Starts it and waits until it stands before its first tick. `plant`: the configuration is one of several boards,
+  // whose nodes are called `node`-BOARD. Throws std::runtime_error.
+  NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
+              std::chrono::seconds patience);
   ~NodeProcess();
   NodeProcess(const NodeProcess&) = delete;
   NodeProcess& operator=(const NodeProcess&) = delete;
@@ -27,13 +29,24 @@ class NodeProcess {
   // Goes on by so many ticks. Throws if it ends on the way.
   void go(std::uint64_t ticks);
   [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
-  [[nodiscard]] scheduler::RunBlock& run() const noexcept;
+  struct Board {
+    std::string name;  // empty: the only one
+    std::string node;
+    vars::RunFile file;
+    [[nodiscard]] scheduler::RunBlock& run() const noexcept { return *static_cast<scheduler::RunBlock*>(file.data()); }
+  };
+  // By name. At least one.
+  [[nodiscard]] const std::vector<Board>& boards() const noexcept { return boards_; }
+  // Of the ticks that go() counts: the shortest of all boards.
+  [[nodiscard]] std::int64_t basic_period_ns() const noexcept;
   [[nodiscard]] std::string printed() const;
   // Why something cannot be done, with the node's last words.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
   void wait_until_it_stands();
+  void find_boards();
+  [[nodiscard]] bool stands() const;
   bool has_ended();
   void end() noexcept;
 
@@ -42,7 +55,8 @@ class NodeProcess {
   int commands_ = -1;
   int output_ = -1;
   pid_t pid_ = -1;
-  std::optional<vars::RunFile> file_;
+  bool plant_;
+  std::vector<Board> boards_;  // none before they stand
   std::uint64_t ticks_ = 0;
 };
 

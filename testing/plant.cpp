@@ -11,7 +11,11 @@
 #include <csignal>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "base/read_file.h"
+#include "base/xml.h"
 #include "schema/leaf.h"
 #include "schema/schema.h"
 #include "testing/golden.h"
@@ -42,6 +46,14 @@ std::vector<std::string> arguments_of(const std::filesystem::path& configuration
   return words;
 }
 
+constexpr std::size_t kMostDepth = 50;
+
+bool is_plant(const std::filesystem::path& configuration) {
+  const auto text = indurop::base::read_file(configuration);
+  return text.ok() &&
+         indurop::base::xml_root_name(*text, {.most_bytes = text->size() + 1, .most_depth = kMostDepth}) == "plant";
+}
+
 std::optional<long double> number_in(schema::Base base, const std::vector<std::uint8_t>& bytes) {
   switch (base) {
     case schema::Base::Bool:
@@ -63,64 +75,116 @@ struct Plant::Impl {
   struct Part {
     schema::Place place;
     const vars::DirectoryEntry* entry = nullptr;
+    vars::Store* store = nullptr;
   };
 
   Impl(const std::filesystem::path& configuration, const Settings& settings)
-      : name(new_name()), node(name, arguments_of(configuration, settings), settings.patience) {
-    auto attached = vars::Store::attach(name, vars::Mode::ReadWrite);
-    if (!attached) {
-      node.fail("the variables of the node cannot be reached");
+      : name(new_name()),
+        node(name, settings.board.empty() && is_plant(configuration), arguments_of(configuration, settings),
+             settings.patience) {
+    for (const auto& board : node.boards()) {
+      auto attached = vars::Store::attach(board.node, vars::Mode::ReadWrite);
+      if (!attached) {
+        node.fail("the variables of the node cannot be reached");
+      }
+      stores.push_back(std::make_unique<vars::Store>(std::move(attached).value()));
     }
-    store.emplace(std::move(attached).value());
-    (void)irp::attach(name.c_str());  // what this program uses and the node lacks is said on stderr
+    if (node.boards().size() == 1) {
+      (void)irp::attach(node.boards()[0].node.c_str());  // what this program uses and the node lacks is said on stderr
+    }
+  }
+
+  // The boards something is wanted of, "torque@control"; all, if it does not say.
+  [[nodiscard]] std::vector<std::size_t> boards_of(std::string_view& text) const {
+    const auto& boards = node.boards();
+    const auto at = text.find('@');
+    const std::string_view wanted = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
+    std::vector<std::size_t> found;
+    std::string known;
+    for (std::size_t i = 0; i < boards.size(); ++i) {
+      if (at == std::string_view::npos || boards[i].name == wanted) {
+        found.push_back(i);
+      }
+      known += (i > 0 ? ", " : "") + boards[i].name;
+    }
+    if (found.empty()) {
+      throw std::runtime_error(fmt::format("there is no board {}; there is {}", wanted, known));
+    }
+    text = text.substr(0, at);
+    return found;
+  }
+
+  [[noreturn]] void ask_for_board(std::string_view text) const {
+    throw std::runtime_error(
+        fmt::format("several boards have {0}: say which is meant, as in {0}@{1}", text, node.boards()[0].name));
   }
 
   [[nodiscard]] Part find(std::string_view text) const {
     std::string message;
-    auto place = schema::find_place(store->schema(), text, message);
-    if (!place) {
+    std::optional<Part> found;
+    for (const std::size_t board : boards_of(text)) {
+      vars::Store& store = *stores[board];
+      auto place = schema::find_place(store.schema(), text, message);
+      if (!place) {
+        continue;
+      }
+      const vars::DirectoryEntry* entry =
+          store.find(indurop::abi::fnv1a64(place->variable->name.data(), place->variable->name.size()));
+      if (entry == nullptr) {
+        throw std::runtime_error(fmt::format("{} is not in the node's memory", text));
+      }
+      if (found) {
+        ask_for_board(text);
+      }
+      found = Part{std::move(place).value(), entry, &store};
+    }
+    if (!found) {
       throw std::runtime_error(message);
     }
-    const vars::DirectoryEntry* entry =
-        store->find(indurop::abi::fnv1a64(place->variable->name.data(), place->variable->name.size()));
-    if (entry == nullptr) {
-      throw std::runtime_error(fmt::format("{} is not in the node's memory", text));
-    }
-    return {std::move(place).value(), entry};
+    return *std::move(found);
   }
 
-  [[nodiscard]] std::vector<std::uint8_t> read(const Part& part) const {
+  [[nodiscard]] static std::vector<std::uint8_t> read(const Part& part) {
     std::vector<std::uint8_t> bytes(part.place.type.size());
-    if (!store->read(*part.entry, part.place.offset, bytes)) {
+    if (!part.store->read(*part.entry, part.place.offset, bytes)) {
       throw std::runtime_error(fmt::format("{} cannot be read", part.place.variable->name));
     }
     return bytes;
   }
 
-  void write(const Part& part, std::span<const std::uint8_t> from) {
-    if (!store->write(*part.entry, part.place.offset, from)) {
+  static void write(const Part& part, std::span<const std::uint8_t> from) {
+    if (!part.store->write(*part.entry, part.place.offset, from)) {
       throw std::runtime_error(fmt::format("{} cannot be written", part.place.variable->name));
     }
   }
 
   [[nodiscard]] scheduler::ModuleRecord& module(std::string_view wanted) const {
-    scheduler::RunBlock& run = node.run();
     std::string known;
-    for (std::uint32_t i = 0; i < run.module_count; ++i) {
-      scheduler::ModuleRecord& record = run.modules()[i];
-      if (wanted == record.name) {
-        return record;
+    scheduler::ModuleRecord* found = nullptr;
+    for (const std::size_t board : boards_of(wanted)) {
+      scheduler::RunBlock& run = node.boards()[board].run();
+      for (std::uint32_t i = 0; i < run.module_count; ++i) {
+        scheduler::ModuleRecord& record = run.modules()[i];
+        if (wanted == record.name) {
+          if (found != nullptr) {
+            ask_for_board(wanted);
+          }
+          found = &record;
+        }
+        known += (known.empty() ? "" : ", ") + std::string(record.name);
       }
-      known += (i > 0 ? ", " : "") + std::string(record.name);
     }
-    throw std::runtime_error(fmt::format("there is no module {}; there is {}", wanted, known));
+    if (found == nullptr) {
+      throw std::runtime_error(fmt::format("there is no module {}; there is {}", wanted, known));
+    }
+    return *found;
   }
 
   void go(std::uint64_t ticks);
 
   std::string name;
   indurop::testing::NodeProcess node;
-  std::optional<vars::Store> store;
+  std::vector<std::unique_ptr<vars::Store>> stores;  // by board
   indurop::testing::Trace trace;
 };
 
@@ -144,13 +208,18 @@ Plant::Plant(const std::filesystem::path& configuration, const Settings& setting
     : impl_(std::make_unique<Impl>(configuration, settings)) {}
 
 Plant::~Plant() {
-  const std::string name = impl_->name;
+  std::vector<std::string> nodes;
+  for (const auto& board : impl_->node.boards()) {
+    nodes.push_back(board.node);
+  }
   impl_.reset();
-  (void)vars::remove_node(name);
+  for (const std::string& node : nodes) {
+    (void)vars::remove_node(node);
+  }
 }
 
 void Plant::run(std::chrono::nanoseconds time) {
-  const std::int64_t basic = impl_->node.run().basic_period_ns;
+  const std::int64_t basic = impl_->node.basic_period_ns();
   if (time.count() < 0) {
     throw std::runtime_error("time does not run backwards");
   }
@@ -177,7 +246,7 @@ std::uint64_t Plant::tick() const {
 }
 
 std::chrono::nanoseconds Plant::basic_period() const {
-  return std::chrono::nanoseconds(impl_->node.run().basic_period_ns);
+  return std::chrono::nanoseconds(impl_->node.basic_period_ns());
 }
 
 std::chrono::nanoseconds Plant::time() const {
@@ -186,7 +255,7 @@ std::chrono::nanoseconds Plant::time() const {
 
 long double Plant::number(std::string_view name) const {
   const Impl::Part part = impl_->find(name);
-  const auto value = part.place.type.dims.empty() ? number_in(part.place.type.base, impl_->read(part)) : std::nullopt;
+  const auto value = part.place.type.dims.empty() ? number_in(part.place.type.base, Impl::read(part)) : std::nullopt;
   if (!value) {
     throw std::runtime_error(
         fmt::format("{} is a {}, not a number: name a part of it", name, schema::display_name(part.place.type)));
@@ -196,7 +265,7 @@ long double Plant::number(std::string_view name) const {
 
 std::string Plant::text(std::string_view name) const {
   const Impl::Part part = impl_->find(name);
-  const auto bytes = impl_->read(part);
+  const auto bytes = Impl::read(part);
   if (part.place.type.base == schema::Base::Text && part.place.type.dims.empty()) {
     const auto end = std::find(bytes.begin(), bytes.end(), 0);
     return {bytes.begin(), end};
@@ -206,7 +275,7 @@ std::string Plant::text(std::string_view name) const {
 
 void Plant::bytes(std::string_view name, std::span<std::uint8_t> to) const {
   const Impl::Part part = impl_->find(name);
-  const auto from = impl_->read(part);
+  const auto from = Impl::read(part);
   if (from.size() != to.size()) {
     throw std::runtime_error(fmt::format("{} is a {} of {} bytes, not of {}", name,
                                          schema::display_name(part.place.type), from.size(), to.size()));
@@ -216,14 +285,14 @@ void Plant::bytes(std::string_view name, std::span<std::uint8_t> to) const {
 
 void Plant::set_text(std::string_view name, const std::string& text, bool hold) {
   const Impl::Part part = impl_->find(name);
-  std::vector<std::uint8_t> bytes = impl_->read(part);
+  std::vector<std::uint8_t> bytes = Impl::read(part);
   std::string message;
   if (!schema::parse_value(part.place.type, text, bytes, message)) {
     throw std::runtime_error(fmt::format("{}: {}", name, message));
   }
   if (!hold) {
-    impl_->write(part, bytes);
-  } else if (!impl_->store->force(*part.entry, part.place.offset, bytes, vars::kForever)) {
+    Impl::write(part, bytes);
+  } else if (!part.store->force(*part.entry, part.place.offset, bytes, vars::kForever)) {
     throw std::runtime_error(
         fmt::format("{} cannot be forced: only numbers can, {} at a time", name, vars::kMostForces));
   }
@@ -235,12 +304,12 @@ void Plant::set_bytes(std::string_view name, std::span<const std::uint8_t> from)
     throw std::runtime_error(fmt::format("{} is a {} of {} bytes, not of {}", name,
                                          schema::display_name(part.place.type), part.place.type.size(), from.size()));
   }
-  impl_->write(part, from);
+  Impl::write(part, from);
 }
 
 void Plant::unforce(std::string_view name) {
   const Impl::Part part = impl_->find(name);
-  if (!impl_->store->let_go(*part.entry, part.place.offset)) {
+  if (!part.store->let_go(*part.entry, part.place.offset)) {
     throw std::runtime_error(fmt::format("{} is not forced", name));
   }
 }

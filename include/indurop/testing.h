@@ -31,7 +31,7 @@
 namespace irp::testing {
 
 struct Settings {
-  std::string board{};                   // of the plant that the file is
+  std::string board{};                   // of the plant that the file is: this one alone; empty: all
   std::filesystem::path times{};         // report of an earlier run: how long modules take; empty: <wcet>, or no time
   std::vector<std::string> arguments{};  // more for indurop-node
   std::chrono::seconds patience{30};     // real time that one call may take
@@ -52,7 +52,10 @@ struct ModuleCount {
 class Plant {
  public:
   // Starts the configuration; it stands before its first tick, with initial values. Variables of the generated header
-  // in this program are those of this plant from now on: `EXPECT_EQ(tick, 5)` works as in a module.
+  // in this program are those of this plant from now on: `EXPECT_EQ(tick, 5)` works as in a module, unless it has
+  // several boards.
+  // Of a plant's manifest all boards run, with a simulated network; a name that several boards have says which is
+  // meant: "torque@control", "table@sensor".
   explicit Plant(const std::filesystem::path& configuration, const Settings& settings = {});
   ~Plant();
   Plant(const Plant&) = delete;

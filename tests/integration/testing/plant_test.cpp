@@ -123,5 +123,39 @@ TEST(PlantUnderTest, Names_the_first_difference_from_a_golden_signal) {
   EXPECT_THAT([&] { (void)difference(1); }, ThrowsMessage<std::runtime_error>(HasSubstr("INDUROP_UPDATE_GOLDEN=1")));
 }
 
+TEST(PlantOfSeveralBoards, Runs_them_together_and_names_what_is_on_which) {
+  Plant p(std::string(TWO_BOARDS) + "/plant.xml", {.arguments = {"--network", "delay=2500us"}});
+  EXPECT_EQ(p.get<double>("cell::torque@sensor"), 0);
+  p.run(3s);
+  EXPECT_EQ(p.tick(), 3000U);
+  EXPECT_NEAR(p.get<double>("encoder.speed@sensor"), 2, 0.05) << "the loop is closed";
+  EXPECT_GT(p.get<double>("cell::torque@sensor"), 0.03);
+  EXPECT_EQ(p.get<int>("lag@sensor"), 6) << "three ticks there, three back";
+  EXPECT_EQ(p.module("table").runs, 3000U);
+  EXPECT_EQ(p.module("controller@control").runs, 3000U);
+  p.set("cell::target@control", 1.0);
+  EXPECT_TRUE(p.run_until([&] { return p.get<double>("encoder.speed@control") < 1.1; }, 5s));
+}
+
+TEST(PlantOfSeveralBoards, Says_that_a_name_is_on_several) {
+  Plant p(std::string(TWO_BOARDS) + "/plant.xml");
+  EXPECT_THAT([&] { (void)p.get<double>("cell::torque"); },
+              ThrowsMessage<std::runtime_error>(
+                  HasSubstr("several boards have cell::torque: say which is meant, as in cell::torque@control")));
+  EXPECT_THAT([&] { (void)p.get<double>("cell::torque@contrl"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("there is no board contrl; there is control, sensor")));
+}
+
+TEST(PlantOfSeveralBoards, Misses_a_board_that_was_killed) {
+  const std::filesystem::path script = std::filesystem::temp_directory_path() / ("night" + std::to_string(::getpid()));
+  std::ofstream(script) << "1s kill control\n";
+  Plant p(std::string(TWO_BOARDS) + "/plant.xml", {.arguments = {"--script", script.string()}});
+  p.run(999ms);
+  EXPECT_GT(p.get<double>("cell::torque@sensor"), 0.03);
+  p.run(100ms);
+  EXPECT_EQ(p.get<double>("cell::torque@sensor"), 0) << "the declared fallback";
+  std::filesystem::remove(script);
+}
+
 }  // namespace
 }  // namespace irp::testing
