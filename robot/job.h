@@ -42,6 +42,7 @@ struct Step {
   int index = -1;
   int mid = -1;
   int formula = -1;
+  bool by_tool = false;  // Move: the offset is along the axes of the tool
   double value = 0;
   double timeout = 0;  // s; 0: none
 };
@@ -51,6 +52,18 @@ struct Point {
   Target target;
   std::string file;
   base::SourcePlace place;
+  int frame = -1;                // of the book, in which it was given; -1: the base
+  Quat axes = Quat::Identity();  // of that frame
+};
+
+// Where a workpiece or a pallet is: by its pose, or taught by three points.
+struct WorkFrame {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+  Pose pose;
+  bool is_taught = false;
+  std::array<int, 3> points{-1, -1, -1};  // origin, on x, on the side of y
 };
 
 struct Job {
@@ -66,6 +79,7 @@ inline constexpr std::size_t kMostVariables = 32;  // of one job
 
 struct JobBook {
   std::vector<Point> points;
+  std::vector<WorkFrame> frames;
   std::vector<Job> jobs;
   std::vector<std::string> signals;
   std::vector<Formula> formulas;
@@ -92,5 +106,10 @@ struct ArmShape {
 };
 // All files together: points and jobs may be used before and beyond the file that declares them. Not real-time safe.
 ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape = {});
+
+class Arm;
+
+// Puts frames where their points are, and points where their frames are. The parser knows nothing of the arm.
+std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm);
 
 }  // namespace indurop::robot

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, "
+    "POINT, FRAME, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, ELSEIF, "
+    "ELSE, "
     "WHILE, "
     "FOR, LOOP and END";
 
@@ -93,17 +94,29 @@ void JobParser::statement() {
     void (*parse)(JobParser&);
   };
   static constexpr Known kKnown[] = {
-      {"POINT", [](JobParser& p) { p.point(); }},         {"SPEED", [](JobParser& p) { p.speed(); }},
-      {"ZONE", [](JobParser& p) { p.zone(); }},           {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
-      {"MOVL", [](JobParser& p) { p.move(Move::Line); }}, {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
-      {"MOVS", [](JobParser& p) { p.spline(); }},         {"SET", [](JobParser& p) { p.set(); }},
-      {"WAIT", [](JobParser& p) { p.wait(); }},           {"CALL", [](JobParser& p) { p.call(); }},
-      {"LABEL", [](JobParser& p) { p.label(); }},         {"GOTO", [](JobParser& p) { p.jump(); }},
-      {"IF", [](JobParser& p) { p.if_goto(); }},          {"LOOP", [](JobParser& p) { p.loop(); }},
-      {"END", [](JobParser& p) { p.end_block(); }},       {"VAR", [](JobParser& p) { p.variable(); }},
-      {"PARAM", [](JobParser& p) { p.parameters(); }},    {"RETURN", [](JobParser& p) { p.add(Op::Return); }},
-      {"ELSE", [](JobParser& p) { p.otherwise(false); }}, {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
-      {"WHILE", [](JobParser& p) { p.while_block(); }},   {"FOR", [](JobParser& p) { p.for_block(); }},
+      {"POINT", [](JobParser& p) { p.point(); }},
+      {"FRAME", [](JobParser& p) { p.frame(); }},
+      {"SPEED", [](JobParser& p) { p.speed(); }},
+      {"ZONE", [](JobParser& p) { p.zone(); }},
+      {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
+      {"MOVL", [](JobParser& p) { p.move(Move::Line); }},
+      {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
+      {"MOVS", [](JobParser& p) { p.spline(); }},
+      {"SET", [](JobParser& p) { p.set(); }},
+      {"WAIT", [](JobParser& p) { p.wait(); }},
+      {"CALL", [](JobParser& p) { p.call(); }},
+      {"LABEL", [](JobParser& p) { p.label(); }},
+      {"GOTO", [](JobParser& p) { p.jump(); }},
+      {"IF", [](JobParser& p) { p.if_goto(); }},
+      {"LOOP", [](JobParser& p) { p.loop(); }},
+      {"END", [](JobParser& p) { p.end_block(); }},
+      {"VAR", [](JobParser& p) { p.variable(); }},
+      {"PARAM", [](JobParser& p) { p.parameters(); }},
+      {"RETURN", [](JobParser& p) { p.add(Op::Return); }},
+      {"ELSE", [](JobParser& p) { p.otherwise(false); }},
+      {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
+      {"WHILE", [](JobParser& p) { p.while_block(); }},
+      {"FOR", [](JobParser& p) { p.for_block(); }},
   };
   for (const Known& known : kKnown) {
     if (accept(known.word)) {
@@ -171,6 +184,14 @@ void JobParser::pose_point(Target& target) {
   while (!failed_ && accept("AXIS")) {
     held_axis(target);
   }
+  if (!failed_ && accept("IN")) {
+    const JobToken name = take();
+    if (name.kind != JobToken::Kind::Word) {
+      error(name, "expected the name of a frame, found " + shown(name));
+      return;
+    }
+    point_frames_.push_back({book_.points.size(), book_.jobs.size() - 1, std::string(name.text), line_, name.column});
+  }
 }
 
 void JobParser::posture(Target& target) {
@@ -223,12 +244,20 @@ void JobParser::point() {
     error(peek(), "expected JOINT or POSE, found " + shown(peek()));
   }
   const std::string text(name.text);
+  const auto drop_frame = [this] {
+    if (!point_frames_.empty() && point_frames_.back().owner == book_.points.size()) {
+      point_frames_.pop_back();
+    }
+  };
   const auto [found, fresh] = point_places_.try_emplace(text, job().file + ":" + std::to_string(line_));
   if (!fresh) {
     error(name, "there is already a point " + in_quotes(text) + " at " + found->second);
   }
   if (fresh && !failed_) {
-    book_.points.push_back({text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}});
+    book_.points.push_back(
+        {text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}, -1, Quat::Identity()});
+  } else {
+    drop_frame();
   }
 }
 
@@ -250,6 +279,9 @@ void JobParser::move(Move kind) {
   }
   if (!failed_) {
     reference(JobReference::To::Target, "point");
+  }
+  if (!failed_ && accept("OFFSET")) {
+    offset();
   }
   if (kind == Move::Joint && !failed_ && accept("STRAIGHT")) {
     job().steps.back().value = 1;

@@ -41,6 +41,9 @@ class JobParser {
  private:
   void statement();
   void point();
+  void frame();
+  void offset();
+  void resolve_frames();
   bool numbers(int count, double* to, const char* what);
   void joint_point(Target& target);
   void pose_point(Target& target);
@@ -114,6 +117,16 @@ class JobParser {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<Block> blocks_;
   std::vector<JobReference> references_;
+  // A name in the declaration of a point (its frame) or of a frame (its points).
+  struct Declared {
+    std::size_t owner = 0;  // index of the point or frame
+    std::size_t job = 0;
+    std::string name;
+    std::size_t line = 0;
+    std::size_t column = 0;
+  };
+  std::vector<Declared> point_frames_;
+  std::vector<Declared> frame_points_;                                // three for each taught frame
   std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // of each job
   std::map<std::string, std::string, std::less<>> point_places_;
 };

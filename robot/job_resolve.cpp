@@ -60,6 +60,7 @@ std::string count_of(std::size_t count, const char* what) {
 }  // namespace
 
 void JobParser::resolve() {
+  resolve_frames();
   const auto fail = [&](const JobReference& reference, const char* what, const std::vector<std::string>& known) {
     error_in(book_.jobs[reference.job].file, reference.line, reference.column,
              std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));
@@ -90,6 +91,11 @@ void JobParser::resolve() {
       const int point = index_of(book_.points, reference.name);
       (reference.to == JobReference::To::Mid ? step.mid : step.index) = point;
       point < 0 ? fail(reference, "point", names_of(book_.points)) : void();
+      if (point >= 0 && reference.to == JobReference::To::Target && step.formula >= 0 &&
+          !book_.points[static_cast<std::size_t>(point)].target.is_pose) {
+        error_in(book_.jobs[reference.job].file, reference.line, reference.column,
+                 "an OFFSET goes from a point given as POSE; '" + reference.name + "' has joint angles");
+      }
     }
   }
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
 constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
+constexpr int kOffsets = 3;          // x, y, z
 constexpr int kLineBits = 20;        // MoveCommand::source = job and line
 
 std::uint32_t line_of(int source) noexcept {
@@ -20,7 +21,7 @@ std::uint32_t line_of(int source) noexcept {
 }  // namespace
 
 std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept {
-  const int count = step.formula < 0 ? 0 : step.op == Op::Call ? step.mid : 1;
+  const int count = step.formula < 0 ? 0 : step.op == Op::Call ? step.mid : step.op == Op::Move ? kOffsets : 1;
   return count == 0 ? std::span<const Formula>()
                     : std::span(book_.formulas)
                           .subspan(static_cast<std::size_t>(step.formula), static_cast<std::size_t>(count));
@@ -135,7 +136,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
   double value = 0;
   switch (step.op) {
     case Op::Move:
-      return move(step, port);
+      return move(step, signals, port);
     case Op::WaitUntil:
       next = wait_until(step, seconds, signals);
       break;
@@ -186,13 +187,29 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
   return next;
 }
 
-JobRunner::Next JobRunner::move(const Step& step, MotionPort& port) noexcept {
+bool JobRunner::shift(const Step& step, Signals& signals, Target& target) noexcept {
+  Vec3 offset;
+  for (int i = 0; i < kOffsets; ++i) {
+    if (!compute(step.formula + i, signals, offset[i])) {
+      return false;
+    }
+  }
+  const Quat& axes = step.by_tool ? target.pose.orientation : book_.points[static_cast<std::size_t>(step.index)].axes;
+  target.pose.position += axes * offset / 1000;
+  target.known = nullptr;
+  return true;
+}
+
+JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& port) noexcept {
   if (!port.ready()) {
     return Next::Wait;
   }
   MoveCommand command;
   command.move = step.move;
   command.target = book_.points[static_cast<std::size_t>(step.index)].target;
+  if (step.formula >= 0 && !shift(step, signals, command.target)) {
+    return Next::Wait;
+  }
   if (step.mid >= 0) {
     command.mid = book_.points[static_cast<std::size_t>(step.mid)].target;
   }

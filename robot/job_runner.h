@@ -58,7 +58,9 @@ class JobRunner {
 
   [[nodiscard]] const Step* present() const noexcept;
   Next run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
-  Next move(const Step& step, MotionPort& port) noexcept;
+  Next move(const Step& step, Signals& signals, MotionPort& port) noexcept;
+  // By the offset of a motion. False: it has no value.
+  bool shift(const Step& step, Signals& signals, Target& target) noexcept;
   // False: it has no value, and the job has failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;

@@ -165,6 +165,21 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, const Inverse& inverse) 
   return errors;
 }
 
+// Where a joint motion ends has to be known before anything moves, if that takes a search.
+Diagnostics check_offsets(const JobBook& book, const Inverse& inverse) {
+  Diagnostics errors;
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      if (step.op == Op::Move && step.move == Move::Joint && step.formula >= 0 && !inverse.closed_form()) {
+        errors.push_back(
+            error(job.file, {static_cast<int>(step.line), 1},
+                  "MOVJ to an OFFSET needs an arm with a closed form; go there by MOVL, or give it a POINT"));
+      }
+    }
+  }
+  return errors;
+}
+
 }  // namespace
 
 ReadFiles read_files(const FileNames& names) {
@@ -181,6 +196,10 @@ ReadFiles read_files(const FileNames& names) {
   read.book = std::move(jobs.book);
   if (read.model) {
     const Inverse inverse(read.model->arm);
+    if (read.errors.empty()) {
+      take_over(place_frames(read.book, read.model->arm), read.errors);
+    }
+    take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     take_over(solve_points(read.book, read.model->arm, inverse), read.errors);
     take_over(check_splines(read.book, inverse), read.errors);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work frames: where the points that are given in them are.
+#include <array>
+#include <utility>
+
+#include "robot/arm.h"
+#include "robot/job.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr double kNearest = 0.001;  // m between points that teach a frame, and from the third to the line of the others
+
+Vec3 place_of(const Target& target, const Arm& arm) {
+  return target.is_pose ? target.pose.position : arm.forward(target.joints).position;
+}
+
+// x from the first point to the second, the third on the side of y. Empty, or why it cannot be.
+std::string taught(const std::array<Vec3, 3>& at, Pose& frame) {
+  const Vec3 x = at[1] - at[0];
+  const Vec3 side = at[2] - at[0];
+  if (x.norm() < kNearest || side.norm() < kNearest) {
+    return "two of its points are the same place; teach the origin, a point on x, and one on the side of y";
+  }
+  const Vec3 z = x.cross(side);
+  if (z.norm() / x.norm() < kNearest) {
+    return "its three points lie on one line; the third one says where y is, so teach it beside that line";
+  }
+  Mat3 axes;
+  axes.col(0) = x.normalized();
+  axes.col(2) = z.normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  frame = {at[0], Quat(axes)};
+  return {};
+}
+
+}  // namespace
+
+std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
+  std::vector<base::Diagnostic> errors;
+  for (WorkFrame& frame : book.frames) {
+    if (!frame.is_taught) {
+      continue;
+    }
+    std::array<Vec3, 3> at;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      at[i] = place_of(book.points[static_cast<std::size_t>(frame.points[i])].target, arm);
+    }
+    if (std::string why = taught(at, frame.pose); !why.empty()) {
+      errors.push_back({base::Diagnostic::Severity::Error, frame.file, frame.place,
+                        "frame '" + frame.name + "': " + std::move(why)});
+    }
+  }
+  for (Point& point : book.points) {
+    if (point.frame < 0) {
+      continue;
+    }
+    const Pose& frame = book.frames[static_cast<std::size_t>(point.frame)].pose;
+    Pose& pose = point.target.pose;
+    pose = {frame.position + frame.orientation * pose.position, (frame.orientation * pose.orientation).normalized()};
+    point.axes = frame.orientation;
+  }
+  return errors;
+}
+
+}  // namespace indurop::robot
