@@ -44,8 +44,10 @@ PathTiming::Value PathTiming::square(int piece, double part) const noexcept {
 
 // From the beginning of the piece.
 double PathTiming::seconds(int piece, double part) const noexcept {
-  constexpr double kAt[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
-  constexpr double kWeight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  constexpr double kAt[] = {0.01985507175123188, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510,
+                            0.59171732124782490, 0.76276620495816450, 0.89833323870681336, 0.98014492824876812};
+  constexpr double kWeight[] = {0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
+                                0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
   const double* z = squares_.data() + piece;
   // The cubic as a polynomial of the part.
   const double a = (z[0] + 4 * z[1] + z[2]) / 6;
@@ -53,7 +55,7 @@ double PathTiming::seconds(int piece, double part) const noexcept {
   const double c = (z[0] - 2 * z[1] + z[2]) / 2;
   const double d = (z[3] - 3 * z[2] + 3 * z[1] - z[0]) / 6;
   double sum = 0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const double x = part * kAt[i];
     sum += kWeight[i] / std::sqrt(a + x * (b + x * (c + x * d)));
   }

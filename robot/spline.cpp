@@ -44,22 +44,63 @@ bool Spline::add(const Knot& knot) noexcept {
   return true;
 }
 
-// Continuous slopes make a system with three diagonals for the second derivatives, which are 0 at the ends.
+// Pieces of the fifth degree go on with the same third and fourth derivatives at each point, which makes a system of
+// blocks for the first and second ones. At the ends the second and fourth are 0.
 void Spline::finish() noexcept {
-  std::array<double, kMost + 1> above{};
-  bends_[0].setZero();
-  bends_[at(count_)].setZero();
-  for (int i = 1; i < count_; ++i) {
-    const std::size_t k = at(i);
-    const double before = at_[k] - at_[k - 1];
-    const double behind = at_[k + 1] - at_[k];
-    const Values change = (values_[k + 1] - values_[k]) / behind - (values_[k] - values_[k - 1]) / before;
-    const double middle = 2 * (before + behind) - before * above[k - 1];
-    above[k] = behind / middle;
-    bends_[k] = (6 * change - before * bends_[k - 1]) / middle;
+  using Block = Eigen::Matrix2d;
+  using Right = Eigen::Matrix<double, 2, 7>;
+  std::array<Block, kMost + 1> above{};
+  std::array<Right, kMost + 1> known{};
+  for (int i = 0; i <= count_; ++i) {
+    Block before = Block::Zero();
+    Block here = Block::Zero();
+    Block behind = Block::Zero();
+    Right right = Right::Zero();
+    if (i > 0) {
+      const double h = at_[at(i)] - at_[at(i) - 1];
+      const Values change = (values_[at(i)] - values_[at(i) - 1]) / h;
+      before << -24, -3 * h, -168, -24 * h;
+      here << -36, 9 * h, -192, 36 * h;
+      before.row(0) /= h * h;
+      here.row(0) /= h * h;
+      before.row(1) /= h * h * h;
+      here.row(1) /= h * h * h;
+      right.row(0) = -60 / (h * h) * change.transpose();
+      right.row(1) = -360 / (h * h * h) * change.transpose();
+    }
+    if (i < count_) {
+      const double h = at_[at(i) + 1] - at_[at(i)];
+      const Values change = (values_[at(i) + 1] - values_[at(i)]) / h;
+      Block first;
+      first << 36, 9 * h, -192, -36 * h;
+      behind << 24, -3 * h, -168, 24 * h;
+      here.row(0) += first.row(0) / (h * h);
+      here.row(1) += first.row(1) / (h * h * h);
+      behind.row(0) /= h * h;
+      behind.row(1) /= h * h * h;
+      right.row(0) += 60 / (h * h) * change.transpose();
+      right.row(1) -= 360 / (h * h * h) * change.transpose();
+    }
+    if (i == 0 || i == count_) {
+      before.row(0).setZero();
+      behind.row(0).setZero();
+      here.row(0) << 0, 1;
+      right.row(0).setZero();
+    }
+    if (i > 0) {
+      here -= before * above[at(i) - 1];
+      right -= before * known[at(i) - 1];
+    }
+    const Block inverse = here.inverse();
+    above[at(i)] = inverse * behind;
+    known[at(i)] = inverse * right;
   }
-  for (int i = count_ - 1; i > 0; --i) {
-    bends_[at(i)] -= above[at(i)] * bends_[at(i) + 1];
+  for (int i = count_; i >= 0; --i) {
+    if (i < count_) {
+      known[at(i)] -= above[at(i)] * known[at(i) + 1];
+    }
+    slopes_[at(i)] = known[at(i)].row(0);
+    bends_[at(i)] = known[at(i)].row(1);
   }
 }
 
@@ -74,13 +115,18 @@ Spline::Place Spline::look(double place) const noexcept {
   const std::size_t k = piece_at(place);
   const double h = at_[k + 1] - at_[k];
   const double t = place - at_[k];
-  const double rest = h - t;
-  const Values& a = bends_[k];
-  const Values& b = bends_[k + 1];
-  const Values low = values_[k] / h - a * (h / 6);
-  const Values high = values_[k + 1] / h - b * (h / 6);
-  return {a * (rest * rest * rest / (6 * h)) + b * (t * t * t / (6 * h)) + low * rest + high * t,
-          b * (t * t / (2 * h)) - a * (rest * rest / (2 * h)) + high - low, (a * rest + b * t) / h, (b - a) / h};
+  const Values& slope = slopes_[k];
+  const Values& bend = bends_[k];
+  // What the end of the piece has beyond going on like its beginning.
+  const Values way = (values_[k + 1] - values_[k]) / (h * h) - slope / h - bend / 2;
+  const Values turn = (slopes_[k + 1] - slope) / h - bend;
+  const Values more = bends_[k + 1] - bend;
+  const Values c3 = (10 * way - 4 * turn + more / 2) / h;
+  const Values c4 = (-15 * way + 7 * turn - more) / (h * h);
+  const Values c5 = (6 * way - 3 * turn + more / 2) / (h * h * h);
+  return {values_[k] + t * (slope + t * (bend / 2 + t * (c3 + t * (c4 + t * c5)))),
+          slope + t * (bend + t * (3 * c3 + t * (4 * c4 + t * 5 * c5))),
+          bend + t * (6 * c3 + t * (12 * c4 + t * 20 * c5)), 6 * c3 + t * (24 * c4 + t * 60 * c5)};
 }
 
 Pose Spline::pose_at(double place) const noexcept {

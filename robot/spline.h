@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth way of the tool through points: cubic pieces of its position and of the components of its orientation, with
-// continuous second derivatives, straight at both ends. It passes each point exactly.
+// A smooth way of the tool through points: pieces of the fifth degree of its position and of the components of its
+// orientation, with four continuous derivatives, so that jerk is continuous at any speed; straight at both ends. It
+// passes each point exactly.
 
 #pragma once
 
+#include <Eigen/LU>
 #include <array>
 
 #include "robot/tool_path.h"
@@ -58,7 +60,7 @@ class Spline final : public ToolPath {
   std::array<double, kMost + 1> at_{};
   std::array<Knot, kMost + 1> knots_{};
   std::array<Values, kMost + 1> values_{};
-  std::array<Values, kMost + 1> bends_{};  // second derivatives there
+  std::array<Values, kMost + 1> slopes_{}, bends_{};  // first and second derivatives there
 };
 
 }  // namespace indurop::robot

@@ -13,7 +13,8 @@ namespace {
 constexpr double kPerKnot = 0.02;  // s, about
 constexpr int kFewest = 24;
 constexpr double kMargin = 0.98;  // of the limits: what lies between two knots
-constexpr double kDenser = 0.5;
+constexpr double kDenser = 0.2;
+constexpr int kSmoothings = 16;  // a parameter that bends quickly has peaks of jerk between its knots
 constexpr std::size_t at(int i) noexcept {
   return static_cast<std::size_t>(i);
 }
@@ -62,7 +63,7 @@ bool TimingSearch::guess(const PathBounds& bounds) noexcept {
     const double inside = (t - time[at(part)]) / (time[at(part + 1)] - time[at(part)]);
     shape_[at(i + 2)] = step * (part + std::clamp(inside, 0.0, 1.0));
   }
-  for (int pass = 0; pass < 8; ++pass) {
+  for (int pass = 0; pass < kSmoothings; ++pass) {
     smooth_ends();
     double before = shape_[at(4)];
     for (int i = 5; i <= count_ - 1; ++i) {
