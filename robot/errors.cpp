@@ -45,6 +45,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the way would need a joint to accelerate harder than it can";
     case ErrorCode::Jerk:
       return "the way would need a joint to change its acceleration faster than it can";
+    case ErrorCode::Workspace:
+      return "the target or the way there is outside of the workspace";
   }
   return "unknown error";
 }

@@ -13,6 +13,7 @@ namespace indurop::robot {
 struct FileNames {
   std::string urdf;
   std::vector<std::string> jobs;  // points too
+  std::vector<double> workspace;  // as Settings has it; NaN: what is no number
 };
 
 // All errors of all of them, and a note of what the arm can do.

@@ -25,7 +25,7 @@ class Follower final : private PathAhead {
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
   // A joint motion instead of all that is to do, from whatever the joints are doing; not while it is stopping. Errors:
-  // JointLimit, Singular; then all is as before.
+  // JointLimit, Singular, Workspace; then all is as before.
   Fault redirect(const Segment& target) noexcept;
 
   // Whether what is added next may begin without a stop.

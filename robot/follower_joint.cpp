@@ -11,6 +11,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kThere = 1e-9;           // rad
+constexpr int kLooks = 24;                // at a new way, whether it stays in the workspace
 constexpr double kRounding = 1e-9;        // rad/s
 constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves something for changes of it
 
@@ -96,6 +97,9 @@ Fault Follower::redirect(const Segment& target) noexcept {
   Segment next = target;
   next.moving = !at_rest();
   next.take_joint_timing(seen, limits, pace);
+  if (!places_.inside(next, kLooks)) {
+    return {ErrorCode::Workspace};
+  }
   segments_[0] = next;
   count_ = 1;
   blend_ = {};
@@ -120,6 +124,13 @@ bool Follower::leave_shares() noexcept {
   }
   if (!can_begin(now, kNearlyFull)) {
     return false;
+  }
+  if (places_.box().known()) {
+    Segment other = s;
+    other.take_joint_timing(now, most_, kNearlyFull);
+    if (!places_.inside(other, kLooks)) {
+      return false;
+    }
   }
   s.take_joint_timing(now, most_, kNearlyFull);
   s.moving = true;

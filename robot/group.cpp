@@ -18,7 +18,7 @@ constexpr std::size_t at(int axis) noexcept {
 Group::Group(GroupParts parts)
     : parts_(std::move(parts)),
       inverse_(parts_.arm),
-      places_(parts_.arm, inverse_),
+      places_(parts_.arm, inverse_, Workspace::of(parts_.settings.workspace)),
       follower_(places_, parts_.joints),
       job_(parts_.book),
       ahead_(parts_.arm, parts_.tool),
@@ -150,35 +150,6 @@ void Group::leave_path(ErrorCode code, double hardness) noexcept {
   hardness_ = hardness;
   for (AxisControl& a : axes()) {
     a.fail(code, hardness);
-  }
-}
-
-// Nothing reaches a drive but through here.
-void Group::pass_gates() noexcept {
-  for (int i = 0; i < count(); ++i) {
-    if (axes_[at(i)].placed_anew()) {
-      gates_[at(i)].stand(axes_[at(i)].commanded().position);
-    }
-  }
-  for (int i = 0; i < count() && !braking_; ++i) {
-    const ErrorCode code = gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
-    if (code != ErrorCode::Ok && to_error_) {
-      leave_path(error_, hardness_);  // the first error is what the user has to know
-    } else if (code != ErrorCode::Ok) {
-      trip(code, i + 1, 1);
-    }
-  }
-  for (int i = 0; i < count(); ++i) {
-    if (braking_) {
-      gates_[at(i)].brake(hardness_);
-      axes_[at(i)].put(gates_[at(i)].state());
-    } else {
-      gates_[at(i)].pass(axes_[at(i)].commanded().position);
-    }
-  }
-  if (std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); })) {
-    braking_ = false;
-    hardness_ = state_ == GroupState::Stopping ? hardness_ : 1;
   }
 }
 

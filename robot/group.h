@@ -57,7 +57,9 @@ class Group final : public Controller, private MotionPort {
   void watch(const Inputs& in) noexcept;
   void trip(ErrorCode code, int axis, double hardness) noexcept;
   void leave_path(ErrorCode code, double hardness) noexcept;
-  void pass_gates() noexcept;
+  void pass_gates() noexcept;  // group_gates.cpp
+  [[nodiscard]] bool leaves_workspace() const noexcept;
+  [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
   void run_state(Signals& signals) noexcept;
   void run_enabling() noexcept;
   void run_homing() noexcept;

@@ -96,7 +96,7 @@ GroupParts parts_of(const Settings& settings, ReadFiles files) {
 
 std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vector<std::string>& errors) {
   Diagnostics wrong = check_settings(settings);
-  ReadFiles files = read_files({settings.urdf, settings.jobs});
+  ReadFiles files = read_files({settings.urdf, settings.jobs, settings.workspace});
   take_over(std::move(files.errors), wrong);
   if (files.model) {
     take_over(check_axes(settings, files.model->arm), wrong);

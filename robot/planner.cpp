@@ -32,7 +32,12 @@ bool finite(const Target& target) noexcept {
 }  // namespace
 
 Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool)
-    : places_(places), joints_(joints), tool_(tool), search_(places_, joints_), rehearsal_(places_, joints_) {
+    : places_(places),
+      joints_(joints),
+      tool_(tool),
+      way_(places.box(), Vec3::Zero()),
+      search_(places_, joints_),
+      rehearsal_(places_, joints_) {
   for (int i = 1; i <= 256; ++i) {
     usual_volume_ = std::max(usual_volume_, std::abs(volume(places.arm().spread(i))));
   }
@@ -84,7 +89,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   if (command.move == Move::Joint) {
     measure_joint_motion(command.speed);
     segment_.together = segment_.length > 0 && command.zone <= 0 && !command.straight;
-    return {};
+    return check_joint_way();
   }
   if (command.move == Move::Circle) {
     if (!finite(command.mid)) {
@@ -98,6 +103,24 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
     segment_.way = (segment_.end.position - segment_.start.position).norm();
   }
   measure_tool_motion(command);
+  return {};
+}
+
+// Axes that come together go another way at another pace.
+Fault Planner::check_joint_way() const noexcept {
+  constexpr int kPlaces = 64;
+  if (!places_.box().known()) {
+    return {};
+  }
+  for (const double pace : {1.0, 0.7, 0.4, 0.1}) {
+    Segment way = segment_;
+    if (way.together) {
+      way.take_joint_timing({way.from, Joints::Zero(), Joints::Zero()}, joints_, pace);
+    }
+    if (!places_.inside(way, kPlaces)) {
+      return {ErrorCode::Workspace};
+    }
+  }
   return {};
 }
 
@@ -173,6 +196,7 @@ void Planner::begin_look(double spacing, int most) noexcept {
   const double finest = std::max(s.way, 0.3 * s.turn.norm()) / spacing;
   count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewest, most);
   samples_[0] = s.from;
+  way_ = {places_.box(), s.start.position};
   volumes_[0] = volume(s.from);
   least_volume_ = std::abs(volumes_[0]);
   stage_ = Stage::Look;
@@ -191,6 +215,9 @@ Fault Planner::check_next() noexcept {
     return {code_of(reach)};
   }
   here = found.q;
+  if (places_.box().known() && !way_.next(places_.arm().forward(here).position)) {
+    return {ErrorCode::Workspace};
+  }
   if (segment_.chain != nullptr) {
     bound_tool(next_);
   }

@@ -19,13 +19,13 @@ class Planner {
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
   // Begins with a motion that starts at `from`. Real-time safe, as all here. Errors: Value, Unreachable,
-  // JointLimit, Circle.
+  // JointLimit, Circle, Workspace.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
   // Begins with a way of many pieces that starts where the arm is at `from` and stays as it is until the motion has
   // ended. Errors: Value.
   Fault begin(const ToolPath& chain, const Joints& from) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
-  // Singular.
+  // Singular, Workspace.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
@@ -52,6 +52,7 @@ class Planner {
   [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
+  [[nodiscard]] Fault check_joint_way() const noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   void choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
@@ -71,6 +72,7 @@ class Planner {
   Segment segment_;
   Samples samples_{};
   std::array<double, kMost + 1> volumes_{};
+  WayInside way_;
   int count_ = 0;  // places after the first
   int next_ = 1;
   int windows_ = 0;

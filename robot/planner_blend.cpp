@@ -60,7 +60,7 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
   Joints near = first.to;
   for (int i = 0; i <= kBlendPlaces; ++i) {
     if (places_.on(first, result, second, spacing * i, near, near) != Reach::Ok ||
-        places_.arm().beyond_limits(near) >= 0) {
+        places_.arm().beyond_limits(near) >= 0 || places_.box().outside(places_.arm().forward(near).position) > 0) {
       return {};
     }
     places[static_cast<std::size_t>(i)] = near;

@@ -10,6 +10,7 @@
 #include "base/read_file.h"
 #include "robot/abilities.h"
 #include "robot/check_splines.h"
+#include "robot/workspace.h"
 
 namespace indurop::robot {
 
@@ -65,6 +66,30 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
       const double unit = a.slides() ? 0.001 : kPi / 180;
       text << "point '" << point.name << "': joint " << axis + 1 << " is at " << point.target.joints[axis] / unit
            << (a.slides() ? " mm" : " degrees") << ", its limits are " << a.lower / unit << " to " << a.upper / unit;
+      errors.push_back(error(point.file, point.place, text.str()));
+    }
+  }
+  return errors;
+}
+
+Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm) {
+  const std::vector<double>& corners = names.workspace;
+  bool sane = corners.empty() || corners.size() == 6;
+  for (std::size_t i = 0; sane && i < corners.size(); ++i) {
+    sane = std::isfinite(corners[i]) && corners[i] != corners[(i + 3) % 6];
+  }
+  if (!sane) {
+    return {error("property workspace", {}, "it has to be two opposite corners of a box, x y z x y z in mm")};
+  }
+  Diagnostics errors;
+  const Workspace box = Workspace::of(corners);
+  for (const Point& point : book.points) {
+    const Target& target = point.target;
+    const Vec3 place = target.is_pose ? target.pose.position : arm.forward(target.joints).position;
+    if (box.outside(place) > 0) {
+      std::ostringstream text;
+      text << "point '" << point.name << "': the tool is at " << (1000 * place).transpose()
+           << " mm, outside of the workspace (" << box.text() << ")";
       errors.push_back(error(point.file, point.place, text.str()));
     }
   }
@@ -202,6 +227,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     take_over(solve_points(read.book, read.model->arm, inverse), read.errors);
+    take_over(check_workspace(names, read.book, read.model->arm), read.errors);
     take_over(check_splines(read.book, inverse), read.errors);
     read.kind = abilities(read.model->arm, inverse);
   }

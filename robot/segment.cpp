@@ -77,6 +77,16 @@ void Blend::parts_at(double place, double& first, double& second) const noexcept
   first = place - zone - second;
 }
 
+bool Places::inside(const Segment& segment, int parts) const noexcept {
+  WayInside way(box_, arm_.forward(segment.joints_at(0)).position);
+  for (int i = 1; i <= parts && box_.known(); ++i) {
+    if (!way.next(arm_.forward(segment.joints_at(segment.length * i / parts)).position)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 Reach Places::on(const Segment& segment, double place, const Joints& near, Solution& solution) const noexcept {
   if (segment.move == Move::Joint) {
     solution = {segment.joints_at(place), 0};

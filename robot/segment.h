@@ -12,6 +12,7 @@
 #include "robot/path_timing.h"
 #include "robot/profile.h"
 #include "robot/tool_path.h"
+#include "robot/workspace.h"
 
 namespace indurop::robot {
 
@@ -103,8 +104,12 @@ struct Blend {
 // Joint angles on the paths, for which lines and circles need the inverse kinematics.
 class Places {
  public:
-  Places(const Arm& arm, const Inverse& inverse) noexcept : arm_(arm), inverse_(inverse) {}
+  Places(const Arm& arm, const Inverse& inverse, const Workspace& box = {}) noexcept
+      : arm_(arm), inverse_(inverse), box_(box) {}
   [[nodiscard]] const Arm& arm() const noexcept { return arm_; }
+  [[nodiscard]] const Workspace& box() const noexcept { return box_; }
+  // Whether a joint motion stays in it all the way, as far as `parts` places show.
+  [[nodiscard]] bool inside(const Segment& segment, int parts) const noexcept;
   [[nodiscard]] const Inverse& inverse() const noexcept { return inverse_; }
 
   // The joint angles nearest to `near`. Other than Ok leaves `q` alone. Paths of joints have posture 0.
@@ -116,6 +121,7 @@ class Places {
  private:
   const Arm& arm_;
   const Inverse& inverse_;
+  Workspace box_;
 };
 
 }  // namespace indurop::robot

@@ -8,6 +8,7 @@
 #include <indurop/robot/controller.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <sstream>
@@ -162,14 +163,14 @@ void write_axis_states() {
   }
 }
 
-// What is no number becomes 0, which the controller refuses.
+// What is no number is refused by the controller.
 std::vector<double> numbers(const std::string& text) {
   std::istringstream words(text);
   std::vector<double> all;
   for (std::string word; words >> word;) {
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    all.push_back(*end == '\0' ? value : 0);
+    all.push_back(*end == '\0' ? value : std::nan(""));
   }
   return all;
 }
@@ -188,6 +189,7 @@ void start() {
   settings.time_to_acceleration = irp::property("time_to_acceleration", settings.time_to_acceleration);
   settings.acceleration = numbers(irp::property("acceleration", ""));
   settings.jerk = numbers(irp::property("jerk", ""));
+  settings.workspace = numbers(irp::property("workspace", ""));
   settings.tool_speed = irp::property("tool_speed", settings.tool_speed);
   settings.tool_turn_speed = irp::property("tool_turn_speed", settings.tool_turn_speed);
   settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);

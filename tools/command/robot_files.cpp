@@ -2,6 +2,8 @@
 #include "tools/command/robot_files.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -23,6 +25,12 @@ bool reads_urdf(const schema::ModuleFile& file) {
   return file.imports.empty() || (found != file.imports.end() && found->rfind(name, 0) == 0);
 }
 
+double number(const std::string& word) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  return *end == '\0' ? value : std::nan("");
+}
+
 std::string beside(const config::Config& config, const std::string& name) {
   return (config.file.parent_path() / name).lexically_normal().string();
 }
@@ -38,10 +46,15 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     if ((urdf == nullptr && jobs == nullptr) || (built && !reads_urdf(check.facts[i].file))) {
       continue;
     }
-    robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : *urdf), {}};
+    const std::string* workspace = property(config.modules[i], "workspace");
+    robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : *urdf), {}, {}};
     std::istringstream words(jobs == nullptr ? "" : *jobs);
     for (std::string word; words >> word;) {
       names.jobs.push_back(beside(config, word));
+    }
+    std::istringstream corners(workspace == nullptr ? "" : *workspace);
+    for (std::string word; corners >> word;) {
+      names.workspace.push_back(number(word));
     }
     const std::vector<base::Diagnostic> found = robot::check_files(names);
     all.insert(all.end(), found.begin(), found.end());

@@ -164,6 +164,9 @@ struct Settings {
   // deg/s^2 and deg/s^3 of each axis, mm of sliding ones; empty: by time_to_speed and time_to_acceleration.
   std::vector<double> acceleration;
   std::vector<double> jerk;
+  // mm, x y z of two opposite corners of the box that the tool's point does not leave, in the base's frame; empty:
+  // none.
+  std::vector<double> workspace;
   double tool_speed = 1000;       // mm/s, full speed on lines and circles
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // of the accelerations, in an emergency stop

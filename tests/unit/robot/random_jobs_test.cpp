@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random jobs with holds, overrides, stops, emergencies and failing drives at random instants: no set point of any axis
-// breaks a limit of position, speed, acceleration or jerk. INDUROP_ROBOT_JOBS says how many jobs, INDUROP_ROBOT_SEED
-// from which one on.
+// breaks a limit of position, speed, acceleration or jerk, nor the tool its workspace. INDUROP_ROBOT_JOBS says how many
+// jobs, INDUROP_ROBOT_SEED from which one on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -74,11 +75,23 @@ class Judge {
   }
 };
 
-std::string random_job(std::mt19937& random) {
-  const Arm arm = cell_arm();
+struct RandomJob {
+  std::string text;
+  // Of all its points and of where the arm starts.
+  Vec3 low = Vec3::Constant(HUGE_VAL), high = Vec3::Constant(-HUGE_VAL);
+  void reach(const Vec3& place) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+};
+
+RandomJob random_job(std::mt19937& random) {
+  static const Arm arm = cell_arm();
+  RandomJob job;
+  job.reach(arm.forward(Joints::Zero()).position);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
-  std::string text;
+  std::string& text = job.text;
   Joints place = anywhere(arm, random, 0.1);
   // One in four has points so near to each other that lines become chains.
   const bool near = one_of(4) == 0;
@@ -95,6 +108,7 @@ std::string random_job(std::mt19937& random) {
       }
       q = place;
     }
+    job.reach(arm.forward(q).position);
     if (one_of(2) == 0) {
       const Joints d = q * (180 / kPi);
       text += fmt::format("POINT Q{} = JOINT {} {} {} {} {} {}\n", i, d[0], d[1], d[2], d[3], d[4], d[5]);
@@ -127,20 +141,37 @@ std::string random_job(std::mt19937& random) {
         text += fmt::format("MOVL Q{}\n", along ? i % points : one_of(points));
     }
   }
-  return text;
+  return job;
+}
+
+// How far the tool is outside of its workspace, m.
+double outside(const Workspace& box, const Outputs& out) {
+  return box.outside(Vec3(out.position[0], out.position[1], out.position[2]) / 1000);
 }
 
 class Random_jobs : public testing::Test {
  protected:
   // What happened, by name.
   std::map<std::string, int> ends;
+  int boxes = 0;
+  // m, where axes brake by themselves: of a path that ran along a side of the box.
+  double most_outside = 0;
 
   void run(unsigned seed) {
     std::mt19937 random(seed);
     const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;
-    const std::string job = random_job(random);
+    const RandomJob made = random_job(random);
+    const std::string& job = made.text;
+    Settings settings;
+    if (seed % 4 == 1) {
+      ++boxes;
+      for (const Vec3& corner : {Vec3(made.low.array() - 0.002), Vec3(made.high.array() + 0.002)}) {
+        settings.workspace.insert(settings.workspace.end(), {1000 * corner[0], 1000 * corner[1], 1000 * corner[2]});
+      }
+    }
+    const Workspace box = Workspace::of(settings.workspace);
     std::unique_ptr<Cell> cell;
-    ASSERT_NO_THROW(cell = std::make_unique<Cell>(job, period_ms)) << job;
+    ASSERT_NO_THROW(cell = std::make_unique<Cell>(job, period_ms, 0, true, settings, cell_urdf())) << job;
     ASSERT_TRUE(cell->serve(Service::GroupEnable));
     Judge judge(period_ms / 1000);
     cell->in.service.job = 1;
@@ -158,6 +189,14 @@ class Random_jobs : public testing::Test {
       ASSERT_EQ(broken, "") << "seed " << seed << ", period " << i << " of " << period_ms << " ms, state "
                             << static_cast<int>(cell->out.state) << ", " << to_string(cell->out.error) << "\n"
                             << job;
+      const double beyond = outside(box, cell->out);
+      if (stays_on_its_path(cell->out.error)) {
+        ASSERT_LE(beyond, 1e-6) << "seed " << seed << ", period " << i << " of " << period_ms << " ms, "
+                                << to_string(cell->out.error) << "\n"
+                                << job;
+      } else {
+        most_outside = std::max(most_outside, beyond);
+      }
       if (i > 10 && cell->out.state != GroupState::Moving && cell->out.state != GroupState::Stopping) {
         break;
       }
@@ -166,6 +205,10 @@ class Random_jobs : public testing::Test {
   }
 
  private:
+  static bool stays_on_its_path(ErrorCode code) {
+    constexpr std::array kLeave{ErrorCode::Drive, ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk};
+    return std::find(kLeave.begin(), kLeave.end(), code) == kLeave.end();
+  }
   static void disturb(Cell& cell, std::mt19937& random) {
     switch (std::uniform_int_distribution<int>(0, 15)(random)) {
       case 0:
@@ -212,6 +255,8 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   for (const auto& [end, many] : ends) {
     fmt::print("{:6} {}\n", many, end);
   }
+  fmt::print("{} in a box; axes that braked by themselves came {:.1f} mm out of it at most\n", boxes,
+             1000 * most_outside);
 }
 
 // The same for single axes that are asked for one motion after the other.

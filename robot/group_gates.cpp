@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last gates before the drives: one of each axis, and the box that the tool stays in.
+
+#include <algorithm>
+
+#include "robot/group.h"
+
+namespace indurop::robot {
+
+namespace {
+
+constexpr std::size_t at(int axis) noexcept {
+  return static_cast<std::size_t>(axis);
+}
+
+}  // namespace
+
+// Paths were planned inside of the box, and a stop stays on them. Axes that move by themselves have to be able to come
+// to rest inside.
+bool Group::leaves_workspace() const noexcept {
+  const Workspace& box = places_.box();
+  const bool placed = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.placed_anew(); });
+  if (!box.known() || placed) {
+    return false;
+  }
+  Joints last = Joints::Zero();
+  for (int i = 0; i < count(); ++i) {
+    last[i] = gates_[at(i)].state().position;
+  }
+  const Vec3 next = parts_.arm.forward(commanded()).position;
+  const bool alone = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
+  return box.left(parts_.arm.forward(last).position, next) || (alone && !rests_inside(next));
+}
+
+// If all axes brake at once.
+bool Group::rests_inside(const Vec3& start) const noexcept {
+  constexpr int kLooks = 12;
+  std::array<Profile, kAxes> stops;
+  double longest = 0;
+  for (int i = 0; i < count(); ++i) {
+    const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
+    stops[at(i)] = Profile::to_velocity(axes_[at(i)].commanded(), 0, limits);
+    longest = std::max(longest, stops[at(i)].duration());
+  }
+  WayInside way(places_.box(), start);
+  for (int k = 1; k <= kLooks; ++k) {
+    Joints q = Joints::Zero();
+    for (int i = 0; i < count(); ++i) {
+      q[i] = stops[at(i)].at(longest * k / kLooks).position;
+    }
+    if (!way.next(parts_.arm.forward(q).position)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Nothing reaches a drive but through here.
+void Group::pass_gates() noexcept {
+  for (int i = 0; i < count(); ++i) {
+    if (axes_[at(i)].placed_anew()) {
+      gates_[at(i)].stand(axes_[at(i)].commanded().position);
+    }
+  }
+  for (int i = 0; i < count() && !braking_; ++i) {
+    const ErrorCode code = gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
+    if (code != ErrorCode::Ok && to_error_) {
+      leave_path(error_, hardness_);  // the first error is what the user has to know
+    } else if (code != ErrorCode::Ok) {
+      trip(code, i + 1, 1);
+    }
+  }
+  if (!braking_ && leaves_workspace()) {
+    trip(ErrorCode::Workspace, 0, 1);
+  }
+  for (int i = 0; i < count(); ++i) {
+    if (braking_) {
+      gates_[at(i)].brake(hardness_);
+      axes_[at(i)].put(gates_[at(i)].state());
+    } else {
+      gates_[at(i)].pass(axes_[at(i)].commanded().position);
+    }
+  }
+  if (std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); })) {
+    braking_ = false;
+    hardness_ = state_ == GroupState::Stopping ? hardness_ : 1;
+  }
+}
+
+}  // namespace indurop::robot
