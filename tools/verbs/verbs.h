@@ -29,6 +29,7 @@ extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
 extern const Verb kRecordVerb;
 extern const Verb kReplayVerb;
+extern const Verb kJoinVerb;
 extern const Verb kResetVerb;
 extern const Verb kRestartVerb;
 extern const Verb kRollbackVerb;

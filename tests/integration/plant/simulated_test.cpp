@@ -2,7 +2,9 @@
 // indurop run PLANT --sim: all boards in virtual time, the same on every run.
 
 #include <iterator>
+#include <map>
 
+#include "recording/mcap_reader.h"
 #include "turning_table_fixture.h"
 
 namespace indurop::test {
@@ -109,6 +111,38 @@ TEST_F(SimulatedPlant, A_board_that_crashes_leaves_the_others_and_the_code_tells
   EXPECT_TRUE(sut.says("board " + board("control") + " has ended; the others go on"));
   sut.signal(SIGINT);
   EXPECT_EQ(sut.wait(), 130);
+}
+
+TEST_F(SimulatedPlant, Is_replayed_board_by_board_and_joined_to_one_recording) {
+  (void)record({"--until", "1s", "--network", "jitter=900us,loss=0.05"});
+  const std::string sensor = path("r." + board("sensor") + ".mcap");
+  const std::string control = path("r." + board("control") + ".mcap");
+  for (const std::string& file : {sensor, control}) {
+    const Outcome again = indurop({"replay", file, "--node", board("replay")}).finish();
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("1000 ticks, 1000 runs, ")) << again.err;
+  }
+  const std::string one = path("one.mcap");
+  const Outcome joined = indurop({"join", sensor, control, "-o", one}).finish();
+  EXPECT_EQ(joined.code, 0) << joined.err;
+  EXPECT_THAT(joined.err, HasSubstr(" messages of " + board("sensor") + ", " + board("control")));
+  auto reader = recording::McapReader::open(one);
+  ASSERT_TRUE(reader.ok());
+  std::map<std::string, int> messages;
+  std::uint64_t last = 0;
+  for (auto next = reader->next(); next && *next; next = reader->next()) {
+    ++messages[reader->contents().channels.at((*next)->channel).topic];
+    EXPECT_GE((*next)->log_time_ns, last);
+    last = (*next)->log_time_ns;
+  }
+  EXPECT_GE(messages[board("sensor") + "/indurop/runs"], 1000);
+  EXPECT_GE(messages[board("control") + "/indurop/runs"], 1000);
+  EXPECT_GT(messages[board("control") + "/cell::encoder"], 900);
+  EXPECT_GT(messages[board("sensor") + "/cell::encoder"], 999);
+  const Outcome twice = indurop({"join", sensor, sensor, "-o", path("two.mcap")}).finish();
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_THAT(twice.err, HasSubstr("join one of each"));
+  EXPECT_EQ(indurop({"join", sensor, "-o", one}).wait(), 1) << "it is there already";
 }
 
 }  // namespace
