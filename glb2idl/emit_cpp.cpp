@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::size_t kLine = 100;  // bytes of schema text in one line
 
+// What a number is. The code of PLC programs, which needs less of it, chooses another one: each costs g++ time.
+constexpr std::string_view kLeaf = "::indurop::Leaf";
+constexpr std::string_view kChosenLeaf = "INDUROP_LEAF";
+
 // Names that end with a hash of the text they stand in; it is set when the text is complete.
 constexpr std::string_view kHidden = "indurop_generated_";
 constexpr std::string_view kHiddenSchema = "indurop_schema_";
@@ -73,6 +77,10 @@ class CppWriter {
     out_.line("#include <array>");
     out_.line("#include <cstddef>");
     out_.line("#include <cstdint>");
+    out_.line("");
+    out_.line("#ifndef {}", kChosenLeaf);
+    out_.line("#define {} {}", kChosenLeaf, kLeaf);
+    out_.line("#endif");
     for (const std::size_t other : unit_.includes) {
       out_.line("");
       out_.line("#include \"{}.glb.h\"", program_.units[other].stem);
@@ -238,8 +246,12 @@ class CppWriter {
       if (const auto* v = std::get_if<schema::Variable>(&item)) {
         out_.enter(scope_of(v->name));
         const std::string tag = fmt::format("::{}::var_{}", hidden_, mangled(v->name));
-        out_.line("inline constexpr {} {}{{::indurop::Place{{0}}, ::indurop::detail::Make{{}}}};{}",
-                  shape(v->type, tag, "0"), last_of(v->name), about(v->description, v->unit));
+        std::string type = shape(v->type, tag, "0");
+        if (type.starts_with(kLeaf)) {
+          type.replace(0, kLeaf.size(), kChosenLeaf);
+        }
+        out_.line("inline constexpr {} {}{{::indurop::Place{{0}}, ::indurop::detail::Make{{}}}};{}", type,
+                  last_of(v->name), about(v->description, v->unit));
       } else if (const auto* f = std::get_if<schema::Function>(&item)) {
         out_.enter(scope_of(f->name));
         std::string types;

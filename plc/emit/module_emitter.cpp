@@ -45,6 +45,7 @@ class ModuleEmitter {
     if (options_.debug != nullptr) {
       out_.line("#include <indurop/plc/debug.h>");
     }
+    out_.line("#define INDUROP_LEAF ::indurop::iec::SharedNumber");
     out_.line("#include <indurop/generated.h>");
     out_.line();
     out_.line("#include <array>");

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
+#include "plc/emit/body_parts.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/object_emitter.h"
 #include "plc/emit/statement_emitter.h"
@@ -58,9 +61,9 @@ void members(const Pou& pou, TextWriter& out) {
 }
 
 // Locals of the call: VAR_TEMP, and inputs of which only the edge counts.
-void locals(const Pou& pou, TextWriter& out) {
+void locals(const Pou& pou, const BodyParts& parts, TextWriter& out) {
   for (const Variable& one : pou.variables) {
-    if (one.section == Section::Temp) {
+    if (one.section == Section::Temp && !parts.is_local(one)) {
       out.line("[[maybe_unused]] " + declaration(one));
     }
     if (one.declared->edge != ast::Edge::None) {
@@ -87,17 +90,30 @@ void declare_block(const Pou& pou, TextWriter& out) {
 }
 
 // Statements, from the place on where all variables are known.
-void code(const Pou& pou, TextWriter& out, DebugTable* debug) {
+void code(const Pou& pou, const BodyParts& parts, TextWriter& out, DebugTable* debug) {
   if (debug != nullptr) {
     emit_frame(pou, *debug, out);
   }
-  StatementEmitter(pou, out, debug).list(pou.tree->body);
+  StatementEmitter statements(pou, out, debug);
+  for (const BodyParts::Part& part : parts.parts()) {
+    if (part.alone) {
+      out.open("[&]() __attribute__((noinline))");
+    }
+    for (const Variable* one : part.locals) {
+      out.line("[[maybe_unused]] " + declaration(*one));
+    }
+    statements.list(std::span(pou.tree->body).subspan(part.begin, part.end - part.begin));
+    if (part.alone) {
+      out.close("();");
+    }
+  }
 }
 
 void define_block(const Pou& pou, TextWriter& out, DebugTable* debug) {
+  const BodyParts parts(pou, debug == nullptr);
   out.open(fmt::format("inline void {}::operator()([[maybe_unused]] const iec::Scan& scan)", cpp_name_of(pou)));
-  locals(pou, out);
-  code(pou, out, debug);
+  locals(pou, parts, out);
+  code(pou, parts, out, debug);
   out.close();
 }
 
@@ -131,7 +147,8 @@ void define_callable(const Pou& pou, TextWriter& out, DebugTable* debug) {
                (one.is_constant ? "const " : "") + declaration(one));
     }
   }
-  code(pou, out, pou.name.starts_with('@') ? nullptr : debug);  // it stands in no line of the user
+  code(pou, BodyParts(pou, false), out,
+       pou.name.starts_with('@') ? nullptr : debug);  // it stands in no line of the user
   if (pou.result != nullptr) {
     out.line(fmt::format("return {};", ExpressionEmitter::result_name(pou)));
   }

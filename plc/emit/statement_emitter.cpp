@@ -6,6 +6,7 @@
 #include "plc/check/expression_checker.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/loop_check.h"
+#include "plc/lower/flow.h"
 
 namespace indurop::plc {
 namespace {
@@ -22,6 +23,17 @@ const Type& boolean() {
   return kType;
 }
 
+// A statement of the running view: 3 of _flow[3] := ...
+std::optional<std::uint64_t> flow_point(const Statement& one) {
+  if (one.kind != Statement::Kind::Assign || one.target->kind != Expression::Kind::Index) {
+    return std::nullopt;
+  }
+  const Expression& array = one.target->operands[0];
+  const bool made = array.resolved && array.resolved->variable != nullptr && array.resolved->variable->declared->made;
+  return made && lower::is_flow(array.name) ? std::optional(std::get<std::uint64_t>(one.target->operands[1].value))
+                                            : std::nullopt;
+}
+
 Type without_range(const Type& type) {
   Type plain = type;
   plain.range.reset();
@@ -30,12 +42,34 @@ Type without_range(const Type& type) {
 
 }  // namespace
 
-void StatementEmitter::list(const ast::Body& body) {
-  for (const Statement& one : body) {
+void StatementEmitter::list(std::span<const Statement> body) {
+  for (std::size_t i = 0; i < body.size();) {
+    if (const std::size_t told = flow(body.subspan(i)); told > 0) {
+      i += told;
+      continue;
+    }
+    const Statement& one = body[i++];
     comment(one.comment);
     tell_line(one);
     statement(one);
   }
+}
+
+// What is told of the power in a network, at once: thousands of single assignments would take g++ longer than the rest.
+std::size_t StatementEmitter::flow(std::span<const Statement> body) {
+  const std::optional<std::uint64_t> first = flow_point(body[0]);
+  if (!first) {
+    return 0;
+  }
+  std::string row;
+  std::size_t points = 0;
+  while (points < body.size() && flow_point(body[points]) == *first + points) {
+    row += (points > 0 ? ", " : "") + condition(*body[points].value);
+    ++points;
+  }
+  out_.line(fmt::format("iec::put_flow({}, {}, std::array<bool, {}>{{{}}});",
+                        expressions_.variable(body[0].target->operands[0]), *first, points, row));
+  return points;
 }
 
 void StatementEmitter::tell_line(const Statement& one) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "plc/emit/debug_table.h"
@@ -16,9 +17,10 @@ class StatementEmitter {
   StatementEmitter(const Pou& pou, TextWriter& out, DebugTable* debug)
       : pou_(pou), out_(out), debug_(debug), expressions_(pou) {}
 
-  void list(const ast::Body& body);
+  void list(std::span<const ast::Statement> body);
 
  private:
+  std::size_t flow(std::span<const ast::Statement> body);
   void tell_line(const ast::Statement& one);
   void statement(const ast::Statement& one);
   void assign(const ast::Statement& one);

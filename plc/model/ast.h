@@ -233,6 +233,7 @@ struct Variable {
   bool non_retain = false;       // also where the instance around it is RETAIN
   bool is_static = false;        // VAR_STAT: one for all instances, or of a function: kept from call to call
   bool of_instance = false;      // VAR_INST of a method: kept in the instance
+  bool made = false;             // what a drawing or a list needs, not the text
   std::optional<Access> access;  // VAR PUBLIC
   Edge edge = Edge::None;
   std::string comment;

@@ -155,6 +155,7 @@ ast::TypeSpec inferred_type(const Place& at) {
 ast::Variable variable(ast::Section section, std::string name, ast::TypeSpec type) {
   ast::Variable made;
   made.section = section;
+  made.made = true;
   made.at = type.at;
   made.name = std::move(name);
   made.type = std::move(type);

@@ -22,20 +22,24 @@ void each_expression(Expression& expression, const Visit& visit) {
   }
 }
 
+void each_expression(Statement& statement, const Visit& visit) {
+  for (auto* part : {&statement.target, &statement.value, &statement.to, &statement.by}) {
+    each_expression(*part, visit);
+  }
+  for (Branch& branch : statement.branches) {
+    each_expression(branch.condition, visit);
+    for (CaseLabel& label : branch.labels) {
+      each_expression(label.low, visit);
+      each_expression(label.high, visit);
+    }
+    each_expression(branch.body, visit);
+  }
+  each_expression(statement.body, visit);
+}
+
 void each_expression(Body& body, const Visit& visit) {
   for (Statement& one : body) {
-    for (auto* part : {&one.target, &one.value, &one.to, &one.by}) {
-      each_expression(*part, visit);
-    }
-    for (Branch& branch : one.branches) {
-      each_expression(branch.condition, visit);
-      for (CaseLabel& label : branch.labels) {
-        each_expression(label.low, visit);
-        each_expression(label.high, visit);
-      }
-      each_expression(branch.body, visit);
-    }
-    each_expression(one.body, visit);
+    each_expression(one, visit);
   }
 }
 

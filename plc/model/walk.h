@@ -13,6 +13,7 @@ using Visit = std::function<void(Expression&)>;
 
 // The expression itself, then what is in it, as the visit left it.
 void each_expression(Expression& expression, const Visit& visit);
+void each_expression(Statement& statement, const Visit& visit);
 void each_expression(Body& body, const Visit& visit);
 void each_expression(Initial& initial, const Visit& visit);
 

@@ -15,13 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether a line calls something in the code, or in our headers below it, an error.
+// Whether a line calls something in the code, or in our headers and those of the variables, an error.
 bool blames_code(const std::string& log, const fs::path& code) {
   for (std::size_t from = 0; from < log.size();) {
     const std::size_t end = std::min(log.find('\n', from), log.size());
     const std::string line = log.substr(from, end - from);
     const std::size_t error = line.find("error: ");
-    const std::size_t place = std::min(line.find(code.filename().string() + ":"), line.find("indurop/"));
+    const std::size_t place =
+        std::min({line.find(code.filename().string() + ":"), line.find("indurop/"), line.find(".glb.h:")});
     if (error != std::string::npos && place < error) {
       return true;
     }

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
 #include "base/read_file.h"
 
 namespace indurop::tools {
@@ -18,6 +22,31 @@ bool read_plc_file(Context& context, const std::string& file, std::string& bytes
   }
   bytes = std::move(*content);
   return true;
+}
+
+std::vector<std::string> with_project_files(const std::vector<std::string>& files) {
+  namespace fs = std::filesystem;
+  constexpr std::array<std::string_view, 5> kEndings{".dt", ".st", ".il", ".ld", ".fbd"};
+  std::vector<std::string> out;
+  for (const std::string& one : files) {
+    out.push_back(one);
+    if (fs::path(one).filename() != "project.json") {
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const char* folder : {"datatypes", "pous"}) {
+      std::error_code error;
+      for (const auto& entry : fs::recursive_directory_iterator(fs::path(one).parent_path() / folder, error)) {
+        if (std::find(kEndings.begin(), kEndings.end(), entry.path().extension()) != kEndings.end()) {
+          found.push_back(entry.path().string());
+        }
+      }
+    }
+    std::sort(found.begin(), found.end());
+    std::copy_if(found.begin(), found.end(), std::back_inserter(out),
+                 [&](const std::string& file) { return std::find(files.begin(), files.end(), file) == files.end(); });
+  }
+  return out;
 }
 
 void print_diagnostics(Context& context, const std::vector<base::Diagnostic>& diagnostics) {

@@ -8,6 +8,7 @@
 #include <indurop/plc/clock.h>
 #include <indurop/plc/log.h>
 #include <indurop/plc/types.h>
+#include <indurop/var.h>
 
 #include <algorithm>
 #include <array>
@@ -59,6 +60,18 @@ void write_changed(const Shared& to, const T& now, const T& before) {
     to = value;
   }
 }
+
+// A shared number as programs need it: of thousands, an indurop::Leaf each would take g++ longer than the program.
+template <class Tag, class T, std::uint32_t Offset>
+struct SharedNumber {
+  using whole_type = T;
+  using tag_type = Tag;
+  indurop::Place place;
+
+  constexpr SharedNumber(indurop::Place at, indurop::detail::Make /*unused*/) noexcept : place(at) {}
+  [[nodiscard]] T get() const noexcept { return indurop::detail::load<Tag, T>(Offset); }
+  void operator=(T value) const noexcept { indurop::detail::store<Tag, T>(Offset, value); }  // NOLINT(*assign*)
+};
 
 // A number of the program that is shared.
 struct SharedWord {

@@ -53,4 +53,10 @@ class Watch {
   std::uint8_t* to_;
 };
 
+// The power at some points of a drawn body, from the first on.
+template <std::size_t Points, std::size_t N>
+void put_flow(std::array<bool, Points>& to, std::size_t first, const std::array<bool, N>& power) noexcept {
+  std::memcpy(to.data() + first, power.data(), N);
+}
+
 }  // namespace indurop::iec

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes ladder programs as PLCopen XML in the manner of an editor that draws on a grid. ladder.py RUNGS > big.xml"""
+"""Writes ladder programs as PLCopen XML in the manner of an editor that draws on a grid. ladder.py RUNGS [INPUTS] > big.xml"""
 
 import sys
 from xml.sax.saxutils import escape
@@ -100,13 +100,13 @@ def project(name, variables, body, interval="T#10ms"):
 </project>"""
 
 
-def many_rungs(count):
+def many_rungs(count, inputs=64):
     """Every rung: two inputs in series, the coil before in parallel, a negated contact, a coil; every tenth has a timer.
-    64 inputs, 64 outputs: what the rungs compute is used."""
+    64 outputs: what the rungs compute is used."""
     ladder = Ladder()
-    variables = [variable(f"x{i}", "BOOL", f"%IX{i // 8}.{i % 8}") for i in range(64)]
+    variables = [variable(f"x{i}", "BOOL", f"%IX{i // 8}.{i % 8}") for i in range(inputs)]
     for i in range(count):
-        name = [f"x{(i * k + k) % 64}" for k in (1, 5, 23)]
+        name = [f"x{(i * k + k) % inputs}" for k in (1, 5, 23)]
         before = f"y{i - 1}" if i > 0 else "x0"
         first = ladder.contact(0, 0, name[0], RAIL)
         series = ladder.contact(1, 0, name[1], first)
@@ -124,4 +124,4 @@ def many_rungs(count):
 
 
 if __name__ == "__main__":
-    print(many_rungs(int(sys.argv[1])))
+    print(many_rungs(*(int(one) for one in sys.argv[1:3])))

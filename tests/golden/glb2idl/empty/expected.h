@@ -8,5 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace indurop_generated_6341eecd73d2a987 __attribute__((visibility("hidden"))) {
-}  // namespace indurop_generated_6341eecd73d2a987
+#ifndef INDUROP_LEAF
+#define INDUROP_LEAF ::indurop::Leaf
+#endif
+
+namespace indurop_generated_620d145e4b82941e __attribute__((visibility("hidden"))) {
+}  // namespace indurop_generated_620d145e4b82941e

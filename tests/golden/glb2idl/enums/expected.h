@@ -8,7 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_2101c484ad6076d8,comdat
+#ifndef INDUROP_LEAF
+#define INDUROP_LEAF ::indurop::Leaf
+#endif
+
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_15f713e65ad51e9e,comdat
 .ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
 .ascii "\"values\":[[\"SLOW\",0],[\"FAST\",1]]},\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:5\"},{\"name\":"
 .ascii "\"demo::mode\",\"type\":{\"base\":\"enum\",\"name\":\"demo::Mode\",\"values\":[[\"OFF\",0],[\"AUTO\",1],[\"MANUAL\",2]]}"
@@ -46,7 +50,7 @@ inline constexpr ::demo::Mode DEFAULT_MODE{static_cast<::demo::Mode>(1)};
 inline constexpr ::demo::Mode START_MODE{static_cast<::demo::Mode>(0)};
 }  // namespace demo
 
-namespace indurop_generated_2101c484ad6076d8 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_15f713e65ad51e9e __attribute__((visibility("hidden"))) {
 inline constexpr ::demo::speed_t initial_demo_speed{::demo::FAST};
 inline constexpr ::demo::Mode initial_demo_mode{::demo::AUTO};
 inline constexpr ::std::array<::demo::Gear, 2> initial_demo_gears{{::demo::DRIVE}};
@@ -111,12 +115,12 @@ union ref_demo_Motor {
   INDUROP_UNION_SHAPE(ref_demo_Motor)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_2101c484ad6076d8
+}  // namespace indurop_generated_15f713e65ad51e9e
 
 namespace demo {
-inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_2101c484ad6076d8::ref_demo_Motor<::indurop_generated_2101c484ad6076d8::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Leaf<::indurop_generated_2101c484ad6076d8::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_15f713e65ad51e9e::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_15f713e65ad51e9e::ref_demo_Motor<::indurop_generated_15f713e65ad51e9e::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

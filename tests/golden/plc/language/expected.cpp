@@ -2,6 +2,7 @@
 #include <indurop/indurop.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
+#define INDUROP_LEAF ::indurop::iec::SharedNumber
 #include <indurop/generated.h>
 
 #include <array>

@@ -2,6 +2,7 @@
 #include <indurop/indurop.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
+#define INDUROP_LEAF ::indurop::iec::SharedNumber
 #include <indurop/generated.h>
 
 #include <array>
@@ -96,6 +97,7 @@ INDUROP_MODULE(run = &::run, name = "golden_fast")
 #include <indurop/indurop.h>
 #include <indurop/plc/library.h>
 #include <indurop/plc/program.h>
+#define INDUROP_LEAF ::indurop::iec::SharedNumber
 #include <indurop/generated.h>
 
 #include <array>
