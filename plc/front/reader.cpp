@@ -14,6 +14,7 @@
 #include "plc/library/standard.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/pou.h"
+#include "plc/openplc/read_files.h"
 #include "plc/plcopen/read_project.h"
 #include "plc/st/parser.h"
 #include "plc/twincat/read_object.h"
@@ -57,10 +58,24 @@ Project read_xml(std::string_view text, const Place& at, const ReadOptions& opti
   return plcopen::read_project(text, at.file == nullptr ? std::string() : *at.file, options, diagnostics);
 }
 
-plcopen::Document st_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> bodies;
+Project read_openplc(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> others;
+  Project project = openplc::read_project(text, at, &st::parse_project, others, diagnostics);
+  lower_bodies(others, project, options, diagnostics);
+  return project;
+}
+
+template <network::Body::Language Language>
+Project read_drawn(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> others;
+  Project project = openplc::read_drawn(text, at, Language, others, diagnostics);
+  lower_bodies(others, project, options, diagnostics);
+  return project;
+}
+
+plcopen::Document document_of(Project project, std::vector<st::WrittenBody> bodies) {
   plcopen::Document out;
-  out.project = st::parse_declarations({text, at}, bodies, diagnostics);
+  out.project = std::move(project);
   for (ast::Pou& pou : out.project.pous) {
     out.pous.push_back({std::move(pou), {}, {}});
   }
@@ -71,6 +86,25 @@ plcopen::Document st_document(std::string_view text, const Place& at, Diagnostic
   return out;
 }
 
+plcopen::Document st_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> bodies;
+  Project project = st::parse_declarations({text, at}, bodies, diagnostics);
+  return document_of(std::move(project), std::move(bodies));
+}
+
+plcopen::Document openplc_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> bodies;
+  Project project = openplc::read_project(text, at, &st::parse_declarations, bodies, diagnostics);
+  return document_of(std::move(project), std::move(bodies));
+}
+
+template <network::Body::Language Language>
+plcopen::Document drawn_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> bodies;
+  Project project = openplc::read_drawn(text, at, Language, bodies, diagnostics);
+  return document_of(std::move(project), std::move(bodies));
+}
+
 plcopen::Document xml_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
   return plcopen::read_document(text, at.file == nullptr ? std::string() : *at.file, diagnostics);
 }
@@ -78,11 +112,21 @@ plcopen::Document xml_document(std::string_view text, const Place& at, Diagnosti
 }  // namespace
 
 std::span<const FileType> file_types() {
+  using network::Body;
   static constexpr std::array kTypes{
-      FileType{".st", &read_st, &st_document}, FileType{".xml", &read_xml, &xml_document},
-      FileType{".TcPOU", &read_twincat},       FileType{".TcDUT", &read_twincat},
-      FileType{".TcGVL", &read_twincat},       FileType{".TcIO", &read_twincat},
-      FileType{".TcTTO", &read_twincat},       FileType{".exp", &read_st, &st_document}};
+      FileType{".st", &read_st, &st_document},
+      FileType{".xml", &read_xml, &xml_document},
+      FileType{".TcPOU", &read_twincat},
+      FileType{".TcDUT", &read_twincat},
+      FileType{".TcGVL", &read_twincat},
+      FileType{".TcIO", &read_twincat},
+      FileType{".TcTTO", &read_twincat},
+      FileType{".exp", &read_st, &st_document},
+      FileType{".il", &read_st, &st_document},
+      FileType{".dt", &read_st, &st_document},
+      FileType{".ld", &read_drawn<Body::Language::Ld>, &drawn_document<Body::Language::Ld>},
+      FileType{".fbd", &read_drawn<Body::Language::Fbd>, &drawn_document<Body::Language::Fbd>},
+      FileType{"project.json", &read_openplc, &openplc_document}};
   return kTypes;
 }
 
@@ -188,7 +232,8 @@ class FileReader {
     Place at = place_of(file);
     const FileType* type = type_of(file);
     if (type == nullptr || type->read_document == nullptr) {
-      diagnostics_.error(at, "files of TwinCAT are not read here, only .st, .exp and PLCopen .xml");
+      diagnostics_.error(
+          at, "files of TwinCAT are not read here, only texts, PLCopen .xml and those of the OpenPLC Editor");
       return;
     }
     const auto text = bytes_of(file);

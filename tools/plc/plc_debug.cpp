@@ -84,6 +84,7 @@ void end(pid_t process) {
 
 int debug(Context& context, Request& request) {
   request.compile.debug = true;
+  request.compile.files = with_project_files(request.compile.files);
   const plc::Compiled compiled = plc::compile(request.compile);
   print_diagnostics(context, compiled.diagnostics);
   if (!compiled.ok) {

@@ -27,7 +27,8 @@ std::string now() {
 
 int export_plc(Context& context, const Request& request) {
   plc::Diagnostics diagnostics;
-  const plc::plcopen::Document document = plc::read_document(request.files, &glb2idl::read_source_file, diagnostics);
+  const plc::plcopen::Document document =
+      plc::read_document(with_project_files(request.files), &glb2idl::read_source_file, diagnostics);
   plc::plcopen::WriteOptions options;
   options.name = std::filesystem::path(request.files.front()).stem().string();
   options.created = now();
@@ -56,7 +57,8 @@ void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
   base::Options& made =
       app.command("export", "Write a program as PLCopen XML, which Beremiz, the OpenPLC editor and CODESYS import",
                   [request, chosen] { *chosen = [request](Context& c) { return export_plc(c, *request); }; });
-  made.add("files", "FILE", request->files, "The program: .st and PLCopen .xml files").required();
+  made.add("files", "FILE", request->files, "The program: .st, PLCopen .xml or the OpenPLC Editor's project.json")
+      .required();
   made.add("-o,--output", "FILE.xml", request->output, "Where to write it (default: to the terminal)");
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/replace_file.h"
+#include "plc/front/reader.h"
 #include "plc/print/print.h"
 #include "tools/plc/plc_file.h"
 
@@ -11,7 +12,7 @@ namespace indurop::tools {
 namespace {
 
 struct Request {
-  std::string file;
+  std::vector<std::string> files;
   std::string svg;
   std::string pou;
 };
@@ -25,12 +26,9 @@ std::string names_of(const plc::plcopen::Document& document) {
 }
 
 int print(Context& context, const Request& request) {
-  std::string bytes;
-  if (!read_plc_file(context, request.file, bytes)) {
-    return kFailed;
-  }
   plc::Diagnostics diagnostics;
-  plc::plcopen::Document document = plc::plcopen::read_document(bytes, request.file, diagnostics);
+  plc::plcopen::Document document =
+      plc::read_document(with_project_files(request.files), &glb2idl::read_source_file, diagnostics);
   const auto bodies = plc::printed_bodies(document, request.pou);
   const bool only_svg = !request.svg.empty();
   const std::string out = diagnostics.failed() ? std::string()
@@ -42,8 +40,9 @@ int print(Context& context, const Request& request) {
   }
   if (bodies.empty()) {
     const std::string names = names_of(document);
-    context.out.error(names.empty() ? fmt::format("{} has no program to print, only types or variables", request.file)
-                                    : fmt::format("{} has no POU '{}'; it has {}", request.file, request.pou, names));
+    const std::string shown = request.files.size() == 1 ? request.files.front() : "the program";
+    context.out.error(names.empty() ? fmt::format("{} has no program to print, only types or variables", shown)
+                                    : fmt::format("{} has no POU '{}'; it has {}", shown, request.pou, names));
     return kFailed;
   }
   if (!only_svg) {
@@ -63,9 +62,10 @@ int print(Context& context, const Request& request) {
 void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
   auto request = std::make_shared<Request>();
   base::Options& made =
-      app.command("print", "Print the networks of a PLCopen XML file as text or as a picture",
+      app.command("print", "Print a program, its networks as text or as a picture",
                   [request, chosen] { *chosen = [request](Context& c) { return print(c, *request); }; });
-  made.add("file", "FILE.xml", request->file, "PLCopen XML file").required();
+  made.add("files", "FILE", request->files, "The program: .st, PLCopen .xml or the OpenPLC Editor's project.json")
+      .required();
   made.add("--svg", "FILE", request->svg, "Draw the networks into this SVG file instead");
   made.add("--pou", "NAME", request->pou, "This program, function or function block only");
 }

@@ -4,7 +4,8 @@
 namespace indurop::tools {
 
 void add_plc_sources(base::Options& app, plc::CompileOptions& request) {
-  app.add("files", "FILE", request.files, "The program: .st, PLCopen .xml, TwinCAT .plcproj or .TcPOU files")
+  app.add("files", "FILE", request.files,
+          "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
       .required();
   app.add("--lib", "FILE", request.libraries,
           "A library the program uses, motors-1.2.0.plclib; FILE@1.2 asks for at least this version (repeatable)")

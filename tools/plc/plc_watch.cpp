@@ -92,7 +92,8 @@ class View {
   std::size_t last_ = 0;
 };
 
-int watch(Context& context, const Request& request) {
+int watch(Context& context, Request& request) {
+  request.compile.files = with_project_files(request.compile.files);
   plc::WatchPlan plan = plc::watch_plan(request.compile);
   if (!plan.ok) {
     print_diagnostics(context, plan.diagnostics);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of the OpenPLC Editor, from version 4 on: project.json with types, globals and tasks, and one file for each
+// POU. Texts (.st, .il, .dt) are those of the standard; drawn POUs (.ld, .fbd) are a text with a drawing in JSON
+// inside.
+
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+#include "plc/st/parser.h"
+
+namespace indurop::plc::openplc {
+
+// Reads the text of one POU or declaration: st::parse_project() or st::parse_declarations().
+using TextReader = Project (*)(const st::Text& text, std::vector<st::WrittenBody>& others, Diagnostics& diagnostics);
+
+// What has errors is left out. `others`: bodies that are no Structured Text.
+[[nodiscard]] Project read_project(std::string_view json, const Place& at, TextReader read,
+                                   std::vector<st::WrittenBody>& others, Diagnostics& diagnostics);
+[[nodiscard]] Project read_drawn(std::string_view text, const Place& at, network::Body::Language language,
+                                 std::vector<st::WrittenBody>& others, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::openplc
