@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "base/duration.h"
-#include "config/measured_times.h"
+#include "config/check/report_times.h"
 #include "config/network_option.h"
 #include "config/xml/plant_rules.h"
 

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "config/check/access_map.h"
 #include "config/check/check_parts.h"
+#include "config/check/report_times.h"
 #include "scheduler/placement.h"
 
 namespace indurop::config {
@@ -29,6 +30,7 @@ class Placer {
     if (!find_cores()) {
       return;
     }
+    read_times();
     order_ = execution_order(result_);
     order_.resize(result_.periodic.size());
     scheduler::PlacementProblem problem = make_problem();
@@ -63,13 +65,27 @@ class Placer {
     return true;
   }
 
+  void read_times() {
+    if (!config_.cores->times.empty()) {
+      if (const std::string wrong = read_measured_times(config_.cores->times.string(), times_); !wrong.empty()) {
+        context_.report.warning(config_.cores->place, "<cores>: " + wrong);
+      }
+    }
+  }
+  // 0: not known.
+  [[nodiscard]] base::Nanos time_of(const Module& module) const {
+    const auto measured = times_.find(module.name);
+    return module.wcet > base::Nanos::zero() || measured == times_.end() ? module.wcet : measured->second;
+  }
+
   // Time of a module that does not say it: what the others take on average.
   [[nodiscard]] base::Nanos assumed_time() const {
     base::Nanos sum{};
     std::int64_t known = 0;
     for (const std::size_t i : order_) {
-      sum += config_.modules[i].wcet;
-      known += config_.modules[i].wcet > base::Nanos::zero() ? 1 : 0;
+      const base::Nanos time = time_of(config_.modules[i]);
+      sum += time;
+      known += time > base::Nanos::zero() ? 1 : 0;
     }
     return known > 0 ? sum / known : kUnknownTime;
   }
@@ -89,7 +105,8 @@ class Placer {
       Placeable placed;
       placed.period = module.period;
       placed.offset = module.offset;
-      placed.execution = module.wcet > base::Nanos::zero() ? module.wcet : assumed;
+      const base::Nanos time = time_of(module);
+      placed.execution = time > base::Nanos::zero() ? time : assumed;
       placed.deadline =
           module.deadline > base::Nanos::zero() ? std::min(module.deadline, module.period) : module.period;
       placed.keeps_offset = module.places.offset.line > 0;
@@ -103,7 +120,7 @@ class Placer {
           placed.core = static_cast<int>(bound - cores_.begin());
         }
       }
-      if (module.wcet == base::Nanos::zero()) {
+      if (time == base::Nanos::zero()) {
         untold.push_back(module.name);
       }
       problem.modules.push_back(placed);
@@ -215,6 +232,7 @@ class Placer {
   Config& config_;
   CheckResult& result_;
   std::vector<int> cores_;
+  CheckOptions::Times times_;
   std::vector<std::size_t> order_;  // periodic modules as they execute
 };
 

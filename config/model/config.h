@@ -93,8 +93,9 @@ struct SpinSetting {
 
 // <cores>: modules without a <core> are spread over several.
 struct CoresSetting {
-  int most = 0;                // so many; 0: all this process may use
-  bool split_sharing = false;  // also modules that share data, which then wait for one another
+  int most = 0;                 // so many; 0: all this process may use
+  bool split_sharing = false;   // also modules that share data, which then wait for one another
+  std::filesystem::path times;  // report with execution times of modules without <wcet>; empty: none
   base::SourcePlace place;
 };
 inline constexpr int kMostSpreadCores = 64;

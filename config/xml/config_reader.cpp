@@ -74,7 +74,7 @@ class ConfigReader {
   }
 
   void read_cores(const base::Element& e) {
-    check_attributes(e, {"sharing"}, report_);
+    check_attributes(e, {"sharing", "times"}, report_);
     if (!is_leaf(e, report_)) {
       return;
     }
@@ -88,6 +88,9 @@ class ConfigReader {
       return;
     }
     cores.most = static_cast<int>(*most);
+    if (const base::Attribute* times = find_attribute(e, "times"); times != nullptr && !times->value.empty()) {
+      cores.times = (folder_ / times->value).lexically_normal();
+    }
     if (const base::Attribute* sharing = find_attribute(e, "sharing"); sharing != nullptr) {
       cores.split_sharing = sharing->value == "split";
       if (!cores.split_sharing && sharing->value != "together") {

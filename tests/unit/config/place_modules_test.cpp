@@ -95,6 +95,22 @@ TEST_F(PlaceModules, Times_that_nobody_knows_are_assumed_and_said) {
               Not(Contains(HasSubstr("not known"))));
 }
 
+TEST_F(PlaceModules, Times_may_come_from_a_report_of_a_run_before) {
+  for (const char* name : {"a.so", "b.so", "c.so"}) {
+    write(name, {}, {});
+  }
+  std::ofstream(folder_ / "report.json") << R"({"modules": [{"name": "a", "exec_ns": {"max": 500000}},
+    {"name": "b", "exec_ns": {"max": 300000}}, {"name": "c", "exec_ns": {"max": 100000}}]})";
+  const std::string modules =
+      periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2) + periodic("c.so", "1ms", 3, wcet("150us"));
+  const Checked sut = of(modules, "<cores times=\"report.json\">2</cores>");
+  EXPECT_THAT(sut.lines(), Not(Contains(HasSubstr("not known"))));
+  EXPECT_EQ(core(sut, "b"), core(sut, "c"));
+  EXPECT_NE(core(sut, "a"), core(sut, "b"));
+  EXPECT_THAT(plan_why(sut.config, sut.result), HasSubstr("c    150 us")) << "<wcet> counts first";
+  EXPECT_THAT(of(modules, "<cores times=\"none.json\">2</cores>").lines(), Contains(HasSubstr("warning: <cores>: ")));
+}
+
 TEST_F(PlaceModules, More_than_this_machine_has_is_an_error_where_it_is_to_run) {
   write("a.so", {}, {});
   const std::string xml = root("<cores>64</cores>" + periodic("a.so", "1ms", 1));

@@ -103,7 +103,7 @@ TEST(After, Names_a_module_that_is_earlier_in_the_order) {
 
 TEST(Cores, Are_auto_or_a_number_and_keep_together_what_shares_data_unless_told) {
   const auto setting = [](const std::string& text) {
-    return config_of(root(text + periodic("a.so", "1ms", 1))).cores.value_or(CoresSetting{-1, false, {}});
+    return config_of(root(text + periodic("a.so", "1ms", 1))).cores.value_or(CoresSetting{-1, false, {}, {}});
   };
   EXPECT_EQ(setting("").most, -1);
   EXPECT_EQ(setting("<cores>auto</cores>").most, 0);
