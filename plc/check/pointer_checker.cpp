@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "plc/check/call_checker.h"
 #include "plc/check/expression_checker.h"
@@ -20,6 +21,14 @@ using Meaning = Resolved::Meaning;
 bool is_zero(const Expression& expression) noexcept {
   const Constant* known = constant_of(expression);
   return known != nullptr && expression.resolved->untyped && *known == Constant(Integer{0});
+}
+
+// The same before it was looked at.
+bool is_null(const Expression& expression) noexcept {
+  const auto* number = std::get_if<std::uint64_t>(&expression.value);
+  return expression.kind == Expression::Kind::Literal
+             ? number != nullptr && *number == 0
+             : expression.kind == Expression::Kind::Name && same_name(expression.name, "NULL");
 }
 
 }  // namespace
@@ -65,8 +74,8 @@ const Type* ExpressionChecker::reference_itself(Expression& expression) {
 }
 
 bool ExpressionChecker::bind(Expression& expression, const Type& to) {
-  if (is_zero(expression)) {
-    return true;
+  if (is_null(expression)) {
+    return value(expression, nullptr) != nullptr;
   }
   const Type* type = reference(expression);
   if (type == nullptr || is_open(expression)) {

@@ -76,6 +76,24 @@ constexpr std::array<Split, 6> kSplits{{{"DATE", kSplitDay},
                                         {"DT", kSplitBoth},
                                         {"LDT", kSplitBoth}}};
 
+// ADSLOGSTR of TwinCAT: a line of the module's log. What it calls last has no name in the language.
+constexpr std::string_view kAdsLog = R"(FUNCTION ADSLOGSTR : DINT
+VAR_INPUT msgCtrlMask : DWORD; msgFmtStr, strArg : STRING[255]; END_VAR
+VAR at_, level_ : INT; text_ : STRING[255]; END_VAR
+text_ := msgFmtStr;
+at_ := FIND(text_, '%s');
+IF at_ > 0 THEN text_ := REPLACE(text_, strArg, 2, at_); END_IF;
+level_ := SEL(msgCtrlMask.2, SEL(msgCtrlMask.1, 2, 1), 0);
+ADSLOGSTR := 0;
+END_FUNCTION
+)";
+struct LogType {
+  std::string_view name;
+  int value;
+};
+constexpr std::array<LogType, 6> kAdsLogTypes{
+    {{"HINT", 1}, {"WARN", 2}, {"ERROR", 4}, {"LOG", 16}, {"MSGBOX", 32}, {"STRING", 128}}};
+
 std::set<std::string> called_functions(Project& project) {
   std::set<std::string> names;
   const ast::Visit note = [&](ast::Expression& one) {
@@ -165,8 +183,29 @@ ast::Body logger_body(const Place& at) {
 
 namespace {
 
-void add_splits(Project& project) {
+void add_ads_log(Project& project) {
+  std::string text(kAdsLog);
+  for (const LogType& one : kAdsLogTypes) {
+    const std::string name = fmt::format("ADSLOG_MSGTYPE_{}", one.name);
+    const bool known = std::any_of(project.globals.begin(), project.globals.end(),
+                                   [&](const ast::Variable& each) { return same_name(each.name, name); });
+    text += known ? "" : fmt::format("VAR_GLOBAL CONSTANT {} : DWORD := {}; END_VAR\n", name, one.value);
+  }
+  Project made = parsed(text, "the library Tc2_System");
+  ast::Pou& pou = made.pous.front();
+  std::vector<ast::Argument> values;
+  values.push_back(make::argument("", make::name(pou.at, "level_")));
+  values.push_back(make::argument("", make::name(pou.at, "text_")));
+  pou.body.push_back(
+      make::call_statement(make::call(pou.at, make::name(pou.at, std::string(kLogMessage)), std::move(values))));
+  append(project, std::move(made));
+}
+
+void add_functions(Project& project) {
   const std::set<std::string> called = called_functions(project);
+  if (called.contains("ADSLOGSTR") && !declares(project, "ADSLOGSTR")) {
+    add_ads_log(project);
+  }
   std::string text;
   for (const Split& one : kSplits) {
     const std::string name = fmt::format("SPLIT_{}", one.name);
@@ -182,7 +221,7 @@ void add_splits(Project& project) {
 }  // namespace
 
 void add_builtin(Project& project) {
-  add_splits(project);
+  add_functions(project);
   const std::set<std::string> names = used_types(project);
   const auto misses = [&](const std::string& name) { return names.contains(name) && !declares(project, name); };
   std::string text;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <iterator>
 #include <utility>
 
@@ -55,12 +56,28 @@ class Actions {
         return !line.name.empty() && same_name(each.name, line.name);
       });
       if (group == groups.end()) {
-        network::Body* body = line.name.empty() ? line.inlined.get() : around_.action(line.name);
+        network::Body* body = line.name.empty()     ? line.inlined.get()
+                              : is_of_another(line) ? &call_of(line)
+                                                    : around_.action(line.name);
         group = groups.insert(groups.end(), {line.name, body, {}});
       }
       group->associations.push_back(i);
     }
     return groups;
+  }
+
+  // Valve.Open, of an instance in this POU.
+  static bool is_of_another(const network::ActionLine& line) {
+    return line.only_action && line.name.find('.') != std::string::npos;
+  }
+
+  network::Body& call_of(const network::ActionLine& line) {
+    network::Body& made = calls_.emplace_back();
+    made.language = network::Body::Language::St;
+    made.at = line.at;
+    made.text = line.name + "();";
+    made.text_at = line.at;
+    return made;
   }
 
   bool acceptable(const network::ActionLine& line) {
@@ -74,10 +91,10 @@ class Actions {
                          fmt::format("qualifier {} needs a duration; write one, such as T#2s", line.qualifier));
       return false;
     }
-    if (line.only_action && around_.action(line.name) == nullptr) {
-      diagnostics_.error(line.at, fmt::format("there is no action '{}' in this POU; actions of other POUs cannot be "
-                                              "called, call their function blocks instead",
-                                              line.name));
+    if (line.only_action && !is_of_another(line) && around_.action(line.name) == nullptr) {
+      diagnostics_.error(line.at, fmt::format("there is no action '{}' in this POU; those of others are called by the "
+                                              "name of an instance: motor.{}",
+                                              line.name, line.name));
       return false;
     }
     if (line.name.empty() && line.inlined == nullptr) {
@@ -222,6 +239,7 @@ class Actions {
   const Chart& chart_;
   const ChartSurroundings& around_;
   Diagnostics& diagnostics_;
+  std::deque<network::Body> calls_;  // of actions of other POUs
   Lowered code_;
 };
 

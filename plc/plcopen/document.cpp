@@ -145,6 +145,7 @@ class Reader {
         } else if (part.name == "resource") {
           read_application(part, document_.project.configurations, diagnostics_);
           extensions(part);
+          extensions_below(part);
         }
       }
     }
