@@ -46,8 +46,8 @@ Cia402Drive::Cia402Drive(const config::IoAxis& axis) noexcept
     : axis_(axis),
       model_(axis),
       homing_(axis_),
-      last_degrees_(axis.start),
-      previous_degrees_(axis.start),
+      last_(model_.position()),
+      previous_(model_.position()),
       last_counts_(model_.read_encoder()) {
   start_over();
 }
@@ -168,7 +168,7 @@ void Cia402Drive::advance_homing(const DriveCommand& command, double dt) noexcep
     go_straight_home(dt);
     return;
   }
-  const double wanted = homing_.step(previous_degrees_, last_degrees_);
+  const double wanted = homing_.step(previous_ / kRadiansPerDegree, last_ / kRadiansPerDegree);
   const double limit = model_.most_velocity();
   profile_.change_velocity(std::clamp(wanted * kRadiansPerDegree, -limit, limit), acceleration, dt);
   if (homing_.state() == Homing::State::Done) {
@@ -193,6 +193,9 @@ void Cia402Drive::advance_torque(const DriveCommand& command, double dt) noexcep
 
 // Beyond a limit switch it only goes back.
 void Cia402Drive::stop_at_limits(const AxisProfile& before, double dt) noexcept {
+  if (!axis_.low_limit && !axis_.high_limit) {
+    return;
+  }
   const AxisSwitches now = switches_at(axis_, degrees());
   const double towards = is_torque(mode_) ? torque_ : profile_.velocity;
   const bool was_at_limit = at_limit_;
@@ -352,10 +355,12 @@ void Cia402Drive::report_sensors(DriveFeedback& result) const noexcept {
   result.inputs = (switches.low ? 1U : 0U) | (switches.high ? 2U : 0U) | (switches.home ? 4U : 0U) |
                   (is_on(axis_.probe) ? 1U << kProbeInput : 0U) | (is_on(axis_.probe2) ? 2U << kProbeInput : 0U);
   result.probe = static_cast<std::uint16_t>(probe_.status() | static_cast<unsigned>(probe2_.status()) << kSecond);
-  result.probe_rise = shown(probe_.rise());
-  result.probe_fall = shown(probe_.fall());
-  result.probe2_rise = shown(probe2_.rise());
-  result.probe2_fall = shown(probe2_.fall());
+  if (result.probe != 0) {
+    result.probe_rise = shown(probe_.rise());
+    result.probe_fall = shown(probe_.fall());
+    result.probe2_rise = shown(probe2_.rise());
+    result.probe2_fall = shown(probe2_.fall());
+  }
 }
 
 double Cia402Drive::cyclic_target(const DriveCommand& command) const noexcept {
@@ -390,9 +395,11 @@ DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanose
   // A period need not be a multiple of the step; what is left comes with the next one.
   for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
     advance(command, AxisModel::kStep);
-    probe_.step({last_degrees_, degrees(), axis_.probe, axis_.mark});
-    probe2_.step({last_degrees_, degrees(), axis_.probe2, axis_.mark});
-    previous_degrees_ = std::exchange(last_degrees_, degrees());
+    previous_ = std::exchange(last_, model_.position());
+    if (command.probe != 0) {
+      probe_.step({previous_ / kRadiansPerDegree, degrees(), axis_.probe, axis_.mark});
+      probe2_.step({previous_ / kRadiansPerDegree, degrees(), axis_.probe2, axis_.mark});
+    }
   }
   return feedback(command);
 }

@@ -110,8 +110,8 @@ class Cia402Drive {
   TouchProbe probe2_;
   double torque_ = 0;             // demanded, N m
   bool at_limit_ = false;         // a limit switch keeps it from going on
-  double last_degrees_;           // after the last step
-  double previous_degrees_;       // after the one before
+  double last_;                   // position after the last step of the model
+  double previous_;               // after the one before
   std::int64_t zero_counts_ = 0;  // encoder counts that are shown as position 0
   double cyclic_velocity_ = 0;    // of the way to the target of this period
   double too_far_s_ = 0;          // time beyond the largest following error
