@@ -60,7 +60,7 @@ class ScriptReader {
     if (!at.value) {
       report_.error(place, at.problem);
     }
-    const auto word =
+    const auto* const word =
         std::find_if(kWords.begin(), kWords.end(), [&](const auto& known) { return what == known.first; });
     if (word == kWords.end()) {
       report_.error(place,

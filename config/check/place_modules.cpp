@@ -17,7 +17,6 @@
 namespace indurop::config {
 namespace {
 
-using scheduler::Operation;
 using scheduler::Placeable;
 
 constexpr base::Nanos kUnknownTime{std::chrono::microseconds(10)};

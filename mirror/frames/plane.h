@@ -17,18 +17,14 @@ namespace indurop::mirror {
 // Called by the plane's own threads.
 class FrameListener {
  public:
+  virtual ~FrameListener() = default;
   virtual void frame_came(const indurop_wire_Frame& frame, Stream stream) noexcept = 0;
-
- protected:
-  ~FrameListener() = default;
 };
 
 class BeaconListener {
  public:
+  virtual ~BeaconListener() = default;
   virtual void beacon_came(const indurop_wire_Beacon& beacon) noexcept = 0;
-
- protected:
-  ~BeaconListener() = default;
 };
 
 // Frames come as long as this lives; its end waits for a listener that is running.

@@ -16,7 +16,6 @@
 namespace indurop::plc {
 namespace {
 
-using ast::Expression;
 using ast::Section;
 
 class Starter {
@@ -28,8 +27,8 @@ class Starter {
     for (std::size_t i = 0; i < count; ++i) {
       pou(context_.program.pous[i]);
     }
-    for (std::size_t i = 0; i < context_.program.globals.size(); ++i) {
-      global(context_.program.globals[i]);
+    for (Global& one : context_.program.globals) {
+      global(one);
     }
   }
 
