@@ -15,17 +15,6 @@ constexpr double kStandingDegrees = 0.05;  // per second
 constexpr double kArrivedDegrees = 0.01;
 constexpr double kQuickStopShare = 0.8;  // of the torque, so that the loops keep some
 
-bool is_position(DriveMode mode) noexcept {
-  return mode == DriveMode::None || mode == DriveMode::ProfilePosition || mode == DriveMode::InterpolatedPosition ||
-         mode == DriveMode::CyclicPosition;
-}
-bool is_torque(DriveMode mode) noexcept {
-  return mode == DriveMode::ProfileTorque || mode == DriveMode::CyclicTorque;
-}
-bool is_cyclic(DriveMode mode) noexcept {
-  return mode == DriveMode::CyclicPosition || mode == DriveMode::CyclicVelocity || mode == DriveMode::CyclicTorque;
-}
-
 constexpr double kPerMille = 1000;
 
 template <class T>

@@ -29,6 +29,18 @@ enum class DriveMode : std::int8_t {
   CyclicTorque = 10
 };
 
+// What a mode commands.
+constexpr bool is_position(DriveMode mode) noexcept {
+  return mode == DriveMode::None || mode == DriveMode::ProfilePosition || mode == DriveMode::InterpolatedPosition ||
+         mode == DriveMode::CyclicPosition;
+}
+constexpr bool is_torque(DriveMode mode) noexcept {
+  return mode == DriveMode::ProfileTorque || mode == DriveMode::CyclicTorque;
+}
+constexpr bool is_cyclic(DriveMode mode) noexcept {
+  return mode == DriveMode::CyclicPosition || mode == DriveMode::CyclicVelocity || mode == DriveMode::CyclicTorque;
+}
+
 struct DriveCommand {
   std::uint16_t control = 0;
   std::int8_t mode = 0;
