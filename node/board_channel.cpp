@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <tuple>
 
 namespace indurop::node {
 namespace {
@@ -18,6 +19,16 @@ using mirror::Message;
 
 constexpr suseconds_t kMomentUs = 20'000;
 constexpr std::size_t kAtOnce = std::size_t{64} * 1024;
+
+// The numbers of each, in the order in which they travel.
+template <class Order>
+auto numbers_of_order(Order& order) {
+  return std::tie(order.end, order.signal, order.until_ns);
+}
+template <class Answer>
+auto numbers_of_answer(Answer& answer) {
+  return std::tie(answer.now_ns, answer.next_ns, answer.epoch_ns, answer.basic_period_ns, answer.took_ns, answer.ended);
+}
 
 void put_messages(ByteWriter& out, const std::vector<Message>& messages) {
   out.put(static_cast<std::uint32_t>(messages.size()));
@@ -126,9 +137,7 @@ BoardChannel::Got BoardChannel::receive(BoardPlace& place) {
 
 bool BoardChannel::send(const BoardOrder& order) {
   ByteWriter out;
-  out.put(order.end);
-  out.put(order.signal);
-  out.put(order.until_ns);
+  out.put_all(numbers_of_order(order));
   put_messages(out, order.arrivals);
   return send(out.take());
 }
@@ -137,9 +146,7 @@ BoardChannel::Got BoardChannel::receive(BoardOrder& order) {
   const Got got = receive();
   if (got == Got::Word) {
     ByteReader in(word_);
-    order.end = in.get<bool>();
-    order.signal = in.get<int>();
-    order.until_ns = in.get<std::int64_t>();
+    in.get_all(numbers_of_order(order));
     order.arrivals = get_messages(in);
   }
   return got;
@@ -147,12 +154,7 @@ BoardChannel::Got BoardChannel::receive(BoardOrder& order) {
 
 bool BoardChannel::send(const BoardAnswer& answer) {
   ByteWriter out;
-  out.put(answer.now_ns);
-  out.put(answer.next_ns);
-  out.put(answer.epoch_ns);
-  out.put(answer.basic_period_ns);
-  out.put(answer.took_ns);
-  out.put(answer.ended);
+  out.put_all(numbers_of_answer(answer));
   put_messages(out, answer.sent);
   return send(out.take());
 }
@@ -161,12 +163,7 @@ BoardChannel::Got BoardChannel::receive(BoardAnswer& answer) {
   const Got got = receive();
   if (got == Got::Word) {
     ByteReader in(word_);
-    answer.now_ns = in.get<std::int64_t>();
-    answer.next_ns = in.get<std::int64_t>();
-    answer.epoch_ns = in.get<std::int64_t>();
-    answer.basic_period_ns = in.get<std::int64_t>();
-    answer.took_ns = in.get<std::int64_t>();
-    answer.ended = in.get<bool>();
+    in.get_all(numbers_of_answer(answer));
     answer.sent = get_messages(in);
   }
   return got;

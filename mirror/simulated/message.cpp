@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 #include <utility>
 
 #include "dds/lent.h"
@@ -12,13 +13,30 @@ namespace {
 
 constexpr std::uint32_t kMostItems = 1'000'000;  // of a sane list
 
+// The numbers of each, in the order in which they travel.
+template <class OneMessage>
+auto numbers_of_message(OneMessage& message) {
+  return std::tie(message.kind, message.board, message.part, message.time_ns);
+}
+template <class Frame>
+auto numbers_of_frame(Frame& frame) {
+  return std::tie(frame.part, frame.layout, frame.session, frame.update, frame.update_sum, frame.tick,
+                  frame.source_time_ns);
+}
+template <class Entry>
+auto numbers_of_entry(Entry& entry) {
+  return std::tie(entry.type_hash, entry.part, entry.offset, entry.size);
+}
+template <class Beacon>
+auto numbers_of_beacon(Beacon& beacon) {
+  return std::tie(beacon.session, beacon.source_time_ns, beacon.epoch_ns, beacon.basic_period_ns,
+                  beacon.macro_period_ns, beacon.synchronised);
+}
+
 }  // namespace
 
 void ByteWriter::put_message(const Message& message) {
-  put(message.kind);
-  put(message.board);
-  put(message.part);
-  put(message.time_ns);
+  put_all(numbers_of_message(message));
   put_bytes(message.body);
 }
 
@@ -35,10 +53,7 @@ std::span<const std::uint8_t> ByteReader::next(std::size_t count) noexcept {
 
 Message ByteReader::get_message() {
   Message message;
-  message.kind = get<Message::Kind>();
-  message.board = get<std::uint32_t>();
-  message.part = get<std::uint32_t>();
-  message.time_ns = get<std::int64_t>();
+  get_all(numbers_of_message(message));
   const auto body = get_bytes();
   message.body.assign(body.begin(), body.end());
   return message;
@@ -46,13 +61,7 @@ Message ByteReader::get_message() {
 
 std::vector<std::uint8_t> to_bytes(const indurop_wire_Frame& frame) {
   ByteWriter out;
-  out.put(frame.part);
-  out.put(frame.layout);
-  out.put(frame.session);
-  out.put(frame.update);
-  out.put(frame.update_sum);
-  out.put(frame.tick);
-  out.put(frame.source_time_ns);
+  out.put_all(numbers_of_frame(frame));
   out.put_bytes({frame.data._buffer, frame.data._length});
   return out.take();
 }
@@ -60,13 +69,7 @@ std::vector<std::uint8_t> to_bytes(const indurop_wire_Frame& frame) {
 bool with_frame(std::span<const std::uint8_t> bytes, const std::function<void(const indurop_wire_Frame&)>& use) {
   ByteReader in(bytes);
   indurop_wire_Frame frame{};
-  frame.part = in.get<std::uint32_t>();
-  frame.layout = in.get<std::uint32_t>();
-  frame.session = in.get<std::uint64_t>();
-  frame.update = in.get<std::uint64_t>();
-  frame.update_sum = in.get<std::uint64_t>();
-  frame.tick = in.get<std::uint64_t>();
-  frame.source_time_ns = in.get<std::int64_t>();
+  in.get_all(numbers_of_frame(frame));
   const auto data = in.get_bytes();
   frame.data._length = frame.data._maximum = static_cast<std::uint32_t>(data.size());
   frame.data._buffer = dds::lent(data.data());
@@ -86,10 +89,7 @@ std::vector<std::uint8_t> to_bytes(const indurop_wire_Catalogue& catalogue) {
   for (std::uint32_t i = 0; i < catalogue.entries._length; ++i) {
     const indurop_wire_CatalogueEntry& entry = catalogue.entries._buffer[i];
     out.put_text(entry.name);
-    out.put(entry.type_hash);
-    out.put(entry.part);
-    out.put(entry.offset);
-    out.put(entry.size);
+    out.put_all(numbers_of_entry(entry));
   }
   out.put_text(catalogue.schema);
   return out.take();
@@ -110,10 +110,7 @@ bool with_catalogue(std::span<const std::uint8_t> bytes,
   for (std::uint32_t i = 0; i < std::min(count, kMostItems) && in.ok(); ++i) {
     indurop_wire_CatalogueEntry entry{};
     entry.name = text();
-    entry.type_hash = in.get<std::uint64_t>();
-    entry.part = in.get<std::uint32_t>();
-    entry.offset = in.get<std::uint32_t>();
-    entry.size = in.get<std::uint32_t>();
+    in.get_all(numbers_of_entry(entry));
     entries.push_back(entry);
   }
   catalogue.entries._length = catalogue.entries._maximum = static_cast<std::uint32_t>(entries.size());
@@ -128,12 +125,7 @@ bool with_catalogue(std::span<const std::uint8_t> bytes,
 std::vector<std::uint8_t> to_bytes(const indurop_wire_Beacon& beacon) {
   ByteWriter out;
   out.put_text(beacon.board);
-  out.put(beacon.session);
-  out.put(beacon.source_time_ns);
-  out.put(beacon.epoch_ns);
-  out.put(beacon.basic_period_ns);
-  out.put(beacon.macro_period_ns);
-  out.put(beacon.synchronised);
+  out.put_all(numbers_of_beacon(beacon));
   out.put(beacon.heard._length);
   for (std::uint32_t i = 0; i < beacon.heard._length; ++i) {
     out.put_text(beacon.heard._buffer[i].board);
@@ -148,12 +140,7 @@ bool with_beacon(std::span<const std::uint8_t> bytes, const std::function<void(c
   const auto text = [&] { return texts.emplace_back(in.get_text()).data(); };
   indurop_wire_Beacon beacon{};
   beacon.board = text();
-  beacon.session = in.get<std::uint64_t>();
-  beacon.source_time_ns = in.get<std::int64_t>();
-  beacon.epoch_ns = in.get<std::int64_t>();
-  beacon.basic_period_ns = in.get<std::int64_t>();
-  beacon.macro_period_ns = in.get<std::int64_t>();
-  beacon.synchronised = in.get<bool>();
+  in.get_all(numbers_of_beacon(beacon));
   const auto count = in.get<std::uint32_t>();
   std::vector<indurop_wire_Heard> heard;
   for (std::uint32_t i = 0; i < std::min(count, kMostItems) && in.ok(); ++i) {

@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "mirror/frames/packing.h"
@@ -48,6 +50,11 @@ class ByteWriter {
     bytes_.resize(at + sizeof value);
     std::memcpy(bytes_.data() + at, &value, sizeof value);
   }
+  // One after the other; ByteReader::get_all() takes the same.
+  template <class... T>
+  void put_all(const std::tuple<T&...>& numbers) {
+    std::apply([this](const auto&... each) { (put(each), ...); }, numbers);
+  }
   void put_bytes(std::span<const std::uint8_t> bytes) {
     put(static_cast<std::uint32_t>(bytes.size()));
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
@@ -71,6 +78,10 @@ class ByteReader {
       std::memcpy(&value, from.data(), sizeof value);
     }
     return value;
+  }
+  template <class... T>
+  void get_all(const std::tuple<T&...>& numbers) noexcept {
+    std::apply([this](auto&... each) { ((each = get<std::remove_cvref_t<decltype(each)>>()), ...); }, numbers);
   }
   std::span<const std::uint8_t> get_bytes() noexcept { return next(get<std::uint32_t>()); }
   std::string get_text() {
