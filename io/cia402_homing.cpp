@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/cia402_homing.h"
 
-#include <algorithm>
-#include <cmath>
+#include "io/encoder_mark.h"
 
 namespace indurop::io {
 namespace {
 
-constexpr double kTurn = 360;
 constexpr int kFirstWithoutMark = 17;  // methods 17 to 30 are 1 to 14 that end at the edge
 constexpr int kMarkBelow = 33;
 constexpr int kMarkAbove = 34;
@@ -91,14 +89,6 @@ void Homing::search(const AxisSwitches& now) noexcept {
   }
 }
 
-std::optional<double> Homing::mark_between(double before, double now) const noexcept {
-  const double low = std::min(before, now);
-  const double turns = std::ceil((low - axis_.mark) / kTurn);
-  const double at = axis_.mark + turns * kTurn;
-  const bool there = at <= std::max(before, now) && at != before;
-  return there ? std::optional(at) : std::nullopt;
-}
-
 double Homing::step(double before, double now) noexcept {
   if (state_ != State::Moving) {
     return 0;
@@ -129,7 +119,7 @@ double Homing::step(double before, double now) noexcept {
         found(now);
         return 0;
       }
-      if (const auto at = mark_between(before, now); at && (now - before) * method_.cross > 0) {
+      if (const auto at = mark_passed(axis_.mark, before, now); at && (now - before) * method_.cross > 0) {
         found(*at);
         return 0;
       }

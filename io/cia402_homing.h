@@ -51,7 +51,6 @@ class Homing {
   [[nodiscard]] bool is_on(const AxisSwitches& switches) const noexcept;
   void found(double at) noexcept;
   void search(const AxisSwitches& now) noexcept;
-  [[nodiscard]] std::optional<double> mark_between(double before, double now) const noexcept;
 
   const config::IoAxis& axis_;
   Method method_;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/cia402_probe.h"
 
-#include <algorithm>
-#include <cmath>
+#include "io/encoder_mark.h"
 
 namespace indurop::io {
 namespace {
@@ -12,7 +11,6 @@ constexpr unsigned kEveryTime = 1U << 1U;
 constexpr unsigned kMark = 1U << 2U;
 constexpr unsigned kRise = 1U << 4U;
 constexpr unsigned kFall = 1U << 5U;
-constexpr double kTurn = 360;
 
 }  // namespace
 
@@ -40,11 +38,9 @@ void TouchProbe::step(const ProbeStep& step) noexcept {
     return;
   }
   if ((function_ & kMark) != 0) {
-    const double turns = std::ceil((std::min(step.before, step.now) - step.mark_at) / kTurn);
-    const double at = step.mark_at + turns * kTurn;
-    if (at <= std::max(step.before, step.now) && at != step.before) {
-      store(at, true);
-      store(at, false);
+    if (const auto at = mark_passed(step.mark_at, step.before, step.now)) {
+      store(*at, true);
+      store(*at, false);
     }
     return;
   }
