@@ -71,23 +71,28 @@ std::string ModbusLink::open() {
   return device_.driver == IoDriver::ModbusTcp ? open_tcp() : open_serial();
 }
 
+std::string ModbusLink::connect(const std::string& where) {
+  if (context_ == nullptr) {
+    return modbus_strerror(errno);
+  }
+  wait_as_told(context_.get(), device_.timeout);
+  if (modbus_connect(context_.get()) == 0) {
+    return {};
+  }
+  const int error = errno;
+  close();
+  return fmt::format("cannot connect to {}: {}", where, modbus_strerror(error));
+}
+
 std::string ModbusLink::open_tcp() {
   const std::string port = std::to_string(device_.port);
   if (std::string problem = name_problem(device_.address, port); !problem.empty()) {
     return problem;
   }
   context_.reset(modbus_new_tcp_pi(device_.address.c_str(), port.c_str()));
-  if (context_ == nullptr) {
-    return modbus_strerror(errno);
-  }
-  wait_as_told(context_.get(), device_.timeout);
-  if (modbus_connect(context_.get()) != 0) {
-    const int error = errno;
-    close();
-    return fmt::format("cannot connect to {} port {}: {}", device_.address, port, modbus_strerror(error));
-  }
-  if (device_.framing == IoFraming::Tcp) {
-    return {};
+  if (std::string problem = connect(device_.address + " port " + port);
+      !problem.empty() || device_.framing == IoFraming::Tcp) {
+    return problem;
   }
   // libmodbus reads serial frames from any descriptor; the line's own settings do not matter to a socket.
   modbus_t* serial = modbus_new_rtu("tcp", device_.serial.baud, device_.serial.parity, kDataBits, 1);
@@ -106,22 +111,16 @@ std::string ModbusLink::open_tcp() {
 std::string ModbusLink::open_serial() {
   const config::IoSerial& serial = device_.serial;
   context_.reset(modbus_new_rtu(device_.address.c_str(), serial.baud, serial.parity, kDataBits, serial.stop_bits));
-  if (context_ == nullptr) {
-    return modbus_strerror(errno);
-  }
-  wait_as_told(context_.get(), device_.timeout);
-  if (modbus_connect(context_.get()) != 0) {
-    const int error = errno;
-    close();
-    return fmt::format("cannot connect to {}: {}", device_.address, modbus_strerror(error));
-  }
-  return {};
+  return connect(device_.address);
+}
+
+bool ModbusLink::has_serial_frames() const noexcept {
+  return device_.driver == IoDriver::ModbusRtu || device_.framing == IoFraming::Rtu;
 }
 
 bool ModbusLink::survives(int error) const noexcept {
   // Over TCP a late answer would be taken for the next one, so the connection goes with it.
-  const bool line = device_.driver == IoDriver::ModbusRtu || device_.framing == IoFraming::Rtu;
-  return line && (error == ETIMEDOUT || (error > EMBXGTAR && error <= EMBBADSLAVE));
+  return has_serial_frames() && (error == ETIMEDOUT || (error > EMBXGTAR && error <= EMBBADSLAVE));
 }
 
 bool ModbusLink::send(const ModbusFrame& frame) {
@@ -166,7 +165,7 @@ void ModbusLink::discard_late_answers() noexcept {
 
 std::span<const std::uint8_t> ModbusLink::unwrapped(std::size_t size) const noexcept {
   const auto whole = std::span<const std::uint8_t>(buffer_).first(size);
-  if (device_.driver == IoDriver::ModbusRtu || device_.framing == IoFraming::Rtu) {
+  if (has_serial_frames()) {
     return size < kCheck ? whole.first(0) : whole.first(size - kCheck);  // libmodbus has looked at the check
   }
   const bool ours = size > kHeader && whole[0] == transaction_ >> kByte && whole[1] == (transaction_ & kByteMask) &&
@@ -176,7 +175,7 @@ std::span<const std::uint8_t> ModbusLink::unwrapped(std::size_t size) const noex
 
 int ModbusLink::ask(const ModbusFrame& frame, std::span<const std::uint8_t>& answer) {
   modbus_set_slave(context_.get(), frame.bytes()[0]);
-  if (survives(ETIMEDOUT)) {
+  if (has_serial_frames()) {
     discard_late_answers();
   }
   if (!send(frame)) {

@@ -40,6 +40,9 @@ class ModbusLink {
   };
   static constexpr std::size_t kMost = 260;
 
+  // The context that was just made. Empty, or why not.
+  std::string connect(const std::string& where);
+  [[nodiscard]] bool has_serial_frames() const noexcept;
   std::string open_tcp();
   std::string open_serial();
   bool send(const ModbusFrame& frame);
