@@ -19,16 +19,8 @@ namespace {
 
 constexpr std::size_t kGiven = 2;  // bInitRetains, bInCopyCode
 
-Expression wrap(Expression::Kind kind, Expression inner) {
-  Expression out;
-  out.kind = kind;
-  out.at = inner.at;
-  out.operands.push_back(std::move(inner));
-  return out;
-}
-
 Expression member_of(Expression object, std::string_view name) {
-  Expression out = wrap(Expression::Kind::Member, std::move(object));
+  Expression out = make::wrapped(Expression::Kind::Member, std::move(object));
   out.name = name;
   return out;
 }
@@ -45,7 +37,7 @@ Expression number(const Place& at, std::int64_t value) {
   if (value >= 0) {
     return out;
   }
-  Expression negative = wrap(Expression::Kind::Unary, std::move(out));
+  Expression negative = make::wrapped(Expression::Kind::Unary, std::move(out));
   negative.op = ast::Operator::Negate;
   return negative;
 }
@@ -64,7 +56,7 @@ std::string counter(ast::Pou& method) {
 namespace start {
 
 Expression super_of(const Place& at) {
-  return wrap(Expression::Kind::Deref, make::name(at, "SUPER"));
+  return make::wrapped(Expression::Kind::Deref, make::name(at, "SUPER"));
 }
 
 ast::Statement run(Expression object, std::string_view method, std::vector<ast::Argument> arguments) {
@@ -135,7 +127,7 @@ void StartStatements::elements(ast::Pou* method, const std::vector<ast::StartArg
   } else if (starts.size() > 1) {
     listed(starts, type, object, to);
   } else if (method == nullptr) {
-    each(starts, type, wrap(Expression::Kind::Index, std::move(object)), to);
+    each(starts, type, make::wrapped(Expression::Kind::Index, std::move(object)), to);
   } else {
     loops(*method, starts, type, object, to);
   }
@@ -143,7 +135,7 @@ void StartStatements::elements(ast::Pou* method, const std::vector<ast::StartArg
 
 void StartStatements::loops(ast::Pou& method, const std::vector<ast::StartArguments>& starts, const Type& type,
                             const Expression& object, ast::Body& to) {
-  Expression element = wrap(Expression::Kind::Index, object);
+  Expression element = make::wrapped(Expression::Kind::Index, object);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < type.dimensions.size(); ++i) {
     names.push_back(counter(method));
@@ -187,7 +179,7 @@ void StartStatements::listed(const std::vector<ast::StartArguments>& starts, con
     return;
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    Expression element = wrap(Expression::Kind::Index, object);
+    Expression element = make::wrapped(Expression::Kind::Index, object);
     element.operands.push_back(number(object.at, bounds.low + static_cast<std::int64_t>(i)));
     instance(starts[i], *type.element, std::move(element), to);
   }

@@ -23,6 +23,12 @@ Statement statement(Statement::Kind kind, const Place& at) {
 
 }  // namespace
 
+Expression wrapped(Expression::Kind kind, Expression inner) {
+  Expression made = expression(kind, inner.at);
+  made.operands.push_back(std::move(inner));
+  return made;
+}
+
 Expression truth(const Place& at, bool value) {
   Expression made = expression(Expression::Kind::Literal, at);
   made.value = value;

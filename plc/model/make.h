@@ -14,6 +14,8 @@ namespace indurop::plc::make {
 [[nodiscard]] ast::Expression truth(const Place& at, bool value);
 [[nodiscard]] ast::Expression name(const Place& at, std::string name);
 [[nodiscard]] ast::Expression member(const Place& at, std::string of, std::string field);
+// Something done to it, at its place.
+[[nodiscard]] ast::Expression wrapped(ast::Expression::Kind kind, ast::Expression inner);
 [[nodiscard]] ast::Expression negation(ast::Expression of);
 [[nodiscard]] ast::Expression binary(ast::Operator op, ast::Expression left, ast::Expression right);
 [[nodiscard]] ast::Expression call(const Place& at, ast::Expression callee, std::vector<ast::Argument> arguments);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 
+#include "plc/model/make.h"
 #include "plc/st/literal.h"
 #include "plc/st/nesting.h"
 
@@ -34,14 +35,6 @@ Operator operator_of(const Token& token, const Level& level) noexcept {
   const auto* found =
       std::find_if(level.begin(), level.end(), [&](const Symbol& s) { return !s.text.empty() && token.is(s.text); });
   return found == level.end() ? Operator::None : found->op;
-}
-
-Expression wrap(Expression::Kind kind, Expression inner) {
-  Expression out;
-  out.kind = kind;
-  out.at = inner.at;
-  out.operands.push_back(std::move(inner));
-  return out;
 }
 
 }  // namespace
@@ -108,7 +101,7 @@ std::optional<Expression> ExpressionParser::unary() {
   if (!operand) {
     return std::nullopt;
   }
-  Expression out = wrap(Expression::Kind::Unary, std::move(*operand));
+  Expression out = make::wrapped(Expression::Kind::Unary, std::move(*operand));
   out.op = op;
   out.at = in_.place(token);
   return out;
@@ -180,7 +173,7 @@ std::optional<Expression> ExpressionParser::typed() {
   out.value = std::move(*found.value);
   out.value_type = found.type;
   if (found.negative) {
-    out = wrap(Expression::Kind::Unary, std::move(out));
+    out = make::wrapped(Expression::Kind::Unary, std::move(out));
     out.op = Operator::Negate;
   }
   return out;
@@ -218,7 +211,7 @@ std::optional<Expression> ExpressionParser::postfix(Expression base) {
       ok = call(base);
     } else if (token.is("^")) {
       in_.take();
-      base = wrap(Expression::Kind::Deref, std::move(base));
+      base = make::wrapped(Expression::Kind::Deref, std::move(base));
     } else {
       return base;
     }
@@ -233,7 +226,7 @@ bool ExpressionParser::member(Expression& base) {
   in_.take();
   const Token& token = in_.take();
   if (token.kind == TokenKind::Word) {
-    base = wrap(Expression::Kind::Member, std::move(base));
+    base = make::wrapped(Expression::Kind::Member, std::move(base));
     base.name = token.text;
     return true;
   }
@@ -250,7 +243,7 @@ bool ExpressionParser::member(Expression& base) {
     in_.error(token, fmt::format("expected a name or a bit number behind '.', found {}", TokenReader::spelled(token)));
     return false;
   }
-  base = wrap(Expression::Kind::Bit, std::move(base));
+  base = make::wrapped(Expression::Kind::Bit, std::move(base));
   base.width = width;
   base.bit = std::min(bit, 64U) * width;
   return true;
@@ -261,7 +254,7 @@ bool ExpressionParser::index(Expression& base) {
   if (!deeper(in_.take(), kBracket)) {
     return false;
   }
-  base = wrap(Expression::Kind::Index, std::move(base));
+  base = make::wrapped(Expression::Kind::Index, std::move(base));
   do {
     auto one = expression();
     if (!one) {
@@ -277,7 +270,7 @@ bool ExpressionParser::call(Expression& base) {
   if (!deeper(in_.take(), kBracket)) {
     return false;
   }
-  base = wrap(Expression::Kind::Call, std::move(base));
+  base = make::wrapped(Expression::Kind::Call, std::move(base));
   return argument_list(base.arguments);
 }
 
