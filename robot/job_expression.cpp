@@ -40,8 +40,7 @@ int JobParser::expression(const char* what) {
   if (!failed_ && !formula.fits()) {
     error(start, "this expression is too long; compute a part of it before, in a VAR");
   }
-  book_.formulas.push_back(std::move(formula));
-  return static_cast<int>(book_.formulas.size()) - 1;
+  return keep(std::move(formula));
 }
 
 int JobParser::keep(Formula formula) {

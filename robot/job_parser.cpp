@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "robot/spline.h"
 
@@ -118,23 +119,18 @@ void JobParser::statement() {
       {"WHILE", [](JobParser& p) { p.while_block(); }},
       {"FOR", [](JobParser& p) { p.for_block(); }},
   };
-  for (const Known& known : kKnown) {
-    if (accept(known.word)) {
-      known.parse(*this);
-      if (!failed_) {
-        expect_end();
-      }
-      return;
-    }
-  }
-  if (peek().kind == JobToken::Kind::Word && tokens_[at_ + 1].text == "=") {
+  const auto* const known =
+      std::find_if(std::begin(kKnown), std::end(kKnown), [this](const Known& each) { return accept(each.word); });
+  if (known != std::end(kKnown)) {
+    known->parse(*this);
+  } else if (peek().kind == JobToken::Kind::Word && tokens_[at_ + 1].text == "=") {
     assign();
-    if (!failed_) {
-      expect_end();
-    }
-    return;
+  } else {
+    error(peek(), "unknown statement " + shown(peek()) + "; known are " + kStatements);
   }
-  error(peek(), "unknown statement " + shown(peek()) + "; known are " + kStatements);
+  if (!failed_) {
+    expect_end();
+  }
 }
 
 bool JobParser::numbers(int count, double* to, const char* what) {
@@ -162,22 +158,29 @@ void JobParser::joint_point(Target& target) {
   }
 }
 
-void JobParser::pose_point(Target& target) {
-  target.is_pose = true;
+bool JobParser::pose(Pose& pose) {
   double position[3];
   double rpy[3];
   if (!numbers(3, position, "x y z in mm")) {
-    return;
+    return false;
   }
   if (!accept("RPY")) {
     error(peek(), "expected RPY and roll, pitch and yaw in degrees, found " + shown(peek()));
-    return;
+    return false;
   }
   if (!numbers(3, rpy, "roll, pitch and yaw in degrees")) {
+    return false;
+  }
+  pose.position = Vec3(position[0], position[1], position[2]) / 1000;
+  pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
+  return true;
+}
+
+void JobParser::pose_point(Target& target) {
+  target.is_pose = true;
+  if (!pose(target.pose)) {
     return;
   }
-  target.pose.position = Vec3(position[0], position[1], position[2]) / 1000;
-  target.pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
   if (accept("POSTURE")) {
     posture(target);
   }
@@ -244,11 +247,6 @@ void JobParser::point() {
     error(peek(), "expected JOINT or POSE, found " + shown(peek()));
   }
   const std::string text(name.text);
-  const auto drop_frame = [this] {
-    if (!point_frames_.empty() && point_frames_.back().owner == book_.points.size()) {
-      point_frames_.pop_back();
-    }
-  };
   const auto [found, fresh] = point_places_.try_emplace(text, job().file + ":" + std::to_string(line_));
   if (!fresh) {
     error(name, "there is already a point " + in_quotes(text) + " at " + found->second);
@@ -256,8 +254,8 @@ void JobParser::point() {
   if (fresh && !failed_) {
     book_.points.push_back(
         {text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}, -1, Quat::Identity()});
-  } else {
-    drop_frame();
+  } else if (!point_frames_.empty() && point_frames_.back().owner == book_.points.size()) {
+    point_frames_.pop_back();  // the frame of a point that there is not
   }
 }
 

@@ -46,6 +46,8 @@ class JobParser {
   void resolve_frames();
   bool numbers(int count, double* to, const char* what);
   void joint_point(Target& target);
+  // "x y z RPY r p y", in mm and degrees.
+  bool pose(Pose& pose);
   void pose_point(Target& target);
   void posture(Target& target);
   void held_axis(Target& target);

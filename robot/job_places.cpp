@@ -28,20 +28,9 @@ void JobParser::frame() {
     return;
   }
   if (accept("POSE")) {
-    double position[3];
-    double rpy[3];
-    if (!numbers(3, position, "x y z in mm")) {
+    if (!pose(frame.pose)) {
       return;
     }
-    if (!accept("RPY")) {
-      error(peek(), "expected RPY and roll, pitch and yaw in degrees, found " + shown(peek()));
-      return;
-    }
-    if (!numbers(3, rpy, "roll, pitch and yaw in degrees")) {
-      return;
-    }
-    frame.pose.position = Vec3(position[0], position[1], position[2]) / 1000;
-    frame.pose.orientation = from_rpy({radians(rpy[0]), radians(rpy[1]), radians(rpy[2])});
   } else if (accept("POINTS")) {
     frame.is_taught = true;
     for (int i = 0; i < 3 && !failed_; ++i) {
