@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -30,17 +29,6 @@ void for_each_line(const Capture& capture, Use use) {
       use(channel, line.name, capture.lines[at++]);
     }
   }
-}
-
-bool few_whole_values(const std::vector<double>& line) {
-  constexpr std::size_t kMostSteps = 8;
-  std::set<double> seen;
-  for (const double value : line) {
-    if (!std::isnan(value) && (value != std::floor(value) || (seen.insert(value).second && seen.size() > kMostSteps))) {
-      return false;
-    }
-  }
-  return true;
 }
 
 bool all_have_words(const std::vector<double>& line, const std::vector<std::string>& words) {

@@ -65,6 +65,8 @@ void append(Series& series, const std::string& field, std::size_t rows_before) {
   }
 }
 
+}  // namespace
+
 bool few_whole_values(const std::vector<double>& line) {
   std::set<double> seen;
   for (const double value : line) {
@@ -74,8 +76,6 @@ bool few_whole_values(const std::vector<double>& line) {
   }
   return true;
 }
-
-}  // namespace
 
 Result<Recording, base::Diagnostic> read_recording(std::string_view text, const std::string& name) {
   std::size_t line = 1;

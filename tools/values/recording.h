@@ -29,6 +29,9 @@ struct Recording {
   bool marked = false;  // 0 s is where it was triggered
 };
 
+// Whole numbers, not many different ones: better drawn as a lane.
+bool few_whole_values(const std::vector<double>& line);
+
 // What a line of it is called beside the others.
 std::string part_name(const Series& series, std::size_t line);
 
