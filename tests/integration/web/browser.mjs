@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A browser for tests: opens the page in a size and colour, waits for what must come, and judges what is there.
+// A browser for tests: opens the page in a size and colour, waits for what must come, and judges what is there. Every script is
+// started as SCRIPT DRIVER ORIGIN TOKEN PICTURES BROWSER [ITS OWN...] by page_server.py, which carries its orders out.
 import { createRequire } from "node:module";
 import { pathToFileURL } from "node:url";
 import { readFile } from "node:fs/promises";
@@ -10,27 +11,30 @@ const PATIENCE_MS = 30_000;
 // What the page is allowed to say in the console: the browser's own words about answers that are refused on purpose.
 const EXPECTED = /Failed to load resource|WebSocket connection|GPU stall|GroupMarkerNotSet|Automatic fallback to software/;
 
+const [driver, origin, token, pictures, program, ...more] = process.argv.slice(2);
+export { more, origin };
+
 const input = createInterface({ input: process.stdin });
 const answers = input[Symbol.asyncIterator]();
-export async function order(word) {  // run.py carries it out
+export async function order(word) {
   console.log(`do ${word}`);
   await answers.next();
 }
 
 export class Browser {
-  constructor(puppet, axe, origin, token, pictures) {
-    Object.assign(this, { puppet, axe, origin, token, pictures, said: [] });
+  constructor(puppet, axe) {
+    Object.assign(this, { puppet, axe, said: [] });
   }
 
-  static async launch(driver, program, origin, token, pictures) {
+  static async launch() {
     const require = createRequire(pathToFileURL(join(driver, "x.js")));
     const puppeteer = (await import(pathToFileURL(require.resolve("puppeteer-core")))).default;
     const axe = await readFile(require.resolve("axe-core/axe.min.js"), "utf8");
     const puppet = await puppeteer.launch({ executablePath: program, headless: true, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
-    return new Browser(puppet, axe, origin, token, pictures);
+    return new Browser(puppet, axe);
   }
 
-  async open(where, { width = 1920, height = 1080, dark = false, token = true } = {}) {
+  async open(where, { width = 1920, height = 1080, dark = false, token: with_token = true } = {}) {
     const page = await this.puppet.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
     page.on("pageerror", (error) => this.said.push(`${where}: ${error.message}`));
@@ -39,17 +43,32 @@ export class Browser {
     });
     await page.setViewport({ width, height, isMobile: width < 700, hasTouch: width < 700 });
     await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
-    await page.goto(`${this.origin}/${token ? `#token=${this.token}&` : "#"}/${where}`);
+    await page.goto(`${origin}/${with_token ? `#token=${token}&` : "#"}/${where}`);
     return page;
   }
 
-  close() { return this.puppet.close(); }
+  // Every test, by its name; then the process ends, with 0 if all was right and the console had nothing to say.
+  async run(tests) {
+    let failed = 0;
+    for (const [name, test] of Object.entries(tests)) {
+      try {
+        await test();
+        console.log(`ok: ${name}`);
+      } catch (error) {
+        failed++;
+        console.log(`FAILED: ${name}: ${error.message}`);
+      }
+    }
+    for (const line of this.said) console.log(`FAILED: the console says: ${line}`);
+    await this.puppet.close();
+    process.exit(failed + this.said.length === 0 ? 0 : 1);
+  }
 
   // Nothing wider than the screen, nothing serious for axe-core; a picture for people.
   async judge(page, name) {
     const inner = page.viewport().width;
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-    await page.screenshot({ path: join(this.pictures, `${name}.png`) });
+    await page.screenshot({ path: join(pictures, `${name}.png`) });
     check(wide <= inner, `${name}: ${wide} pixels wide on a screen of ${inner}`);
     await page.evaluate(this.axe);
     const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// page.mjs DRIVER ORIGIN TOKEN NODE PICTURES BROWSER: goes through the page as run.py says. Ends with 0 if all was right.
-import { Browser, check, fill, order, press, sees, sees_no } from "./browser.mjs";
+// Goes through the page as run.py says; its own word is the node's name.
+import { Browser, check, fill, more, order, origin, press, sees, sees_no } from "./browser.mjs";
 
-const [driver, origin, token, node, pictures, program] = process.argv.slice(2);
+const [node] = more;
 const SCREENS = {
   wide: { width: 1920, height: 1080 },
   phone: { width: 390, height: 844, dark: true },
@@ -12,10 +12,10 @@ const { wide, phone } = SCREENS;
 const JOINTS = [0, 1, 2].map((i) => `PLC_ROBOT::ROBOT_ARM.joint[${i}]`).join();
 const OVERRIDE = "PLC_ROBOT::ROBOT_OVERRIDE";
 
-const browser = await Browser.launch(driver, program, origin, token, pictures);
+const browser = await Browser.launch();
 const value_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/variables/${encodeURIComponent(name)}`)).json()).value;
 
-const tests = {
+await browser.run({
   async "The overview says what runs"() {
     for (const [screen, size] of Object.entries(SCREENS)) {
       const began = Date.now();
@@ -175,18 +175,4 @@ const tests = {
     await sees_no(page, "is gone");
     await page.close();
   },
-};
-
-let failed = 0;
-for (const [name, test] of Object.entries(tests)) {
-  try {
-    await test();
-    console.log(`ok: ${name}`);
-  } catch (error) {
-    failed++;
-    console.log(`FAILED: ${name}: ${error.message}`);
-  }
-}
-for (const line of browser.said) console.log(`FAILED: the console says: ${line}`);
-await browser.close();
-process.exit(failed + browser.said.length === 0 ? 0 : 1);
+});

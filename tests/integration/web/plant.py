@@ -3,25 +3,26 @@
 """The page's overview in headless Chromium before a plant of two boards: both are heard, one is killed and missed in words, and
 comes back."""
 
-import argparse
 import os
 import pathlib
-import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "serve"))
+from page_server import PATIENCE, PageServer, prepared  # noqa: E402
 from plant_test import take_domain  # noqa: E402
-from run import HERE, TOKEN, Plant, fetch, free_port, skip  # noqa: E402
 
 
-class Boards(Plant):
+class Boards(PageServer):
     """Two agents; what nodes this host runs otherwise does not matter here."""
 
     node = f"web_plant_{os.getpid()}"
-    agents = {}
+
+    def __init__(self, options, folder):
+        super().__init__(options, folder)
+        self.domain, self.agents = take_domain(options), {}
 
     def start_agent(self, name):
         self.agents[name] = subprocess.Popen(
@@ -39,39 +40,21 @@ class Boards(Plant):
     def end(self):
         for agent in self.agents.values():
             agent.terminate()
-            agent.wait(timeout=60)
-        self.stop_server()
+            agent.wait(timeout=PATIENCE)
+        super().end()
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    for name in ("--bin", "--fake-node"):
-        parser.add_argument(name, required=True)
-    for name in ("--page", "--work"):
-        parser.add_argument(name, type=pathlib.Path, required=True)
-    options = parser.parse_args()
-    options.bin, options.fake_node = os.path.abspath(options.bin), os.path.abspath(options.fake_node)
-    browser = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if not shutil.which("npm") or not browser or not (options.page / "index.html").is_file():
-        skip("there is no npm, no page, or no Chromium here")
-    driver = options.work / "browser"
-    fetch(HERE / "browser", driver, patience_s=180)
-    pictures = options.work / "pictures"
-    shutil.rmtree(pictures, ignore_errors=True)
-    pictures.mkdir(parents=True)
+    options = prepared(__doc__, "--fake-node")
     with tempfile.TemporaryDirectory() as folder:
-        plant = Boards(options, pathlib.Path(folder), free_port())
-        plant.domain = take_domain(options)
+        boards = Boards(options, folder)
         try:
-            plant.start_server("--plant", "--domain", str(plant.domain), "--one-host")
+            boards.start_server("--plant", "--domain", str(boards.domain), "--one-host")
             for name in ("left", "right"):
-                plant.start_agent(name)
-            command = ["node", str(HERE / "plant.mjs"), str(driver), f"http://127.0.0.1:{plant.port}", TOKEN, plant.node, str(pictures), browser]
-            with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as script:
-                plant.serve_orders(script)
-            return script.returncode
+                boards.start_agent(name)
+            return boards.drive("plant.mjs", boards.node)
         finally:
-            plant.end()
+            boards.end()
 
 
 if __name__ == "__main__":

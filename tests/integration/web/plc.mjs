@@ -1,43 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// plc.mjs DRIVER ORIGIN TOKEN PICTURES BROWSER: the PLC view as plc.py says. Ends with 0 if all was right.
+// The PLC view as plc.py says.
 import { Browser, check, order, press, sees } from "./browser.mjs";
 
-const [driver, origin, token, pictures, program] = process.argv.slice(2);
-const browser = await Browser.launch(driver, program, origin, token, pictures);
+const browser = await Browser.launch();
 const powered = (page) => page.evaluate(() => document.querySelectorAll(".network .power").length);
 
-let failed = 0;
-try {
-  const page = await browser.open("plc", { width: 1280, height: 900 });
-  await sees(page, "Start and stop the conveyor; it stays on until stopped");
-  await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 0);
-  const before = await powered(page);
-  await order("start=true");
-  await page.waitForFunction((least) => document.querySelectorAll(".network .power").length > least + 4, {}, before);
-  await page.waitForFunction(() => [...document.querySelectorAll(".value")].some((text) => text.textContent === "T#2s"));
-  await browser.judge(page, "plc-wide");
-  await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
-  await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 0);
-  await browser.judge(page, "plc-phone");
-  await page.setViewport({ width: 1280, height: 900 });
-  // From a contact to its variable, and a force.
-  await page.waitForSelector("a[aria-label^='conveyor::stop,']");  // the page was loaded anew with its size
-  await page.evaluate(() => document.querySelector("a[aria-label^='conveyor::stop,']").dispatchEvent(new MouseEvent("click", { bubbles: true })));
-  const field = "[aria-label='New value of conveyor::stop']";
-  await page.waitForSelector(field);
-  await page.select(field, "true");
-  await press(page, "Force");
-  await sees(page, "1 value is forced");
-  await page.evaluate(() => { location.hash = "#/plc"; });
-  await sees(page, "Start and stop the conveyor");
-  const first = () => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label") ?? "nothing is there";
-  await page.waitForFunction(() => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label").includes("stop off"))
-    .catch(async () => { throw new Error(`the contact is not open: ${await page.evaluate(first)}`); });
-  check((await powered(page)) < before + 4, "power flows although stop is forced");
-} catch (error) {
-  failed++;
-  console.log(`FAILED: ${error.message}`);
-}
-for (const line of browser.said) console.log(`FAILED: the console says: ${line}`);
-await browser.close();
-process.exit(failed + browser.said.length === 0 ? 0 : 1);
+await browser.run({
+  async "Power flows, and a contact leads to its variable, which is forced"() {
+    const page = await browser.open("plc", { width: 1280, height: 900 });
+    await sees(page, "Start and stop the conveyor; it stays on until stopped");
+    await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 0);
+    const before = await powered(page);
+    await order("start=true");
+    await page.waitForFunction((least) => document.querySelectorAll(".network .power").length > least + 4, {}, before);
+    await page.waitForFunction(() => [...document.querySelectorAll(".value")].some((text) => text.textContent === "T#2s"));
+    await browser.judge(page, "plc-wide");
+    await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
+    await page.waitForFunction(() => document.querySelectorAll(".network .power").length > 0);
+    await browser.judge(page, "plc-phone");
+    await page.setViewport({ width: 1280, height: 900 });
+    // From a contact to its variable, and a force.
+    await page.waitForSelector("a[aria-label^='conveyor::stop,']");  // the page was loaded anew with its size
+    await page.evaluate(() => document.querySelector("a[aria-label^='conveyor::stop,']").dispatchEvent(new MouseEvent("click", { bubbles: true })));
+    const field = "[aria-label='New value of conveyor::stop']";
+    await page.waitForSelector(field);
+    await page.select(field, "true");
+    await press(page, "Force");
+    await sees(page, "1 value is forced");
+    await page.evaluate(() => { location.hash = "#/plc"; });
+    await sees(page, "Start and stop the conveyor");
+    const first = () => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label") ?? "nothing is there";
+    await page.waitForFunction(() => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label").includes("stop off"))
+      .catch(async () => { throw new Error(`the contact is not open: ${await page.evaluate(first)}`); });
+    check((await powered(page)) < before + 4, "power flows although stop is forced");
+  },
+});
