@@ -42,7 +42,11 @@ Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, co
     return writer.error();
   }
   Recorder recorder(std::move(writer).value(), store, std::move(follower), about);
-  if (auto begun = recorder.begin(globs); !begun) {
+  auto begun = recorder.choose(globs);
+  if (begun) {
+    begun = recorder.begin_file();
+  }
+  if (!begun) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
     return std::move(begun).error();
@@ -58,10 +62,9 @@ std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
 }
 
-Result<void, Problem> Recorder::begin(const std::vector<std::string>& globs) {
+Result<void, Problem> Recorder::choose(const std::vector<std::string>& globs) {
   const auto count = static_cast<std::uint32_t>(store_.directory().size());
   wanted_.resize(count);
-  channels_.resize(count);
   for (const std::string& glob : globs.empty() ? std::vector<std::string>{"*"} : globs) {
     bool any = globs.empty();
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -81,6 +84,17 @@ Result<void, Problem> Recorder::begin(const std::vector<std::string>& globs) {
     }
   }
   wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+  known_.resize(follower_.tracks());
+  for (Known& known : known_) {
+    known.values.resize(count);
+  }
+  return {};
+}
+
+// All that stands before the first run.
+Result<void, Problem> Recorder::begin_file() {
+  channels_.assign(wanted_.size(), 0);
+  schemas_.clear();
   if (auto channels = add_own_channels(); !channels) {
     return channels;
   }
@@ -163,14 +177,20 @@ Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint3
   return written;
 }
 
+void Recorder::note(std::size_t track, const tape::Run& run) {
+  Known& known = known_[track];
+  for (const tape::Value& value : run.values) {
+    known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
+  }
+  known.end_ns = run.tail.end_ns;
+}
+
 // What the runs so far say, without recording them.
 void Recorder::learn() {
   tape::Run run;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     while (follower_.next(track, run)) {
-      for (const tape::Value& value : run.values) {
-        learned_[{module_of(run), value.variable}].assign(value.bytes.begin(), value.bytes.end());
-      }
+      note(track, run);
     }
   }
 }
@@ -184,13 +204,25 @@ Result<void, Problem> Recorder::tell_first_values() {
       return written;
     }
   }
-  for (const auto& [whose, bytes] : learned_) {
-    const tape::Value value{tape::EntryKind::Before, whose.second, bytes};
-    if (auto written = write_value(value, whose.first, before, before); !written) {
-      return written;
+  return tell_known_values();
+}
+
+// Of each module at the end of its last run: what its next one sees comes later, however long that takes.
+Result<void, Problem> Recorder::tell_known_values() {
+  for (std::size_t track = 0; track < known_.size(); ++track) {
+    const Known& known = known_[track];
+    const std::uint32_t module = follower_.module_of(track);
+    for (std::uint32_t i = 0; i < known.values.size(); ++i) {
+      if (known.values[i].empty()) {
+        continue;
+      }
+      const tape::Value value{tape::EntryKind::Before, i, known.values[i]};
+      if (auto written = write_value(value, module == tape::kOthers ? kOthers : module, known.end_ns, known.end_ns);
+          !written) {
+        return written;
+      }
     }
   }
-  learned_.clear();
   return {};
 }
 
@@ -236,6 +268,10 @@ Result<void, Problem> Recorder::take() {
       if (auto written = write_run(*held_); !written) {
         return written;
       }
+      latest_ns_ = std::max(latest_ns_, held_->tail.end_ns);
+      if (remembers_) {
+        note(track, *held_);
+      }
       held_.reset();
     }
     if (const std::uint64_t lost = follower_.lost(track); lost > 0) {
@@ -247,13 +283,37 @@ Result<void, Problem> Recorder::take() {
 
 Result<void, Problem> Recorder::close() {
   std::uint64_t lost = 0;
+  recording::TextMap said;
   for (const auto& [module, runs] : counts_.lost) {
-    lost += runs;
+    const auto earlier = before_.lost.find(module);
+    const std::uint64_t here = runs - (earlier == before_.lost.end() ? 0 : earlier->second);
+    lost += here;
+    said["lost_runs." + (module < about_.modules.size() ? about_.modules[module] : "")] = std::to_string(here);
   }
-  auto said = writer_.metadata("indurop.end", {{"runs", std::to_string(counts_.runs)},
-                                               {"values", std::to_string(counts_.values)},
-                                               {"lost_runs", std::to_string(lost)}});
-  return said ? writer_.close() : said;
+  said["runs"] = std::to_string(counts_.runs - before_.runs);
+  said["values"] = std::to_string(counts_.values - before_.values);
+  said["lost_runs"] = std::to_string(lost);
+  auto told = writer_.metadata("indurop.end", said);
+  return told ? writer_.close() : told;
+}
+
+Result<void, Problem> Recorder::go_on_in(const std::filesystem::path& path) {
+  auto next = recording::McapWriter::create(path, {});
+  if (!next) {
+    return std::move(next).error();
+  }
+  writer_ = std::move(next).value();
+  auto begun = begin_file();
+  if (begun && first_told_) {
+    begun = tell_known_values();
+  }
+  if (!begun) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    return begun;
+  }
+  before_ = counts_;
+  return begun;
 }
 
 }  // namespace indurop::recorder

@@ -50,15 +50,22 @@ class Recorder {
 
   // Leaves out what there is by now: for a recording from now on. Before the first take().
   void learn();
+  // Keeps in mind what every module knew last, for go_on_in(). Before the first take().
+  void remember() { remembers_ = true; }
   // Takes what there is. Errors: those of the disk; what was not taken can be taken later.
   Result<void, base::Problem> take();
   // What is in memory goes to the file.
   Result<void, base::Problem> flush() { return writer_.flush(); }
   // The end of the recording, with all counts.
   Result<void, base::Problem> close();
+  // After close(): goes on in another file, which begins with what every module knew last, so that it can be read and
+  // replayed by itself. Errors: those of create(); it may be repeated.
+  Result<void, base::Problem> go_on_in(const std::filesystem::path& path);
 
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return writer_.size(); }
+  // End of the latest run that was taken, in the node's time; 0: none yet.
+  [[nodiscard]] std::int64_t latest_ns() const noexcept { return latest_ns_; }
   [[nodiscard]] std::size_t variables() const noexcept { return wanted_count_; }
   // Wanted ones that no tape tells, they are too large.
   [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return too_large_; }
@@ -67,9 +74,18 @@ class Recorder {
   Recorder(recording::McapWriter writer, const vars::Store& store, tape::Follower follower, About about)
       : writer_(std::move(writer)), store_(store), follower_(std::move(follower)), about_(std::move(about)) {}
 
-  Result<void, base::Problem> begin(const std::vector<std::string>& globs);
+  // What the runs of a track said last.
+  struct Known {
+    std::vector<std::vector<std::uint8_t>> values;  // by variable; empty: nothing
+    std::int64_t end_ns = 0;                        // of its last run
+  };
+
+  Result<void, base::Problem> choose(const std::vector<std::string>& globs);
+  Result<void, base::Problem> begin_file();
   Result<void, base::Problem> add_own_channels();
   Result<void, base::Problem> tell_first_values();
+  Result<void, base::Problem> tell_known_values();
+  void note(std::size_t track, const tape::Run& run);
   Result<void, base::Problem> write_run(const tape::Run& run);
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
@@ -88,11 +104,14 @@ class Recorder {
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
+  bool remembers_ = false;
   bool first_told_ = false;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint8_t>> learned_;  // by module and variable
-  std::optional<tape::Run> held_;                                                         // could not be written yet
+  std::vector<Known> known_;       // by track
+  std::optional<tape::Run> held_;  // could not be written yet
+  std::int64_t latest_ns_ = 0;
   std::vector<std::uint8_t> cdr_;
   Counts counts_;
+  Counts before_;  // those at the begin of this file
 };
 
 }  // namespace indurop::recorder

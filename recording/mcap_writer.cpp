@@ -29,6 +29,8 @@ Result<McapWriter, Problem> McapWriter::create(const std::filesystem::path& path
   Bytes beginning(kMagic.begin(), kMagic.end());
   append_record(beginning, McapHeader{"indurop", "InduRoP " INDUROP_VERSION});
   if (auto written = file->append(beginning); !written) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
     return std::move(written).error();
   }
   return McapWriter(std::move(*file), options);

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/read_file.h"
-#include "recorder/recorder.h"
+#include "recorder/parts.h"
 #include "rt/clock.h"
+#include "tools/command/amount.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
@@ -22,6 +23,7 @@ struct Options {
   std::filesystem::path file;
   std::int64_t duration_ns = 0;  // 0: until the node or the user ends it
   bool past = false;
+  recorder::Limits limits;
 };
 
 recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
@@ -54,7 +56,7 @@ bool ended(const RunView& run) {
 }
 
 // Until it is to end. Errors: those of the disk.
-Result<void, base::Problem> go_on(const Options& options, const RunView& run, recorder::Recorder& recorder) {
+Result<void, base::Problem> go_on(const Options& options, const RunView& run, recorder::Parts& recorder) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t flushed = begin;
   for (;;) {
@@ -76,7 +78,8 @@ Result<void, base::Problem> go_on(const Options& options, const RunView& run, re
   }
 }
 
-int tell(Context& context, const RunView& run, const recorder::Recorder& recorder, const Options& options) {
+int tell(Context& context, const RunView& run, const recorder::Parts& parts) {
+  const recorder::Recorder& recorder = parts.recorder();
   const recorder::Counts& counts = recorder.counts();
   for (const std::string& name : recorder.too_large()) {
     context.out.error(
@@ -88,8 +91,10 @@ int tell(Context& context, const RunView& run, const recorder::Recorder& recorde
                     "start the node with a larger --tape",
                     runs, run.module_name(module)));
   }
-  context.out.note(fmt::format("{}: {} runs, {} values of {} variables, {}", options.file.string(), counts.runs,
-                               counts.values, recorder.variables(), human_bytes(recorder.bytes())));
+  context.out.note(
+      fmt::format("{}: {} runs, {} values of {} variables, {}{}", parts.files(), counts.runs, counts.values,
+                  recorder.variables(), human_bytes(parts.bytes()),
+                  parts.removed() > 0 ? fmt::format("; {} older parts were removed", parts.removed()) : ""));
   return counts.lost.empty() ? kOk : kFailed;
 }
 
@@ -111,8 +116,8 @@ int record(Context& context, const Options& options) {
     return report(context.out, no_tape(chosen->node, Error{Errc::NotFound, 0, "of another run"}));
   }
   be_gentle(chosen->node);
-  auto recorder = recorder::Recorder::create(options.file, about(*chosen, *store), *store, std::move(follower).value(),
-                                             options.names);
+  auto recorder = recorder::Parts::create(options.file, options.limits, about(*chosen, *store), *store,
+                                          std::move(follower).value(), options.names);
   if (!recorder) {
     context.out.error(recorder.error().text);
     return kFailed;
@@ -120,11 +125,12 @@ int record(Context& context, const Options& options) {
   if (!options.past) {
     recorder->learn();
   }
-  if (const auto done = go_on(options, chosen->run, *recorder); !done) {
-    context.out.error(done.error().text);
-    return kFailed;
+  const auto done = go_on(options, chosen->run, *recorder);
+  const int code = tell(context, chosen->run, *recorder);
+  if (!done) {
+    context.out.error(done.error().text + "; the recording ends here");
   }
-  return tell(context, chosen->run, *recorder, options);
+  return done ? code : kFailed;
 }
 
 Action declare(base::Options& app, Context& context) {
@@ -133,6 +139,10 @@ Action declare(base::Options& app, Context& context) {
   app.add("-o,--file", "FILE.mcap", options->file, "The file; it must not be there yet").required();
   app.flag("--past", options->past, "Begin with the oldest run that the node still has on its tape");
   add_time_option(app, "--duration", options->duration_ns, "End after this time");
+  add_amount_option(app, "--split", options->limits.split_ns, options->limits.split_bytes,
+                    "Begin a new file, run.0002.mcap and so on, after so much: 10min, 100MB");
+  add_amount_option(app, "--keep", options->limits.keep_ns, options->limits.keep_bytes,
+                    "Keep the newest so much, 1h or 2GB, in files that --split says (default: 8); older ones go");
   add_node_option(app, context);
   return [options](Context& c) { return record(c, *options); };
 }
@@ -148,7 +158,8 @@ const Verb kRecordVerb{
     "replayed: indurop run module.xml --record run.mcap.\n"
     "Examples:\n"
     "  indurop record -o run.mcap\n"
-    "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n",
+    "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n"
+    "  indurop record -o last.mcap --keep 1h      # day and night, in a bounded part of the disk\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings without end: in parts, within bounds of the disk, on a full one, and of a recorder that is killed.
+
+#include <algorithm>
+#include <csignal>
+#include <thread>
+
+#include "node_fixture.h"
+#include "tests/support/wait_until.h"
+
+namespace indurop::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordingParts : public NodeTest {
+ protected:
+  const std::vector<Module> kCounter = {{.file = "counter.so", .name = "counter", .priority = 1}};
+
+  std::vector<fs::path> parts(const fs::path& in) const {
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::directory_iterator(in)) {
+      if (entry.path().extension() == ".mcap") {
+        all.push_back(entry.path());
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  std::vector<std::string> command(const std::vector<std::string>& more) const {
+    std::vector<std::string> words = {INDUROP_PROGRAM, "record", "--node", node()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  Outcome replay(const fs::path& file) const { return indurop({"replay", file.string(), "--node", node() + "-r"}); }
+};
+
+TEST_F(RecordingParts, Old_ones_go_and_each_can_be_replayed) {
+  Program& sut = start_and_wait(kCounter);
+  ASSERT_TRUE(runs_reach("counter", 20));
+  const fs::path base = folder() / "last.mcap";
+  const Outcome kept =
+      indurop({"record", "-o", base.string(), "--split", "200ms", "--keep", "500ms", "--duration", "2s"});
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_CONTAINS(kept.err, " older parts were removed");
+  const auto left = parts(folder());
+  EXPECT_GE(left.size(), 3U);
+  EXPECT_LE(left.size(), 6U) << kept.err;
+  EXPECT_FALSE(fs::exists(folder() / "last.0001.mcap"));
+  EXPECT_FALSE(fs::exists(base));
+  for (const fs::path& part : left) {
+    const Outcome again = replay(part);
+    EXPECT_EQ(again.code, 0) << part << again.out << again.err;
+    EXPECT_CONTAINS(again.out, " values: equal");
+  }
+  const Outcome twice = indurop({"record", "-o", base.string(), "--keep", "1h"});
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_CONTAINS(twice.err, "a part of another recording");
+  EXPECT_EQ(indurop({"record", "-o", base.string(), "--keep", "much"}).code, 2);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+// Beginnings of a part say what was known before: a run's inputs that did not change are there as well.
+TEST_F(RecordingParts, Begin_with_what_was_known) {
+  Program& sut = start_and_wait(kCounter);
+  const Outcome kept =
+      indurop({"record", "-o", (folder() / "run.mcap").string(), "--split", "300ms", "--duration", "1s"});
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_TRUE(fs::exists(folder() / "run.0001.mcap"));
+  const Outcome second = replay(folder() / "run.0002.mcap");
+  EXPECT_EQ(second.code, 0) << second.out << second.err;
+}
+
+TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
+  Program& sut = start_and_wait(kCounter);
+  std::uint64_t whole = 0;
+  for (int i = 0; i < 5; ++i) {
+    const fs::path file = folder() / ("killed" + std::to_string(i) + ".mcap");
+    Program recorder(command({"-o", file.string()}), environment());
+    // At another moment each time: while the file begins, after the first chunk, in the middle of one.
+    const std::uintmax_t until = i == 0 ? 1 : static_cast<std::uintmax_t>(i) * 15'000;
+    std::error_code ignored;
+    ASSERT_TRUE(wait_until([&] { return fs::exists(file, ignored) && fs::file_size(file, ignored) >= until; }));
+    recorder.kill();
+    recorder.wait();
+    const Outcome again = replay(file);
+    EXPECT_CONTAINS(again.err, i == 0 ? "replay" : "the recording was not closed") << file;
+    if (i > 0) {
+      EXPECT_EQ(again.code, 0) << again.out << again.err;
+      whole += contains(again.out, " values: equal") ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(whole, 4U);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << "the node did not notice";
+}
+
+TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
+  Program& sut = start_and_wait(kCounter);
+  const fs::path disk = folder() / "disk";
+  fs::create_directory(disk);
+  Environment small = environment();
+  const std::string copy = (folder() / "copy.mcap").string();
+  small.prepare = [&] { return mount_small(disk.string(), "200k"); };
+  Program recorder({"/bin/sh", "-c",
+                    std::string(INDUROP_PROGRAM) + " record --node " + node() + " -o " + (disk / "run.mcap").string() +
+                        "; code=$?; cp " + (disk / "run.mcap").string() + " " + copy + "; exit $code"},
+                   small);
+  const Outcome full = recorder.finish();
+  if (full.code == Program::kNotPrepared) {
+    GTEST_SKIP() << "may not mount";
+  }
+  EXPECT_EQ(full.code, 1) << full.err;
+  EXPECT_CONTAINS(full.err, "No space left on device");
+  EXPECT_CONTAINS(full.err, "the recording ends here");
+  EXPECT_CONTAINS(full.err, " runs, ") << "what it has is told";
+  const Outcome again = replay(copy);
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  const std::uint64_t runs = module("counter").runs.load();
+  EXPECT_TRUE(runs_reach("counter", runs + 100));
+  EXPECT_EQ(module("counter").overruns.load(), 0U);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+TEST_F(RecordingParts, On_a_full_disk_the_oldest_make_room) {
+  Program& sut = start_and_wait(kCounter);
+  const fs::path disk = folder() / "disk";
+  fs::create_directory(disk);
+  Environment small = environment();
+  const std::string copies = (folder() / "copies").string();
+  fs::create_directory(copies);
+  small.prepare = [&] { return mount_small(disk.string(), "300k"); };
+  Program recorder(
+      {"/bin/sh", "-c",
+       std::string(INDUROP_PROGRAM) + " record --node " + node() + " -o " + (disk / "run.mcap").string() +
+           " --split 500ms --keep 1h --duration 6s; code=$?; cp " + disk.string() + "/* " + copies + "; exit $code"},
+      small);
+  const Outcome full = recorder.finish();
+  if (full.code == Program::kNotPrepared) {
+    GTEST_SKIP() << "may not mount";
+  }
+  EXPECT_EQ(full.code, 0) << full.err;
+  EXPECT_CONTAINS(full.err, " older parts were removed");
+  for (const fs::path& part : parts(copies)) {
+    EXPECT_EQ(replay(part).code, 0) << part;
+  }
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+}  // namespace
+}  // namespace indurop::test
