@@ -35,6 +35,16 @@ Arm::Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t 
 Arm::Arm(Axes axes, const Delta& delta, int count) noexcept
     : axes_(std::move(axes)), home_{delta.position(Vec3::Zero()), Quat(0, 1, 0, 0)}, count_(count), delta_(delta) {}
 
+Arm Arm::with_tool(const Pose& tool) const noexcept {
+  Arm arm = *this;
+  if (delta_) {
+    arm.tool_ = tool_ * tool;
+  } else {
+    arm.home_ = home_ * tool;
+  }
+  return arm;
+}
+
 bool Arm::turns_six() const noexcept {
   return count_ == 6 && link_count_ == 6 && std::all_of(links_.begin(), links_.begin() + 6, [](const Link& l) {
            return l.kind == AxisKind::Turning && l.ratio == 1;
@@ -44,7 +54,7 @@ bool Arm::turns_six() const noexcept {
 Pose Arm::forward(const Joints& q) const noexcept {
   if (delta_) {
     const double turn = count_ > 3 ? q[3] / 2 : 0;
-    return {delta_->position(q.head<3>()), home_.orientation * Quat(std::cos(turn), 0, 0, std::sin(turn))};
+    return Pose{delta_->position(q.head<3>()), home_.orientation * Quat(std::cos(turn), 0, 0, std::sin(turn))} * tool_;
   }
   Mat3 rotation = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
@@ -66,7 +76,11 @@ Jacobian Arm::jacobian(const Joints& q) const noexcept {
   if (delta_) {
     Jacobian j = Jacobian::Zero();
     j.topLeftCorner<3, 3>() = delta_->moving(q.head<3>());
-    j(5, 3) = count_ > 3 ? -1 : 0;
+    if (count_ > 3) {
+      const Vec3 down(0, 0, -1);  // what the tool turns about
+      j.block<3, 1>(0, 3) = down.cross(forward(q).position - delta_->position(q.head<3>()));
+      j.block<3, 1>(3, 3) = down;
+    }
     return j;
   }
   std::array<Vec3, kMostLinks> points;

@@ -55,6 +55,9 @@ class Arm {
   // Three arms of a delta, and with four axes the turn of its tool.
   Arm(Axes axes, const Delta& delta, int count) noexcept;
 
+  // The same arm with a tool at its end: where that is when seen from the end.
+  [[nodiscard]] Arm with_tool(const Pose& tool) const noexcept;
+
   [[nodiscard]] int count() const noexcept { return count_; }
   [[nodiscard]] const Axis& axis(int index) const noexcept { return axes_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] const Axes& axes() const noexcept { return axes_; }
@@ -79,6 +82,7 @@ class Arm {
   std::array<Link, kMostLinks> links_{};
   std::size_t link_count_ = 0;
   std::optional<Delta> delta_;  // instead of links
+  Pose tool_;                   // of a delta; of links it is in `home_`
 };
 
 // The rotation by `angle` about the unit vector `axis`.

@@ -47,6 +47,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the way would need a joint to change its acceleration faster than it can";
     case ErrorCode::Workspace:
       return "the target or the way there is outside of the workspace";
+    case ErrorCode::Tool:
+      return "there is no such tool";
   }
   return "unknown error";
 }

@@ -37,6 +37,11 @@ struct Pose {
   Quat orientation = Quat::Identity();
 };
 
+// What `second` is, seen from the frame in which `first` is.
+inline Pose operator*(const Pose& first, const Pose& second) noexcept {
+  return {first.position + first.orientation * second.position, (first.orientation * second.orientation).normalized()};
+}
+
 // The rotation vector (axis times angle, at most pi) that turns `from` into `to`, in coordinates of `from`.
 Vec3 rotation_between(const Quat& from, const Quat& to) noexcept;
 // The rotation by a rotation vector.

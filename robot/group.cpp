@@ -17,11 +17,11 @@ constexpr std::size_t at(int axis) noexcept {
 
 Group::Group(GroupParts parts)
     : parts_(std::move(parts)),
-      inverse_(parts_.arm),
-      places_(parts_.arm, inverse_, Workspace::of(parts_.settings.workspace)),
+      tools_(parts_.arm, parts_.book.tips()),
+      places_(tools_.arm(0), tools_.inverse(0), Workspace::of(parts_.settings.workspace)),
       follower_(places_, parts_.joints),
       job_(parts_.book),
-      ahead_(parts_.arm, parts_.tool),
+      ahead_(places_, parts_.tool),
       desk_(places_, parts_.joints, parts_.tool, parts_.settings) {
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
@@ -328,6 +328,19 @@ void Group::run_stopping() noexcept {
 Fault Group::move(const MoveCommand& command) noexcept {
   ahead_.add(command);
   return {};
+}
+
+// False while a forgotten plan is still looked at, which was made for the tool before.
+bool Group::take_tool(int tool) noexcept {
+  if (!settled() || desk_.holds_forgotten()) {
+    return false;
+  }
+  if (tool != tool_) {
+    tool_ = tool;
+    places_.take(tools_.arm(tool), tools_.inverse(tool));
+    last_pose_ = places_.arm().forward(last_command_);
+  }
+  return true;
 }
 
 // For a motion that begins where the last one ends.

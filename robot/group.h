@@ -13,6 +13,7 @@
 #include "robot/planning_desk.h"
 #include "robot/read_ahead.h"
 #include "robot/set_point_gate.h"
+#include "robot/tool_set.h"
 
 namespace indurop::robot {
 
@@ -49,6 +50,7 @@ class Group final : public Controller, private MotionPort {
   ErrorCode redirect(const ServiceRequest& request) noexcept;
   ErrorCode start_job(std::uint32_t number) noexcept;
   ErrorCode stop_motion() noexcept;
+  ErrorCode select_tool(std::uint32_t tool) noexcept;
   void finish_service(ErrorCode code, int axis = 0) noexcept;
 
   // States (group.cpp).
@@ -82,6 +84,7 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] bool ready() const noexcept override { return ahead_.has_room(); }
   [[nodiscard]] bool settled() const noexcept override { return ahead_.empty() && desk_.free() && follower_.idle(); }
   Fault move(const MoveCommand& command) noexcept override;
+  bool take_tool(int tool) noexcept override;
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
   [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
@@ -95,8 +98,9 @@ class Group final : public Controller, private MotionPort {
   void report_motion(Outputs& out) noexcept;
 
   GroupParts parts_;
-  Inverse inverse_;
+  ToolSet tools_;
   Places places_;
+  int tool_ = 0;
   Follower follower_;
   JobRunner job_;
   ReadAhead ahead_;

@@ -27,9 +27,9 @@ bool Group::leaves_workspace() const noexcept {
   for (int i = 0; i < count(); ++i) {
     last[i] = gates_[at(i)].state().position;
   }
-  const Vec3 next = parts_.arm.forward(commanded()).position;
+  const Vec3 next = places_.arm().forward(commanded()).position;
   const bool alone = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
-  return box.left(parts_.arm.forward(last).position, next) || (alone && !rests_inside(next));
+  return box.left(places_.arm().forward(last).position, next) || (alone && !rests_inside(next));
 }
 
 // If all axes brake at once.
@@ -48,7 +48,7 @@ bool Group::rests_inside(const Vec3& start) const noexcept {
     for (int i = 0; i < count(); ++i) {
       q[i] = stops[at(i)].at(longest * k / kLooks).position;
     }
-    if (!way.next(parts_.arm.forward(q).position)) {
+    if (!way.next(places_.arm().forward(q).position)) {
       return false;
     }
   }

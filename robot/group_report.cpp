@@ -15,6 +15,8 @@ void Group::report(Outputs& out) noexcept {
   out.done = done_;
   out.error = error_;
   out.error_axis = static_cast<std::uint32_t>(error_axis_);
+  out.tool = static_cast<std::uint32_t>(tool_);
+  out.tool_name = parts_.book.tools[static_cast<std::size_t>(tool_)].name.c_str();
   out.job = job_.report(follower_.source());
   for (std::size_t i = 0; i < kJoints; ++i) {
     out.axes[i] = axes_[i].report();
@@ -24,7 +26,7 @@ void Group::report(Outputs& out) noexcept {
 
 void Group::report_motion(Outputs& out) noexcept {
   const Joints now = commanded();
-  const Pose pose = parts_.arm.forward(now);
+  const Pose pose = places_.arm().forward(now);
   const Twist moved = difference(last_pose_, pose) / period_;
   last_speed_ = (now - last_command_) / period_;
   for (int i = 0; i < count(); ++i) {

@@ -34,6 +34,9 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (is_move(static_cast<Service>(request.code)) && state_ == GroupState::Moving && !job_.running() && !desk_.free()) {
     return;  // the motion before it is being planned
   }
+  if (static_cast<Service>(request.code) == Service::SelectTool && settled() && desk_.holds_forgotten()) {
+    return;  // a plan of the tool before is still looked at
+  }
   acknowledged_ = request.number;
   by_edit_ = !numbered;
   begin_service(request);
@@ -94,6 +97,8 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
       return stop_motion();
     case Service::JobStart:
       return start_job(request.job);
+    case Service::SelectTool:
+      return select_tool(request.tool);
   }
   return ErrorCode::Opcode;
 }
@@ -235,8 +240,8 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
     if (target < 0 || mid < 0) {
       return ErrorCode::Point;
     }
-    command.target = parts_.book.points[static_cast<std::size_t>(target)].target;
-    command.mid = parts_.book.points[static_cast<std::size_t>(mid)].target;
+    command.target = parts_.book.target(target, tool_);
+    command.mid = parts_.book.target(mid, tool_);
   }
   ask_for_plan({command, nullptr, planned_end(), !follower_.idle()});
   state_ = GroupState::Moving;
@@ -292,6 +297,19 @@ ErrorCode Group::start_job(std::uint32_t number) noexcept {
   last_command_ = commanded();
   state_ = GroupState::Moving;
   job_moves_ = true;
+  return ErrorCode::Ok;
+}
+
+// Between motions only: what moves goes on with the tool it was planned for.
+ErrorCode Group::select_tool(std::uint32_t tool) noexcept {
+  if (tool >= parts_.book.tools.size()) {
+    return ErrorCode::Tool;
+  }
+  const bool stands = state_ == GroupState::Standby || state_ == GroupState::Disabled;
+  if (!stands || !take_tool(static_cast<int>(tool))) {
+    return ErrorCode::State;
+  }
+  finish_service(ErrorCode::Ok);
   return ErrorCode::Ok;
 }
 

@@ -21,6 +21,7 @@ enum class Op : std::uint8_t {
               // or if points of a spline follow
   Speed,      // value: part of full speed, or m/s if index is 1
   Zone,       // value: m
+  Tool,       // index: tool
   Set,        // index: signal; formula
   Assign,     // index: variable of the job; formula
   WaitUntil,  // formula; timeout
@@ -54,6 +55,8 @@ struct Point {
   base::SourcePlace place;
   int frame = -1;                // of the book, in which it was given; -1: the base
   Quat axes = Quat::Identity();  // of that frame
+  // With each tool, of a pose for which an arm has to be searched; the book keeps them.
+  std::vector<const Solutions*> known{};
 };
 
 // Where a workpiece or a pallet is: by its pose, or taught by three points.
@@ -64,6 +67,17 @@ struct WorkFrame {
   Pose pose;
   bool is_taught = false;
   std::array<int, 3> points{-1, -1, -1};  // origin, on x, on the side of y
+  int tool = 0;                           // that touched them
+};
+
+// What the arm holds: its tip seen from the arm's end, or taught by points of joint angles that touch the same place.
+struct Tool {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+  Pose tip;
+  std::vector<int> points{};
+  bool is_taught = false;
 };
 
 struct Job {
@@ -80,14 +94,18 @@ inline constexpr std::size_t kMostVariables = 32;  // of one job
 struct JobBook {
   std::vector<Point> points;
   std::vector<WorkFrame> frames;
+  std::vector<Tool> tools;  // the first one is none: the arm's end
   std::vector<Job> jobs;
   std::vector<std::string> signals;
   std::vector<Formula> formulas;
 
   // Index of the point called P<number>; -1 if there is none.
   [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;
+  [[nodiscard]] Target target(int point, int tool) const noexcept;
+  // Of all tools.
+  [[nodiscard]] std::vector<Pose> tips() const;
   std::vector<int> numbered;                            // by number, filled by parse_jobs
-  std::vector<std::shared_ptr<const Solutions>> known;  // Target::known points there
+  std::vector<std::shared_ptr<const Solutions>> known;  // Point::known points there
 };
 
 struct JobFile {
@@ -109,6 +127,8 @@ ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape = {
 
 class Arm;
 
+// Finds the tips of tools that are taught; a note says of each how well its points agree.
+std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm);
 // Puts frames where their points are, and points where their frames are. The parser knows nothing of the arm.
 std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm);
 

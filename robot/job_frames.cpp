@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work frames: where the points that are given in them are.
+// Tools: where their tips are. Work frames: where the points that are given in them are.
 #include <array>
+#include <iomanip>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "robot/arm.h"
 #include "robot/job.h"
+#include "robot/tip_fit.h"
 
 namespace indurop::robot {
 
@@ -35,7 +39,40 @@ std::string taught(const std::array<Vec3, 3>& at, Pose& frame) {
   return {};
 }
 
+std::string shown(const Vec3& tip) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << 1000 * tip.x() << " " << 1000 * tip.y() << " " << 1000 * tip.z();
+  return text.str();
+}
+
 }  // namespace
+
+std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm) {
+  std::vector<base::Diagnostic> found;
+  for (Tool& tool : book.tools) {
+    if (!tool.is_taught) {
+      continue;
+    }
+    std::vector<Pose> ends;
+    for (const int point : tool.points) {
+      ends.push_back(arm.forward(book.points[static_cast<std::size_t>(point)].target.joints));
+    }
+    const TipFit fit = fit_tip(ends);
+    if (!fit.wrong.empty()) {
+      const std::string& worst = book.points[static_cast<std::size_t>(tool.points[fit.worst])].name;
+      found.push_back({base::Diagnostic::Severity::Error, tool.file, tool.place,
+                       "tool '" + tool.name + "': " + fit.wrong + (fit.most_error > 0 ? " ('" + worst + "')" : "")});
+      continue;
+    }
+    tool.tip.position = fit.tip;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(2) << "tool '" << tool.name << "': its tip is at " << shown(fit.tip)
+         << " mm; its points agree within " << 1000 * fit.most_error << " mm, " << 1000 * fit.mean_error
+         << " mm on average";
+    found.push_back({base::Diagnostic::Severity::Note, tool.file, tool.place, text.str()});
+  }
+  return found;
+}
 
 std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
   std::vector<base::Diagnostic> errors;
@@ -43,9 +80,10 @@ std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
     if (!frame.is_taught) {
       continue;
     }
+    const Arm touching = arm.with_tool(book.tools[static_cast<std::size_t>(frame.tool)].tip);
     std::array<Vec3, 3> at;
     for (std::size_t i = 0; i < at.size(); ++i) {
-      at[i] = place_of(book.points[static_cast<std::size_t>(frame.points[i])].target, arm);
+      at[i] = place_of(book.points[static_cast<std::size_t>(frame.points[i])].target, touching);
     }
     if (std::string why = taught(at, frame.pose); !why.empty()) {
       errors.push_back({base::Diagnostic::Severity::Error, frame.file, frame.place,
@@ -58,7 +96,7 @@ std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
     }
     const Pose& frame = book.frames[static_cast<std::size_t>(point.frame)].pose;
     Pose& pose = point.target.pose;
-    pose = {frame.position + frame.orientation * pose.position, (frame.orientation * pose.orientation).normalized()};
+    pose = frame * pose;
     point.axes = frame.orientation;
   }
   return errors;

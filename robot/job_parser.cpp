@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, ELSEIF, "
+    "POINT, FRAME, TOOL, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, "
+    "ELSEIF, "
     "ELSE, "
     "WHILE, "
     "FOR, LOOP and END";
@@ -95,29 +96,18 @@ void JobParser::statement() {
     void (*parse)(JobParser&);
   };
   static constexpr Known kKnown[] = {
-      {"POINT", [](JobParser& p) { p.point(); }},
-      {"FRAME", [](JobParser& p) { p.frame(); }},
-      {"SPEED", [](JobParser& p) { p.speed(); }},
-      {"ZONE", [](JobParser& p) { p.zone(); }},
-      {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
-      {"MOVL", [](JobParser& p) { p.move(Move::Line); }},
-      {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
-      {"MOVS", [](JobParser& p) { p.spline(); }},
-      {"SET", [](JobParser& p) { p.set(); }},
-      {"WAIT", [](JobParser& p) { p.wait(); }},
-      {"CALL", [](JobParser& p) { p.call(); }},
-      {"LABEL", [](JobParser& p) { p.label(); }},
-      {"GOTO", [](JobParser& p) { p.jump(); }},
-      {"IF", [](JobParser& p) { p.if_goto(); }},
-      {"LOOP", [](JobParser& p) { p.loop(); }},
-      {"END", [](JobParser& p) { p.end_block(); }},
-      {"VAR", [](JobParser& p) { p.variable(); }},
-      {"PARAM", [](JobParser& p) { p.parameters(); }},
-      {"RETURN", [](JobParser& p) { p.add(Op::Return); }},
-      {"ELSE", [](JobParser& p) { p.otherwise(false); }},
-      {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
-      {"WHILE", [](JobParser& p) { p.while_block(); }},
-      {"FOR", [](JobParser& p) { p.for_block(); }},
+      {"POINT", [](JobParser& p) { p.point(); }},         {"FRAME", [](JobParser& p) { p.frame(); }},
+      {"TOOL", [](JobParser& p) { p.tool(); }},           {"SPEED", [](JobParser& p) { p.speed(); }},
+      {"ZONE", [](JobParser& p) { p.zone(); }},           {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
+      {"MOVL", [](JobParser& p) { p.move(Move::Line); }}, {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
+      {"MOVS", [](JobParser& p) { p.spline(); }},         {"SET", [](JobParser& p) { p.set(); }},
+      {"WAIT", [](JobParser& p) { p.wait(); }},           {"CALL", [](JobParser& p) { p.call(); }},
+      {"LABEL", [](JobParser& p) { p.label(); }},         {"GOTO", [](JobParser& p) { p.jump(); }},
+      {"IF", [](JobParser& p) { p.if_goto(); }},          {"LOOP", [](JobParser& p) { p.loop(); }},
+      {"END", [](JobParser& p) { p.end_block(); }},       {"VAR", [](JobParser& p) { p.variable(); }},
+      {"PARAM", [](JobParser& p) { p.parameters(); }},    {"RETURN", [](JobParser& p) { p.add(Op::Return); }},
+      {"ELSE", [](JobParser& p) { p.otherwise(false); }}, {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
+      {"WHILE", [](JobParser& p) { p.while_block(); }},   {"FOR", [](JobParser& p) { p.for_block(); }},
   };
   const auto* const known =
       std::find_if(std::begin(kKnown), std::end(kKnown), [this](const Known& each) { return accept(each.word); });
@@ -253,7 +243,7 @@ void JobParser::point() {
   }
   if (fresh && !failed_) {
     book_.points.push_back(
-        {text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}, -1, Quat::Identity()});
+        {text, target, job().file, {static_cast<int>(line_), static_cast<int>(name.column)}, -1, Quat::Identity(), {}});
   } else if (!point_frames_.empty() && point_frames_.back().owner == book_.points.size()) {
     point_frames_.pop_back();  // the frame of a point that there is not
   }

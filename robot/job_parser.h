@@ -14,7 +14,7 @@ namespace indurop::robot {
 
 // A name used before it is known.
 struct JobReference {
-  enum class To { Target, Mid, Job, Label };
+  enum class To { Target, Mid, Job, Label, Tool };
   To to = To::Target;
   std::size_t job = 0;
   std::size_t step = 0;
@@ -43,7 +43,11 @@ class JobParser {
   void point();
   void frame();
   void offset();
+  void tool();
+  void taught_tool(Tool& tool);
   void resolve_frames();
+  void resolve_tools();
+  [[nodiscard]] int tool_called(std::string_view name) const noexcept;
   bool numbers(int count, double* to, const char* what);
   void joint_point(Target& target);
   // "x y z RPY r p y", in mm and degrees.
@@ -128,7 +132,8 @@ class JobParser {
     std::size_t column = 0;
   };
   std::vector<Declared> point_frames_;
-  std::vector<Declared> frame_points_;                                // three for each taught frame
+  std::vector<Declared> frame_points_;  // three for each taught frame
+  std::vector<Declared> frame_tools_, tool_points_;
   std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // of each job
   std::map<std::string, std::string, std::less<>> point_places_;
 };

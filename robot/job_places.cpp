@@ -43,6 +43,10 @@ void JobParser::frame() {
       frame_points_.push_back(
           {book_.frames.size(), book_.jobs.size() - 1, std::string(point.text), line_, point.column});
     }
+    if (accept("TOOL")) {
+      const JobToken tool = take();
+      frame_tools_.push_back({book_.frames.size(), book_.jobs.size() - 1, std::string(tool.text), line_, tool.column});
+    }
   } else {
     error(peek(), "expected POSE or POINTS, found " + shown(peek()));
     return;

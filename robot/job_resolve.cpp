@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numeric>
 
 #include "robot/job_parser.h"
@@ -61,6 +62,7 @@ std::string count_of(std::size_t count, const char* what) {
 
 void JobParser::resolve() {
   resolve_frames();
+  resolve_tools();
   const auto fail = [&](const JobReference& reference, const char* what, const std::vector<std::string>& known) {
     error_in(book_.jobs[reference.job].file, reference.line, reference.column,
              std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));
@@ -75,6 +77,9 @@ void JobParser::resolve() {
         known.push_back(name);
       }
       found == labels.end() ? fail(reference, "label", known) : void(step.index = static_cast<int>(found->second.step));
+    } else if (reference.to == JobReference::To::Tool) {
+      step.index = tool_called(reference.name);
+      step.index < 0 ? fail(reference, "tool", names_of(book_.tools)) : void();
     } else if (reference.to == JobReference::To::Job) {
       step.index = index_of(book_.jobs, reference.name);
       if (step.index < 0) {
@@ -103,6 +108,7 @@ void JobParser::resolve() {
 ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape) {
   ReadJobs read;
   JobBook& book = read.book;
+  book.tools.push_back({"FLANGE", "", {}, {}, {}, false});
   constexpr std::size_t kMostErrors = 100;
   base::Diagnostics errors("", read.diagnostics, kMostErrors);
   JobParser parser(book, errors, shape);
@@ -124,6 +130,19 @@ ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape) {
     book.numbered[number] = static_cast<int>(i);
   }
   return read;
+}
+
+Target JobBook::target(int point, int tool) const noexcept {
+  const Point& from = points[static_cast<std::size_t>(point)];
+  Target target = from.target;
+  target.known = from.known.empty() ? nullptr : from.known[static_cast<std::size_t>(tool)];
+  return target;
+}
+
+std::vector<Pose> JobBook::tips() const {
+  std::vector<Pose> all;
+  std::transform(tools.begin(), tools.end(), std::back_inserter(all), [](const Tool& tool) { return tool.tip; });
+  return all;
 }
 
 int JobBook::numbered_point(std::uint32_t number) const noexcept {

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
 constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
+constexpr int kNoTool = -1;          // before a job has begun
 constexpr int kOffsets = 3;          // x, y, z
 constexpr int kLineBits = 20;        // MoveCommand::source = job and line
 
@@ -29,7 +30,7 @@ std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept
 
 bool JobRunner::touches_world(const Step& step) const noexcept {
   const auto formulas = formulas_of(step);
-  return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime ||
+  return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
          std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
 }
 
@@ -59,6 +60,7 @@ void JobRunner::start(int job) noexcept {
   speed_ = 1;
   tool_speed_ = 0;
   zone_ = 0;
+  tool_ = kNoTool;
   line_ = 0;
   message_[0] = '\0';
 }
@@ -100,6 +102,13 @@ const Step* JobRunner::present() const noexcept {
 }
 
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
+  if (tool_ == kNoTool) {
+    // What a job does must not depend on the tool of the one before.
+    if (!port.settled() || !port.take_tool(0)) {
+      return;
+    }
+    tool_ = 0;
+  }
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = present();
@@ -133,7 +142,6 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
 
 JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   Next next = Next::Go;
-  double value = 0;
   switch (step.op) {
     case Op::Move:
       return move(step, signals, port);
@@ -155,17 +163,15 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Zone:
       zone_ = step.value;
       break;
-    case Op::Set:
-      if (!compute(step.formula, signals, value)) {
+    case Op::Tool:
+      if (!port.take_tool(step.index)) {
         return Next::Wait;
       }
-      signals.write(static_cast<std::size_t>(step.index), value);
+      tool_ = step.index;
       break;
+    case Op::Set:
     case Op::Assign:
-      if (!compute(step.formula, signals, value)) {
-        return Next::Wait;
-      }
-      frame().variables[static_cast<std::size_t>(step.index)] = value;
+      next = assign(step, signals);
       break;
     case Op::Goto:
       jump(step.index);
@@ -206,12 +212,12 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
   }
   MoveCommand command;
   command.move = step.move;
-  command.target = book_.points[static_cast<std::size_t>(step.index)].target;
+  command.target = book_.target(step.index, tool_);
   if (step.formula >= 0 && !shift(step, signals, command.target)) {
     return Next::Wait;
   }
   if (step.mid >= 0) {
-    command.mid = book_.points[static_cast<std::size_t>(step.mid)].target;
+    command.mid = book_.target(step.mid, tool_);
   }
   command.speed = speed_;
   command.tool_speed = step.move == Move::Joint ? 0 : tool_speed_;
@@ -224,6 +230,16 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
     return Next::Wait;
   }
   ++frame().step;
+  return Next::Go;
+}
+
+JobRunner::Next JobRunner::assign(const Step& step, Signals& signals) noexcept {
+  double value = 0;
+  if (!compute(step.formula, signals, value)) {
+    return Next::Wait;
+  }
+  const auto index = static_cast<std::size_t>(step.index);
+  step.op == Op::Set ? signals.write(index, value) : void(frame().variables[index] = value);
   return Next::Go;
 }
 

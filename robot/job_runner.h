@@ -23,6 +23,8 @@ class MotionPort {
   // Everything commanded has ended.
   [[nodiscard]] virtual bool settled() const noexcept = 0;
   virtual Fault move(const MoveCommand& command) noexcept = 0;
+  // Everything has ended. False: not yet.
+  virtual bool take_tool(int) noexcept { return true; }
 };
 
 class JobRunner {
@@ -64,6 +66,7 @@ class JobRunner {
   // False: it has no value, and the job has failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
+  Next assign(const Step& step, Signals& signals) noexcept;
   Next branch(const Step& step, Signals& signals) noexcept;
   Next wait_time(const Step& step, double seconds) noexcept;
   Next call(const Step& step, Signals& signals) noexcept;
@@ -88,6 +91,7 @@ class JobRunner {
   double speed_ = 1;
   double tool_speed_ = 0;
   double zone_ = 0;
+  int tool_ = 0;
   std::uint32_t line_ = 0;
   std::uint32_t cycles_ = 0;
   Fault fault_;

@@ -21,7 +21,7 @@ constexpr double kLongest = 60;   // s
 
 PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool,
                            const Settings& settings)
-    : arm_(places.arm()),
+    : places_(places),
       tool_(tool),
       due_(settings.plan_time / std::chrono::duration<double>(settings.period).count()),
       in_tick_(settings.plan_in_tick),
@@ -99,8 +99,9 @@ double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   if (command.move == Move::Joint || !(command.speed > 0)) {
     return 0;
   }
-  const Pose start = arm_.forward(request.from);
-  const auto pose_of = [&](const Target& target) { return target.is_pose ? target.pose : arm_.forward(target.joints); };
+  const Arm& arm = places_.arm();
+  const Pose start = arm.forward(request.from);
+  const auto pose_of = [&](const Target& target) { return target.is_pose ? target.pose : arm.forward(target.joints); };
   const Pose end = pose_of(command.target);
   double way = (end.position - start.position).norm();
   if (command.move == Move::Circle) {

@@ -61,7 +61,7 @@ class PlanningDesk {
   bool begin_thread() noexcept;
   static void* enter(void* desk) noexcept;
 
-  const Arm& arm_;
+  const Places& places_;
   ToolLimits tool_;
   double due_ = 0;  // periods
   bool in_tick_;

@@ -11,8 +11,8 @@ constexpr std::size_t kLiving = 6;  // chains: one in the making, one that is pl
 
 }  // namespace
 
-ReadAhead::ReadAhead(const Arm& arm, const ToolLimits& tool)
-    : arm_(arm), tool_(tool), commands_(Chain::kMost), chains_(kLiving), splines_(kLiving) {}
+ReadAhead::ReadAhead(const Places& places, const ToolLimits& tool)
+    : places_(places), tool_(tool), commands_(Chain::kMost), chains_(kLiving), splines_(kLiving) {}
 
 void ReadAhead::clear() noexcept {
   count_ = scanned_ = single_ = 0;
@@ -47,7 +47,7 @@ bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
 }
 
 void ReadAhead::begin_scan(const Joints& from) noexcept {
-  chains_[chain_].begin(arm_.forward(from), tool_);
+  chains_[chain_].begin(places_.arm().forward(from), tool_);
   closed_ = false;
 }
 
@@ -66,7 +66,7 @@ void ReadAhead::scan() noexcept {
 }
 
 Pose ReadAhead::pose_of(const Target& target) const noexcept {
-  return target.is_pose ? target.pose : arm_.forward(target.joints);
+  return target.is_pose ? target.pose : places_.arm().forward(target.joints);
 }
 
 // With its first point at the front.
@@ -79,7 +79,7 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
     return {};  // the others are still to come
   }
   Spline& spline = splines_[spline_];
-  spline.begin(arm_.forward(from), tool_);
+  spline.begin(places_.arm().forward(from), tool_);
   for (int i = 0; i < points && spline.count() < Spline::kMost; ++i) {
     const MoveCommand& point = command(i);
     spline.add({pose_of(point.target), point.speed, point.tool_speed, point.source});

@@ -16,7 +16,7 @@ namespace indurop::robot {
 class ReadAhead {
  public:
   // Allocates; nothing else here does.
-  ReadAhead(const Arm& arm, const ToolLimits& tool);
+  ReadAhead(const Places& places, const ToolLimits& tool);
 
   void clear() noexcept;
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
@@ -44,7 +44,7 @@ class ReadAhead {
   Next next_spline(const Joints& from) noexcept;
   [[nodiscard]] Pose pose_of(const Target& target) const noexcept;
 
-  const Arm& arm_;
+  const Places& places_;
   ToolLimits tool_;
   std::vector<MoveCommand> commands_;  // a ring
   int first_ = 0;

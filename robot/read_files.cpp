@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/read_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include "base/read_file.h"
 #include "robot/abilities.h"
 #include "robot/check_splines.h"
+#include "robot/tool_set.h"
 #include "robot/workspace.h"
 
 namespace indurop::robot {
@@ -85,6 +87,9 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
   const Workspace box = Workspace::of(corners);
   for (const Point& point : book.points) {
     const Target& target = point.target;
+    if (!target.is_pose && book.tools.size() > 1) {
+      continue;  // where the tip is there depends on the tool
+    }
     const Vec3 place = target.is_pose ? target.pose.position : arm.forward(target.joints).position;
     if (box.outside(place) > 0) {
       std::ostringstream text;
@@ -171,21 +176,31 @@ std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& tar
 }
 
 // How an arm without a closed form is held at poses takes a search, which is made here, before anything moves.
-Diagnostics solve_points(JobBook& book, const Arm& arm, const Inverse& inverse) {
+// Which tool is held at a point is known when the job runs. What no tool reaches is an error here.
+Diagnostics solve_points(JobBook& book, const Arm& arm) {
   Diagnostics errors;
+  const ToolSet tools(arm, book.tips());
   for (Point& point : book.points) {
     Target& target = point.target;
-    if (!target.is_pose || (inverse.closed_form() && target.held == 0)) {
+    if (!target.is_pose || (tools.inverse(0).closed_form() && target.held == 0)) {
       continue;
     }
     Search how;
     how.held = target.held;
-    const auto found = std::make_shared<const Solutions>(inverse.search(target.pose, target.joints, how));
-    if (const std::string text = wrong_pose(arm, inverse, target, *found); !text.empty()) {
-      errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + text));
+    std::string wrong;
+    bool possible = false;
+    for (int i = 0; i < tools.count(); ++i) {
+      const Inverse& inverse = tools.inverse(i);
+      const auto found = std::make_shared<const Solutions>(inverse.search(target.pose, target.joints, how));
+      const std::string text = wrong_pose(tools.arm(i), inverse, target, *found);
+      wrong = i == 0 ? text : wrong;
+      possible = possible || text.empty();
+      book.known.push_back(found);
+      point.known.push_back(found.get());
     }
-    book.known.push_back(found);
-    target.known = found.get();
+    if (!possible) {
+      errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
+    }
   }
   return errors;
 }
@@ -222,13 +237,19 @@ ReadFiles read_files(const FileNames& names) {
   if (read.model) {
     const Inverse inverse(read.model->arm);
     if (read.errors.empty()) {
+      for (base::Diagnostic& one : place_tools(read.book, read.model->arm)) {
+        const bool note = one.severity == base::Diagnostic::Severity::Note;
+        (note ? read.notes : read.errors).push_back(std::move(one));
+      }
       take_over(place_frames(read.book, read.model->arm), read.errors);
     }
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
-    take_over(solve_points(read.book, read.model->arm, inverse), read.errors);
+    take_over(solve_points(read.book, read.model->arm), read.errors);
     take_over(check_workspace(names, read.book, read.model->arm), read.errors);
-    take_over(check_splines(read.book, inverse), read.errors);
+    if (read.book.tools.size() == 1) {
+      take_over(check_splines(read.book, inverse), read.errors);
+    }
     read.kind = abilities(read.model->arm, inverse);
   }
   return read;
@@ -236,6 +257,7 @@ ReadFiles read_files(const FileNames& names) {
 
 Diagnostics check_files(const FileNames& names) {
   ReadFiles read = read_files(names);
+  take_over(std::move(read.notes), read.errors);
   if (!read.kind.empty()) {
     read.errors.push_back({base::Diagnostic::Severity::Note, names.urdf, {1, 1}, "the arm: " + read.kind});
   }

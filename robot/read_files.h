@@ -15,7 +15,8 @@ struct ReadFiles {
   std::optional<ArmModel> model;
   JobBook book;
   std::vector<base::Diagnostic> errors;  // without any, the others count
-  std::string kind;                      // what the arm can do
+  std::vector<base::Diagnostic> notes;
+  std::string kind;  // what the arm can do
 };
 ReadFiles read_files(const FileNames& names);
 

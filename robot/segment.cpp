@@ -78,9 +78,9 @@ void Blend::parts_at(double place, double& first, double& second) const noexcept
 }
 
 bool Places::inside(const Segment& segment, int parts) const noexcept {
-  WayInside way(box_, arm_.forward(segment.joints_at(0)).position);
+  WayInside way(box_, arm_->forward(segment.joints_at(0)).position);
   for (int i = 1; i <= parts && box_.known(); ++i) {
-    if (!way.next(arm_.forward(segment.joints_at(segment.length * i / parts)).position)) {
+    if (!way.next(arm_->forward(segment.joints_at(segment.length * i / parts)).position)) {
       return false;
     }
   }
@@ -92,7 +92,7 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
     solution = {segment.joints_at(place), 0};
     return Reach::Ok;
   }
-  const auto found = inverse_.nearest(segment.pose_at(place), near);
+  const auto found = inverse_->nearest(segment.pose_at(place), near);
   if (found.reach == Reach::Ok) {
     solution = found.solution;
   }
@@ -118,7 +118,7 @@ Reach Places::on(const Segment& first, const Blend& blend, const Segment& second
     const Pose& corner = second.start;
     const Pose pose{a.position + (b.position - corner.position),
                     a.orientation * (corner.orientation.conjugate() * b.orientation)};
-    const auto found = inverse_.nearest(pose, near);
+    const auto found = inverse_->nearest(pose, near);
     if (found.reach == Reach::Ok) {
       q = found.solution.q;
     }

@@ -105,12 +105,17 @@ struct Blend {
 class Places {
  public:
   Places(const Arm& arm, const Inverse& inverse, const Workspace& box = {}) noexcept
-      : arm_(arm), inverse_(inverse), box_(box) {}
-  [[nodiscard]] const Arm& arm() const noexcept { return arm_; }
+      : arm_(&arm), inverse_(&inverse), box_(box) {}
+  // The same arm with another tool. Nothing is planned or followed.
+  void take(const Arm& arm, const Inverse& inverse) noexcept {
+    arm_ = &arm;
+    inverse_ = &inverse;
+  }
+  [[nodiscard]] const Arm& arm() const noexcept { return *arm_; }
   [[nodiscard]] const Workspace& box() const noexcept { return box_; }
   // Whether a joint motion stays in it all the way, as far as `parts` places show.
   [[nodiscard]] bool inside(const Segment& segment, int parts) const noexcept;
-  [[nodiscard]] const Inverse& inverse() const noexcept { return inverse_; }
+  [[nodiscard]] const Inverse& inverse() const noexcept { return *inverse_; }
 
   // The joint angles nearest to `near`. Other than Ok leaves `q` alone. Paths of joints have posture 0.
   Reach on(const Segment& segment, double place, const Joints& near, Joints& q) const noexcept;
@@ -119,8 +124,8 @@ class Places {
            Joints& q) const noexcept;
 
  private:
-  const Arm& arm_;
-  const Inverse& inverse_;
+  const Arm* arm_;
+  const Inverse* inverse_;
   Workspace box_;
 };
 

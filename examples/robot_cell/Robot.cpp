@@ -86,9 +86,9 @@ namespace {
 
 void read_requests() {
   const ROBOT_MODULE_SERVICE_t service = ROBOT_MODULE_SERVICE;
-  in.service = {service.eOpCode,  service.nRequest, service.t_pl, static_cast<double>(service.t_speed),
-                service.p_Target, service.p_Mid,    service.nJob, service.dTarget,
-                service.dVelocity};
+  in.service = {service.eOpCode,   service.nRequest, service.t_pl, static_cast<double>(service.t_speed),
+                service.p_Target,  service.p_Mid,    service.nJob, service.dTarget,
+                service.dVelocity, service.nTool};
   in.edit = msgRobotServiceEditNum != 0;
   in.requests_known = valid(ROBOT_MODULE_SERVICE) && valid(AXIS_SERVICE);
   const auto axes = AXIS_SERVICE.get();
@@ -142,6 +142,8 @@ void write_arm() {
   arm->tool_speed = out.tool_speed;
   arm->override_now = out.path_speed;
   arm->to_go = out.to_go;
+  arm->nTool = static_cast<uint16_t>(out.tool);
+  arm->tool = out.tool_name;
 }
 
 void write_job() {

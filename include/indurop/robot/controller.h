@@ -60,8 +60,9 @@ struct ServiceRequest {
   std::uint32_t point = 0;
   std::uint32_t mid = 0;
   std::uint32_t job = 0;
-  AxisNumbers target{};  // deg, mm of sliding axes; or a pose: mm and deg
-  double velocity = 0;   // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
+  AxisNumbers target{};    // deg, mm of sliding axes; or a pose: mm and deg
+  double velocity = 0;     // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
+  std::uint32_t tool = 0;  // SelectTool: in the order of the files, from 1; 0: none, the arm's end
 };
 
 // As AXIS_SERVICE[n]. Zeros in velocity, acceleration and jerk stand for the most the axis can.
@@ -148,6 +149,8 @@ struct Outputs {
   double to_go = 0;                     // s
   std::array<AxisReport, kJoints> axes{};
   JobReport job;
+  std::uint32_t tool = 0;      // held now; 0: none
+  const char* tool_name = "";  // lives as long as the controller
 };
 
 // What the task is made of; the module reads it from its properties.

@@ -38,7 +38,8 @@ enum class Service : std::int32_t {
   Stop,
   JobStart,
   JobStop,
-  DirectAborting
+  DirectAborting,
+  SelectTool
 };
 
 // Services of one axis.
@@ -75,7 +76,8 @@ enum class ErrorCode : std::uint32_t {
   Aborted,       // a later command took over
   Acceleration,  // the way would need a joint to accelerate harder than it can
   Jerk,          // the way would need a joint to change its acceleration faster than it can
-  Workspace      // the target or the way there is outside of the workspace
+  Workspace,     // the target or the way there is outside of the workspace
+  Tool           // no such tool
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an
