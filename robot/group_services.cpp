@@ -34,7 +34,8 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (is_move(static_cast<Service>(request.code)) && state_ == GroupState::Moving && !job_.running() && !desk_.free()) {
     return;  // the motion before it is being planned
   }
-  if (static_cast<Service>(request.code) == Service::SelectTool && settled() && desk_.holds_forgotten()) {
+  const auto asked = static_cast<Service>(request.code);
+  if ((asked == Service::SelectTool || asked == Service::JobStart) && settled() && desk_.holds_forgotten()) {
     return;  // a plan of the tool before is still looked at
   }
   acknowledged_ = request.number;
@@ -291,6 +292,9 @@ ErrorCode Group::start_job(std::uint32_t number) noexcept {
   }
   if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
     return ErrorCode::NotHomed;
+  }
+  if (!take_tool(0)) {
+    return ErrorCode::State;  // what a job does must not depend on the tool of the one before
   }
   job_.start(static_cast<int>(number) - 1);
   follower_.reset(commanded());

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
 constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
-constexpr int kNoTool = -1;          // before a job has begun
 constexpr int kOffsets = 3;          // x, y, z
 constexpr int kLineBits = 20;        // MoveCommand::source = job and line
 
@@ -60,7 +59,7 @@ void JobRunner::start(int job) noexcept {
   speed_ = 1;
   tool_speed_ = 0;
   zone_ = 0;
-  tool_ = kNoTool;
+  tool_ = 0;
   line_ = 0;
   message_[0] = '\0';
 }
@@ -102,13 +101,6 @@ const Step* JobRunner::present() const noexcept {
 }
 
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
-  if (tool_ == kNoTool) {
-    // What a job does must not depend on the tool of the one before.
-    if (!port.settled() || !port.take_tool(0)) {
-      return;
-    }
-    tool_ = 0;
-  }
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = present();
