@@ -117,6 +117,8 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--replay", "FILE", options.replay.file,
            "Run what this recording of --record tells once more, and compare what modules leave")
       .completes(base::Completion::File);
+  line.add("--replay-board", "NAME", options.replay.board,
+           "With --replay: whose runs, of a recording of several boards");
   line.add("--with", "FILE.so", options.replay.with,
            "With --replay: use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
@@ -150,6 +152,7 @@ std::vector<std::string> words_of(const RunOptions& options) {
   value("--tape", options.tape_megabytes != kTapeMegabytes ? std::to_string(options.tape_megabytes) : "");
   value("--record", options.record.string());
   value("--replay", options.replay.file.string());
+  value("--replay-board", options.replay.board);
   for (const std::string& file : options.replay.with) {
     value("--with", file);
   }

@@ -32,6 +32,7 @@ inline constexpr std::uint64_t kTapeMegabytes = 8;
 // The runs of a recording once more, instead of a run of its own.
 struct Replay {
   std::filesystem::path file;     // empty: none
+  std::string board;              // whose runs, of a file that was joined; else empty
   std::vector<std::string> with;  // module files that take the place of those of the configuration
 };
 

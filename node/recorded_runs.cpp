@@ -5,55 +5,55 @@
 
 #include <utility>
 
+#include "recorder/sources.h"
 #include "recording/omg_idl.h"
 
 namespace indurop::node {
 
 using base::Problem;
 
-Result<RecordedRuns, Problem> RecordedRuns::open(const std::filesystem::path& path, const vars::Store& store) {
+Result<RecordedRuns, Problem> RecordedRuns::open(const std::filesystem::path& path, const std::string& board,
+                                                 const vars::Store& store) {
   auto reader = recording::McapReader::open(path);
   if (!reader) {
     return std::move(reader).error();
   }
   RecordedRuns runs(std::move(reader).value());
-  if (auto matched = runs.match(store, path.string()); !matched) {
+  if (auto matched = runs.match(store, board, path.string()); !matched) {
     return std::move(matched).error();
   }
   return runs;
 }
 
-Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::string& name) {
+Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
   const recording::Contents& contents = reader_.contents();
+  const recorder::Sources sources = recorder::find_sources(reader_);
+  const auto source = recorder::choose_source(sources, board, name);
+  if (!source) {
+    return source.error();
+  }
+  modules_ = sources.all[*source].modules;
   std::string changed;
-  for (const auto& [id, channel] : contents.channels) {
-    if (channel.topic == recorder::kRunsTopic) {
-      runs_channel_ = id;
-      for (std::size_t i = 0; channel.metadata.contains(std::to_string(i)); ++i) {
-        modules_.push_back(channel.metadata.at(std::to_string(i)));
-      }
+  for (const auto& [id, place] : sources.channels) {
+    if (place.source != *source) {
       continue;
     }
-    if (channel.topic == recorder::kClockTopic) {
-      clock_channel_ = id;
+    if (place.kind != recorder::ChannelKind::Value) {
+      (place.kind == recorder::ChannelKind::Run ? runs_channel_ : clock_channel_) = id;
       continue;
     }
-    const auto* entry = store.find(abi::fnv1a64(channel.topic.data(), channel.topic.size()));
+    const auto* entry = store.find(abi::fnv1a64(place.name.data(), place.name.size()));
     if (entry == nullptr) {
-      unknown_.push_back(channel.topic);
+      unknown_.push_back(place.name);
       continue;
     }
-    const auto schema = contents.schemas.find(channel.schema);
+    const auto schema = contents.schemas.find(contents.channels.at(id).schema);
     const std::string now = recording::omg_idl(store.schema().variables[entry->schema_index].type).text;
     if (schema == contents.schemas.end() || schema->second.data != now) {
-      changed += (changed.empty() ? "" : ", ") + channel.topic;
+      changed += (changed.empty() ? "" : ", ") + place.name;
       continue;
     }
     variables_[id] = static_cast<std::uint32_t>(entry - store.directory().data());
-  }
-  if (runs_channel_ == 0) {
-    return Problem{
-        fmt::format("{} tells no runs: only recordings of indurop record and run --record can be replayed", name)};
   }
   if (!changed.empty()) {
     return Problem{

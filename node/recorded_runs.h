@@ -37,8 +37,10 @@ struct RecordedClock {
 
 class RecordedRuns {
  public:
-  // The store is borrowed. Errors: no recording of runs; a variable has another type now.
-  static Result<RecordedRuns, base::Problem> open(const std::filesystem::path& path, const vars::Store& store);
+  // `board`: whose runs, of a file that was joined; else empty. The store is borrowed. Errors: no recording of runs, or
+  // none of this board; a variable has another type now.
+  static Result<RecordedRuns, base::Problem> open(const std::filesystem::path& path, const std::string& board,
+                                                  const vars::Store& store);
 
   // The next one; nullopt behind the last. What it points to is valid until the next call.
   // Errors: a part of the file is damaged; the next call goes on behind it.
@@ -51,7 +53,7 @@ class RecordedRuns {
 
  private:
   explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
-  Result<void, base::Problem> match(const vars::Store& store, const std::string& name);
+  Result<void, base::Problem> match(const vars::Store& store, const std::string& board, const std::string& name);
 
   recording::McapReader reader_;
   std::vector<std::string> modules_;

@@ -279,7 +279,7 @@ bool Replay::replay(RecordedRuns& recorded) {
 }
 
 Ending Replay::run() {
-  auto recorded = RecordedRuns::open(options_.replay.file, *prepared_.store);
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, *prepared_.store);
   if (!recorded) {
     console_.error("{}", recorded.error().text);
     return {kFailed, "the recording cannot be replayed"};

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
+#include "recorder/copy.h"
+#include "recorder/sources.h"
 #include "recording/mcap_reader.h"
 #include "recording/mcap_writer.h"
 
@@ -16,13 +17,11 @@ namespace {
 
 using base::Problem;
 
-constexpr const char* kNodeMetadata = "indurop.node";
-
-struct Source {
+struct Part {
   recording::McapReader reader;
   std::string name;
-  std::map<std::uint16_t, std::uint16_t> channels;  // number here, and in the file that is written
-  std::optional<recording::McapMessage> message;    // the next one
+  ChannelMap channels;
+  std::optional<recording::McapMessage> message;  // the next one
 };
 
 Result<std::string, Problem> name_of(const recording::McapReader& reader, const std::filesystem::path& file) {
@@ -39,7 +38,7 @@ Result<std::string, Problem> name_of(const recording::McapReader& reader, const 
   return board.empty() ? metadata->values["node"] : board;
 }
 
-Result<void, Problem> advance(Source& source) {
+Result<void, Problem> advance(Part& source) {
   auto next = source.reader.next();
   if (!next) {
     return std::move(next).error();
@@ -48,7 +47,7 @@ Result<void, Problem> advance(Source& source) {
   return {};
 }
 
-Result<Source, Problem> open(const std::filesystem::path& file) {
+Result<Part, Problem> open(const std::filesystem::path& file) {
   auto reader = recording::McapReader::open(file);
   if (!reader) {
     return std::move(reader).error();
@@ -57,56 +56,13 @@ Result<Source, Problem> open(const std::filesystem::path& file) {
   if (!name) {
     return std::move(name).error();
   }
-  return Source{std::move(reader).value(), *std::move(name), {}, std::nullopt};
+  return Part{std::move(reader).value(), *std::move(name), {}, std::nullopt};
 }
 
-// All but the messages.
-Result<void, Problem> copy_frame(Source& source, recording::McapWriter& writer) {
-  const recording::Contents& contents = source.reader.contents();
-  std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}};
-  for (const auto& [id, schema] : contents.schemas) {
-    auto added = writer.add_schema(schema.name, schema.encoding, schema.data);
-    if (!added) {
-      return std::move(added).error();
-    }
-    schemas[id] = *added;
-  }
-  for (const auto& [id, channel] : contents.channels) {
-    auto added = writer.add_channel(schemas[channel.schema], source.name + "/" + channel.topic, channel.encoding,
-                                    channel.metadata);
-    if (!added) {
-      return std::move(added).error();
-    }
-    source.channels[id] = *added;
-  }
-  for (const recording::McapAttachmentIndex& index : contents.attachments) {
-    const auto bytes = source.reader.attachment(index);
-    if (!bytes) {
-      return bytes.error();
-    }
-    recording::McapAttachment attachment;
-    attachment.name = source.name + "/" + index.name;
-    attachment.media_type = index.media_type;
-    if (auto attached = writer.attach(attachment, *bytes); !attached) {
-      return attached;
-    }
-  }
-  for (const recording::McapMetadataIndex& index : contents.metadata) {
-    const auto metadata = source.reader.metadata(index);
-    if (!metadata) {
-      return metadata.error();
-    }
-    if (auto said = writer.metadata(source.name + "/" + index.name, metadata->values); !said) {
-      return said;
-    }
-  }
-  return advance(source);
-}
-
-Result<void, Problem> copy_messages(std::vector<Source>& sources, recording::McapWriter& writer, Joined& joined) {
+Result<void, Problem> copy_messages(std::vector<Part>& sources, recording::McapWriter& writer, Joined& joined) {
   for (;;) {
-    Source* first = nullptr;
-    for (Source& source : sources) {
+    Part* first = nullptr;
+    for (Part& source : sources) {
       if (source.message && (first == nullptr || source.message->log_time_ns < first->message->log_time_ns)) {
         first = &source;
       }
@@ -127,8 +83,8 @@ Result<void, Problem> copy_messages(std::vector<Source>& sources, recording::Mca
   }
 }
 
-Result<std::vector<Source>, Problem> open_all(const std::vector<std::filesystem::path>& files, Joined& joined) {
-  std::vector<Source> sources;
+Result<std::vector<Part>, Problem> open_all(const std::vector<std::filesystem::path>& files, Joined& joined) {
+  std::vector<Part> sources;
   for (const std::filesystem::path& file : files) {
     auto source = open(file);
     if (!source) {
@@ -157,9 +113,14 @@ Result<Joined, Problem> join(const std::vector<std::filesystem::path>& files, co
     return std::move(writer).error();
   }
   const auto copy = [&]() -> Result<void, Problem> {
-    for (Source& source : *sources) {
-      if (auto copied = copy_frame(source, *writer); !copied) {
-        return copied;
+    for (Part& source : *sources) {
+      auto channels = copy_frame(source.reader, source.name + "/", *writer);
+      if (!channels) {
+        return std::move(channels).error();
+      }
+      source.channels = *std::move(channels);
+      if (auto advanced = advance(source); !advanced) {
+        return advanced;
       }
     }
     return copy_messages(*sources, *writer, joined);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace indurop::recording {
@@ -230,26 +231,28 @@ class Flattener {
   std::size_t steps_ = 0;
 };
 
-// Takes values off the front of a CDR message.
+// Takes values off the front of a CDR message and gives them to `use`, as what they are.
 class CdrCursor {
  public:
   explicit CdrCursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   template <class T>
-  bool take(double& to) {
+  bool take(const auto& use) {
     T value{};
     if (!raw(value)) {
       return false;
     }
-    to = static_cast<double>(value);
+    use(value);
     return true;
   }
-  bool skip_text() {
+  bool take_text(const auto& use) {
     std::uint32_t length = 0;
     if (!raw(length) || length > bytes_.size() - at_) {
       return false;
     }
+    const auto* const begin = reinterpret_cast<const char*>(bytes_.data() + at_);
     at_ += length;
+    use(std::string_view(begin, length == 0 ? 0 : length - 1));  // without its NUL
     return true;
   }
 
@@ -269,36 +272,52 @@ class CdrCursor {
   std::size_t at_ = 0;
 };
 
-bool take(CdrCursor& cursor, Kind kind, double& to) {
+bool take(CdrCursor& cursor, Kind kind, const auto& use) {
   switch (kind) {
     case Kind::Bool:
+      return cursor.take<std::uint8_t>([&use](std::uint8_t value) { use(value != 0); });
     case Kind::Char:
     case Kind::U8:
-      return cursor.take<std::uint8_t>(to);
+      return cursor.take<std::uint8_t>(use);
     case Kind::I8:
-      return cursor.take<std::int8_t>(to);
+      return cursor.take<std::int8_t>(use);
     case Kind::I16:
-      return cursor.take<std::int16_t>(to);
+      return cursor.take<std::int16_t>(use);
     case Kind::U16:
-      return cursor.take<std::uint16_t>(to);
+      return cursor.take<std::uint16_t>(use);
     case Kind::I32:
     case Kind::Enum:
-      return cursor.take<std::int32_t>(to);
+      return cursor.take<std::int32_t>(use);
     case Kind::U32:
-      return cursor.take<std::uint32_t>(to);
+      return cursor.take<std::uint32_t>(use);
     case Kind::I64:
-      return cursor.take<std::int64_t>(to);
+      return cursor.take<std::int64_t>(use);
     case Kind::U64:
-      return cursor.take<std::uint64_t>(to);
+      return cursor.take<std::uint64_t>(use);
     case Kind::F32:
-      return cursor.take<float>(to);
+      return cursor.take<float>(use);
     case Kind::F64:
-      return cursor.take<double>(to);
+      return cursor.take<double>(use);
     case Kind::Text:
-      to = std::nan("");
-      return cursor.skip_text();
+      return cursor.take_text(use);
   }
   return false;
+}
+
+// Calls use(i, value) for each leaf.
+bool for_each_leaf(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, const auto& use) {
+  constexpr std::size_t kHead = 4;
+  constexpr std::uint8_t kLittleEndian = 1;
+  if (cdr.size() < kHead || cdr[0] != 0 || cdr[1] != kLittleEndian) {
+    return false;
+  }
+  CdrCursor cursor(cdr.subspan(kHead));
+  for (std::size_t i = 0; i < layout.size(); ++i) {
+    if (!take(cursor, layout[i].kind, [&](const auto& value) { use(i, value); })) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -316,19 +335,27 @@ Result<std::vector<IdlLeaf>, Problem> idl_layout(std::string_view text, std::str
 }
 
 bool read_leaves(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, std::vector<double>& values) {
-  constexpr std::size_t kHead = 4;
-  constexpr std::uint8_t kLittleEndian = 1;
-  if (cdr.size() < kHead || cdr[0] != 0 || cdr[1] != kLittleEndian) {
-    return false;
-  }
-  CdrCursor cursor(cdr.subspan(kHead));
   values.resize(layout.size());
-  for (std::size_t i = 0; i < layout.size(); ++i) {
-    if (!take(cursor, layout[i].kind, values[i])) {
-      return false;
+  return for_each_leaf(layout, cdr, [&values](std::size_t i, const auto& value) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
+      values[i] = static_cast<double>(value);
+    } else {
+      values[i] = std::nan("");
     }
-  }
-  return true;
+  });
+}
+
+bool read_leaf_texts(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr,
+                     std::vector<std::string>& values) {
+  values.resize(layout.size());
+  return for_each_leaf(layout, cdr, [&values](std::size_t i, const auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, bool>) {
+      values[i] = value ? "true" : "false";
+    } else {
+      values[i] = fmt::format("{}", value);
+    }
+  });
 }
 
 }  // namespace indurop::recording

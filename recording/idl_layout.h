@@ -31,4 +31,8 @@ Result<std::vector<IdlLeaf>, base::Problem> idl_layout(std::string_view text, st
 // A number for each leaf; texts are NaN. False if `cdr` is no such message.
 bool read_leaves(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr, std::vector<double>& values);
 
+// The same as texts, without loss: "-5", "0.1", "true", a text as it is.
+bool read_leaf_texts(const std::vector<IdlLeaf>& layout, std::span<const std::uint8_t> cdr,
+                     std::vector<std::string>& values);
+
 }  // namespace indurop::recording

@@ -2,8 +2,7 @@
 // indurop replay: the modules of a recording run again with what they began with, and are compared with it.
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "recorder/sources.h"
 #include "recording/mcap_reader.h"
 #include "tools/command/node_program.h"
 #include "tools/verbs/verbs.h"
@@ -11,29 +10,26 @@
 namespace indurop::tools {
 namespace {
 
-constexpr const char* kNodeMetadata = "indurop.node";
-
 struct Options {
   std::filesystem::path file;
   std::filesystem::path config;
   std::string node;
+  std::string board;
   std::vector<std::string> with;
 };
 
 // What the recording says of the node it is of.
-Result<recording::TextMap, base::Problem> about(const std::filesystem::path& file) {
-  auto reader = recording::McapReader::open(file);
+Result<recording::TextMap, base::Problem> about(const Options& options) {
+  auto reader = recording::McapReader::open(options.file);
   if (!reader) {
     return std::move(reader).error();
   }
-  const auto& all = reader->contents().metadata;
-  const auto found = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.name == kNodeMetadata; });
-  if (found == all.end()) {
-    return base::Problem{fmt::format("{} is no recording of indurop record or run --record", file.string())};
+  const recorder::Sources sources = recorder::find_sources(*reader);
+  const auto source = recorder::choose_source(sources, options.board, options.file.string());
+  if (!source) {
+    return source.error();
   }
-  auto metadata = reader->metadata(*found);
-  return metadata ? Result<recording::TextMap, base::Problem>(std::move(metadata->values))
-                  : std::move(metadata).error();
+  return sources.all[*source].about;
 }
 
 int replay(Context& context, const Options& options) {
@@ -41,7 +37,7 @@ int replay(Context& context, const Options& options) {
   if (program.empty()) {
     return kFailed;
   }
-  auto known = about(options.file);
+  auto known = about(options);
   if (!known) {
     context.out.error(known.error().text);
     return kFailed;
@@ -49,6 +45,7 @@ int replay(Context& context, const Options& options) {
   config::RunOptions run;
   run.quiet = context.out.quiet();
   run.replay.file = options.file;
+  run.replay.board = options.board;
   run.replay.with = options.with;
   run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
   run.board = (*known)["board"];
@@ -69,6 +66,7 @@ Action declare(base::Options& app, Context& /*context*/) {
       .completes(base::Completion::File);
   app.add("--with", "FILE.so", options->with, "Use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
+  app.add("--board", "NAME", options->board, "The board whose runs are meant, if the recording is of several");
   app.add("--node", "NAME", options->node, "Name of the replaying node (default: replay)");
   return [options](Context& c) { return replay(c, *options); };
 }

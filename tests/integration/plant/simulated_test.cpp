@@ -123,7 +123,7 @@ TEST_F(SimulatedPlant, Is_replayed_board_by_board_and_joined_to_one_recording) {
     EXPECT_THAT(again.out, HasSubstr("1000 ticks, 1000 runs, ")) << again.err;
   }
   const std::string one = path("one.mcap");
-  const Outcome joined = indurop({"join", sensor, control, "-o", one}).finish();
+  const Outcome joined = indurop({"recording", "join", sensor, control, "-o", one}).finish();
   EXPECT_EQ(joined.code, 0) << joined.err;
   EXPECT_THAT(joined.err, HasSubstr(" messages of " + board("sensor") + ", " + board("control")));
   auto reader = recording::McapReader::open(one);
@@ -139,10 +139,21 @@ TEST_F(SimulatedPlant, Is_replayed_board_by_board_and_joined_to_one_recording) {
   EXPECT_GE(messages[board("control") + "/indurop/runs"], 1000);
   EXPECT_GT(messages[board("control") + "/cell::encoder"], 900);
   EXPECT_GT(messages[board("sensor") + "/cell::encoder"], 999);
-  const Outcome twice = indurop({"join", sensor, sensor, "-o", path("two.mcap")}).finish();
+  const Outcome part = indurop({"replay", one, "--board", board("control"), "--node", board("replay")}).finish();
+  EXPECT_EQ(part.code, 0) << part.err;
+  EXPECT_THAT(part.out, HasSubstr("1000 ticks, 1000 runs, ")) << "a joined recording is replayed board by board";
+  const Outcome which = indurop({"replay", one}).finish();
+  EXPECT_EQ(which.code, 1);
+  EXPECT_THAT(which.err, HasSubstr("choose one with --board: "));
+  EXPECT_EQ(indurop({"replay", sensor, "--board", "sensor"}).wait(), 1) << "it is of one";
+  const std::string cut = path("cut.mcap");
+  EXPECT_EQ(indurop({"recording", "cut", one, "--to", "400ms", "-o", cut}).wait(), 0);
+  const Outcome shorter = indurop({"replay", cut, "--board", board("sensor"), "--node", board("replay")}).finish();
+  EXPECT_EQ(shorter.code, 0) << shorter.err;
+  const Outcome twice = indurop({"recording", "join", sensor, sensor, "-o", path("two.mcap")}).finish();
   EXPECT_EQ(twice.code, 1);
   EXPECT_THAT(twice.err, HasSubstr("join one of each"));
-  EXPECT_EQ(indurop({"join", sensor, "-o", one}).wait(), 1) << "it is there already";
+  EXPECT_EQ(indurop({"recording", "join", sensor, "-o", one}).wait(), 1) << "it is there already";
 }
 
 }  // namespace
