@@ -21,6 +21,13 @@ bool is_this(const Expression& expression) noexcept {
          (expression.resolved->meaning == Meaning::This || expression.resolved->meaning == Meaning::Super);
 }
 
+// What a call returned, and what is in it: its types are known when they were found once, and calls are checked once.
+bool comes_from_call(const Expression& expression) noexcept {
+  const bool part = expression.kind == Expression::Kind::Member || expression.kind == Expression::Kind::Index;
+  return expression.kind == Expression::Kind::Call || expression.kind == Expression::Kind::Deref ||
+         (part && comes_from_call(expression.operands[0]));
+}
+
 // A type whose instances have methods.
 bool has_methods(const Type& type) noexcept {
   return type.pou != nullptr && (type.kind == Type::Kind::Interface || type.kind == Type::Kind::Block);
@@ -122,8 +129,7 @@ bool ExpressionChecker::may_call(const Pou& method, const Place& at) {
 // The type of the instance before the dot, THIS and SUPER included; null: none that has methods. No errors.
 const Type* ExpressionChecker::object(Expression& expression) {
   const bool reading = std::exchange(reading_, true);
-  const bool known = expression.type != nullptr && expression.resolved &&
-                     (expression.kind == Expression::Kind::Call || expression.kind == Expression::Kind::Deref);
+  const bool known = expression.type != nullptr && expression.resolved && comes_from_call(expression);
   const Type* type = known ? expression.type : typed(expression, nullptr);  // calls behind calls only once
   reading_ = reading;
   return type != nullptr && has_methods(*type) ? type : nullptr;
