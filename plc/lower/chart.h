@@ -35,6 +35,8 @@ struct ChartSurroundings {
   std::function<network::Body*(const std::string&)> transition;
   // Whether the POU has a variable of this name.
   std::function<bool(const std::string&)> declared;
+  // Whether it is the action of an instance, Valve.Open.
+  std::function<bool(const std::string&)> foreign_action;
   // `prefix` makes the names of variables different from those of other bodies.
   std::function<Lowered(network::Body&, const std::string& prefix)> action_code;
   std::function<Lowered(network::Body&, const std::string& name, const std::string& prefix)> condition_code;

@@ -67,8 +67,8 @@ class Actions {
   }
 
   // Valve.Open, of an instance in this POU.
-  static bool is_of_another(const network::ActionLine& line) {
-    return line.only_action && line.name.find('.') != std::string::npos;
+  [[nodiscard]] bool is_of_another(const network::ActionLine& line) const {
+    return line.name.find('.') != std::string::npos && (line.only_action || around_.foreign_action(line.name));
   }
 
   network::Body& call_of(const network::ActionLine& line) {

@@ -11,6 +11,7 @@
 #include "plc/library/standard.h"
 #include "plc/lower/chart.h"
 #include "plc/lower/flow.h"
+#include "plc/lower/foreign_action.h"
 #include "plc/lower/inner_charts.h"
 #include "plc/lower/list.h"
 #include "plc/lower/networks.h"
@@ -248,6 +249,7 @@ class PouLowering {
     ChartSurroundings around;
     around.action = [this](const std::string& name) { return find(pou_code_.actions, name); };
     around.transition = [this](const std::string& name) { return find(pou_code_.transitions, name); };
+    around.foreign_action = [this](const std::string& name) { return names_foreign_action(project_, pou_, name); };
     around.declared = [this](const std::string& name) { return declares(name); };
     for (const char* ignored : {"SFCInit", "SFCPause", "SFCTip", "SFCTipMode", "SFCEnableLimit"}) {
       if (declares(ignored)) {

@@ -137,6 +137,12 @@ bool ChartParser::action_line(Element& block) {
   network::ActionLine line;
   line.at = in_.here();
   line.name = in_.take().text;
+  while (in_.accept(".")) {  // of an instance: Valve.Open
+    if (!in_.expect_name("an action")) {
+      return false;
+    }
+    line.name += "." + std::string(in_.take().text);
+  }
   if (!in_.expect("(", "behind the name of the action")) {
     return false;
   }
