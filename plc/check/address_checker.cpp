@@ -29,8 +29,9 @@ struct Extent {
 
 // As the C++ of the program lays it out; none: function blocks.
 std::optional<Extent> extent_of(const Type& type) {
-  if (type.is_string()) {
-    return Extent{type.length + 1, 1};
+  if (type.is_text()) {
+    const std::uint64_t letter = type.is(Elementary::Wstring) ? sizeof(char16_t) : 1;
+    return Extent{(type.length + 1) * letter, letter};
   }
   if (type.kind <= Type::Kind::Enum) {
     const std::uint64_t bytes = (bits_of(type.elementary) + 7) / 8;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plc/model/characters.h"
+
 namespace indurop::plc {
 namespace {
 
@@ -199,13 +201,13 @@ bool fits(const Constant& value, const Type& type) noexcept {
     return type.is(Elementary::Lreal) || (type.is(Elementary::Real) && std::isfinite(static_cast<float>(*real)));
   }
   if (const auto* text = std::get_if<std::string>(&value)) {
-    return type.is_string() && text->size() <= type.length;
+    return type.is_text() && characters_of(*text, type.elementary) <= type.length;
   }
   const Integer number = std::get<Integer>(value);
   if (is_real(type.elementary)) {
     return true;
   }
-  if (type.is_string() || (type.is(Elementary::Bool) && number != 0 && number != 1)) {
+  if (type.is_text() || (type.is(Elementary::Bool) && number != 0 && number != 1)) {
     return false;
   }
   const IntegerLimits limits = limits_of(
@@ -215,7 +217,9 @@ bool fits(const Constant& value, const Type& type) noexcept {
 }
 
 bool adapts(const Constant& value, const Type& type) noexcept {
-  return fits(value, type) && !(type.kind == Type::Kind::Elementary && is_time(type.elementary));
+  const bool has_unit =
+      type.kind == Type::Kind::Elementary && (is_time(type.elementary) || is_character(type.elementary));
+  return fits(value, type) && !has_unit;
 }
 
 Elementary default_type(const Constant& constant) noexcept {
@@ -233,6 +237,9 @@ Elementary default_type(const Constant& constant) noexcept {
 }
 
 std::string unit_hint(const Type& type) {
+  if (type.kind == Type::Kind::Elementary && is_character(type.elementary)) {
+    return type.is(Elementary::Char) ? "; write the character, CHAR#'a'" : "; write the character, WCHAR#\"a\"";
+  }
   if (type.kind != Type::Kind::Elementary || !is_time(type.elementary)) {
     return {};
   }
@@ -260,7 +267,7 @@ Constant stored(const Constant& value, const Type& type) {
   const Integer span = Integer{1} << bits;
   Integer wrapped = *number % span;
   wrapped += wrapped < 0 ? span : 0;
-  const bool has_sign = !is_bit(type.elementary) && !is_unsigned_int(type.elementary);
+  const bool has_sign = !is_bit(type.elementary) && !is_unsigned_int(type.elementary) && !is_character(type.elementary);
   return has_sign && wrapped >= span / 2 ? wrapped - span : wrapped;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "plc/check/call_checker.h"
+#include "plc/model/characters.h"
 
 namespace indurop::plc {
 namespace {
@@ -35,6 +36,22 @@ bool is_elementary_bit(const Type& type) noexcept {
 }
 
 }  // namespace
+
+bool adapt_character(Expression& expression, const Type& to) {
+  if (to.kind != Type::Kind::Elementary || !is_character(to.elementary) ||
+      expression.kind != Expression::Kind::Literal || constant_of(expression) == nullptr) {
+    return false;
+  }
+  const auto* text = std::get_if<std::string>(constant_of(expression));
+  const Elementary of = to.is(Elementary::Char) ? Elementary::String : Elementary::Wstring;
+  const auto code =
+      text != nullptr && expression.value_type == of ? code_of_character(*text, to.elementary) : std::nullopt;
+  if (code) {
+    expression.resolved->constant = Integer{*code};
+    expression.type = &to;
+  }
+  return code.has_value();
+}
 
 bool adapt(Expression& expression, const Type& to) {
   if (!expression.resolved || !expression.resolved->untyped || !adapts(*expression.resolved->constant, to)) {
@@ -187,11 +204,15 @@ void ExpressionChecker::call_statement(Expression& expression) {
   CallChecker(*this).statement(expression);
 }
 
-const Type* ExpressionChecker::literal(Expression& expression, const Type* /*wanted*/) {
+const Type* ExpressionChecker::literal(Expression& expression, const Type* wanted) {
   Resolved& out = resolved(expression);
   out.constant = constant_of_literal(expression.value);
   if (const auto* text = std::get_if<std::string>(&expression.value)) {
-    return context_.program.types.string(text->size());
+    if (wanted != nullptr && adapt_character(expression, *wanted)) {
+      return wanted;
+    }
+    const Elementary of = expression.value_type.value_or(Elementary::String);
+    return context_.program.types.text(of, characters_of(*text, of));
   }
   if (expression.value_type) {
     const Type* type = context_.elementary(*expression.value_type);
@@ -239,7 +260,7 @@ const Type* ExpressionChecker::part(Expression& expression, const Type& base) {
   return context_.elementary(type);
 }
 
-// s[0] is the first character for CODESYS, a BYTE.
+// s[1] is the first character, a CHAR; for CODESYS s[0], a BYTE. Those of a WSTRING are a WCHAR or a WORD.
 const Type* ExpressionChecker::character(Expression& expression, const Type& text) {
   const bool reading = std::exchange(reading_, true);
   Expression& index = expression.operands[1];
@@ -252,11 +273,16 @@ const Type* ExpressionChecker::character(Expression& expression, const Type& tex
     return nullptr;
   }
   const Constant* known = constant_of(index);
-  if (known != nullptr && (std::get<Integer>(*known) < 0 || std::get<Integer>(*known) > Integer{text.length})) {
-    context_.error(index.at, fmt::format("index {} is outside of 0..{}, correct it", to_string(*known), text.length));
+  const int first = context_.codesys() ? 0 : 1;
+  if (known != nullptr && (std::get<Integer>(*known) < first || std::get<Integer>(*known) > Integer{text.length})) {
+    context_.error(index.at,
+                   fmt::format("index {} is outside of {}..{}, correct it", to_string(*known), first, text.length));
     return nullptr;
   }
-  return context_.elementary(Elementary::Byte);
+  context_.program.types.note_aliases();
+  const bool wide = text.is(Elementary::Wstring);
+  const Elementary number = wide ? Elementary::Word : Elementary::Byte;
+  return context_.elementary(context_.codesys() ? number : wide ? Elementary::Wchar : Elementary::Char);
 }
 
 const Type* ExpressionChecker::index(Expression& expression) {
@@ -264,7 +290,7 @@ const Type* ExpressionChecker::index(Expression& expression) {
   if (base != nullptr && base->kind == Type::Kind::Pointer && expression.operands.size() == 2) {
     return pointer_index(expression, *base);
   }
-  if (base != nullptr && base->is_string() && context_.codesys() && expression.operands.size() == 2) {
+  if (base != nullptr && base->is_text() && expression.operands.size() == 2) {
     return character(expression, *base);
   }
   const bool reading = std::exchange(reading_, true);

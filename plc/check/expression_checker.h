@@ -120,6 +120,8 @@ class ExpressionChecker {
 
 // Gives an untyped constant the type if it fits. True if the value can be used as a `to` afterwards.
 bool adapt(ast::Expression& expression, const Type& to);
+// Whether a text of one character, as it is written, became the CHAR or WCHAR that is wanted.
+bool adapt_character(ast::Expression& expression, const Type& to);
 // Known value of a checked expression, or null.
 [[nodiscard]] const Constant* constant_of(const ast::Expression& expression) noexcept;
 

@@ -81,7 +81,7 @@ const Type* foreign_type(Context& context, const schema::Type& type) {
   if (type.base == schema::Base::Struct || type.base == schema::Base::Enum) {
     element = named(context, type);
   } else if (type.base == schema::Base::Text) {
-    element = context.program.types.string(std::max(type.text_size, 1U) - 1);
+    element = context.program.types.text(Elementary::String, std::max(type.text_size, 1U) - 1);
   } else {
     element = context.elementary(elementary_of(type.base));
   }

@@ -16,9 +16,9 @@
 namespace indurop::plc {
 namespace {
 
-constexpr std::array<std::string_view, 11> kGenerics{"ANY",      "ANY_ELEMENTARY", "ANY_MAGNITUDE", "ANY_NUM",
-                                                     "ANY_REAL", "ANY_INT",        "ANY_SIGNED",    "ANY_UNSIGNED",
-                                                     "ANY_BIT",  "ANY_STRING",     "ANY_DATE"};
+constexpr std::array<std::string_view, 13> kGenerics{
+    "ANY",          "ANY_ELEMENTARY", "ANY_MAGNITUDE", "ANY_NUM",  "ANY_REAL", "ANY_INT",  "ANY_SIGNED",
+    "ANY_UNSIGNED", "ANY_BIT",        "ANY_STRING",    "ANY_DATE", "ANY_CHAR", "ANY_CHARS"};
 
 // How the type is declared; none of those that have no name.
 std::optional<ast::TypeSpec> spec_of(const Type& type, const Place& at) {
@@ -29,7 +29,7 @@ std::optional<ast::TypeSpec> spec_of(const Type& type, const Place& at) {
     return std::nullopt;
   }
   ast::TypeSpec out = make::type(at, type.elementary);
-  if (type.is_string()) {
+  if (type.is_text()) {
     out.kind = ast::TypeSpec::Kind::String;
     ast::Expression length;
     length.at = at;
@@ -41,7 +41,7 @@ std::optional<ast::TypeSpec> spec_of(const Type& type, const Place& at) {
 
 // "INT", "STRING_20"
 std::string word_of(const Type& type) {
-  return type.is_string() ? fmt::format("STRING_{}", type.length) : to_string(type);
+  return type.is_text() ? fmt::format("{}_{}", name_of(type.elementary), type.length) : to_string(type);
 }
 
 bool replace(ast::TypeSpec& spec, const std::map<std::string, const Type*>& types) {
@@ -83,7 +83,9 @@ bool generic_takes(const std::string& generic, const Type& type) noexcept {
          (generic == "ANY_NUM" && is_num(own)) || (generic == "ANY_REAL" && is_real(own)) ||
          (generic == "ANY_INT" && is_int(own)) || (generic == "ANY_SIGNED" && is_signed_int(own)) ||
          (generic == "ANY_UNSIGNED" && is_unsigned_int(own)) || (generic == "ANY_BIT" && is_bit(own)) ||
-         (generic == "ANY_STRING" && type.is_string()) || (generic == "ANY_DATE" && is_date(own));
+         ((generic == "ANY_STRING" || generic == "ANY_CHARS") && type.is_text()) ||
+         ((generic == "ANY_CHAR" || generic == "ANY_CHARS") && is_character(own)) ||
+         (generic == "ANY_DATE" && is_date(own));
 }
 
 Pou* function_for(Context& context, const ast::Pou& tree, const std::map<std::string, const Type*>& types,

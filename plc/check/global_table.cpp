@@ -122,7 +122,7 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
     global.kind = Global::Kind::Fixed;
     const bool scalar = variable.initial && variable.initial->value && type.kind == Type::Kind::Elementary;
     const Constant* known = scalar ? constant_of(*variable.initial->value) : nullptr;
-    global.constant = known != nullptr && !type.is_string() ? std::optional(stored(*known, type)) : std::nullopt;
+    global.constant = known != nullptr && !type.is_text() ? std::optional(stored(*known, type)) : std::nullopt;
   } else if (is_private(type)) {
     if (variable.retain && !holds_instances(type)) {
       context.error(variable.at, fmt::format("{} cannot be kept over a restart, remove RETAIN", with_article(type)));
@@ -205,8 +205,8 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
   const Type& one = type.kind == Type::Kind::Array ? *type.element : type;  // an array fills the places behind it
-  const bool fits = one.kind <= Type::Kind::Enum && !one.is_string() &&
-                    bits_of(one.elementary) == bits_of_size(variable.address->size);
+  const bool fits =
+      one.kind <= Type::Kind::Enum && !one.is_text() && bits_of(one.elementary) == bits_of_size(variable.address->size);
   if (!fits) {
     context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
                                            with_article(type), ast::to_string(*variable.address)));

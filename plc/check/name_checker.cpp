@@ -269,7 +269,7 @@ const Type* ExpressionChecker::member(Expression& expression) {
   if (type->kind == Type::Kind::Block) {
     return block_member(expression, *type);
   }
-  if (type->kind == Type::Kind::Elementary && !type->is_string()) {
+  if (type->kind == Type::Kind::Elementary && !type->is_text()) {
     return named_bit(expression, *type);
   }
   std::vector<std::string> known;

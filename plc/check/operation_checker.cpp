@@ -121,10 +121,11 @@ const Type* ExpressionChecker::binary(Expression& expression, const Type* wanted
 
 // Brings both to one type; false if there is none.
 bool ExpressionChecker::meet(Expression& a, Expression& b) {
-  if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_string()) {
+  static_cast<void>(adapt_character(a, *b.type) || adapt_character(b, *a.type));
+  if (a.resolved->untyped && !adapt(a, *context_.elementary(b.type->elementary)) && !b.type->is_text()) {
     adapt(a, *a.type);
   }
-  if (b.resolved->untyped && !adapt(b, *context_.elementary(a.type->elementary)) && !a.type->is_string()) {
+  if (b.resolved->untyped && !adapt(b, *context_.elementary(a.type->elementary)) && !a.type->is_text()) {
     adapt(b, *b.type);
   }
   return context_.common_type(*a.type, *b.type) != nullptr;
@@ -206,12 +207,12 @@ const Type* ExpressionChecker::arithmetic(Expression& expression, const Type* wa
 void ExpressionChecker::fold(Expression& expression, const Type& operand) {
   const Constant* a = constant_of(expression.operands[0]);
   const Constant* b = constant_of(expression.operands[1]);
-  if (a == nullptr || b == nullptr) {
-    return;
+  if (a == nullptr || b == nullptr || operand.is(Elementary::Wstring)) {
+    return;  // the order of UTF-16 is not that of its UTF-8
   }
   std::string why;
-  auto known = apply(expression.op, operand.is_string() ? *a : stored(*a, operand),
-                     operand.is_string() ? *b : stored(*b, operand), why);
+  auto known = apply(expression.op, operand.is_text() ? *a : stored(*a, operand),
+                     operand.is_text() ? *b : stored(*b, operand), why);
   const bool compares = expression.op >= Operator::Less && expression.op <= Operator::NotEqual;
   if (known && (compares || holds(operand, *known))) {
     resolved(expression).constant = compares ? *known : stored(*known, operand);

@@ -75,8 +75,8 @@ std::string missing_unit(const std::vector<Expression*>& inputs) {
 
 // Whether both inputs have one type. Length and position in a text are numbers of their own.
 bool same_group(const LibraryFunction& function, std::size_t a, std::size_t b) noexcept {
-  const bool counts =
-      function.result == LibraryType(Elementary::String) && function.input(a).type == LibraryType(Generic::AnyInt);
+  const auto* result = std::get_if<Elementary>(&function.result);
+  const bool counts = result != nullptr && is_text(*result) && function.input(a).type == LibraryType(Generic::AnyInt);
   return function.input(a).type == function.input(b).type && (a == b || !counts);
 }
 
@@ -163,8 +163,9 @@ const Type* CallChecker::library_function(Expression& call, std::vector<const Li
       expressions_.cast(*inputs[i], *context_.elementary(inputs[i]->type->elementary));
     }
   }
-  if (first.name == "TO_STRING" && !context_.codesys() && inputs.size() == 1 && is_bits(*inputs[0]->type)) {
-    overloads = find_functions(fmt::format("{}_TO_STRING", name_of(inputs[0]->type->elementary)));  // '16#2a'
+  const bool to_text = first.name == "TO_STRING" || first.name == "TO_WSTRING";
+  if (to_text && !context_.codesys() && inputs.size() == 1 && is_bits(*inputs[0]->type)) {
+    overloads = find_functions(fmt::format("{}_{}", name_of(inputs[0]->type->elementary), first.name));  // '16#2a'
   }
   const Type* result = choose(call, overloads, inputs, wanted);
   if (result == nullptr) {
@@ -257,7 +258,7 @@ std::optional<int> CallChecker::cost_of(const Expression& input, const Type& typ
   if (!context_.assignable(*input.type, type)) {
     return std::nullopt;
   }
-  return same_type(*input.type, type) || type.is_string() ? 0 : 1;
+  return same_type(*input.type, type) || type.is_text() ? 0 : 1;
 }
 
 // The one type of all inputs of the group of this one; null if there is none.

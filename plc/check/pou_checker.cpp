@@ -174,7 +174,7 @@ class VariableDeclarer {
 
   static void remember_constant(Variable& made, const ast::Variable& declared) {
     const Constant* known = declared.initial->value ? constant_of(*declared.initial->value) : nullptr;
-    if (known != nullptr && made.type->kind == Type::Kind::Elementary && !made.type->is_string()) {
+    if (known != nullptr && made.type->kind == Type::Kind::Elementary && !made.type->is_text()) {
       made.constant = stored(*known, *made.type);
     }
   }

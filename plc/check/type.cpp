@@ -37,8 +37,8 @@ std::string to_string(const Type& type) {
   if (!type.name.empty()) {
     return type.name;
   }
-  if (type.is_string()) {
-    return fmt::format("STRING[{}]", type.length);
+  if (type.is_text()) {
+    return fmt::format("{}[{}]", name_of(type.elementary), type.length);
   }
   const std::string name(name_of(type.elementary));
   return type.range ? fmt::format("{} ({}..{})", name, type.range->low, type.range->high) : name;
@@ -118,7 +118,7 @@ bool is_private(const Type& type) noexcept {
 }
 
 const Type* common_type(const Type& a, const Type& b, Dialect dialect) noexcept {
-  if (a.is_string() && b.is_string()) {
+  if (a.is_text() && b.is_text() && a.elementary == b.elementary) {
     return a.length >= b.length ? &a : &b;
   }
   const bool a_to_b = assignable(a, b, dialect);
@@ -137,7 +137,7 @@ std::uint64_t parts_of(const Type& type) noexcept {
   constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
   switch (type.kind) {
     case Type::Kind::Elementary:
-      return type.is_string() ? (type.length + 8) / 8 : 1;
+      return type.is_text() ? (type.length + 8) / 8 : 1;
     case Type::Kind::Enum:
     case Type::Kind::Block:
     case Type::Kind::Pointer:
@@ -175,17 +175,19 @@ TypeTable::TypeTable() {
   for (std::size_t i = 0; i < kElementaryCount; ++i) {
     Type type;
     type.elementary = static_cast<Elementary>(i);
-    type.length = type.is_string() ? kDefaultStringLength : 0;
+    type.length = type.is_text() ? kDefaultStringLength : 0;
     elementary_.push_back(add(std::move(type)));
   }
-  strings_[kDefaultStringLength] = elementary(Elementary::String);
+  for (const Elementary of : {Elementary::String, Elementary::Wstring}) {
+    texts_[{of, kDefaultStringLength}] = elementary(of);
+  }
 }
 
-const Type* TypeTable::string(std::size_t length) {
-  const Type*& known = strings_[length];
+const Type* TypeTable::text(Elementary of, std::size_t length) {
+  const Type*& known = texts_[{of, length}];
   if (known == nullptr) {
     Type type;
-    type.elementary = Elementary::String;
+    type.elementary = of;
     type.length = length;
     known = add(std::move(type));
   }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "plc/model/ast.h"
@@ -49,7 +50,7 @@ struct Type {
   Kind kind = Kind::Elementary;
   Elementary elementary = Elementary::Int;  // Elementary; Enum: what it is stored in
   std::string name;                         // Enum, Struct, Block, Interface and subranges: as declared
-  std::size_t length = 0;                   // STRING: most characters
+  std::size_t length = 0;                   // STRING, WSTRING: most characters
   std::optional<Bounds> range;              // subrange
   std::vector<Field> fields;                // Struct
   bool overlaps = false;                    // Struct: a UNION
@@ -68,7 +69,7 @@ struct Type {
   [[nodiscard]] bool is_reference() const noexcept {
     return kind == Kind::Pointer && pointer == ast::PointerKind::ReferenceTo;
   }
-  [[nodiscard]] bool is_string() const noexcept { return is(Elementary::String); }
+  [[nodiscard]] bool is_text() const noexcept { return kind == Kind::Elementary && plc::is_text(elementary); }
 };
 
 // "INT", "STRING[20]", "ARRAY[1..3] OF Motor"
@@ -106,10 +107,12 @@ class TypeTable {
   [[nodiscard]] const Type* elementary(Elementary type) const noexcept {
     return elementary_[static_cast<std::size_t>(type)];
   }
-  [[nodiscard]] const Type* string(std::size_t length);
+  // STRING[length] or WSTRING[length].
+  [[nodiscard]] const Type* text(Elementary of, std::size_t length);
   [[nodiscard]] bool has_pointers() const noexcept { return has_pointers_; }
   // Whether the bytes of a variable are seen as values of several types.
   [[nodiscard]] bool has_aliases() const noexcept { return has_aliases_; }
+  void note_aliases() noexcept { has_aliases_ = true; }
   // A new type; the address stays.
   Type* add(Type type);
 
@@ -118,7 +121,7 @@ class TypeTable {
   bool has_pointers_ = false;
   bool has_aliases_ = false;
   std::vector<const Type*> elementary_;
-  std::map<std::size_t, const Type*> strings_;
+  std::map<std::pair<Elementary, std::size_t>, const Type*> texts_;
 };
 
 }  // namespace indurop::plc

@@ -83,17 +83,18 @@ class TypeBuilder {
  private:
   const Type* string(ast::TypeSpec& spec) {
     if (!spec.length) {
-      return context_.elementary(Elementary::String);
+      return context_.elementary(spec.elementary);
     }
-    const auto length = expressions_.constant(*spec.length, "the length of a STRING");
+    const auto length = expressions_.constant(*spec.length, "the length of a text");
     if (!length) {
       return nullptr;
     }
     if (*length < 1 || *length > kMaxStringLength) {
-      context_.error(spec.length->at, fmt::format("a STRING has 1 to {} characters", kMaxStringLength));
+      context_.error(spec.length->at,
+                     fmt::format("a {} has 1 to {} characters", name_of(spec.elementary), kMaxStringLength));
       return nullptr;
     }
-    return context_.program.types.string(static_cast<std::size_t>(*length));
+    return context_.program.types.text(spec.elementary, static_cast<std::size_t>(*length));
   }
 
   const Type* named(ast::TypeSpec& spec) {

@@ -92,7 +92,7 @@ ValueTree initial_value(const Type& type, const ast::Initial* initial) {
     case Type::Kind::Elementary: {
       const Constant* known = initial != nullptr && initial->value ? constant_of(*initial->value) : nullptr;
       if (known != nullptr) {
-        return leaf(type.is_string() ? *known : stored(*known, type));
+        return leaf(type.is_text() ? *known : stored(*known, type));
       }
       const bool outside = type.range && (type.range->low > 0 || type.range->high < 0);
       return outside ? leaf(Integer{type.range->low}) : zero();

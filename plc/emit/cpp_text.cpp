@@ -11,6 +11,7 @@
 #include "glb2idl/names.h"
 #include "glb2idl/text.h"
 #include "plc/library/standard.h"
+#include "plc/model/characters.h"
 
 namespace indurop::plc {
 namespace {
@@ -154,7 +155,9 @@ std::string proxy_of(const Global& global) {
 std::string cpp_type(const Type& type) {
   switch (type.kind) {
     case Type::Kind::Elementary:
-      return type.is_string() ? fmt::format("iec::String<{}>", type.length) : std::string(cpp_type(type.elementary));
+      return type.is_text()
+                 ? fmt::format("iec::{}<{}>", type.is(Elementary::String) ? "String" : "WString", type.length)
+                 : std::string(cpp_type(type.elementary));
     case Type::Kind::Enum:
     case Type::Kind::Struct:
       return type.shared_name.empty() ? "plc::" + cpp_name(std::string_view(type.name)) : "::" + type.shared_name;
@@ -186,7 +189,7 @@ std::string cpp_constant(const Constant& value, const Type& type, bool exact) {
     return real(*one, type);
   }
   if (const auto* text = std::get_if<std::string>(&value)) {
-    return fmt::format("{}({})", cpp_type(type), quoted(*text));
+    return fmt::format("{}({})", cpp_type(type), type.is(Elementary::Wstring) ? wide_quoted(*text) : quoted(*text));
   }
   const Integer whole = std::get<Integer>(value);
   if (type.kind == Type::Kind::Enum) {
@@ -212,6 +215,18 @@ std::string cpp_initial(const Type& type, const ast::Initial* initial) {
 
 std::string quoted(std::string_view text) {
   return '"' + glb2idl::escape(text) + '"';
+}
+
+std::string wide_quoted(std::string_view utf8) {
+  std::string out = "u\"";
+  bool number = false;  // a digit behind one would be part of it
+  for (const char16_t one : to_wide(utf8)) {
+    const bool plain = one >= 0x20 && one < 0x7F && one != '"' && one != '\\' && one != '?';
+    out += number && plain ? "\" u\"" : "";
+    out += plain ? std::string(1, static_cast<char>(one)) : fmt::format("\\x{:04x}", static_cast<unsigned>(one));
+    number = !plain;
+  }
+  return out + "\"";
 }
 
 std::string comment_text(std::string_view text) {

@@ -26,6 +26,8 @@ namespace indurop::plc {
 [[nodiscard]] std::string cpp_initial(const Type& type, const ast::Initial* initial);
 // "text with escapes" as a literal.
 [[nodiscard]] std::string quoted(std::string_view text);
+// The same for a WSTRING: u"text".
+[[nodiscard]] std::string wide_quoted(std::string_view utf8);
 // What may stand behind "//": one line that does not go on in the next one.
 [[nodiscard]] std::string comment_text(std::string_view text);
 // {"prog.st:12:5", "MAIN"}

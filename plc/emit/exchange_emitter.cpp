@@ -17,8 +17,7 @@ namespace {
 // A number, or a time: the same bytes in the program and in the store, which it reads and writes at once.
 std::size_t word_bytes(const Type& type) {
   constexpr unsigned kBits = 8;
-  return type.kind == Type::Kind::Elementary && !type.is_string() ? std::max(bits_of(type.elementary), kBits) / kBits
-                                                                  : 0;
+  return type.kind == Type::Kind::Elementary && !type.is_text() ? std::max(bits_of(type.elementary), kBits) / kBits : 0;
 }
 
 class Emitter {

@@ -6,6 +6,7 @@
 #include "plc/check/expression_checker.h"
 #include "plc/emit/object_emitter.h"
 #include "plc/library/standard.h"
+#include "plc/model/characters.h"
 
 namespace indurop::plc {
 namespace {
@@ -65,7 +66,7 @@ bool is_this(const Expression& expression) noexcept {
 
 std::string converted(const std::string& text, const Expression& expression, const Type& to) {
   const Type& from = *expression.type;
-  if (to.is_string()) {
+  if (to.is_text()) {
     const bool exactly = expression.kind != Expression::Kind::Call && from.length == to.length;
     return exactly ? text : fmt::format("{}({})", cpp_type(to), text);
   }
@@ -91,14 +92,14 @@ std::string ExpressionEmitter::value(const Expression& expression, const Type& t
   }
   const bool scalar = to.kind == Type::Kind::Elementary || to.kind == Type::Kind::Enum;
   if (known != nullptr && scalar && !is_named(expression)) {
-    if (to.is_string()) {
+    if (to.is_text()) {
       Type own = to;
-      own.length = exact ? std::get<std::string>(*known).size() : to.length;
+      own.length = exact ? characters_of(std::get<std::string>(*known), to.elementary) : to.length;
       return cpp_constant(*known, own, exact);
     }
     return cpp_constant(to.kind == Type::Kind::Enum ? *known : stored(*known, to), to, exact);
   }
-  const std::string text = exact && to.is_string() ? raw(expression) : converted(raw(expression), expression, to);
+  const std::string text = exact && to.is_text() ? raw(expression) : converted(raw(expression), expression, to);
   return exact || in_range_of(*expression.type, to) ? text : in_range(expression, text, to);
 }
 
@@ -225,9 +226,11 @@ std::string ExpressionEmitter::index_through_pointer(const Expression& expressio
 
 std::string ExpressionEmitter::index(const Expression& expression) const {
   const Type& array = *expression.operands[0].type;
-  if (array.is_string()) {
-    return fmt::format("iec::character({}, {}, static_cast<std::int64_t>({}))", place(expression.at),
-                       raw(expression.operands[0]), value(expression.operands[1]));
+  if (array.is_text()) {
+    const bool from_zero = !is_character(expression.type->elementary);  // as CODESYS counts
+    return fmt::format("iec::character<{}, {}>({}, {}, static_cast<std::int64_t>({}))", cpp_type(*expression.type),
+                       from_zero ? 0 : 1, place(expression.at), raw(expression.operands[0]),
+                       value(expression.operands[1]));
   }
   const bool one = expression.operands.size() == 2;
   if (array.kind == Type::Kind::Pointer || (one && expression.operands[0].kind == Expression::Kind::Deref)) {
@@ -317,7 +320,7 @@ std::string ExpressionEmitter::binary(const Expression& expression) const {
 
 std::string ExpressionEmitter::comparison(const Expression& expression) const {
   const Type& type = *expression.resolved->operand;
-  const bool texts = type.is_string();
+  const bool texts = type.is_text();
   const std::string a = value(expression.operands[0], type, texts);
   const std::string b = value(expression.operands[1], type, texts);
   if (texts) {

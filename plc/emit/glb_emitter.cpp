@@ -13,13 +13,15 @@
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/task_use.h"
 #include "plc/emit/watch_layout.h"
+#include "plc/model/characters.h"
 
 namespace indurop::plc {
 namespace {
 
 constexpr std::array<std::string_view, kElementaryCount> kGlbTypes{
-    "bool",     "uint8_t",  "uint16_t", "uint32_t", "uint64_t", "int8_t",  "int16_t", "int32_t", "int64_t", "uint8_t",
-    "uint16_t", "uint32_t", "uint64_t", "float",    "double",   "int64_t", "int64_t", "int64_t", "int64_t", "char"};
+    "bool",    "uint8_t", "uint16_t", "uint32_t", "uint64_t", "int8_t",  "int16_t", "int32_t",
+    "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t", "float",   "double",  "int64_t",
+    "int64_t", "int64_t", "int64_t",  "char",     "uint16_t", "uint8_t", "uint16_t"};
 
 std::string glb_text(std::string_view text) {
   std::string out = "\"";
@@ -146,7 +148,7 @@ class GlbEmitter {
         dims += fmt::format("[{}]", one.count());
       }
     }
-    if (inner->is_string()) {
+    if (inner->is_text()) {
       dims += fmt::format("[{}]", inner->length + 1);
     }
     const std::string unit = inner->is(Elementary::Time) ? " @unit(\"ns\")" : "";
@@ -177,8 +179,11 @@ class GlbEmitter {
     if (type.kind == Type::Kind::Enum && enums_.contains(&type)) {
       return type.items[static_cast<std::size_t>(*as_int64(tree.value))].shared;
     }
+    if (type.is(Elementary::Wstring)) {
+      return tree.zero ? "{}" : wide_text(std::get<std::string>(tree.value));
+    }
     if (type.kind == Type::Kind::Elementary || type.kind == Type::Kind::Enum) {
-      return tree.zero && type.is_string() ? "\"\"" : tree.zero ? "0" : glb_constant(tree.value);
+      return tree.zero && type.is_text() ? "\"\"" : tree.zero ? "0" : glb_constant(tree.value);
     }
     std::string parts;
     const std::size_t count = tree.equal_parts ? count_of(type, level) : tree.parts.size();
@@ -188,6 +193,15 @@ class GlbEmitter {
       const Type& inner = type.kind == Type::Kind::Struct ? *type.fields[i].type : deeper ? type : *type.element;
       parts += (i > 0 ? ", " : "") +
                (part.zero && inner.kind > Type::Kind::Enum ? "{}" : value(inner, part, deeper ? level + 1 : 0));
+    }
+    return "{" + parts + "}";
+  }
+
+  // Its characters as numbers, up to the end of the array.
+  static std::string wide_text(std::string_view utf8) {
+    std::string parts;
+    for (const char16_t one : to_wide(utf8)) {
+      parts += fmt::format("{}{}", parts.empty() ? "" : ", ", static_cast<unsigned>(one));
     }
     return "{" + parts + "}";
   }

@@ -64,7 +64,7 @@ class Emitter {
 
  private:
   static std::string name_in_x(const Variable& variable) { return "x." + cpp_name(std::string_view(variable.name)); }
-  static bool is_number(const Type& type) { return type.kind == Type::Kind::Elementary && !type.is_string(); }
+  static bool is_number(const Type& type) { return type.kind == Type::Kind::Elementary && !type.is_text(); }
   // Whether it lies in the struct of its instance.
   static bool is_member(const Variable& variable) {
     return variable.section != ast::Section::External && variable.section != ast::Section::Temp &&
@@ -102,7 +102,7 @@ class Emitter {
     for (const auto* pins : {&block.inputs, &block.outputs}) {
       for (const LibraryParameter& pin : *pins) {
         const auto* known = std::get_if<Elementary>(&pin.type);
-        if (known != nullptr && *known != Elementary::String) {
+        if (known != nullptr && !is_text(*known)) {
           out_.line(fmt::format("{}.put({}.{});", to_, expression, pin.cpp));
         }
       }

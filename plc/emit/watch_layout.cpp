@@ -140,7 +140,7 @@ class Layout {
   static const Type* type_of(const LibraryParameter& pin) {
     static const TypeTable types;
     const auto* known = std::get_if<Elementary>(&pin.type);
-    return known == nullptr || *known == Elementary::String ? nullptr : types.elementary(*known);
+    return known == nullptr || is_text(*known) ? nullptr : types.elementary(*known);
   }
 
   WatchLayout out_;
@@ -166,8 +166,8 @@ std::size_t packed_size(const Type& type) {
   constexpr unsigned kBits = 8;
   switch (type.kind) {
     case Type::Kind::Elementary:
-      if (type.is_string()) {
-        return type.length + 1;
+      if (type.is_text()) {
+        return (type.length + 1) * (type.is(Elementary::Wstring) ? 2 : 1);
       }
       [[fallthrough]];
     case Type::Kind::Enum:

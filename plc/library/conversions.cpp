@@ -11,11 +11,29 @@ namespace {
 
 using std::string;
 
-constexpr std::array<std::string_view, kElementaryCount> kCppTypes{
-    "bool",          "std::uint8_t",  "std::uint16_t",  "std::uint32_t", "std::uint64_t",
-    "std::int8_t",   "std::int16_t",  "std::int32_t",   "std::int64_t",  "std::uint8_t",
-    "std::uint16_t", "std::uint32_t", "std::uint64_t",  "float",         "double",
-    "iec::Time",     "iec::Date",     "iec::TimeOfDay", "iec::DateTime", ""};
+constexpr std::array<std::string_view, kElementaryCount> kCppTypes{"bool",
+                                                                   "std::uint8_t",
+                                                                   "std::uint16_t",
+                                                                   "std::uint32_t",
+                                                                   "std::uint64_t",
+                                                                   "std::int8_t",
+                                                                   "std::int16_t",
+                                                                   "std::int32_t",
+                                                                   "std::int64_t",
+                                                                   "std::uint8_t",
+                                                                   "std::uint16_t",
+                                                                   "std::uint32_t",
+                                                                   "std::uint64_t",
+                                                                   "float",
+                                                                   "double",
+                                                                   "iec::Time",
+                                                                   "iec::Date",
+                                                                   "iec::TimeOfDay",
+                                                                   "iec::DateTime",
+                                                                   "",
+                                                                   "",
+                                                                   "char8_t",
+                                                                   "char16_t"};
 
 constexpr Elementary type_at(std::size_t number) noexcept {
   return static_cast<Elementary>(number);
@@ -41,8 +59,15 @@ bool is_useful_between_times(Elementary from, Elementary to) {
   }
 }
 
+// A character is a number, and a text.
+bool is_useful_for_character(Elementary other) {
+  return is_int(other) || is_text(other) || is_character(other) || (is_bit(other) && other != Elementary::Bool);
+}
+
 string conversion_to(Elementary to) {
-  return to == Elementary::String ? "to_string" : "to<" + string(cpp_type(to)) + ">";
+  return to == Elementary::Wstring  ? "to_wstring"
+         : to == Elementary::String ? "to_string"
+                                    : "to<" + string(cpp_type(to)) + ">";
 }
 
 void append(std::vector<LibraryFunction>& all, const string& name, std::string_view from, std::string_view to,
@@ -53,11 +78,16 @@ void append(std::vector<LibraryFunction>& all, const string& name, std::string_v
 void append_conversions_from(std::vector<LibraryFunction>& all, Elementary from) {
   for (std::size_t i = 0; i < kElementaryCount; ++i) {
     const Elementary to = type_at(i);
-    const bool useful = is_time(from) && is_time(to) ? is_useful_between_times(from, to) : from != to;
+    const bool useful = is_time(from) && is_time(to) ? is_useful_between_times(from, to)
+                        : is_character(from)         ? is_useful_for_character(to) && from != to
+                        : is_character(to)           ? is_useful_for_character(from)
+                                                     : from != to;
     if (useful) {
-      const bool literal = is_bit(from) && from != Elementary::Bool && to == Elementary::String;
+      const bool literal = is_bit(from) && from != Elementary::Bool && is_text(to);
       append(all, string(name_of(from)) + "_TO_" + string(name_of(to)), name_of(from), name_of(to),
-             literal ? "to_literal" : conversion_to(to));
+             !literal                   ? conversion_to(to)
+             : to == Elementary::String ? "to_literal"
+                                        : "to_wliteral");
     }
   }
 }

@@ -45,7 +45,7 @@ std::optional<Generic> named_generic(const LibraryFunction& function) {
 }
 
 std::optional<LibraryFunction> typed(const LibraryFunction& function, Elementary type) {
-  if (function.result == LibraryType(Elementary::String)) {
+  if (function.result == LibraryType(Elementary::String) || function.result == LibraryType(Elementary::Wstring)) {
     return std::nullopt;  // LEFT and so on count in any type
   }
   const auto generic = named_generic(function);

@@ -66,7 +66,7 @@ struct LibraryBlock {
 // "@TON" is what no program can call a block of its own.
 [[nodiscard]] const LibraryBlock* find_block(std::string_view name);
 
-// "std::int16_t", "iec::Time". Requires another type than STRING, whose C++ type depends on its length.
+// "std::int16_t", "iec::Time". Requires another type than STRING and WSTRING, whose C++ type depends on its length.
 [[nodiscard]] std::string_view cpp_type(Elementary type) noexcept;
 
 }  // namespace indurop::plc

@@ -14,9 +14,10 @@ struct Row {
 
 // In the order of the enumeration.
 constexpr std::array<Row, kElementaryCount> kRows{
-    {{"BOOL", 1},   {"BYTE", 8},  {"WORD", 16}, {"DWORD", 32},       {"LWORD", 64},         {"SINT", 8},   {"INT", 16},
-     {"DINT", 32},  {"LINT", 64}, {"USINT", 8}, {"UINT", 16},        {"UDINT", 32},         {"ULINT", 64}, {"REAL", 32},
-     {"LREAL", 64}, {"TIME", 64}, {"DATE", 64}, {"TIME_OF_DAY", 64}, {"DATE_AND_TIME", 64}, {"STRING", 0}}};
+    {{"BOOL", 1},           {"BYTE", 8},   {"WORD", 16},   {"DWORD", 32}, {"LWORD", 64}, {"SINT", 8},
+     {"INT", 16},           {"DINT", 32},  {"LINT", 64},   {"USINT", 8},  {"UINT", 16},  {"UDINT", 32},
+     {"ULINT", 64},         {"REAL", 32},  {"LREAL", 64},  {"TIME", 64},  {"DATE", 64},  {"TIME_OF_DAY", 64},
+     {"DATE_AND_TIME", 64}, {"STRING", 0}, {"WSTRING", 0}, {"CHAR", 8},   {"WCHAR", 16}}};
 
 struct OtherName {
   std::string_view name;
@@ -87,6 +88,12 @@ bool is_bit(Elementary type) noexcept {
 }
 bool is_date(Elementary type) noexcept {
   return between(type, Elementary::Date, Elementary::DateAndTime);
+}
+bool is_text(Elementary type) noexcept {
+  return between(type, Elementary::String, Elementary::Wstring);
+}
+bool is_character(Elementary type) noexcept {
+  return between(type, Elementary::Char, Elementary::Wchar);
 }
 
 bool widens(Elementary from, Elementary to) noexcept {

@@ -30,16 +30,19 @@ enum class Elementary : std::uint8_t {
   Date,
   TimeOfDay,
   DateAndTime,
-  String,
+  String,   // bytes of UTF-8
+  Wstring,  // two bytes for each character, UTF-16
+  Char,
+  Wchar,
 };
-inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Elementary::String) + 1;
+inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Elementary::Wchar) + 1;
 
 // "DINT", "TIME_OF_DAY".
 [[nodiscard]] std::string_view name_of(Elementary type) noexcept;
 // By any of its names, in any case: "dint", "TOD", "TIME_OF_DAY", "LTIME".
 [[nodiscard]] std::optional<Elementary> elementary_named(std::string_view name) noexcept;
 
-// Width of one value in bits; BOOL 1, times 64, STRING 0.
+// Width of one value in bits; BOOL 1, times 64, STRING and WSTRING 0.
 [[nodiscard]] unsigned bits_of(Elementary type) noexcept;
 
 [[nodiscard]] bool is_signed_int(Elementary type) noexcept;    // SINT INT DINT LINT
@@ -49,6 +52,8 @@ inline constexpr std::size_t kElementaryCount = static_cast<std::size_t>(Element
 [[nodiscard]] bool is_num(Elementary type) noexcept;           // ANY_NUM
 [[nodiscard]] bool is_bit(Elementary type) noexcept;           // ANY_BIT, BOOL too
 [[nodiscard]] bool is_date(Elementary type) noexcept;          // ANY_DATE: DATE TIME_OF_DAY DATE_AND_TIME
+[[nodiscard]] bool is_text(Elementary type) noexcept;          // ANY_STRING: STRING WSTRING
+[[nodiscard]] bool is_character(Elementary type) noexcept;     // ANY_CHAR: CHAR WCHAR
 
 // Whether every value of `from` is used as a `to` without a conversion function: equal types, integers and reals into
 // wider ones (SINT -> INT -> DINT -> LINT, USINT -> UINT -> ..., unsigned into wider signed, integers of up to 16 bits

@@ -20,7 +20,7 @@ bool is_letter(char c) noexcept {
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
   // Type and function names are not in it: they are ordinary names with a meaning.
-  static constexpr std::array<std::string_view, 86> kWords{"ACTION",
+  static constexpr std::array<std::string_view, 85> kWords{"ACTION",
                                                            "AND",
                                                            "ARRAY",
                                                            "AT",
@@ -91,7 +91,6 @@ bool is_keyword(std::string_view word) noexcept {
                                                            "VAR_TEMP",
                                                            "WHILE",
                                                            "WITH",
-                                                           "WSTRING",
                                                            "XOR",
                                                            "CLASS",
                                                            "METHOD",

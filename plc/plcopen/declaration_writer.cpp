@@ -141,10 +141,13 @@ void DeclarationWriter::holder(std::string_view name, const TypeSpec& of) {
 void DeclarationWriter::spec(const TypeSpec& of) {
   switch (of.kind) {
     case TypeSpec::Kind::Elementary:
+      if (is_character(of.elementary)) {
+        refuse(of.at, name_of(of.elementary));
+      }
       elementary(of.elementary);
       break;
     case TypeSpec::Kind::String:
-      out_.leaf("string",
+      out_.leaf(of.elementary == Elementary::Wstring ? "wstring" : "string",
                 of.length ? XmlWriter::Attributes{{"length", expression_text(*of.length)}} : XmlWriter::Attributes{});
       break;
     case TypeSpec::Kind::Named:

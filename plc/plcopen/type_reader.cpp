@@ -77,8 +77,8 @@ class Reader {
     if (node.name == "derived") {
       return derived(node, out);
     }
-    if (node.name == "string") {
-      return string(node, out);
+    if (node.name == "string" || node.name == "wstring") {
+      return text(node, node.name == "string" ? Elementary::String : Elementary::Wstring, out);
     }
     if (node.name == "array") {
       return array(node, out);
@@ -114,17 +114,13 @@ class Reader {
   }
 
   void refuse(const Node& node) {
-    if (node.name == "wstring") {
-      error(node, "WSTRING is not supported; use STRING, which holds UTF-8");
-    } else {
-      error(node, fmt::format("<{}> is not a data type this compiler knows; use an elementary type, an array, a "
-                              "structure, an enumeration or a type of the project",
-                              node.name));
-    }
+    error(node, fmt::format("<{}> is not a data type this compiler knows; use an elementary type, an array, a "
+                            "structure, an enumeration or a type of the project",
+                            node.name));
   }
 
   static void elementary(Elementary known, TypeSpec& out) {
-    out.kind = known == Elementary::String ? TypeSpec::Kind::String : TypeSpec::Kind::Elementary;
+    out.kind = is_text(known) ? TypeSpec::Kind::String : TypeSpec::Kind::Elementary;
     out.elementary = known;
   }
 
@@ -148,8 +144,8 @@ class Reader {
     return true;
   }
 
-  bool string(const Node& node, TypeSpec& out) {
-    elementary(Elementary::String, out);
+  bool text(const Node& node, Elementary of, TypeSpec& out) {
+    elementary(of, out);
     if (node.has("length")) {
       out.length = expression(node, "length");
     }

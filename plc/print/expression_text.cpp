@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 
+#include "plc/model/characters.h"
+
 namespace indurop::plc {
 namespace {
 
@@ -57,7 +59,7 @@ std::string literal_text(const Expression& expression) {
     return time_text(*time, expression.value_type.value_or(Elementary::Time));
   }
   if (const auto* text = std::get_if<std::string>(&expression.value)) {
-    return quoted_text(*text);
+    return expression.value_type == Elementary::Wstring ? wide_quoted_text(*text) : quoted_text(*text);
   }
   std::string plain;
   if (const bool* truth = std::get_if<bool>(&expression.value)) {
@@ -156,6 +158,17 @@ std::string quoted_text(std::string_view value) {
     text += c == '$' || c == '\'' ? std::string{'$', c} : shown ? std::string{c} : fmt::format("${:02X}", byte);
   }
   return text + "'";
+}
+
+std::string wide_quoted_text(std::string_view utf8) {
+  std::string text = "\"";
+  for (const char16_t one : to_wide(utf8)) {
+    const bool shown = one >= 0x20 && one < 0x7F;
+    text += one == '$' || one == '"' ? std::string{'$', static_cast<char>(one)}
+            : shown                  ? std::string{static_cast<char>(one)}
+                                     : fmt::format("${:04X}", static_cast<unsigned>(one));
+  }
+  return text + "\"";
 }
 
 std::string duration_text(std::int64_t ns) {

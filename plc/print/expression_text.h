@@ -17,5 +17,7 @@ namespace indurop::plc {
 [[nodiscard]] std::string duration_text(std::int64_t ns);
 // 'it$'s', with every character that has no sign as $0A.
 [[nodiscard]] std::string quoted_text(std::string_view value);
+// The same for a WSTRING: "it$"s".
+[[nodiscard]] std::string wide_quoted_text(std::string_view utf8);
 
 }  // namespace indurop::plc

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "plc/emit/watch_layout.h"
+#include "plc/model/characters.h"
 #include "plc/print/expression_text.h"
 
 namespace indurop::plc {
@@ -35,6 +37,16 @@ std::int64_t whole_number(Elementary type, std::span<const std::uint8_t> bytes) 
   }
 }
 
+// Up to its end, in UTF-8.
+std::string wide_text(std::span<const std::uint8_t> bytes) {
+  std::u16string wide;
+  for (; bytes.size() >= sizeof(char16_t); bytes = bytes.subspan(sizeof(char16_t))) {
+    wide += take<char16_t>(bytes);
+  }
+  wide.resize(std::min(wide.find(u'\0'), wide.size()));
+  return to_utf8(wide);
+}
+
 std::string elementary_text(const Type& type, std::span<const std::uint8_t> bytes) {
   const Elementary of = type.elementary;
   if (of == Elementary::Bool) {
@@ -42,6 +54,15 @@ std::string elementary_text(const Type& type, std::span<const std::uint8_t> byte
   }
   if (of == Elementary::String) {
     return quoted_text(std::string(bytes.begin(), std::find(bytes.begin(), bytes.end(), std::uint8_t{0})));
+  }
+  if (of == Elementary::Wstring) {
+    return wide_quoted_text(wide_text(bytes));
+  }
+  if (is_character(of)) {
+    const auto code = static_cast<std::uint16_t>(whole_number(of, bytes));
+    const std::array<std::uint8_t, 2> one{static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8U)};
+    return of == Elementary::Char ? quoted_text(std::string(1, static_cast<char>(code)))
+                                  : wide_quoted_text(wide_text(one));
   }
   if (of == Elementary::Real || of == Elementary::Lreal) {
     return of == Elementary::Real ? fmt::format("{:.7g}", take<float>(bytes))

@@ -129,7 +129,7 @@ class Lexer {
     } else if (c == '%' && is_letter(peek(1))) {
       address();
     } else if (c == '\'' || c == '"') {
-      quoted(c);
+      quoted(c, TokenKind::Text);
     } else {
       symbol();
     }
@@ -212,9 +212,14 @@ class Lexer {
     }
     const std::string prefix = upper(text_.substr(from_, at_ - from_));
     step();
-    if (prefix == "STRING" && peek() == '\'') {  // STRING#'OK' is 'OK'
+    const char quote = peek();
+    if ((prefix == "STRING" && quote == '\'') || (prefix == "WSTRING" && quote == '"')) {  // STRING#'OK' is 'OK'
       begin();
-      quoted('\'');
+      quoted(quote, TokenKind::Text);
+      return;
+    }
+    if ((prefix == "CHAR" || prefix == "WCHAR") && (quote == '\'' || quote == '"')) {
+      quoted(quote, TokenKind::Typed);
       return;
     }
     typed(prefix);
@@ -280,7 +285,7 @@ class Lexer {
     push(TokenKind::Address);
   }
 
-  void quoted(char quote) {
+  void quoted(char quote, TokenKind kind) {
     step();
     while (peek() != quote) {
       if (at_ >= text_.size() || peek() == '\n') {
@@ -290,10 +295,7 @@ class Lexer {
       step(peek() == '$' && peek(1) != '\n' ? 2 : 1);
     }
     step();
-    if (quote == '"') {
-      error("WSTRING and texts in \" are not supported, use STRING and '...' (UTF-8 is kept as it is)");
-    }
-    push(TokenKind::Text);
+    push(kind);
   }
 
   void symbol() {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 
+#include "plc/model/characters.h"
 #include "plc/st/time_literal.h"
 
 namespace indurop::plc::st {
@@ -98,7 +99,7 @@ Literal typed_number(Elementary type, std::string_view text, std::string_view wh
   if (!out.value) {
     return out;
   }
-  if (negative && is_bit(type)) {
+  if (negative && (is_bit(type) || is_character(type))) {
     return wrong(fmt::format("'{}' is negative, but {} has no sign, remove the sign", whole, name_of(type)));
   }
   if (std::holds_alternative<double>(*out.value) && !is_real(type)) {
@@ -137,6 +138,43 @@ std::optional<char> escaped(char c) noexcept {
   }
 }
 
+// Text between escapes: characters of two bytes, or bytes.
+void append(std::string_view plain, bool wide, std::u16string& out) {
+  if (wide) {
+    out += to_wide(plain);
+    return;
+  }
+  for (const char c : plain) {
+    out += static_cast<char16_t>(static_cast<unsigned char>(c));
+  }
+}
+
+std::optional<char16_t> hexadecimal(std::string_view text, std::size_t digits) noexcept {
+  unsigned value = 0;
+  for (const char c : text) {
+    if (digit_value(c) >= 16) {
+      return std::nullopt;
+    }
+    value = value * 16 + static_cast<unsigned>(digit_value(c));
+  }
+  return text.size() == digits ? std::optional(static_cast<char16_t>(value)) : std::nullopt;
+}
+
+// 'a' of CHAR#'a', "a" of WCHAR#"a".
+Literal character(Elementary type, std::string_view quoted, std::string_view whole) {
+  const bool wide = type == Elementary::Wchar;
+  Literal out = text_literal(quoted);
+  if (!out.value) {
+    return out;
+  }
+  const auto code = code_of_character(std::get<std::string>(*out.value), type);
+  if (out.type != (wide ? Elementary::Wstring : Elementary::String) || !code) {
+    return wrong(fmt::format("'{}' is not one character, write {}", whole, wide ? "WCHAR#\"a\"" : "CHAR#'a'"));
+  }
+  out.value = std::uint64_t{*code};
+  return out;
+}
+
 }  // namespace
 
 Literal number_literal(std::string_view text) {
@@ -173,8 +211,10 @@ Literal typed_literal(std::string_view text) {
     out.value = *found.ns;
   } else if (*type == Elementary::Bool) {
     out = boolean(rest, text);
-  } else if (*type == Elementary::String) {
-    return wrong("write the text alone: 'text'");
+  } else if (is_text(*type)) {
+    return wrong(*type == Elementary::String ? "write the text alone: 'text'" : "write the text alone: \"text\"");
+  } else if (is_character(*type) && rest.find_first_of("'\"") == 0) {
+    out = character(*type, rest, text);
   } else {
     out = typed_number(*type, rest, text);
   }
@@ -183,30 +223,42 @@ Literal typed_literal(std::string_view text) {
 }
 
 Literal text_literal(std::string_view quoted) {
+  const bool wide = quoted.starts_with('"');
   const std::string_view text = quoted.size() < 2 ? std::string_view() : quoted.substr(1, quoted.size() - 2);
-  std::string decoded;
+  const std::size_t digits = wide ? 4 : 2;
+  std::u16string decoded;  // bytes, if it is a STRING
+  std::size_t plain = 0;
+  const auto take_plain = [&](std::size_t end) {
+    append(text.substr(plain, end - plain), wide, decoded);
+    plain = end;
+  };
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '$') {
-      decoded += text[i];
       continue;
     }
-    if (i + 2 < text.size() && digit_value(text[i + 1]) < 16 && digit_value(text[i + 2]) < 16) {
-      decoded += static_cast<char>(digit_value(text[i + 1]) * 16 + digit_value(text[i + 2]));
-      i += 2;
+    take_plain(i);
+    if (const auto code = hexadecimal(text.substr(i + 1, digits), digits)) {
+      decoded += *code;
+      i += digits;
     } else if (const auto c = i + 1 < text.size() ? escaped(text[i + 1]) : std::nullopt) {
-      decoded += *c;
+      decoded += static_cast<char16_t>(*c);
       ++i;
     } else {
       return wrong(
-          "'$' begins one of $$ $' $L $N $P $R $T $hh (two hexadecimal digits), write $$ for the character itself");
+          fmt::format("'$' begins one of $$ $' $\" $L $N $P $R $T ${} ({} hexadecimal digits), write $$ for the "
+                      "character itself",
+                      wide ? "hhhh" : "hh", wide ? "four" : "two"));
     }
+    plain = i + 1;
   }
-  if (decoded.find('\0') != std::string::npos) {
-    return wrong("a text cannot contain the character $00, remove it");
+  take_plain(text.size());
+  if (decoded.find(u'\0') != std::u16string::npos) {
+    return wrong(wide ? "a text cannot contain the character $0000, remove it"
+                      : "a text cannot contain the character $00, remove it");
   }
   Literal out;
-  out.value = std::move(decoded);
-  out.type = Elementary::String;
+  out.value = wide ? to_utf8(decoded) : std::string(decoded.begin(), decoded.end());
+  out.type = wide ? Elementary::Wstring : Elementary::String;
   return out;
 }
 

@@ -24,7 +24,7 @@ struct Literal {
 // "INT#16#FF", "BOOL#1", "T#1h2m3.5s", "TOD#12:30:00", "STRING#" is not one. No value and no `why`: the prefix is no
 // elementary type ("Color#Red").
 [[nodiscard]] Literal typed_literal(std::string_view text);
-// "'it$'s$N'" without its quotes and escapes.
+// "'it$'s$N'" without its quotes and escapes; in double quotes it is a WSTRING, whose value is UTF-8, too.
 [[nodiscard]] Literal text_literal(std::string_view quoted);
 // "%IX0.3"; none: it is not one.
 [[nodiscard]] std::optional<ast::DirectAddress> address_literal(std::string_view text);

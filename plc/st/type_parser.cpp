@@ -31,8 +31,6 @@ std::optional<ast::TypeSpec> DeclarationParser::type() {
     in_.take();
     out.overlaps = true;
     ok = structure(out, "END_UNION");
-  } else if (in_.next_is({"WSTRING", "WCHAR", "CHAR"})) {
-    in_.unsupported(token, fmt::format("{} is not supported, use STRING", token.text));
   } else if (in_.peek().is("REF_TO") || (in_.next_is({"POINTER", "REFERENCE"}) && in_.peek(1).is("TO"))) {
     ok = pointer(out);
   } else if (in_.expect_name("a type")) {
@@ -58,7 +56,7 @@ bool DeclarationParser::named(ast::TypeSpec& out) {
     return starts(out);
   }
   out.elementary = *elementary;
-  if (*elementary == Elementary::String) {
+  if (is_text(*elementary)) {
     return string_length(out);
   }
   if (!in_.peek().is("(")) {

@@ -24,3 +24,4 @@
 #include <indurop/plc/text_write.h>
 #include <indurop/plc/timers.h>
 #include <indurop/plc/types.h>
+#include <indurop/plc/wide.h>

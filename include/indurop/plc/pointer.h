@@ -78,14 +78,16 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   return *reinterpret_cast<Element*>(at);
 }
 
-// s[0], the first byte of a text. The one behind the longest text stays its end.
-template <class Text>
-unsigned char& character(Place place, Text& text, std::int64_t index) {
-  constexpr auto kMost = static_cast<std::int64_t>(sizeof(Text)) - 1;
-  if (index < 0 || index > kMost) [[unlikely]] {
-    fail_range(place, "index", index, 0, kMost);
+// s[first], the first character of a text. Counted from 0 the one behind the longest text, which stays its end, is
+// there.
+template <class Letter, std::int64_t first, class Text>
+Letter& character(Place place, Text& text, std::int64_t index) {
+  static_assert(sizeof(Letter) == sizeof text.data[0]);
+  constexpr auto kMost = static_cast<std::int64_t>(sizeof(Text) / sizeof(Letter)) - 1;
+  if (index < first || index > kMost) [[unlikely]] {
+    fail_range(place, "index", index, first, kMost);
   }
-  return reinterpret_cast<unsigned char&>(text.data[index]);
+  return reinterpret_cast<Letter&>(text.data[index - first]);
 }
 
 // p^

@@ -51,6 +51,16 @@ constexpr void copy_value(std::array<To, N>& to, const std::array<From, N>& from
   }
 }
 
+// A WSTRING is shared as numbers.
+template <std::size_t N>
+constexpr void copy_value(WideText<N>& to, const std::array<std::uint16_t, N>& from) {
+  std::copy(from.begin(), from.end() - 1, to.data);  // the last one stays its end
+}
+template <std::size_t N>
+constexpr void copy_value(std::array<std::uint16_t, N>& to, const WideText<N>& from) {
+  std::copy(from.data, from.data + N, to.begin());
+}
+
 // Writes a shared variable, or a part of it, if the program changed it: what others wrote meanwhile stays.
 template <class Shared, class T>
 void write_changed(const Shared& to, const T& now, const T& before) {

@@ -7,6 +7,7 @@
 
 #include <indurop/plc/calendar.h>
 #include <indurop/plc/types.h>
+#include <indurop/plc/unicode.h>
 
 #include <charconv>
 #include <limits>
@@ -207,11 +208,15 @@ inline Date read_date(Reader& in) noexcept {
 
 }  // namespace detail
 
-// STRING_TO_X is to<X>(text).
+// STRING_TO_X is to<X>(text); STRING_TO_CHAR is its first byte, 0 if there is none.
 template <Scalar To, std::size_t N>
 To to(const indurop::string<N>& text) noexcept {
   if constexpr (std::same_as<To, bool>) {
     return detail::read_bool(text.view());
+  } else if constexpr (std::same_as<To, char8_t>) {
+    return static_cast<char8_t>(text.data[0]);
+  } else if constexpr (std::same_as<To, char16_t>) {
+    return text.size() == 0 ? u'\0' : detail::first_wide(text.view());
   } else if constexpr (Integer<To>) {
     return detail::read_integer<To>(text.view());
   } else if constexpr (Real<To>) {

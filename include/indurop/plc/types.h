@@ -3,11 +3,13 @@
 //
 //   BOOL bool    BYTE WORD DWORD LWORD and USINT UINT UDINT ULINT   std::uint8_t ... std::uint64_t
 //   REAL float   LREAL double    SINT INT DINT LINT                 std::int8_t ... std::int64_t
-//   STRING[n] String<n>          TIME DATE TIME_OF_DAY DATE_AND_TIME and their L forms: the structs below
+//   STRING[n] String<n>   WSTRING[n] WString<n>   CHAR char8_t   WCHAR char16_t
+//   TIME DATE TIME_OF_DAY DATE_AND_TIME and their L forms: the structs below
 // All are trivially copyable.
 
 #pragma once
 
+#include <indurop/plc/wide_text.h>
 #include <indurop/string.h>
 
 #include <algorithm>
@@ -50,17 +52,45 @@ inline constexpr std::int64_t kDay = 24 * kHour;
 // STRING[n]: up to n characters, the same type as `char name[n + 1]` of a .glb file. A NUL ends the text.
 template <std::size_t N>
 using String = indurop::string<N + 1>;
+// WSTRING[n]: up to n characters of two bytes.
+template <std::size_t N>
+using WString = WideText<N + 1>;
 
 namespace detail {
 template <class T>
-inline constexpr std::size_t kTextSize = 0;
+struct TextTraits {
+  static constexpr std::size_t kSize = 0;
+  using Letter = void;
+};
 template <std::size_t N>
-inline constexpr std::size_t kTextSize<indurop::string<N>> = N;
+struct TextTraits<indurop::string<N>> {
+  static constexpr std::size_t kSize = N;
+  using Letter = char;
+  template <std::size_t M>
+  using Sized = indurop::string<M>;
+};
+template <std::size_t N>
+struct TextTraits<WideText<N>> {
+  static constexpr std::size_t kSize = N;
+  using Letter = char16_t;
+  template <std::size_t M>
+  using Sized = WideText<M>;
+};
+// With the NUL behind the text.
+template <class T>
+inline constexpr std::size_t kTextSize = TextTraits<T>::kSize;
+// A text of the same kind as T with room for M - 1 characters.
+template <class T, std::size_t M>
+using Sized = typename TextTraits<T>::template Sized<M>;
 }  // namespace detail
 
 template <class T>
 concept Text = detail::kTextSize<T> >
 0;
+// Texts of one kind: both STRING, or both WSTRING.
+template <class A, class B>
+concept SameLetters = Text<A> && Text<B> && std::same_as < typename detail::TextTraits<A>::Letter,
+typename detail::TextTraits<B>::Letter > ;
 template <class T>
 concept Integer = std::integral<T> && !std::same_as<T, bool>;
 template <class T>
@@ -75,13 +105,13 @@ concept Timelike =
 
 // Operands of one operation: the same type, or texts of any lengths.
 template <class A, class B>
-concept SameKind = std::same_as<A, B> ||(Text<A>&& Text<B>);
+concept SameKind = std::same_as<A, B> || SameLetters<A, B>;
 
 namespace detail {
 template <class First, class... More>
 constexpr auto common_type() noexcept {
-  if constexpr ((Text<First> && ... && Text<More>)) {
-    return std::type_identity<indurop::string<std::max({kTextSize<First>, kTextSize<More>...})>>();
+  if constexpr (Text<First> && (... && SameLetters<First, More>)) {
+    return std::type_identity<Sized<First, std::max({kTextSize<First>, kTextSize<More>...})>>();
   } else {
     static_assert((std::same_as<First, More> && ...), "all operands must have one type");
     return std::type_identity<First>();

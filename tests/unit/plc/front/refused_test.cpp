@@ -203,12 +203,30 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
   const std::string main =
       "PROGRAM Main VAR m : Motor; i : INT; END_VAR i := m.Speed; i := m.Go(x := 3); Space.F(i); END_PROGRAM\n";
   for (const auto& [text, message] : {
-           Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(WSTRING_TO_STRING(w)); END_FUNCTION",
-               "WSTRING is not"},
            Row{"CONFIGURATION c VAR_ACCESS x : r.p.b.i : BOOL READ_ONLY; END_VAR END_CONFIGURATION",
                "VAR_ACCESS is not"},
        }) {
     const Compiled sut = compiled(main + text + "\n");
+    EXPECT_FALSE(sut.ok) << text;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+}
+
+TEST(PlcRefused, Characters_are_no_numbers_and_texts_of_two_kinds_not_mixed) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  for (const auto& [text, message] : {
+           Row{"FUNCTION F : INT VAR_INPUT w : WSTRING; END_VAR F := LEN(w); w := 'a'; END_FUNCTION",
+               "convert it with STRING_TO_WSTRING()"},
+           Row{"FUNCTION F : CHAR F := 65; END_FUNCTION", "write the character, CHAR#'a'"},
+           Row{"FUNCTION F : CHAR F := 'b'; F := CHAR#'ab'; END_FUNCTION", "is not one character"},
+           Row{"FUNCTION F : WCHAR F := WCHAR#'a'; F := \"b\"; END_FUNCTION", "is not one character, write WCHAR#"},
+           Row{"FUNCTION F : CHAR VAR_INPUT s : STRING[3]; END_VAR F := s[4]; END_FUNCTION", "outside of 1..3"},
+       }) {
+    const Compiled sut = compiled(std::string("PROGRAM Main VAR i : INT; END_VAR i := 1; END_PROGRAM\n") + text + "\n");
     EXPECT_FALSE(sut.ok) << text;
     EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));

@@ -97,7 +97,7 @@ TEST(PlcWatch, Values_are_written_as_in_a_program) {
   EXPECT_EQ(text_of(type(Elementary::Real), 1.5F), "1.5");
   EXPECT_EQ(text_of(type(Elementary::Time), std::int64_t{100'000'000}), "T#100ms");
   EXPECT_EQ(text_of(type(Elementary::Date), std::int64_t{0}), "D#1970-01-01");
-  EXPECT_EQ(value_text(*types.string(3), std::vector<std::uint8_t>{'a', '\'', 0, 'x'}), "'a$''");
+  EXPECT_EQ(value_text(*types.text(Elementary::String, 3), std::vector<std::uint8_t>{'a', '\'', 0, 'x'}), "'a$''");
   Type array;
   array.kind = Type::Kind::Array;
   array.dimensions = {{1, 3}};

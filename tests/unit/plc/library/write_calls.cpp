@@ -30,6 +30,9 @@ std::string value_of(Elementary type, std::size_t number) {
   if (type == Elementary::String) {
     return "iec::String<" + std::to_string(10 + number) + ">(\"1\")";
   }
+  if (type == Elementary::Wstring) {
+    return "iec::WString<" + std::to_string(10 + number) + ">(u\"1\")";
+  }
   return std::string(cpp_type(type)) + "{1}";
 }
 
@@ -38,7 +41,7 @@ std::string value_of_selector(const LibraryFunction& function, Elementary type) 
 }
 
 std::string expected_type(Elementary type) {
-  return type == Elementary::String ? "iec::Text" : "std::same_as<" + std::string(cpp_type(type)) + ">";
+  return is_text(type) ? "iec::Text" : "std::same_as<" + std::string(cpp_type(type)) + ">";
 }
 
 class Writer {

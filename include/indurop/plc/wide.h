@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conversions of WSTRING, CHAR and WCHAR. A STRING is UTF-8, a WSTRING UTF-16; a byte that is no UTF-8 becomes the
+// character of its number. A CHAR is a byte, as a STRING counts them. Real-time safe.
+
+#pragma once
+
+#include <indurop/plc/text_read.h>
+#include <indurop/plc/text_write.h>
+#include <indurop/plc/types.h>
+#include <indurop/plc/unicode.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+
+namespace indurop::iec {
+
+// A text of two-byte characters never has more of them than bytes of UTF-8.
+template <std::size_t N>
+WideText<N> to_wstring(const indurop::string<N>& in) noexcept {
+  WideText<N> out;
+  std::size_t used = 0;
+  detail::each_wide(in.view(), [&](char16_t one) { out.data[used++] = one; });
+  return out;
+}
+template <std::size_t N>
+WideText<N> to_wstring(const WideText<N>& in) noexcept {
+  return in;
+}
+
+template <std::size_t N>
+indurop::string<3 * (N - 1) + 1> to_string(const WideText<N>& in) noexcept {
+  indurop::string<3 * (N - 1) + 1> out;
+  std::size_t used = 0;
+  detail::each_byte(in.view(), [&](char one) { out.data[used++] = one; });
+  return out;
+}
+
+inline String<1> to_string(char8_t one) noexcept {
+  const auto byte = static_cast<char>(one);
+  return std::string_view(&byte, 1);
+}
+inline String<3> to_string(char16_t one) noexcept {
+  return to_string(WideText<2>(std::u16string_view(&one, 1)));
+}
+inline WideText<2> to_wstring(char8_t one) noexcept {
+  const auto wide = static_cast<char16_t>(one);
+  return std::u16string_view(&wide, 1);
+}
+inline WideText<2> to_wstring(char16_t one) noexcept {
+  return std::u16string_view(&one, 1);
+}
+template <Scalar T>
+auto to_wstring(T value) noexcept {
+  return to_wstring(to_string(value));
+}
+template <BitString T>
+WString<20> to_wliteral(T value) noexcept {
+  return to_wstring(to_literal(value));
+}
+
+// WSTRING_TO_X is to<X>(text); WSTRING_TO_WCHAR is its first character, 0 if there is none.
+template <Scalar To, std::size_t N>
+To to(const WideText<N>& text) noexcept {
+  if constexpr (std::same_as<To, char8_t> || std::same_as<To, char16_t>) {
+    return static_cast<To>(text.data[0]);
+  } else {
+    return to<To>(to_string(text));
+  }
+}
+
+}  // namespace indurop::iec
