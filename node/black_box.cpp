@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "explain/facts_json.h"
+#include "explain/kernel_log.h"
+#include "explain/run_facts.h"
+#include "node/facts_part.h"
 #include "node/record_part.h"
 #include "recorder/recorder.h"
 #include "vars/retain.h"
@@ -76,6 +80,19 @@ void tell(const Result<std::filesystem::path, base::Problem>& box, const std::st
   }
 }
 
+// Empty if the block makes no sense any more.
+std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size) {
+  const bool sound = run.total_size <= size && run.modules_offset >= sizeof run &&
+                     run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord) <= size &&
+                     run.overrun_log_offset + run.overrun_log_capacity * sizeof(scheduler::OverrunEntry) <= size;
+  if (!sound) {
+    return {};
+  }
+  explain::Facts facts = explain::facts_of(run, false);
+  explain::add_kernel(node, facts);
+  return explain::facts_text(facts);
+}
+
 recorder::About about_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size,
                               const vars::Store& store) {
   recorder::About about;
@@ -84,6 +101,9 @@ recorder::About about_crashed(const std::string& node, const scheduler::RunBlock
   about.deployment = std::string(run.deployment, ::strnlen(run.deployment, sizeof run.deployment));
   about.basic_period_ns = run.basic_period_ns;
   about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
+  if (const auto facts = facts_of_crashed(node, run, size); !facts.empty()) {
+    about.files.emplace_back(explain::kFactsFile, facts);
+  }
   const std::uint64_t end = run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord);
   for (std::uint32_t i = 0; run.modules_offset < size && end <= size && i < run.module_count; ++i) {
     const auto& name = run.modules()[i].name;
@@ -111,8 +131,9 @@ void keep_box_of_crash(const std::string& node, const Console& console) {
   tell(write_box(about_crashed(node, run, file->size(), *store), *store, reason), reason, console);
 }
 
-BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, Console& console)
-    : options_(options), checked_(checked), prepared_(prepared), console_(console) {}
+BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, const BoardMirror& mirror,
+                   Console& console)
+    : options_(options), checked_(checked), prepared_(prepared), mirror_(mirror), console_(console) {}
 
 BlackBox::~BlackBox() {
   if (writer_.joinable()) {
@@ -167,9 +188,10 @@ void BlackBox::keep() {
   if (writer_.joinable()) {
     writer_.join();
   }
-  writer_ = std::thread([this, reason, about = about_node(options_, checked_, prepared_)] {
-    tell(write_box(about, *prepared_.store, reason), reason, console_);
-  });
+  auto about = about_node(options_, checked_, prepared_);
+  about.files.emplace_back(explain::kFactsFile, facts_text(options_, prepared_, mirror_.block(), {}));
+  writer_ = std::thread(
+      [this, reason, about = std::move(about)] { tell(write_box(about, *prepared_.store, reason), reason, console_); });
 }
 
 }  // namespace indurop::node

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "node/board_mirror.h"
 #include "node/checked.h"
 #include "node/console.h"
 #include "node/prepared.h"
@@ -24,7 +25,9 @@ void keep_box_of_crash(const std::string& node, const Console& console);
 // Of the running node: a fault is noticed, and what the runs before and shortly after it saw is written by a thread.
 class BlackBox {
  public:
-  BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, Console& console);
+  // All is borrowed.
+  BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, const BoardMirror& mirror,
+           Console& console);
   ~BlackBox();
   BlackBox(const BlackBox&) = delete;
   BlackBox& operator=(const BlackBox&) = delete;
@@ -41,6 +44,7 @@ class BlackBox {
   const Options& options_;
   const Checked& checked_;
   const Prepared& prepared_;
+  const BoardMirror& mirror_;
   Console& console_;
   std::uint64_t kept_ = 0;  // faults that were dealt with
   rt::MonoTime due_{};      // when the box of a new fault is written; 0: there is none

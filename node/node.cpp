@@ -29,7 +29,7 @@ Ending run_modules(const Options& options, Console& console, base::StopSignal& s
   Running running(options, console, signals, checked, prepared, *loaded);
   const auto started = running.start();
   Ending ending = started ? running.supervise() : started.error();
-  if (!running.stop() && ending.code == kOk) {
+  if (!running.stop(ending.reason.empty() ? "end of the duration" : ending.reason) && ending.code == kOk) {
     ending.code = kFailed;
   }
   return ending;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/read_file.h"
+#include "explain/facts_json.h"
 #include "rt/clock.h"
 
 namespace indurop::node {
@@ -92,6 +93,14 @@ void RecordPart::take() {
   }
 }
 
+void RecordPart::take(rt::MonoTime now) {
+  take();
+  if (now - flushed_ >= kFlush) {
+    (void)recorder_.flush();
+    flushed_ = now;
+  }
+}
+
 void RecordPart::loop() {
   rt::MonoTime flushed = rt::MonoClock::now();
   while (!stop_.load()) {
@@ -104,12 +113,15 @@ void RecordPart::loop() {
   }
 }
 
-bool RecordPart::end() {
+bool RecordPart::end(const std::string& facts) {
   stop_.store(true);
   if (thread_.joinable()) {
     thread_.join();
   }
   take();
+  if (const auto attached = recorder_.attach(explain::kFactsFile, facts); !attached) {
+    failure_ = attached.error().text;
+  }
   if (const auto closed = recorder_.close(); !closed) {
     failure_ = closed.error().text;
   }

@@ -13,6 +13,7 @@
 #include "node/console.h"
 #include "node/prepared.h"
 #include "recorder/recorder.h"
+#include "rt/clock.h"
 
 namespace indurop::node {
 
@@ -30,15 +31,18 @@ class RecordPart {
 
   // In real time: a normal thread of its own takes what there is, on these cores if any are named.
   void start(const std::vector<int>& cores);
-  // In virtual time: the simulation calls this before the tape is full.
   void take();
-  // Everything has run: the rest, and the file is closed. False: something is missing in it, said on the console.
-  bool end();
+  // In virtual time: the simulation calls this before the tape is full. What is older than a second is on the disk.
+  void take(rt::MonoTime now);
+  // Everything has run: the rest and the facts, and the file is closed. False: something is missing in it, said on the
+  // console.
+  bool end(const std::string& facts);
 
  private:
   RecordPart(recorder::Recorder recorder, Console& console) : recorder_(std::move(recorder)), console_(console) {}
   void loop();
 
+  rt::MonoTime flushed_{};  // in virtual time
   recorder::Recorder recorder_;
   Console& console_;
   std::string failure_;  // why nothing more was taken; empty: all is well

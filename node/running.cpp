@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "node/expected_signal.h"
+#include "node/facts_part.h"
 #include "node/plant_part.h"
 #include "rt/clock.h"
 #include "runtime/host.h"
@@ -147,7 +148,7 @@ Result<void, Ending> Running::start() {
   }
   recording_ = std::move(recording).value();
   if (!simulation_) {
-    black_box_.emplace(options_, checked_, prepared_, console_);
+    black_box_.emplace(options_, checked_, prepared_, mirror_, console_);
   }
   if (auto done = start_modules(); !done) {
     return done;
@@ -238,6 +239,9 @@ Result<void, Ending> Running::start_schedule() {
   if (recording_ && !simulation_) {
     recording_->start(cores_without_modules(config, prepared_.rights));
   }
+  if (!simulation_ && prepared_.tape) {
+    kernel_watch_.emplace(options_.node, prepared_.rights.realtime(), cores_without_modules(config, prepared_.rights));
+  }
   if (const Status started = engine_.start(ticks()); !started) {
     console_.error("cannot start the schedule: {}", describe(started.error()));
     return Ending{kFailed};
@@ -275,7 +279,7 @@ Ending Running::supervise() {
   while (!engine_.finished()) {
     const int number = pass();
     if (recording_ && simulation_) {
-      recording_->take();
+      recording_->take(kernel_.now());
     }
     const rt::MonoTime now = rt::MonoClock::now();
     prepared_.store->beat(now);
@@ -310,14 +314,15 @@ Ending Running::supervise() {
   return ending;
 }
 
-bool Running::stop() {
+bool Running::stop(const std::string& why) {
   run_.state.store(scheduler::NodeState::Stopping);
   engine_.request_stop();
   engine_.join();
   if (black_box_) {
     black_box_->end();
   }
-  const bool recorded = !recording_ || recording_->end();
+  kernel_watch_.reset();
+  const bool recorded = !recording_ || recording_->end(facts_text(options_, prepared_, mirror_.block(), why));
   hang_watch_.reset();
   normal_threads_.stop();
   processes_.end_all();

@@ -12,6 +12,7 @@
 #include "node/board_mirror.h"
 #include "node/force_watch.h"
 #include "node/hang_watch.h"
+#include "node/kernel_watch.h"
 #include "node/loaded.h"
 #include "node/module_commands.h"
 #include "node/normal_threads.h"
@@ -36,7 +37,7 @@ class Running {
   // Until the duration is over or something ends the run.
   Ending supervise();
   // Ends what was started, in reverse. Once, whatever start() returned. False: a recording misses something, said.
-  bool stop();
+  bool stop(const std::string& why);
 
  private:
   Result<void, Ending> start_modules();
@@ -71,7 +72,8 @@ class Running {
   NormalThreads normal_threads_;
   Processes processes_;
   ModuleCommands commands_;
-  std::optional<BlackBox> black_box_;      // none in a simulation
+  std::optional<KernelWatch> kernel_watch_;  // none in a simulation, as the black box
+  std::optional<BlackBox> black_box_;
   std::unique_ptr<RecordPart> recording_;  // none if none was wanted
 };
 

@@ -10,6 +10,7 @@
 #include <deque>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/problem.h"
@@ -39,6 +40,10 @@ class Parts {
   // Errors: those of the disk.
   Result<void, base::Problem> take();
   Result<void, base::Problem> flush();
+  // Beside the runs of the part that is being written. Errors: those of the disk.
+  Result<void, base::Problem> attach(std::string_view name, std::string_view text) {
+    return recorder_.attach(name, text);
+  }
   Result<void, base::Problem> close();
 
   [[nodiscard]] const Recorder& recorder() const noexcept { return recorder_; }

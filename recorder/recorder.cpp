@@ -281,6 +281,13 @@ Result<void, Problem> Recorder::take() {
   return {};
 }
 
+Result<void, Problem> Recorder::attach(std::string_view name, std::string_view text) {
+  recording::McapAttachment attachment;
+  attachment.name = name;
+  attachment.media_type = "application/json";
+  return writer_.attach(attachment, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
 Result<void, Problem> Recorder::close() {
   std::uint64_t lost = 0;
   recording::TextMap said;

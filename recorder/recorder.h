@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,8 @@ class Recorder {
   Result<void, base::Problem> take();
   // What is in memory goes to the file.
   Result<void, base::Problem> flush() { return writer_.flush(); }
+  // A text beside the runs and values. Before close().
+  Result<void, base::Problem> attach(std::string_view name, std::string_view text);
   // The end of the recording, with all counts.
   Result<void, base::Problem> close();
   // After close(): goes on in another file, which begins with what every module knew last, so that it can be read and

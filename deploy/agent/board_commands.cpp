@@ -5,7 +5,9 @@
 #include <cstring>
 #include <random>
 
+#include "base/text.h"
 #include "deploy/agent/board_forces.h"
+#include "explain/orders.h"
 #include "rt/clock.h"
 
 namespace indurop::deploy {
@@ -58,6 +60,25 @@ std::uint64_t new_nonce() {
   return (high << 32U | random()) | 1U;  // never 0
 }
 
+// Which user gave it is known where it was given.
+void note(const std::string& board, const Command& command, const std::string& what, const std::string& value) {
+  const char* action = command.action == Action::StopModule    ? "stop"
+                       : command.action == Action::StartModule ? "start"
+                       : command.action == Action::Force       ? "force"
+                       : command.action == Action::Unforce     ? "unforce"
+                                                               : "restart";
+  explain::note_order(board, {rt::now_ns(), 0, "somebody", command.host, action, what, value});
+}
+
+void note_forces(const std::string& board, const Command& command) {
+  const auto lines = base::lines_of(command.target);
+  for (std::size_t i = command.action == Action::Force ? 1 : 0; i < lines.size(); ++i) {
+    const std::string line(lines[i]);
+    const auto equals = line.find('=');
+    note(board, command, line.substr(0, equals), equals == std::string::npos ? "" : line.substr(equals + 1));
+  }
+}
+
 }  // namespace
 
 BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
@@ -81,6 +102,9 @@ void BoardCommands::step(CommandLink& link, const std::string& plant, const std:
     log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
               command_->target.empty() ? "the node" : "module " + command_->target,
               done->outcome == Outcome::Failed ? done->text : "done");
+    if (done->outcome == Outcome::Done && !command_->target.empty()) {
+      note(board_, *command_, command_->target, {});
+    }
     known_[command_->commander].last = done;
     link.send(*done);
     command_.reset();
@@ -174,6 +198,9 @@ CommandReply BoardCommands::force(const Command& command) const {
   const auto done = hold ? force_values(board_, command.target) : unforce_values(board_, command.target);
   log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), one_line(command.target),
             done ? "done" : done.error().text);
+  if (done) {
+    note_forces(board_, command);
+  }
   return done ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, done.error().text);
 }
 

@@ -2,6 +2,7 @@
 // Commands about modules of a node of this machine, through its run block.
 #include <fmt/format.h>
 
+#include "explain/orders.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/suggest.h"
@@ -63,6 +64,12 @@ int conclude(Context& context, ModuleCommand command, const scheduler::ModuleRec
   return kFailed;
 }
 
+void note(const std::string& node, const RunView& run, ModuleCommand command, const std::string& module) {
+  const std::int64_t simulated = run.block().virtual_ns.load();
+  const char* action = command == ModuleCommand::Stop ? "stop" : command == ModuleCommand::Start ? "start" : "restart";
+  explain::note_order(node, {simulated != 0 ? simulated : rt::now_ns(), 0, {}, {}, action, module, {}});
+}
+
 }  // namespace
 
 Commanded command_here(Context& context, ModuleCommand command, const std::string& module, std::int64_t timeout_ns) {
@@ -91,6 +98,9 @@ Commanded command_here(Context& context, ModuleCommand command, const std::strin
       ticket = scheduler::place_command(*record, command);
     } else if (const auto result = scheduler::result_of(*record, *ticket); result != CommandResult::None) {
       const std::int64_t took = rt::now_ns() - begin;
+      if (result == CommandResult::Done || result == CommandResult::OldCode) {
+        note(*node, run.value(), command, module);
+      }
       return {conclude(context, command, *record, result, took), result, took};
     }
     wait_until(rt::now_ns() + kLookNs);

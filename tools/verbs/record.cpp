@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include "base/read_file.h"
+#include "explain/facts_json.h"
 #include "recorder/parts.h"
 #include "rt/clock.h"
 #include "tools/command/amount.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
+#include "tools/explain/gather.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
@@ -40,6 +42,8 @@ recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
   if (auto text = base::read_file(about.config)) {
     about.files.emplace_back(std::filesystem::path(about.config).filename().string(), *std::move(text));
   }
+  // Already at the begin: whoever reads it knows that the end of this recording is not that of the node.
+  about.files.emplace_back(explain::kFactsFile, facts_text_here(chosen.node, chosen.run));
   return about;
 }
 
@@ -56,7 +60,8 @@ bool ended(const RunView& run) {
 }
 
 // Until it is to end. Errors: those of the disk.
-Result<void, base::Problem> go_on(const Options& options, const RunView& run, recorder::Parts& recorder) {
+Result<void, base::Problem> go_on(const Options& options, const std::string& node, const RunView& run,
+                                  recorder::Parts& recorder) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t flushed = begin;
   for (;;) {
@@ -66,7 +71,8 @@ Result<void, base::Problem> go_on(const Options& options, const RunView& run, re
       return taken;
     }
     if (last) {
-      return recorder.close();
+      const auto attached = recorder.attach(explain::kFactsFile, facts_text_here(node, run));
+      return attached ? recorder.close() : attached;
     }
     if (rt::now_ns() - flushed >= kFlushNs) {
       if (auto done = recorder.flush(); !done) {
@@ -125,7 +131,7 @@ int record(Context& context, const Options& options) {
   if (!options.past) {
     recorder->learn();
   }
-  const auto done = go_on(options, chosen->run, *recorder);
+  const auto done = go_on(options, chosen->node, chosen->run, *recorder);
   const int code = tell(context, chosen->run, *recorder);
   if (!done) {
     context.out.error(done.error().text + "; the recording ends here");

@@ -14,6 +14,7 @@ extern const Verb kCheckVerb;
 extern const Verb kCleanVerb;
 extern const Verb kDeployVerb;
 extern const Verb kDoctorVerb;
+extern const Verb kExplainVerb;
 extern const Verb kForceVerb;
 extern const Verb kForcesVerb;
 extern const Verb kGetVerb;

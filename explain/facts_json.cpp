@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explain/facts_json.h"
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace indurop::explain {
+namespace {
+
+using base::Json;
+
+// One list of fields for both ways.
+class Writer {
+ public:
+  template <class T>
+  void operator()(const char* name, const T& value) {
+    json[name] = value;
+  }
+  Json json = Json::object();
+};
+
+class Reader {
+ public:
+  explicit Reader(const Json& from) : from_(from) {}
+
+  void operator()(const char* name, std::string& to) const { base::read(from_, name, to); }
+  void operator()(const char* name, std::vector<std::string>& to) const { base::read(from_, name, to); }
+  void operator()(const char* name, bool& to) const { base::read(from_, name, to); }
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) void operator()(const char* name, T& to) const {
+    if (const auto natural = from_[name].natural();
+        natural && *natural <= std::uint64_t{std::numeric_limits<T>::max()}) {
+      to = static_cast<T>(*natural);
+    } else if (const auto integer = from_[name].integer();
+               integer && *integer < 0 && *integer >= std::int64_t{std::numeric_limits<T>::lowest()}) {
+      to = static_cast<T>(*integer);
+    }
+  }
+
+ private:
+  const Json& from_;
+};
+
+template <class Visit, class Fact>
+void module_fields(Visit&& visit, Fact& fact) {
+  visit("name", fact.name);
+  visit("type", fact.type);
+  visit("operation", fact.operation);
+  visit("period_ns", fact.period_ns);
+  visit("offset_ns", fact.offset_ns);
+  visit("deadline_ns", fact.deadline_ns);
+  visit("priority", fact.priority);
+  visit("core", fact.core);
+  visit("state", fact.state);
+  visit("runs", fact.runs);
+  visit("faults", fact.faults);
+  visit("restarts", fact.restarts);
+  visit("fault_tick", fact.fault_tick);
+  visit("fault", fact.fault);
+}
+
+template <class Visit, class Fact>
+void order_fields(Visit&& visit, Fact& fact) {
+  visit("node_ns", fact.node_ns);
+  visit("wall_ns", fact.wall_ns);
+  visit("who", fact.who);
+  visit("from", fact.from);
+  visit("action", fact.action);
+  visit("what", fact.what);
+  visit("value", fact.value);
+}
+
+template <class Visit, class Fact>
+void kernel_fields(Visit&& visit, Fact& fact) {
+  visit("from_ns", fact.from_ns);
+  visit("to_ns", fact.to_ns);
+  visit("core", fact.core);
+  visit("thread", fact.thread);
+  visit("waited_ns", fact.waited_ns);
+  visit("major_faults", fact.major_faults);
+  visit("stolen_ns", fact.stolen_ns);
+}
+
+template <class Visit, class Fact>
+void board_fields(Visit&& visit, Fact& fact) {
+  visit("name", fact.name);
+  visit("state", fact.state);
+  visit("problem", fact.problem);
+  visit("heard_ns", fact.heard_ns);
+  visit("losses", fact.losses);
+  visit("lost_updates", fact.lost_updates);
+}
+
+template <class Visit, class F>
+void own_fields(Visit&& visit, F& facts) {
+  visit("board", facts.board);
+  visit("virtual", facts.is_virtual);
+  visit("realtime", facts.realtime);
+  visit("basic_period_ns", facts.basic_period_ns);
+  visit("epoch_ns", facts.epoch_ns);
+  visit("now_ns", facts.now_ns);
+  visit("tick", facts.tick);
+  visit("lost_ticks", facts.lost_ticks);
+  visit("stop_reason", facts.stop_reason);
+  visit("wall_minus_node_ns", facts.wall_minus_node_ns);
+  visit("kernel_from_ns", facts.kernel_from_ns);
+  visit("kernel_to_ns", facts.kernel_to_ns);
+}
+
+template <class Fact, class Fields>
+Json list_of(const std::vector<Fact>& facts, Fields fields) {
+  Json list = Json::array();
+  for (const Fact& fact : facts) {
+    Writer writer;
+    fields(writer, fact);
+    list.push_back(std::move(writer.json));
+  }
+  return list;
+}
+
+template <class Fact, class Fields>
+void read_list(const Json& list, std::vector<Fact>& to, Fields fields) {
+  for (const Json& one : list.values()) {
+    Fact fact;
+    fields(Reader(one), fact);
+    to.push_back(std::move(fact));
+  }
+}
+
+constexpr auto kModule = [](auto&& visit, auto& fact) { module_fields(visit, fact); };
+constexpr auto kOrder = [](auto&& visit, auto& fact) { order_fields(visit, fact); };
+constexpr auto kKernel = [](auto&& visit, auto& fact) { kernel_fields(visit, fact); };
+constexpr auto kBoard = [](auto&& visit, auto& fact) { board_fields(visit, fact); };
+
+}  // namespace
+
+std::string facts_text(const Facts& facts) {
+  Writer writer;
+  own_fields(writer, facts);
+  writer.json["modules"] = list_of(facts.modules, kModule);
+  writer.json["orders"] = list_of(facts.orders, kOrder);
+  writer.json["kernel"] = list_of(facts.kernel, kKernel);
+  writer.json["boards"] = list_of(facts.boards, kBoard);
+  return writer.json.dump() + "\n";
+}
+
+bool read_facts(std::string_view text, Facts& facts) {
+  const auto json = Json::parse(text);
+  if (!json || !json->is_object()) {
+    return false;
+  }
+  own_fields(Reader(*json), facts);
+  facts.modules.clear();
+  read_list((*json)["modules"], facts.modules, kModule);
+  read_list((*json)["orders"], facts.orders, kOrder);
+  read_list((*json)["kernel"], facts.kernel, kKernel);
+  read_list((*json)["boards"], facts.boards, kBoard);
+  return true;
+}
+
+Json json_of(const OrderFact& order) {
+  Writer writer;
+  order_fields(writer, order);
+  return std::move(writer.json);
+}
+
+bool read_order(const Json& json, OrderFact& order) {
+  order_fields(Reader(json), order);
+  return !order.action.empty();
+}
+
+Json json_of(const Answer& answer) {
+  return {{"cause", to_text(answer.cause)},
+          {"culprit", answer.culprit},
+          {"text", answer.text},
+          {"evidence", answer.evidence}};
+}
+
+}  // namespace indurop::explain

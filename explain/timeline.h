@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who had a core when: from begins and ends of runs. Of runs that lie in each other the innermost has it. Pure.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "explain/facts.h"
+
+namespace indurop::explain {
+
+inline constexpr std::uint32_t kNoModule = UINT32_MAX;
+
+struct Span {
+  std::int64_t from_ns = 0;
+  std::int64_t to_ns = 0;
+  [[nodiscard]] std::int64_t length() const noexcept { return to_ns > from_ns ? to_ns - from_ns : 0; }
+};
+
+// How long each module had the core within a span; kNoModule: no run of the node.
+using Shares = std::map<std::uint32_t, std::int64_t>;
+
+class Timeline {
+ public:
+  // Borrowed. `core`: as in ModuleFact.
+  Timeline(const Facts& facts, std::int32_t core);
+
+  [[nodiscard]] Shares shares(Span span) const;
+  // The run that had the core at a time; null: none.
+  [[nodiscard]] const RunFact* at(std::int64_t time_ns) const;
+
+ private:
+  std::vector<const RunFact*> runs_;  // by start
+  std::int64_t longest_ns_ = 0;
+};
+
+}  // namespace indurop::explain

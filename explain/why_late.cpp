@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why a module did not run in a tick, or ended late: one thing after the other that can keep it from running.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "explain/lateness.h"
+#include "explain/questions.h"
+#include "explain/words.h"
+
+namespace indurop::explain {
+namespace {
+
+// One module and one tick.
+class Question {
+ public:
+  Question(const Facts& facts, const ModuleFact& module, std::uint64_t tick)
+      : facts_(facts),
+        module_(module),
+        index_(static_cast<std::uint32_t>(&module - facts.modules.data())),
+        tick_(tick),
+        release_ns_(facts.release_of(tick)),
+        lateness_(facts) {}
+
+  Answer answer() {
+    if (module_.operation == "non-real") {
+      return {Cause::NotDue, {}, fmt::format("{} has no place in the schedule: it runs beside it", module_.name), {}};
+    }
+    if (const RunFact* run = find(tick_); run != nullptr) {
+      return run->faulted ? faulted(*run) : lateness_.explain(*run);
+    }
+    if (tick_ < facts_.first_tick) {
+      return not_known(fmt::format("what is known begins with tick {}", facts_.first_tick));
+    }
+    for (Answer one : {not_there(), not_due(), after_fault(), stopped(), restarting()}) {
+      if (!one.text.empty()) {
+        return one;
+      }
+    }
+    if (module_.operation == "sporadic") {
+      return {Cause::NotDue, {}, fmt::format("{} runs on its event, and did not in {}", module_.name, place()), {}};
+    }
+    return kept_out();
+  }
+
+ private:
+  [[nodiscard]] std::string place() const { return at_tick(facts_, tick_); }
+
+  [[nodiscard]] const RunFact* find(std::uint64_t tick) const {
+    const auto found = std::find_if(facts_.runs.begin(), facts_.runs.end(),
+                                    [&](const RunFact& run) { return run.module == index_ && run.tick == tick; });
+    return found == facts_.runs.end() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] Answer not_there() const {
+    if (tick_ < facts_.tick) {
+      return {};
+    }
+    if (facts_.alive) {
+      return not_known(fmt::format("tick {} is still to come: the node is at {}", tick_, facts_.tick));
+    }
+    if (facts_.closed && facts_.stop_reason.empty()) {
+      return not_known(fmt::format("what is recorded ends with tick {}", facts_.tick));
+    }
+    return {Cause::Stopped,
+            {},
+            fmt::format("the node had ended at tick {}{}", facts_.tick,
+                        facts_.stop_reason.empty() ? "" : ": " + facts_.stop_reason),
+            {}};
+  }
+
+  [[nodiscard]] Answer not_due() const {
+    if (module_.period_ns <= 0 || facts_.basic_period_ns <= 0) {
+      return {};
+    }
+    const auto every = static_cast<std::uint64_t>(module_.period_ns / facts_.basic_period_ns);
+    const auto first = static_cast<std::uint64_t>(module_.offset_ns / facts_.basic_period_ns);
+    if (tick_ >= first && (tick_ - first) % every == 0) {
+      return {};
+    }
+    const std::uint64_t next = tick_ < first ? first : first + ((tick_ - first) / every + 1) * every;
+    return {Cause::NotDue,
+            {},
+            fmt::format("{} is not due in {}: it runs in every {}th tick, next in tick {}", module_.name, place(),
+                        every, next),
+            {}};
+  }
+
+  [[nodiscard]] Answer faulted(const RunFact& run) const {
+    const bool told = module_.fault_tick == run.tick && !module_.fault.empty();
+    Answer answer{
+        Cause::Fault,
+        module_.name,
+        fmt::format("the run of {} in {} ended by a fault{}", module_.name, place(), told ? ": " + module_.fault : ""),
+        {}};
+    return answer;
+  }
+
+  [[nodiscard]] Answer after_fault() const {
+    if (module_.state != "faulted" || module_.fault_tick > tick_) {
+      return {};
+    }
+    return {Cause::Fault,
+            module_.name,
+            fmt::format("{} faulted in tick {} and does not run any more: {}", module_.name, module_.fault_tick,
+                        module_.fault),
+            {fmt::format("faults: {}, state: {}", module_.faults, module_.state)}};
+  }
+
+  // The newest order before the tick says so, or its state does.
+  [[nodiscard]] Answer stopped() const {
+    const OrderFact* last = nullptr;
+    for (const OrderFact& order : facts_.orders) {
+      const bool meant = order.action == "stop" || order.action == "start" || order.action == "restart";
+      if (meant && order.what == module_.name && order.node_ns <= release_ns_) {
+        last = &order;
+      }
+    }
+    if (last != nullptr && last->action == "stop") {
+      return {Cause::Stopped,
+              last->who,
+              fmt::format("{} was stopped by {}", module_.name, who(*last)),
+              {fmt::format("{}: stop {}", when(facts_, last->node_ns), module_.name)}};
+    }
+    if (module_.state == "stopped" && facts_.alive && !ran_after(tick_)) {
+      return {Cause::Stopped, {}, fmt::format("{} was stopped; by whom was not noted", module_.name), {}};
+    }
+    return {};
+  }
+
+  [[nodiscard]] Answer restarting() const {
+    if (module_.type != "process" || module_.restarts == 0 || module_.faults == 0) {
+      return {};
+    }
+    const RunFact* before = nullptr;
+    const RunFact* next = nullptr;
+    for (const RunFact& run : facts_.runs) {
+      if (run.module == index_) {
+        before = run.tick < tick_ ? &run : before;
+        next = run.tick > tick_ && next == nullptr ? &run : next;
+      }
+    }
+    const bool died_between = (before == nullptr || before->tick <= module_.fault_tick) &&
+                              (next == nullptr || module_.fault_tick <= next->tick);
+    if (!died_between) {
+      return {};
+    }
+    return {Cause::Fault,
+            module_.name,
+            fmt::format("the process of {} had died and was being started again: {}", module_.name, module_.fault),
+            {}};
+  }
+
+  [[nodiscard]] bool ran_after(std::uint64_t tick) const {
+    return std::any_of(facts_.runs.begin(), facts_.runs.end(),
+                       [&](const RunFact& run) { return run.module == index_ && run.tick > tick; });
+  }
+
+  // It was due and could have run.
+  [[nodiscard]] Answer kept_out() const {
+    const RunFact* own = nullptr;
+    bool any = false;  // something had its core in this tick
+    for (const RunFact& run : facts_.runs) {
+      if (run.module == index_ && run.tick < tick_ && run.end_ns > release_ns_) {
+        own = &run;
+      }
+      any =
+          any || (on_its_core(run) && run.start_ns < release_ns_ + facts_.basic_period_ns && run.end_ns > release_ns_);
+    }
+    if (own != nullptr) {
+      Answer answer = lateness_.explain(*own);
+      answer.text =
+          fmt::format("at its release in {} its run of tick {} was not over. {}", place(), own->tick, answer.text);
+      return answer;
+    }
+    if (const RunFact* shared = of_its_thread(); shared != nullptr) {
+      Answer answer = lateness_.explain(*shared);
+      answer.text = fmt::format("at its release in {} the run of {} of tick {} was not over, after which it runs. {}",
+                                place(), facts_.modules[shared->module].name, shared->tick, answer.text);
+      return answer;
+    }
+    const RunFact* holder = Timeline(facts_, module_.core).at(release_ns_);
+    if (holder != nullptr && holder->tick < tick_) {
+      Answer answer = lateness_.explain(*holder);
+      answer.text = fmt::format("at the begin of {} the run of {} of tick {} was not over, and the tick was lost. {}",
+                                place(), facts_.modules[holder->module].name, holder->tick, answer.text);
+      return answer;
+    }
+    if (any) {
+      return not_known(
+          fmt::format("others ran in {}, and nothing kept {} from it that was noted", place(), module_.name));
+    }
+    return stood_still();
+  }
+
+  // Modules of one period on one core that come one after the other have one thread: it begins anew when all are done.
+  [[nodiscard]] const RunFact* of_its_thread() const {
+    const RunFact* last = nullptr;
+    for (const RunFact& run : facts_.runs) {
+      if (run.tick < tick_ && on_its_core(run) && run.release_ns < release_ns_ && run.end_ns > release_ns_ &&
+          facts_.modules[run.module].period_ns == module_.period_ns) {
+        last = last == nullptr || run.end_ns > last->end_ns ? &run : last;
+      }
+    }
+    return last;
+  }
+
+  [[nodiscard]] bool on_its_core(const RunFact& run) const { return facts_.modules[run.module].core == module_.core; }
+
+  [[nodiscard]] Answer stood_still() const {
+    Span gap{facts_.epoch_ns, facts_.now_ns};
+    for (const RunFact& run : facts_.runs) {
+      if (!on_its_core(run)) {
+        continue;
+      }
+      if (run.end_ns <= release_ns_) {
+        gap.from_ns = std::max(gap.from_ns, run.end_ns);
+      }
+      if (run.start_ns >= release_ns_) {
+        gap.to_ns = std::min(gap.to_ns, run.start_ns);
+      }
+    }
+    Answer answer = lateness_.machine({release_ns_, gap.to_ns}, module_.core, gap.length());
+    answer.cause = Cause::Machine;
+    answer.text = fmt::format(
+        "no module ran on core {} in {}: nothing of the node had it for {}, so the machine stood still "
+        "or was taken ({})",
+        module_.core, place(), short_time(gap.length()), answer.text);
+    answer.evidence.push_back(fmt::format("lost ticks: {}", facts_.lost_ticks));
+    return answer;
+  }
+
+  const Facts& facts_;
+  const ModuleFact& module_;
+  std::uint32_t index_;
+  std::uint64_t tick_;
+  std::int64_t release_ns_;
+  Lateness lateness_;
+};
+
+bool due(const Facts& facts, const ModuleFact& module, std::uint64_t tick) {
+  const auto every = static_cast<std::uint64_t>(std::max<std::int64_t>(module.period_ns / facts.basic_period_ns, 1));
+  const auto first = static_cast<std::uint64_t>(module.offset_ns / facts.basic_period_ns);
+  return tick >= first && (tick - first) % every == 0;
+}
+
+}  // namespace
+
+Answer why_late(const Facts& facts, const std::string& module, std::uint64_t tick) {
+  const ModuleFact* known = facts.find_module(module);
+  return known == nullptr ? not_known(fmt::format("{} has no module '{}'", facts.node, module))
+                          : Question(facts, *known, tick).answer();
+}
+
+std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
+  const ModuleFact* known = facts.find_module(module);
+  if (known == nullptr || facts.basic_period_ns <= 0 || facts.tick == 0) {
+    return kNone;
+  }
+  const auto index = static_cast<std::uint32_t>(known - facts.modules.data());
+  const std::int64_t limit = known->deadline_ns > 0 ? known->deadline_ns : known->period_ns;
+  std::vector<std::uint64_t> ran;
+  std::uint64_t last = kNone;
+  for (const RunFact& run : facts.runs) {
+    if (run.module == index) {
+      ran.push_back(run.tick);
+      if (run.faulted || (limit > 0 && run.end_ns - run.release_ns > limit)) {
+        last = last == kNone ? run.tick : std::max(last, run.tick);
+      }
+    }
+  }
+  std::sort(ran.begin(), ran.end());
+  // The tick that has just begun may be under way.
+  for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > facts.first_tick;) {
+    if (due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
+      return last == kNone ? tick : std::max(last, tick);
+    }
+  }
+  return last;
+}
+
+}  // namespace indurop::explain

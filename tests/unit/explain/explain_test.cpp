@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explain/questions.h"
+
+#include <gmock/gmock.h>
+
+namespace indurop::explain {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::int64_t kMs = 1'000'000;
+
+ModuleFact periodic(const char* name, std::int64_t period_ns) {
+  ModuleFact module;
+  module.name = name;
+  module.type = "thread";
+  module.operation = "periodic";
+  module.period_ns = period_ns;
+  return module;
+}
+
+// Writes x in every tick up to `last`; y comes from board other.
+Facts board(const char* name, std::uint64_t last) {
+  Facts facts;
+  facts.node = facts.board = name;
+  facts.is_virtual = true;
+  facts.basic_period_ns = kMs;
+  facts.lease_ns = 500 * kMs;
+  facts.tick = last + 1;
+  facts.now_ns = static_cast<std::int64_t>(last + 1) * kMs;
+  facts.modules.push_back(periodic("writer", kMs));
+  for (std::uint64_t tick = 0; tick <= last; ++tick) {
+    const auto release = static_cast<std::int64_t>(tick) * kMs;
+    facts.runs.push_back({0, tick, release, release, release + 1000, false});
+  }
+  facts.variables.push_back({"x", {std::string("writer@") + name}, {}, 0, 0});
+  return facts;
+}
+
+Facts reader(const char* state, std::int64_t heard_ns) {
+  Facts facts = board("here", 3000);
+  facts.alive = true;
+  facts.boards.push_back({"other", state, {}, heard_ns, 0, 0});
+  facts.variables.push_back({"y", {"writer@other"}, "other", 0, 0});
+  return facts;
+}
+
+TEST(Explain, A_module_that_is_not_due_is_told_when_it_is) {
+  Facts facts = board("here", 100);
+  facts.modules.push_back(periodic("slow", 10 * kMs));
+  const Answer sut = why_late(facts, "slow", 42);
+  EXPECT_EQ(sut.cause, Cause::NotDue);
+  EXPECT_THAT(sut.text, HasSubstr("next in tick 50"));
+}
+
+TEST(Explain, What_is_not_known_is_said_with_its_reason) {
+  Facts facts = board("here", 100);
+  EXPECT_EQ(why_late(facts, "nobody", 3).cause, Cause::NotKnown);
+  facts.first_tick = 50;
+  std::erase_if(facts.runs, [](const RunFact& run) { return run.tick < 50; });
+  EXPECT_THAT(why_late(facts, "writer", 3).text, HasSubstr("begins with tick 50"));
+}
+
+TEST(Explain, A_board_that_went_on_running_was_cut_off) {
+  Facts other = board("other", 2999);
+  other.boards.push_back({"here", "silent", {}, 1000 * kMs, 1, 0});
+  const std::vector<Facts> plant{reader("silent", 1000 * kMs), other};
+  EXPECT_EQ(why_gone(plant, 0, "other").cause, Cause::Network);
+  EXPECT_EQ(why_old(plant, 0, "y", 2000 * kMs).cause, Cause::Network);
+}
+
+TEST(Explain, A_board_whose_runs_end_was_killed_or_said_why_it_ended) {
+  std::vector<Facts> plant{reader("silent", 1000 * kMs), board("other", 1000)};
+  EXPECT_EQ(why_gone(plant, 0, "other").cause, Cause::Board);
+  EXPECT_EQ(why_gone(plant, 0, "other").culprit, "other");
+  plant[1].closed = true;
+  EXPECT_EQ(why_gone(plant, 0, "other").cause, Cause::NotKnown) << "only its recording ended";
+  plant[1].stop_reason = "signal 15";
+  EXPECT_THAT(why_gone(plant, 0, "other").text, HasSubstr("signal 15"));
+}
+
+TEST(Explain, Without_anything_of_the_board_itself_neither_board_nor_cable_is_blamed) {
+  const std::vector<Facts> plant{reader("silent", 1000 * kMs)};
+  EXPECT_EQ(why_gone(plant, 0, "other").cause, Cause::NotKnown);
+}
+
+TEST(Explain, A_value_of_a_board_that_is_heard_is_followed_to_its_writer) {
+  std::vector<Facts> plant{reader("alive", 3000 * kMs), board("other", 3000)};
+  plant[1].variables.push_back({"y", {"writer@other"}, {}, 0, 0});
+  EXPECT_EQ(why_old(plant, 0, "y", 3000 * kMs).cause, Cause::Unchanged);
+  plant[1].modules[0].state = "faulted";
+  plant[1].modules[0].faults = 1;
+  plant[1].modules[0].fault_tick = 2000;
+  plant[1].modules[0].fault = "SIGSEGV";
+  std::erase_if(plant[1].runs, [](const RunFact& run) { return run.tick > 2000; });
+  const Answer sut = why_old(plant, 0, "y", 3000 * kMs);
+  EXPECT_EQ(sut.cause, Cause::Fault);
+  EXPECT_EQ(sut.culprit, "writer");
+}
+
+TEST(Explain, A_rate_limit_is_told_only_within_its_time) {
+  std::vector<Facts> plant{reader("alive", 3000 * kMs), board("other", 3000)};
+  plant[0].variables.back().every_ns = 100 * kMs;
+  plant[1].variables.push_back({"y", {"writer@other"}, {}, 0, 0});
+  plant[1].changes.push_back({"y", "writer", 2950, 2950 * kMs});
+  EXPECT_EQ(why_old(plant, 0, "y", 3000 * kMs).cause, Cause::Rate);
+  EXPECT_EQ(why_old(plant, 0, "y", 3000 * kMs).culprit, "other");
+  plant[1].changes[0].time_ns = 2800 * kMs;
+  EXPECT_EQ(why_old(plant, 0, "y", 3000 * kMs).cause, Cause::Unchanged);
+}
+
+TEST(Explain, Who_forces_a_value_and_who_wrote_it_last) {
+  Facts facts = board("here", 100);
+  facts.changes.push_back({"x", "writer", 20, 20 * kMs});
+  EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "writer");
+  facts.orders.push_back({30 * kMs, 0, "ana", "pc4", "set", "x", "7"});
+  EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "ana");
+  EXPECT_EQ(who_changed(facts, "x", 25 * kMs).culprit, "writer");
+  facts.orders.push_back({40 * kMs, 0, "bob", "", "force", "x", "8"});
+  facts.variables[0].forced_until_ns = INT64_MAX;
+  const std::vector<Facts> plant{facts};
+  EXPECT_EQ(why_old(plant, 0, "x", 100 * kMs).culprit, "bob");
+  EXPECT_EQ(who_changed(facts, "z", 100 * kMs).cause, Cause::NotKnown);
+}
+
+}  // namespace
+}  // namespace indurop::explain
