@@ -107,7 +107,7 @@ class Machines(unittest.TestCase):
 
     def test_4_packets_get_lost(self):
         self.lab("loss", "sensor", "30")
-        self.assertIn("probability 0.3", self.lab("exec", "sensor", "iptables", "-L", "INPUT"))
+        self.assertIn("DROP", self.lab("exec", "sensor", "iptables", "-L", "INPUT"))
         self.lab("loss", "sensor", "0")
         self.assertNotIn("DROP", self.lab("exec", "sensor", "iptables", "-L", "INPUT"))
 
