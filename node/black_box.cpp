@@ -13,6 +13,7 @@
 #include "node/facts_part.h"
 #include "node/record_part.h"
 #include "recorder/recorder.h"
+#include "vars/box_wish.h"
 #include "vars/retain.h"
 #include "vars/run_file.h"
 
@@ -21,6 +22,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kAfterwards{200};  // what follows a fault tells something too
 constexpr std::chrono::minutes kBetween{1};
+constexpr std::chrono::seconds kBetweenWishes{10};
+constexpr std::chrono::milliseconds kLookForWish{100};
+constexpr std::uint64_t kManyOverruns = 10;  // within a second
 
 std::filesystem::path folder_of(const std::string& node) {
   return vars::state_directory(node) / "boxes";
@@ -157,8 +161,14 @@ void BlackBox::look(rt::MonoTime now) {
   if (due_ == rt::MonoTime{} && faults() != kept_ && now >= next_) {
     due_ = now + kAfterwards;
   }
+  if (std::string why = many_overruns(now); due_ == rt::MonoTime{} && !why.empty() && now >= next_overruns_) {
+    wish_ = std::move(why);
+    due_ = now + kAfterwards;
+    next_overruns_ = now + kBetween;
+  }
+  look_for_wish(now);
   if (due_ != rt::MonoTime{} && now >= due_) {
-    next_ = now + kBetween;
+    next_ = faults() != kept_ ? now + kBetween : next_;
     keep();
   }
 }
@@ -172,9 +182,35 @@ void BlackBox::end() {
   }
 }
 
-void BlackBox::keep() {
-  due_ = {};
-  kept_ = faults();
+// One wish may follow another after ten seconds; one that comes while a box is about to be kept is part of it.
+void BlackBox::look_for_wish(rt::MonoTime now) {
+  if (now - wish_looked_ < kLookForWish) {
+    return;
+  }
+  wish_looked_ = now;
+  auto wish = vars::take_box_wish(options_.node);
+  if (wish && due_ == rt::MonoTime{} && now >= next_wish_) {
+    wish_ = *std::move(wish);
+    due_ = now + kAfterwards;
+    next_wish_ = now + kBetweenWishes;
+  }
+}
+
+// Of the last second; empty: there were few.
+std::string BlackBox::many_overruns(rt::MonoTime now) {
+  if (now - overruns_looked_ < std::chrono::seconds(1)) {
+    return {};
+  }
+  const scheduler::RunBlock& run = prepared_.run();
+  const std::uint64_t all = run.overrun_log_next.load(std::memory_order_acquire);
+  const std::uint64_t more = all - overruns_;
+  overruns_ = all;
+  overruns_looked_ = now;
+  return more < kManyOverruns ? std::string()
+                              : fmt::format("{} overruns within a second, up to tick {}", more, run.tick.load());
+}
+
+std::string BlackBox::newest_fault() const {
   const scheduler::RunBlock& run = prepared_.run();
   std::string reason;
   std::uint64_t latest = 0;
@@ -185,6 +221,15 @@ void BlackBox::keep() {
       reason = fmt::format("fault of module {} at tick {}: {}", module.name, latest, module.last_fault);
     }
   }
+  return reason;
+}
+
+void BlackBox::keep() {
+  due_ = {};
+  const bool faulted = faults() != kept_;
+  kept_ = faults();
+  const std::string reason = faulted || wish_.empty() ? newest_fault() : wish_;
+  wish_.clear();
   if (writer_.joinable()) {
     writer_.join();
   }

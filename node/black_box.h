@@ -32,7 +32,7 @@ class BlackBox {
   BlackBox(const BlackBox&) = delete;
   BlackBox& operator=(const BlackBox&) = delete;
 
-  // Again and again, on one normal thread. At most one box a minute.
+  // Again and again, on one normal thread. At most one box a minute for faults of this node, and one for overruns.
   void look(rt::MonoTime now);
   // The run is over: a fault not yet kept is.
   void end();
@@ -40,6 +40,9 @@ class BlackBox {
  private:
   [[nodiscard]] std::uint64_t faults() const noexcept;
   void keep();
+  [[nodiscard]] std::string newest_fault() const;
+  [[nodiscard]] std::string many_overruns(rt::MonoTime now);
+  void look_for_wish(rt::MonoTime now);
 
   const Options& options_;
   const Checked& checked_;
@@ -48,7 +51,13 @@ class BlackBox {
   Console& console_;
   std::uint64_t kept_ = 0;  // faults that were dealt with
   rt::MonoTime due_{};      // when the box of a new fault is written; 0: there is none
-  rt::MonoTime next_{};     // earliest time of the next
+  rt::MonoTime next_{};     // earliest time of the next for a fault, and for other reasons
+  rt::MonoTime next_overruns_{};
+  rt::MonoTime next_wish_{};
+  std::string wish_;  // why it is to be kept, if not for a fault of this node
+  rt::MonoTime wish_looked_{};
+  rt::MonoTime overruns_looked_{};
+  std::uint64_t overruns_ = 0;
   std::thread writer_;
 };
 

@@ -13,6 +13,7 @@
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/board_link.h"
 #include "deploy/agent/board_process.h"
+#include "deploy/agent/box_watch.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/mirror_text.h"
@@ -22,6 +23,7 @@
 #include "deploy/transaction/board_transaction.h"
 #include "rt/clock.h"
 #include "schema/topic_name.h"
+#include "vars/box_wish.h"
 
 namespace indurop::deploy {
 namespace {
@@ -158,6 +160,11 @@ class Agent {
     }
     for (auto& news : link_->take_boards()) {
       const auto key = std::pair(news.report.board, news.report.agent);
+      const bool same_plant = key.first != options_.board && news.report.plant == state_.committed().plant;
+      const auto why = news.gone ? box_watch_.gone(news.report) : box_watch_.hear(news.report);
+      if (why && same_plant) {
+        keep_box(*why);
+      }
       if (news.gone) {
         others_.erase(key);
       } else {
@@ -178,6 +185,16 @@ class Agent {
           other.generation > state_.committed().generation &&
           keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
         perform(transaction_.catch_up(other, now), now);
+      }
+    }
+  }
+
+  // A deployment ends nodes; that is no fault.
+  void keep_box(const std::string& why) {
+    if (transaction_.phase() == Phase::Steady && process_.condition() == NodeCondition::Running) {
+      log_.info("{}: the black box of this board is kept, too", why);
+      if (const Status wished = vars::wish_box(options_.board, why); !wished) {
+        log_.warning("the black box cannot be kept: {}", wished.error().where);
       }
     }
   }
@@ -316,13 +333,15 @@ class Agent {
   }
 
   void tell(rt::MonoTime now) {
-    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != told_node_;
+    const bool moving = transaction_.phase() != Phase::Steady || process_.condition() != told_node_ ||
+                        (link_ != nullptr && process_.figures().faults != told_faults_);
     if (link_ == nullptr || (!tell_now_ && now - told_ < (moving ? kTellFast : kTell))) {
       return;
     }
     told_ = now;
     tell_now_ = false;
     told_node_ = process_.condition();
+    told_faults_ = process_.figures().faults;
     link_->publish(report());
   }
 
@@ -359,6 +378,8 @@ class Agent {
   bool tell_now_ = true;
   rt::MonoTime told_;
   NodeCondition told_node_ = NodeCondition::None;
+  std::uint64_t told_faults_ = 0;
+  BoxWatch box_watch_;
 };
 
 }  // namespace

@@ -5,9 +5,14 @@
 #include <algorithm>
 
 #include "recording/mcap_reader.h"
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
 #include "tools/command/table.h"
 #include "tools/command/units.h"
+#include "tools/values/node_choice.h"
+#include "tools/values/variables.h"
 #include "tools/verbs/verbs.h"
+#include "vars/box_wish.h"
 #include "vars/retain.h"
 
 namespace indurop::tools {
@@ -72,21 +77,97 @@ int blackbox(Context& context) {
   return kOk;
 }
 
+// Until a variable is not 0 any more. Returns the exit code.
+int await(Context& context, const std::string& name) {
+  const auto store = open_store(context, vars::Mode::ReadOnly, {name});
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  std::vector<Item> items;
+  if (const int code = select_items(context, *store, {name}, items); code != kOk) {
+    return code;
+  }
+  constexpr std::int64_t kPauseNs = 5'000'000;
+  while (!interrupted()) {
+    for (const Item& item : items) {
+      const auto bytes = read_item(*store, item);
+      if (bytes && std::any_of(bytes->begin(), bytes->end(), [](std::uint8_t byte) { return byte != 0; })) {
+        return kOk;
+      }
+    }
+    if (!context.values->absence(&*store).empty()) {
+      context.out.error("the node has ended meanwhile");
+      return kUnreachable;
+    }
+    wait_until(rt::now_ns() + kPauseNs);
+  }
+  return interrupt_code();
+}
+
+// The node writes it: only it knows all of what belongs to its runs.
+int keep(Context& context, const std::string& why) {
+  const auto node = choose_node(context.node);
+  if (!node) {
+    return report(context.out, node.error());
+  }
+  const auto run = RunView::open(*node);
+  if (!run || !run->node_alive()) {
+    context.out.error(fmt::format("node '{}' does not run", *node));
+    return kUnreachable;
+  }
+  if (const Status wished = vars::wish_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
+    context.out.error(fmt::format("{} cannot be written", vars::state_directory(*node).string()));
+    return kFailed;
+  }
+  context.out.note(fmt::format("node '{}' keeps its black box; indurop blackbox lists it in a moment", *node));
+  return kOk;
+}
+
+struct Options {
+  std::string action;
+  std::string why;
+  std::string when;
+};
+
+int list_or_keep(Context& context, const Options& options) {
+  if (options.action.empty() || options.action == "list") {
+    return blackbox(context);
+  }
+  if (options.action != "keep") {
+    context.out.error(fmt::format("blackbox cannot '{}'; it lists what there is, or keeps a box: blackbox keep [WHY]",
+                                  printable(options.action)));
+    return kUsage;
+  }
+  if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
+    return code;
+  }
+  return keep(context, options.why.empty() && !options.when.empty() ? options.when : options.why);
+}
+
 Action declare(base::Options& app, Context& context) {
+  auto options = std::make_shared<Options>();
+  app.add("action", "list|keep", options->action, "What to do (default: list)");
+  app.add("why", "TEXT", options->why, "With keep: why, for whoever lists it");
+  app.add("--when", "NAME", options->when, "With keep: wait until this variable is not 0 any more")
+      .completes(base::Completion::Variable);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [](Context& c) { return blackbox(c); };
+  return [options](Context& c) { return list_or_keep(c, *options); };
 }
 
 }  // namespace
 
 const Verb kBlackboxVerb{
-    "blackbox", "Timing", "List what nodes kept when something went wrong",
-    "When a module faults, and when a node starts again that crashed, the last seconds of its tape are kept as a\n"
-    "recording: what every run saw and wrote. The newest ten of each node stay. The newest is listed first. They are\n"
-    "read by `indurop replay`, Foxglove and PlotJuggler.\n"
+    "blackbox", "Timing", "List what nodes kept when something went wrong, or keep it now",
+    "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
+    "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
+    "ten\n"
+    "of each node stay. The newest is listed first. They are read by `indurop explain --from`, `replay`, `recording`,\n"
+    "Foxglove and PlotJuggler. blackbox keep keeps what there is now.\n"
     "Examples:\n"
     "  indurop blackbox\n"
+    "  indurop blackbox keep 'the drill broke'\n"
+    "  indurop blackbox keep --when PLC_ROBOT::alarm\n"
     "  indurop blackbox --node cell -o json\n",
     &declare};
 
