@@ -41,8 +41,7 @@ fs::path find_part(const fs::path& path) {
 
 }  // namespace
 
-Result<Parts, Problem> Parts::create(const fs::path& path, const Limits& limits, const About& about,
-                                     const vars::Store& store, tape::Follower follower,
+Result<Parts, Problem> Parts::create(const fs::path& path, const Limits& limits, std::vector<Taped> nodes,
                                      const std::vector<std::string>& globs) {
   if (limits.in_parts()) {
     if (const fs::path other = find_part(path); !other.empty()) {
@@ -50,21 +49,66 @@ Result<Parts, Problem> Parts::create(const fs::path& path, const Limits& limits,
                                  other.string())};
     }
   }
-  auto recorder =
-      Recorder::create(limits.in_parts() ? part_of(path, 1) : path, about, store, std::move(follower), globs);
-  if (!recorder) {
-    return std::move(recorder).error();
+  std::vector<Recorder> recorders;
+  std::vector<bool> matched(globs.size(), false);
+  for (Taped& node : nodes) {
+    auto recorder =
+        Recorder::create_one_of(node.prefix, node.about, *node.store, std::move(node.follower), globs, matched);
+    if (!recorder) {
+      return std::move(recorder).error();
+    }
+    if (limits.in_parts()) {
+      recorder->remember();
+    }
+    recorders.push_back(std::move(recorder).value());
   }
-  Parts parts(path, limits, std::move(recorder).value());
-  Limits& own = parts.limits_;
+  if (const auto none = std::find(matched.begin(), matched.end(), false); none != matched.end()) {
+    const std::string& glob = globs[static_cast<std::size_t>(none - matched.begin())];
+    return Problem{nodes.size() == 1
+                       ? fmt::format("node {} has no variable '{}'; see indurop vars", nodes.front().about.node, glob)
+                       : fmt::format("no board has a variable '{}'; see indurop vars", glob)};
+  }
+  Parts parts(path, limits, std::move(recorders));
   if (limits.in_parts() && limits.split_ns == 0 && limits.split_bytes == 0) {
-    own.split_ns = limits.keep_ns / kShares;
-    own.split_bytes = limits.keep_bytes / kShares;
+    parts.limits_.split_ns = limits.keep_ns / kShares;
+    parts.limits_.split_bytes = limits.keep_bytes / kShares;
   }
-  if (limits.in_parts()) {
-    parts.recorder_.remember();
+  if (auto begun = parts.begin(1); !begun) {
+    return std::move(begun).error();
   }
   return parts;
+}
+
+void Parts::learn() {
+  for (Recorder& recorder : recorders_) {
+    recorder.learn();
+  }
+}
+
+std::int64_t Parts::latest_ns() const noexcept {
+  std::int64_t latest = 0;
+  for (const Recorder& recorder : recorders_) {
+    latest = std::max(latest, recorder.latest_ns());
+  }
+  return latest;
+}
+
+// What could not be begun is removed.
+Result<void, Problem> Parts::begin(std::uint64_t number) {
+  const fs::path path = path_of(number);
+  auto writer = recording::McapWriter::create(path, {});
+  if (!writer) {
+    return std::move(writer).error();
+  }
+  writer_ = std::make_shared<recording::McapWriter>(std::move(writer).value());
+  for (Recorder& recorder : recorders_) {
+    if (auto begun = recorder.go_on_in(writer_); !begun) {
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      return begun;
+    }
+  }
+  return {};
 }
 
 fs::path Parts::path_of(std::uint64_t number) const {
@@ -83,9 +127,8 @@ bool Parts::remove_oldest() {
 }
 
 void Parts::remove_old_ones() {
-  while (!closed_.empty() &&
-         ((limits_.keep_ns > 0 && closed_.front().end_ns < recorder_.latest_ns() - limits_.keep_ns) ||
-          (limits_.keep_bytes > 0 && bytes() > limits_.keep_bytes))) {
+  while (!closed_.empty() && ((limits_.keep_ns > 0 && closed_.front().end_ns < latest_ns() - limits_.keep_ns) ||
+                              (limits_.keep_bytes > 0 && bytes() > limits_.keep_bytes))) {
     remove_oldest();
   }
 }
@@ -101,8 +144,8 @@ Result<void, Problem> Parts::with_room(const Work& work) {
 }
 
 bool Parts::part_is_full() const noexcept {
-  return (limits_.split_ns > 0 && recorder_.latest_ns() - begin_ns_ >= limits_.split_ns) ||
-         (limits_.split_bytes > 0 && recorder_.bytes() >= limits_.split_bytes);
+  return (limits_.split_ns > 0 && latest_ns() - begin_ns_ >= limits_.split_ns) ||
+         (limits_.split_bytes > 0 && writer_->size() >= limits_.split_bytes);
 }
 
 Result<void, Problem> Parts::begin_next() {
@@ -112,18 +155,20 @@ Result<void, Problem> Parts::begin_next() {
   std::error_code ignored;
   const fs::path full = path_of(number_);
   const std::uint64_t bytes = fs::file_size(full, ignored);
-  closed_.push_back({full, recorder_.latest_ns(), ignored ? 0 : bytes});
-  begin_ns_ = recorder_.latest_ns();
-  const fs::path next = path_of(++number_);
-  return with_room([&] { return recorder_.go_on_in(next); });
+  closed_.push_back({full, latest_ns(), ignored ? 0 : bytes});
+  begin_ns_ = latest_ns();
+  ++number_;
+  return with_room([this] { return begin(number_); });
 }
 
 Result<void, Problem> Parts::take() {
-  if (auto taken = with_room([this] { return recorder_.take(); }); !taken) {
-    return taken;
+  for (Recorder& recorder : recorders_) {
+    if (auto taken = with_room([&recorder] { return recorder.take(); }); !taken) {
+      return taken;
+    }
   }
   if (begin_ns_ == 0) {
-    begin_ns_ = recorder_.latest_ns();
+    begin_ns_ = latest_ns();
   }
   if (part_is_full()) {
     if (auto next = begin_next(); !next) {
@@ -135,11 +180,16 @@ Result<void, Problem> Parts::take() {
 }
 
 Result<void, Problem> Parts::flush() {
-  return with_room([this] { return recorder_.flush(); });
+  return with_room([this] { return writer_->flush(); });
 }
 
 Result<void, Problem> Parts::close() {
-  return with_room([this] { return recorder_.close(); });
+  for (Recorder& recorder : recorders_) {
+    if (auto concluded = with_room([&recorder] { return recorder.conclude(); }); !concluded) {
+      return concluded;
+    }
+  }
+  return with_room([this] { return writer_->close(); });
 }
 
 std::string Parts::files() const {
@@ -148,7 +198,7 @@ std::string Parts::files() const {
 }
 
 std::uint64_t Parts::bytes() const noexcept {
-  std::uint64_t sum = recorder_.bytes();
+  std::uint64_t sum = writer_->size();
   for (const Part& part : closed_) {
     sum += part.bytes;
   }

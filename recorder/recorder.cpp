@@ -7,6 +7,7 @@
 #include <span>
 
 #include "recorder/run_words.h"
+#include "recorder/sources.h"
 #include "recording/cdr.h"
 #include "recording/omg_idl.h"
 
@@ -31,22 +32,34 @@ recording::View view(const std::string& text) {
 
 }  // namespace
 
-Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, const About& about,
-                                           const vars::Store& store, tape::Follower follower,
-                                           const std::vector<std::string>& globs) {
+Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, const About& about,
+                                                  const vars::Store& store, tape::Follower follower,
+                                                  const std::vector<std::string>& globs, std::vector<bool>& matched) {
   if (follower.header().layout_hash != store.header().layout_hash) {
     return Problem{"the node's variables have just changed: try again"};
   }
+  Recorder recorder(prefix, store, std::move(follower), about);
+  recorder.choose(globs, matched);
+  return recorder;
+}
+
+Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, const About& about,
+                                           const vars::Store& store, tape::Follower follower,
+                                           const std::vector<std::string>& globs) {
+  std::vector<bool> matched(globs.size(), false);
+  auto recorder = create_one_of("", about, store, std::move(follower), globs, matched);
+  if (!recorder) {
+    return recorder;
+  }
+  if (const auto none = std::find(matched.begin(), matched.end(), false); none != matched.end()) {
+    return Problem{fmt::format("node {} has no variable '{}'; see indurop vars", about.node,
+                               globs[static_cast<std::size_t>(none - matched.begin())])};
+  }
   auto writer = recording::McapWriter::create(path, {});
   if (!writer) {
-    return writer.error();
+    return std::move(writer).error();
   }
-  Recorder recorder(std::move(writer).value(), store, std::move(follower), about);
-  auto begun = recorder.choose(globs);
-  if (begun) {
-    begun = recorder.begin_file();
-  }
-  if (!begun) {
+  if (auto begun = recorder->go_on_in(std::make_shared<recording::McapWriter>(std::move(writer).value())); !begun) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
     return std::move(begun).error();
@@ -62,19 +75,15 @@ std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
 }
 
-Result<void, Problem> Recorder::choose(const std::vector<std::string>& globs) {
+void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& matched) {
   const auto count = static_cast<std::uint32_t>(store_.directory().size());
-  wanted_.resize(count);
-  for (const std::string& glob : globs.empty() ? std::vector<std::string>{"*"} : globs) {
-    bool any = globs.empty();
+  wanted_.assign(count, globs.empty());
+  for (std::size_t glob = 0; glob < globs.size(); ++glob) {
     for (std::uint32_t i = 0; i < count; ++i) {
-      if (schema::glob_match(glob, variable(i).name)) {
-        any = true;
+      if (schema::glob_match(globs[glob], variable(i).name)) {
+        matched[glob] = true;
         wanted_[i] = true;
       }
-    }
-    if (!any) {
-      return Problem{fmt::format("node {} has no variable '{}'; see indurop vars", about_.node, glob)};
     }
   }
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -88,7 +97,6 @@ Result<void, Problem> Recorder::choose(const std::vector<std::string>& globs) {
   for (Known& known : known_) {
     known.values.resize(count);
   }
-  return {};
 }
 
 // All that stands before the first run.
@@ -100,19 +108,20 @@ Result<void, Problem> Recorder::begin_file() {
   }
   for (const auto& [name, text] : about_.files) {
     recording::McapAttachment attachment;
-    attachment.name = name;
+    attachment.name = prefix_ + name;
     attachment.media_type = "text/plain";
-    if (auto attached = writer_.attach(attachment, view(text)); !attached) {
+    if (auto attached = writer_->attach(attachment, view(text)); !attached) {
       return attached;
     }
   }
-  return writer_.metadata("indurop.node", {{"node", about_.node},
-                                           {"config", about_.config},
-                                           {"board", about_.board},
-                                           {"deployment", about_.deployment},
-                                           {"reason", about_.reason},
-                                           {"basic_period_ns", std::to_string(about_.basic_period_ns)},
-                                           {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)}});
+  return writer_->metadata(prefix_ + kNodeMetadata,
+                           {{"node", about_.node},
+                            {"config", about_.config},
+                            {"board", about_.board},
+                            {"deployment", about_.deployment},
+                            {"reason", about_.reason},
+                            {"basic_period_ns", std::to_string(about_.basic_period_ns)},
+                            {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)}});
 }
 
 // Those of runs and of the clock.
@@ -123,11 +132,11 @@ Result<void, Problem> Recorder::add_own_channels() {
   }
   const auto add = [&](std::string_view name, std::string_view idl, std::string_view topic,
                        std::uint16_t& to) -> Result<void, Problem> {
-    auto schema = writer_.add_schema(name, "omgidl", idl);
+    auto schema = writer_->add_schema(name, "omgidl", idl);
     if (!schema) {
       return std::move(schema).error();
     }
-    auto channel = writer_.add_channel(*schema, topic, "cdr", modules);
+    auto channel = writer_->add_channel(*schema, prefix_ + std::string(topic), "cdr", modules);
     if (!channel) {
       return std::move(channel).error();
     }
@@ -146,13 +155,13 @@ Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
   const recording::OmgIdl idl = recording::omg_idl(known.type);
   std::uint16_t& schema = schemas_[idl.text];
   if (schema == 0) {
-    auto added = writer_.add_schema(idl.name, "omgidl", idl.text);
+    auto added = writer_->add_schema(idl.name, "omgidl", idl.text);
     if (!added) {
       return added;
     }
     schema = *added;
   }
-  auto channel = writer_.add_channel(schema, known.name, "cdr", metadata_of(known));
+  auto channel = writer_->add_channel(schema, prefix_ + known.name, "cdr", metadata_of(known));
   if (channel) {
     channels_[index] = *channel;
   }
@@ -172,7 +181,7 @@ Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint3
     return Problem{fmt::format("{} has another size than its type", variable(value.variable).name)};
   }
   auto written =
-      writer_.write(*channel, log_time(time_ns), log_time(release_ns), to_sequence({module, value.kind}), cdr_);
+      writer_->write(*channel, log_time(time_ns), log_time(release_ns), to_sequence({module, value.kind}), cdr_);
   counts_.values += written.ok() ? 1U : 0U;
   return written;
 }
@@ -236,15 +245,15 @@ Result<void, Problem> Recorder::write_run(const tape::Run& run) {
   }
   for (const std::int64_t clock : run.clock) {
     to_cdr(clock, cdr_);
-    if (auto written = writer_.write(clock_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
-                                     to_sequence({module, tape::EntryKind::Clock}), cdr_);
+    if (auto written = writer_->write(clock_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
+                                      to_sequence({module, tape::EntryKind::Clock}), cdr_);
         !written) {
       return written;
     }
   }
   to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0}, cdr_);
-  auto written = writer_.write(runs_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
-                               static_cast<std::uint32_t>(run.tail.number), cdr_);
+  auto written = writer_->write(runs_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
+                                static_cast<std::uint32_t>(run.tail.number), cdr_);
   counts_.runs += written.ok() ? 1U : 0U;
   return written;
 }
@@ -283,12 +292,12 @@ Result<void, Problem> Recorder::take() {
 
 Result<void, Problem> Recorder::attach(std::string_view name, std::string_view text) {
   recording::McapAttachment attachment;
-  attachment.name = name;
+  attachment.name = prefix_ + std::string(name);
   attachment.media_type = "application/json";
-  return writer_.attach(attachment, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return writer_->attach(attachment, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
-Result<void, Problem> Recorder::close() {
+Result<void, Problem> Recorder::conclude() {
   std::uint64_t lost = 0;
   recording::TextMap said;
   for (const auto& [module, runs] : counts_.lost) {
@@ -300,27 +309,19 @@ Result<void, Problem> Recorder::close() {
   said["runs"] = std::to_string(counts_.runs - before_.runs);
   said["values"] = std::to_string(counts_.values - before_.values);
   said["lost_runs"] = std::to_string(lost);
-  auto told = writer_.metadata("indurop.end", said);
-  return told ? writer_.close() : told;
+  return writer_->metadata(prefix_ + kEndMetadata, said);
 }
 
-Result<void, Problem> Recorder::go_on_in(const std::filesystem::path& path) {
-  auto next = recording::McapWriter::create(path, {});
-  if (!next) {
-    return std::move(next).error();
-  }
-  writer_ = std::move(next).value();
-  auto begun = begin_file();
-  if (begun && first_told_) {
-    begun = tell_known_values();
-  }
-  if (!begun) {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    return begun;
-  }
+Result<void, Problem> Recorder::close() {
+  auto concluded = conclude();
+  return concluded ? writer_->close() : concluded;
+}
+
+Result<void, Problem> Recorder::go_on_in(std::shared_ptr<recording::McapWriter> writer) {
+  writer_ = std::move(writer);
   before_ = counts_;
-  return begun;
+  auto begun = begin_file();
+  return begun && first_told_ ? tell_known_values() : begun;
 }
 
 }  // namespace indurop::recorder

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +49,12 @@ class Recorder {
   static Result<Recorder, base::Problem> create(const std::filesystem::path& path, const About& about,
                                                 const vars::Store& store, tape::Follower follower,
                                                 const std::vector<std::string>& globs);
+  // One of several in a file, which begins with go_on_in(): its topics have `prefix` in front, "sensor/".
+  // `matched`: which of the globs some variable has, kept as true. Errors: the tape is of another store.
+  static Result<Recorder, base::Problem> create_one_of(const std::string& prefix, const About& about,
+                                                       const vars::Store& store, tape::Follower follower,
+                                                       const std::vector<std::string>& globs,
+                                                       std::vector<bool>& matched);
 
   // Leaves out what there is by now: for a recording from now on. Before the first take().
   void learn();
@@ -56,17 +63,20 @@ class Recorder {
   // Takes what there is. Errors: those of the disk; what was not taken can be taken later.
   Result<void, base::Problem> take();
   // What is in memory goes to the file.
-  Result<void, base::Problem> flush() { return writer_.flush(); }
-  // A text beside the runs and values. Before close().
+  Result<void, base::Problem> flush() { return writer_->flush(); }
+  // A text beside the runs and values. Before conclude().
   Result<void, base::Problem> attach(std::string_view name, std::string_view text);
-  // The end of the recording, with all counts.
+  // The counts go to the file. Nothing may be taken then before go_on_in().
+  Result<void, base::Problem> conclude();
+  // The same, and closes the file.
   Result<void, base::Problem> close();
-  // After close(): goes on in another file, which begins with what every module knew last, so that it can be read and
-  // replayed by itself. Errors: those of create(); it may be repeated.
-  Result<void, base::Problem> go_on_in(const std::filesystem::path& path);
+  // Goes on in another file, which begins with what every module knew last, so that it can be read and replayed by
+  // itself. Errors: those of the disk; it may be repeated with a new file.
+  Result<void, base::Problem> go_on_in(std::shared_ptr<recording::McapWriter> writer);
 
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
-  [[nodiscard]] std::uint64_t bytes() const noexcept { return writer_.size(); }
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return writer_->size(); }
+  [[nodiscard]] const About& about() const noexcept { return about_; }
   // End of the latest run that was taken, in the node's time; 0: none yet.
   [[nodiscard]] std::int64_t latest_ns() const noexcept { return latest_ns_; }
   [[nodiscard]] std::size_t variables() const noexcept { return wanted_count_; }
@@ -74,8 +84,8 @@ class Recorder {
   [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return too_large_; }
 
  private:
-  Recorder(recording::McapWriter writer, const vars::Store& store, tape::Follower follower, About about)
-      : writer_(std::move(writer)), store_(store), follower_(std::move(follower)), about_(std::move(about)) {}
+  Recorder(std::string prefix, const vars::Store& store, tape::Follower follower, About about)
+      : prefix_(std::move(prefix)), store_(store), follower_(std::move(follower)), about_(std::move(about)) {}
 
   // What the runs of a track said last.
   struct Known {
@@ -83,7 +93,7 @@ class Recorder {
     std::int64_t end_ns = 0;                        // of its last run
   };
 
-  Result<void, base::Problem> choose(const std::vector<std::string>& globs);
+  void choose(const std::vector<std::string>& globs, std::vector<bool>& matched);
   Result<void, base::Problem> begin_file();
   Result<void, base::Problem> add_own_channels();
   Result<void, base::Problem> tell_first_values();
@@ -96,7 +106,8 @@ class Recorder {
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
   [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
 
-  recording::McapWriter writer_;
+  std::shared_ptr<recording::McapWriter> writer_;
+  std::string prefix_;  // of topics
   const vars::Store& store_;
   tape::Follower follower_;
   About about_;

@@ -2,11 +2,21 @@
 // indurop record: what the runs of a node's modules see and write, as a file that others read too.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/read_file.h"
+#include "config/xml/plant_reader.h"
 #include "explain/facts_json.h"
 #include "recorder/parts.h"
 #include "rt/clock.h"
 #include "tools/command/amount.h"
+#include "tools/command/config_file.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
@@ -22,10 +32,18 @@ constexpr std::int64_t kFlushNs = 1'000'000'000;
 
 struct Options {
   std::vector<std::string> names;
+  std::filesystem::path plant;  // empty: one node
   std::filesystem::path file;
   std::int64_t duration_ns = 0;  // 0: until the node or the user ends it
   bool past = false;
   recorder::Limits limits;
+};
+
+// A node that is recorded.
+struct Recorded {
+  ChosenRun chosen;
+  vars::Store store;
+  std::string board;  // of the plant; empty: none
 };
 
 recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
@@ -59,23 +77,31 @@ bool ended(const RunView& run) {
   return state == scheduler::NodeState::Stopped || state == scheduler::NodeState::Failed || !run.node_alive();
 }
 
+using Nodes = std::vector<std::unique_ptr<Recorded>>;
+
 // Until it is to end. Errors: those of the disk.
-Result<void, base::Problem> go_on(const Options& options, const std::string& node, const RunView& run,
-                                  recorder::Parts& recorder) {
+Result<void, base::Problem> go_on(const Options& options, const Nodes& nodes, recorder::Parts& parts) {
   const std::int64_t begin = rt::now_ns();
   std::int64_t flushed = begin;
   for (;;) {
+    const bool all_ended =
+        std::all_of(nodes.begin(), nodes.end(), [](const auto& node) { return ended(node->chosen.run); });
     const bool last =
-        interrupted() || ended(run) || (options.duration_ns > 0 && rt::now_ns() - begin >= options.duration_ns);
-    if (auto taken = recorder.take(); !taken) {
+        interrupted() || all_ended || (options.duration_ns > 0 && rt::now_ns() - begin >= options.duration_ns);
+    if (auto taken = parts.take(); !taken) {
       return taken;
     }
     if (last) {
-      const auto attached = recorder.attach(explain::kFactsFile, facts_text_here(node, run));
-      return attached ? recorder.close() : attached;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const ChosenRun& chosen = nodes[i]->chosen;
+        if (auto attached = parts.attach(i, explain::kFactsFile, facts_text_here(chosen.node, chosen.run)); !attached) {
+          return attached;
+        }
+      }
+      return parts.close();
     }
     if (rt::now_ns() - flushed >= kFlushNs) {
-      if (auto done = recorder.flush(); !done) {
+      if (auto done = parts.flush(); !done) {
         return done;
       }
       flushed = rt::now_ns();
@@ -84,59 +110,119 @@ Result<void, base::Problem> go_on(const Options& options, const std::string& nod
   }
 }
 
-int tell(Context& context, const RunView& run, const recorder::Parts& parts) {
-  const recorder::Recorder& recorder = parts.recorder();
-  const recorder::Counts& counts = recorder.counts();
+// False if something is missing in the recording.
+bool tell_missing(Context& context, const Recorded& node, const recorder::Recorder& recorder) {
   for (const std::string& name : recorder.too_large()) {
     context.out.error(
         fmt::format("{} is too large for the tape and was not recorded; start the node with a larger --tape", name));
   }
-  for (const auto& [module, runs] : counts.lost) {
+  for (const auto& [module, runs] : recorder.counts().lost) {
     context.out.error(
         fmt::format("{} runs of {} are not in the recording: they were overwritten before they were read; "
                     "start the node with a larger --tape",
-                    runs, run.module_name(module)));
+                    runs, node.chosen.run.module_name(module)));
   }
-  context.out.note(
-      fmt::format("{}: {} runs, {} values of {} variables, {}{}", parts.files(), counts.runs, counts.values,
-                  recorder.variables(), human_bytes(parts.bytes()),
-                  parts.removed() > 0 ? fmt::format("; {} older parts were removed", parts.removed()) : ""));
-  return counts.lost.empty() ? kOk : kFailed;
+  return recorder.counts().lost.empty();
 }
 
-int record(Context& context, const Options& options) {
-  auto chosen = open_run(context.node);
+int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
+  bool whole = true;
+  std::uint64_t runs = 0;
+  std::uint64_t values = 0;
+  std::size_t variables = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const recorder::Recorder& recorder = parts.recorders()[i];
+    whole = tell_missing(context, *nodes[i], recorder) && whole;
+    runs += recorder.counts().runs;
+    values += recorder.counts().values;
+    variables += recorder.variables();
+  }
+  const std::string boards = nodes.size() > 1 ? fmt::format(" of {} boards", nodes.size()) : "";
+  const std::string removed = parts.removed() > 0 ? fmt::format("; {} older parts were removed", parts.removed()) : "";
+  context.out.note(fmt::format("{}: {} runs, {} values of {} variables{}, {}{}", parts.files(), runs, values, variables,
+                               boards, human_bytes(parts.bytes()), removed));
+  return whole ? kOk : kFailed;
+}
+
+// Opens a node and adds it to both; null, or what prevents that.
+std::optional<Failure> add_node(Context& context, const std::string& board, const Options& options, Nodes& nodes,
+                                std::vector<recorder::Taped>& taped) {
+  auto chosen = open_run(board.empty() ? context.node : board);
   if (!chosen) {
-    return report(context.out, chosen.error());
+    return chosen.error();
   }
   context.node = chosen->node;
   auto store = open_store(context, vars::Mode::ReadOnly);
   if (!store) {
-    return report(context.out, store.error());
+    return store.error();
   }
   auto follower = tape::Follower::open(chosen->node, true);
   if (!follower) {
-    return report(context.out, no_tape(chosen->node, follower.error()));
+    return no_tape(chosen->node, follower.error());
   }
   if (follower->header().node_pid != chosen->run.block().node_pid.load()) {
-    return report(context.out, no_tape(chosen->node, Error{Errc::NotFound, 0, "of another run"}));
+    return no_tape(chosen->node, Error{Errc::NotFound, 0, "of another run"});
   }
-  be_gentle(chosen->node);
-  auto recorder = recorder::Parts::create(options.file, options.limits, about(*chosen, *store), *store,
-                                          std::move(follower).value(), options.names);
-  if (!recorder) {
-    context.out.error(recorder.error().text);
+  nodes.push_back(std::make_unique<Recorded>(Recorded{std::move(*chosen), std::move(*store), board}));
+  recorder::About said = about(nodes.back()->chosen, nodes.back()->store);
+  if (!board.empty()) {
+    said.board = board;
+    said.config = std::filesystem::absolute(options.plant).string();
+  }
+  taped.push_back({board.empty() ? "" : board + "/", std::move(said), &nodes.back()->store, std::move(*follower)});
+  return std::nullopt;
+}
+
+// Boards that do not run on this host are named; kOk if all do.
+int add_boards(Context& context, const Options& options, Nodes& nodes, std::vector<recorder::Taped>& taped) {
+  const config::ReadPlant read = config::read_plant(options.plant);
+  if (!read.ok()) {
+    print_diagnostics(context, read.diagnostics, false);
+    return kCheckFailed;
+  }
+  int code = kOk;
+  for (const config::Board& board : read.plant.boards) {
+    if (const auto failure = add_node(context, board.name, options, nodes, taped)) {
+      context.out.error(
+          fmt::format("board {} is not in the recording: {}; where it runs, indurop record --node {}, and "
+                      "then indurop recording join",
+                      board.name, failure->text, board.name));
+      code = kFailed;
+    }
+  }
+  return code;
+}
+
+int record(Context& context, const Options& options) {
+  Nodes nodes;
+  std::vector<recorder::Taped> taped;
+  int code = kOk;
+  if (options.plant.empty()) {
+    if (const auto failure = add_node(context, "", options, nodes, taped)) {
+      return report(context.out, *failure);
+    }
+  } else {
+    code = add_boards(context, options, nodes, taped);
+  }
+  if (nodes.empty()) {
+    return code;
+  }
+  be_gentle(nodes.front()->chosen.node);
+  auto parts = recorder::Parts::create(options.file, options.limits, std::move(taped), options.names);
+  if (!parts) {
+    context.out.error(parts.error().text);
     return kFailed;
   }
   if (!options.past) {
-    recorder->learn();
+    parts->learn();
   }
-  const auto done = go_on(options, chosen->node, chosen->run, *recorder);
-  const int code = tell(context, chosen->run, *recorder);
+  const auto done = go_on(options, nodes, *parts);
+  const int told = tell(context, nodes, *parts);
   if (!done) {
     context.out.error(done.error().text + "; the recording ends here");
+    return kFailed;
   }
-  return done ? code : kFailed;
+  return code == kOk ? told : code;
 }
 
 Action declare(base::Options& app, Context& context) {
@@ -149,6 +235,8 @@ Action declare(base::Options& app, Context& context) {
                     "Begin a new file, run.0002.mcap and so on, after so much: 10min, 100MB");
   add_amount_option(app, "--keep", options->limits.keep_ns, options->limits.keep_bytes,
                     "Keep the newest so much, 1h or 2GB, in files that --split says (default: 8); older ones go");
+  app.add("--plant", "FILE", options->plant, "Record all boards of this plant that run on this host, in one file")
+      .completes(base::Completion::File);
   add_node_option(app, context);
   return [options](Context& c) { return record(c, *options); };
 }
@@ -165,6 +253,7 @@ const Verb kRecordVerb{
     "Examples:\n"
     "  indurop record -o run.mcap\n"
     "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n"
+    "  indurop record --plant plant.xml -o plant.mcap\n"
     "  indurop record -o last.mcap --keep 1h      # day and night, in a bounded part of the disk\n",
     &declare};
 
