@@ -19,8 +19,9 @@ bool is_letter(char c) noexcept {
 
 // Long: a list.
 bool is_keyword(std::string_view word) noexcept {
-  // Type and function names are not in it: they are ordinary names with a meaning.
-  static constexpr std::array<std::string_view, 85> kWords{"ACTION",
+  // Type and function names are not in it: they are ordinary names with a meaning. Neither are words that mean
+  // something where no name can stand: TASK, TRANSITION, R_EDGE.
+  static constexpr std::array<std::string_view, 82> kWords{"ACTION",
                                                            "AND",
                                                            "ARRAY",
                                                            "AT",
@@ -53,7 +54,6 @@ bool is_keyword(std::string_view word) noexcept {
                                                            "FOR",
                                                            "FUNCTION",
                                                            "FUNCTION_BLOCK",
-                                                           "F_EDGE",
                                                            "IF",
                                                            "INITIAL_STEP",
                                                            "JMP",
@@ -70,11 +70,9 @@ bool is_keyword(std::string_view word) noexcept {
                                                            "RESOURCE",
                                                            "RETAIN",
                                                            "RETURN",
-                                                           "R_EDGE",
                                                            "STRUCT",
                                                            "THEN",
                                                            "TO",
-                                                           "TRANSITION",
                                                            "TRUE",
                                                            "TYPE",
                                                            "UNTIL",

@@ -285,6 +285,10 @@ bool ExpressionParser::argument_list(std::vector<ast::Argument>& to) {
     return true;
   }
   do {
+    if (!to.empty() && in_.peek().is(")")) {  // as TwinCAT lets it pass
+      in_.warning(in_.here(), "no value stands behind the last ','");
+      break;
+    }
     auto one = argument();
     if (!one) {
       return false;

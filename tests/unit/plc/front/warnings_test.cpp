@@ -67,6 +67,13 @@ TEST(PlcWarnings, Two_REALs_that_are_compared_exactly) {
               Not(HasSubstr("exactly equal")));
 }
 
+TEST(PlcWarnings, A_comma_behind_the_last_value_of_a_call) {
+  const Compiled sut =
+      compiled("PROGRAM Main VAR t : TON; i : INT; END_VAR t(IN := TRUE, PT := T#1s,); i := ABS(i,); END_PROGRAM");
+  EXPECT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("no value stands behind the last ','"));
+}
+
 TEST(PlcWarnings, An_empty_body) {
   EXPECT_THAT(warnings("PROGRAM Main VAR_INPUT x : BOOL; END_VAR ; END_PROGRAM"), HasSubstr("Main: the body is empty"));
 }
