@@ -161,14 +161,24 @@ std::string quoted_text(std::string_view value) {
 }
 
 std::string wide_quoted_text(std::string_view utf8) {
-  std::string text = "\"";
-  for (const char16_t one : to_wide(utf8)) {
-    const bool shown = one >= 0x20 && one < 0x7F;
-    text += one == '$' || one == '"' ? std::string{'$', static_cast<char>(one)}
-            : shown                  ? std::string{static_cast<char>(one)}
-                                     : fmt::format("${:04X}", static_cast<unsigned>(one));
+  std::u16string text = u"\"";
+  const std::u16string wide = to_wide(utf8);
+  const auto is_half = [&](std::size_t i, unsigned which) { return i < wide.size() && (wide[i] & 0xFC00U) == which; };
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    const char16_t one = wide[i];
+    const bool pair = is_half(i, 0xD800) && is_half(i + 1, 0xDC00);
+    const bool alone = one >= 0xD800 && one < 0xE000 && !pair;
+    if (one < 0x20 || (one >= 0x7F && one < 0xA0) || alone) {
+      text += to_wide(fmt::format("${:04X}", static_cast<unsigned>(one)));
+      continue;
+    }
+    text += one == '$' || one == '"' ? u"$" : u"";
+    text += one;
+    if (pair) {
+      text += wide[++i];
+    }
   }
-  return text + "\"";
+  return to_utf8(text) + "\"";
 }
 
 std::string duration_text(std::int64_t ns) {

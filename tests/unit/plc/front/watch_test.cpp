@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 
 #include "plc/front/watch_plan.h"
@@ -98,6 +99,12 @@ TEST(PlcWatch, Values_are_written_as_in_a_program) {
   EXPECT_EQ(text_of(type(Elementary::Time), std::int64_t{100'000'000}), "T#100ms");
   EXPECT_EQ(text_of(type(Elementary::Date), std::int64_t{0}), "D#1970-01-01");
   EXPECT_EQ(value_text(*types.text(Elementary::String, 3), std::vector<std::uint8_t>{'a', '\'', 0, 'x'}), "'a$''");
+  const std::array<char16_t, 8> wide{u'"', u'\u00E4', u'\u20AC', 0xD83D, 0xDE00, 0xD83D, u'\n', 0};
+  std::vector<std::uint8_t> bytes(sizeof wide);
+  std::memcpy(bytes.data(), &wide, sizeof wide);
+  EXPECT_EQ(value_text(*types.text(Elementary::Wstring, 7), bytes), "\"$\"\u00E4\u20AC\U0001F600$D83D$000A\"");
+  EXPECT_EQ(text_of(type(Elementary::Char), u8'a'), "'a'");
+  EXPECT_EQ(text_of(type(Elementary::Wchar), u'\u00E4'), "\"\u00E4\"");
   Type array;
   array.kind = Type::Kind::Array;
   array.dimensions = {{1, 3}};
