@@ -49,6 +49,10 @@ const char* to_string(ErrorCode code) noexcept {
       return "the target or the way there is outside of the workspace";
     case ErrorCode::Tool:
       return "there is no such tool";
+    case ErrorCode::NoResume:
+      return "there is no job to go on with; start one";
+    case ErrorCode::Away:
+      return "the robot is too far from where its job left the path; bring it back there, or start the job anew";
   }
   return "unknown error";
 }

@@ -18,6 +18,9 @@ LineLimits lower(const LineLimits& a, const LineLimits& b) noexcept {
 }  // namespace
 
 void Follower::reset(const Joints& q) noexcept {
+  if (keep_) {
+    put_aside();
+  }
   count_ = 0;
   blend_ = {};
   in_blend_ = false;

@@ -31,6 +31,14 @@ class Follower final : private PathAhead {
   // Whether what is added next may begin without a stop.
   [[nodiscard]] bool goes_over() const noexcept { return count_ > 0 && segment(count_ - 1).zone > 0; }
 
+  // Keeps what is left of the path when it comes to rest or is reset, so that it can go on there (follower_aside.cpp).
+  void set_aside() noexcept;
+  // Where that is.
+  [[nodiscard]] const Joints& aside() const noexcept { return aside_.q; }
+  [[nodiscard]] bool has_path_aside() const noexcept { return aside_.count > 0; }
+  // Idle and at rest at aside(): goes on from there.
+  void go_on() noexcept;
+
   // Part of the planned speed, from 0 to 1.
   void set_override(double part) noexcept;
   // Slows down to rest on the path, or goes on.
@@ -92,8 +100,22 @@ class Follower final : private PathAhead {
   [[nodiscard]] bool has_shape() const noexcept override { return segment(0).timed && segment(0).move == Move::Joint; }
   [[nodiscard]] Shape shape_ahead(double distance) const noexcept override;
 
+  void put_aside() noexcept;
+
+  struct Aside {
+    std::array<Segment, kMost> segments;
+    std::array<Blend, kMost> blends;
+    int count = 0;
+    Blend blend;
+    bool in_blend = false;
+    double place = 0;
+    Joints q = Joints::Zero();
+  };
+
   const Places& places_;
   JointLimits most_;
+  Aside aside_;
+  bool keep_ = false;
   std::array<Segment, kMost> segments_;
   std::array<Blend, kMost> blends_;  // into each of them
   int count_ = 0;

@@ -61,6 +61,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     }
   }
   set_pace(in);
+  job_.watch(in.single_step, in.breakpoints);
   desk_.expect_work(powered());
   run_state(signals);
   pass_gates();
@@ -117,6 +118,7 @@ void Group::watch(const Inputs& in) noexcept {
 
 // Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
 void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
+  set_job_aside();
   job_.fail({code, axis}, to_string(code), 0);
   finish_service(code, axis);
   error_ = code;
@@ -157,6 +159,7 @@ void Group::motion_failed(Fault fault, int source) noexcept {
   const bool job = job_.running();
   job_.fail(fault, to_string(fault.code), source);
   finish_service(fault.code, fault.axis);
+  return_ = Return::None;
   if (job) {
     stop_for(fault);
   }
@@ -283,12 +286,17 @@ void Group::run_motion(Signals& signals) noexcept {
       const Fault fault = job_.fault();
       finish_service(fault.code, fault.axis);
       stop_for(fault);
+    } else if (job_.state() == JobState::Paused) {
+      pause_job();
+      return;
     }
     begin_next(ahead_.count() > before);
   }
   take_plan();
   follow_path();
-  if (state_ == GroupState::Moving && settled() && !job_.running()) {
+  if (state_ == GroupState::Moving && settled() && return_ != Return::None) {
+    end_return();
+  } else if (state_ == GroupState::Moving && settled() && !job_.running()) {
     come_to_standby();
     finish_service(error_);
   }
@@ -346,8 +354,10 @@ bool Group::take_tool(int tool) noexcept {
 // For a motion that begins where the last one ends.
 void Group::ask_for_plan(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
-  asked.follows = asked.follows && follower_.goes_over();
+  asked.follows = asked.follows && follower_.goes_over() && !unconnected_;
+  unconnected_ = false;
   desk_.ask(asked);
+  request_ = asked;
   if (follower_.idle()) {
     follower_.reset(commanded());
     last_command_ = commanded();
@@ -362,15 +372,21 @@ void Group::begin_next(bool more) noexcept {
   const Joints from = planned_end();
   const ReadAhead::Next next = ahead_.next(from, more);
   if (next.chain != nullptr) {
+    passed_known_ = 0;  // no step back goes over it
     ask_for_plan({{}, next.chain, from, !follower_.idle()});
   } else if (next.command != nullptr) {
+    passed_[passed_count_++ % passed_.size()] = {*next.command, from};
+    passed_known_ = std::min(passed_known_ + 1, passed_.size());
     ask_for_plan({*next.command, nullptr, from, !follower_.idle()});
   }
 }
 
 void Group::forget_plans() noexcept {
   desk_.forget();
-  ahead_.clear();
+  return_ = Return::None;
+  if (!aside_) {
+    ahead_.clear();
+  }
 }
 
 }  // namespace indurop::robot

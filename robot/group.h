@@ -48,9 +48,18 @@ class Group final : public Controller, private MotionPort {
   ErrorCode move(Service service, const ServiceRequest& request) noexcept;
   [[nodiscard]] ErrorCode may_move() const noexcept;
   ErrorCode redirect(const ServiceRequest& request) noexcept;
-  ErrorCode start_job(std::uint32_t number) noexcept;
+  ErrorCode start_job(std::uint32_t number, std::uint32_t line) noexcept;
   ErrorCode stop_motion() noexcept;
   ErrorCode select_tool(std::uint32_t tool) noexcept;
+
+  // Jobs that were left and go on (group_resume.cpp).
+  void set_job_aside() noexcept;
+  void pause_job() noexcept;
+  void drop_aside() noexcept;
+  ErrorCode resume_job() noexcept;
+  ErrorCode back_job() noexcept;
+  void end_return() noexcept;
+  [[nodiscard]] double speed_back(const Joints& to) const noexcept;
   void finish_service(ErrorCode code, int axis = 0) noexcept;
 
   // States (group.cpp).
@@ -82,7 +91,9 @@ class Group final : public Controller, private MotionPort {
 
   // The job's side.
   [[nodiscard]] bool ready() const noexcept override { return ahead_.has_room(); }
-  [[nodiscard]] bool settled() const noexcept override { return ahead_.empty() && desk_.free() && follower_.idle(); }
+  [[nodiscard]] bool settled() const noexcept override {
+    return (aside_ || ahead_.empty()) && desk_.free() && follower_.idle();
+  }
   Fault move(const MoveCommand& command) noexcept override;
   bool take_tool(int tool) noexcept override;
 
@@ -120,6 +131,22 @@ class Group final : public Controller, private MotionPort {
   bool enabling_ = false;
   bool quick_stop_ = false;
   bool job_moves_ = false;
+
+  // A job that can go on: its path is the follower's, what was to be planned is here and in `ahead_`.
+  enum class Return { None, ToPath, Back };
+  bool aside_ = false;
+  int aside_tool_ = 0;
+  Return return_ = Return::None;
+  PlanRequest request_;  // the last one
+  bool request_aside_ = false;
+  bool unconnected_ = false;  // the desk knows another motion as the last one
+  struct Passed {
+    MoveCommand command;
+    Joints from = Joints::Zero();
+  };
+  std::array<Passed, 32> passed_;  // motions of the job, for steps back
+  std::size_t passed_count_ = 0;
+  std::size_t passed_known_ = 0;  // the last ones of them, which were not overwritten
   double waited_ = 0;
 
   // The request that is being served.

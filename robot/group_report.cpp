@@ -18,6 +18,7 @@ void Group::report(Outputs& out) noexcept {
   out.tool = static_cast<std::uint32_t>(tool_);
   out.tool_name = parts_.book.tools[static_cast<std::size_t>(tool_)].name.c_str();
   out.job = job_.report(follower_.source());
+  out.job.can_resume = aside_ && state_ != GroupState::Moving;
   for (std::size_t i = 0; i < kJoints; ++i) {
     out.axes[i] = axes_[i].report();
   }

@@ -35,7 +35,8 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
     return;  // the motion before it is being planned
   }
   const auto asked = static_cast<Service>(request.code);
-  if ((asked == Service::SelectTool || asked == Service::JobStart) && settled() && desk_.holds_forgotten()) {
+  if ((asked == Service::SelectTool || asked == Service::JobStart || asked == Service::JobResume) && settled() &&
+      desk_.holds_forgotten()) {
     return;  // a plan of the tool before is still looked at
   }
   acknowledged_ = request.number;
@@ -97,7 +98,11 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
     case Service::JobStop:
       return stop_motion();
     case Service::JobStart:
-      return start_job(request.job);
+      return start_job(request.job, request.line);
+    case Service::JobResume:
+      return resume_job();
+    case Service::JobBack:
+      return back_job();
     case Service::SelectTool:
       return select_tool(request.tool);
   }
@@ -128,6 +133,7 @@ ErrorCode Group::disable() noexcept {
   if (state_ == GroupState::Homing || state_ == GroupState::Stopping) {
     return ErrorCode::State;
   }
+  set_job_aside();
   job_.stop();
   forget_plans();
   enabling_ = false;
@@ -282,7 +288,7 @@ ErrorCode Group::redirect(const ServiceRequest& request) noexcept {
   return ErrorCode::Ok;
 }
 
-ErrorCode Group::start_job(std::uint32_t number) noexcept {
+ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
   const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   if (number == 0 || number > parts_.book.jobs.size()) {
     return ErrorCode::Job;
@@ -293,10 +299,15 @@ ErrorCode Group::start_job(std::uint32_t number) noexcept {
   if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
     return ErrorCode::NotHomed;
   }
-  if (!take_tool(0)) {
+  drop_aside();
+  if (!job_.start(static_cast<int>(number) - 1, line)) {
+    job_.stop();
+    return ErrorCode::Value;
+  }
+  if (!take_tool(job_.tool())) {
+    job_.stop();
     return ErrorCode::State;  // what a job does must not depend on the tool of the one before
   }
-  job_.start(static_cast<int>(number) - 1);
   follower_.reset(commanded());
   last_command_ = commanded();
   state_ = GroupState::Moving;
@@ -325,6 +336,7 @@ ErrorCode Group::stop_motion() noexcept {
   if (state_ != GroupState::Moving) {
     return ErrorCode::State;
   }
+  set_job_aside();
   job_.stop();
   forget_plans();
   follower_.stop();

@@ -12,11 +12,6 @@ namespace {
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting goes on in the next period
 constexpr int kPartsPerStep = 4;     // of formulas; a step that computes more counts as several
 constexpr int kOffsets = 3;          // x, y, z
-constexpr int kLineBits = 20;        // MoveCommand::source = job and line
-
-std::uint32_t line_of(int source) noexcept {
-  return static_cast<std::uint32_t>(source) & ((1U << kLineBits) - 1);
-}
 
 }  // namespace
 
@@ -49,19 +44,13 @@ bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
   return !std::isnan(value);
 }
 
-void JobRunner::start(int job) noexcept {
-  state_ = JobState::Runs;
-  depth_ = 0;
-  frames_[0] = {};
-  frames_[0].job = job;
-  job_ = job;
-  waited_ = 0;
-  speed_ = 1;
-  tool_speed_ = 0;
-  zone_ = 0;
-  tool_ = 0;
-  line_ = 0;
-  message_[0] = '\0';
+void JobRunner::modal(const Step& step) noexcept {
+  if (step.op == Op::Zone) {
+    zone_ = step.value;
+    return;
+  }
+  (step.index == 1 ? tool_speed_ : speed_) = step.value;
+  tool_speed_ = step.index == 1 ? tool_speed_ : 0;
 }
 
 void JobRunner::stop() noexcept {
@@ -108,14 +97,23 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(port);
+    } else if (pauses_before(*step)) {
+      if (port.settled()) {
+        state_ = JobState::Paused;
+        line_ = step->line;
+      }
+      return;
     } else if (!touches_world(*step) || port.settled()) {
       line_ = step->line;
+      last_job_ = frame().job;
+      last_step_ = frame().step;
       next = run(*step, first ? seconds : 0, signals, port);
     }
     if (next == Next::Wait) {
       return;
     }
     waited_ = 0;
+    free_ = false;
     state_ = running() ? JobState::Runs : state_;
   }
 }
@@ -149,11 +147,8 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       frame().step = static_cast<int>(job_of(frame().job).steps.size());
       return Next::Go;
     case Op::Speed:
-      (step.index == 1 ? tool_speed_ : speed_) = step.value;
-      tool_speed_ = step.index == 1 ? tool_speed_ : 0;
-      break;
     case Op::Zone:
-      zone_ = step.value;
+      modal(step);
       break;
     case Op::Tool:
       if (!port.take_tool(step.index)) {
@@ -202,6 +197,11 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
   if (!port.ready()) {
     return Next::Wait;
   }
+  if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {
+    fail({ErrorCode::Line}, "a job cannot begin with a circle or a spline; begin with the motion before it", 0);
+    return Next::Wait;
+  }
+  in_job_ = false;
   MoveCommand command;
   command.move = step.move;
   command.target = book_.target(step.index, tool_);

@@ -31,8 +31,22 @@ class JobRunner {
  public:
   explicit JobRunner(const JobBook& book) noexcept : book_(book) {}
 
-  // `job` counts from 0 and exists. Real-time safe, as all here.
-  void start(int job) noexcept;
+  // `job` counts from 0 and exists; `line`: where it begins, with what the lines before say of speed, zone and tool.
+  // False: there is no step from there on. Real-time safe, as all here.
+  bool start(int job, std::uint32_t line = 0) noexcept;
+  // Goes on behind stop(), fail() or a pause.
+  void resume() noexcept;
+  // Whether a motion is one of the job that runs, not of one it called or that called it.
+  [[nodiscard]] bool is_in(int source) const noexcept;
+  // A step back, to such a motion: its line comes next.
+  void go_back(int source) noexcept;
+  void say(const char* text) noexcept;
+  // Pauses before lines: before each one, or these.
+  void watch(bool each, const Breakpoints& lines) noexcept {
+    single_ = each;
+    breakpoints_ = lines;
+  }
+  [[nodiscard]] int tool() const noexcept { return tool_; }
   // Ends the job where it is. `why` is kept as message and must outlive this; null: ended by request.
   void stop() noexcept;
   // Ends it with a message that names file and line: of the motion called `source`, or, if that is 0, of the present
@@ -49,6 +63,10 @@ class JobRunner {
 
  private:
   enum class Next { Go, Wait };
+  static constexpr int kLineBits = 20;  // MoveCommand::source = job and line
+  static std::uint32_t line_of(int source) noexcept {
+    return static_cast<std::uint32_t>(source) & ((1U << kLineBits) - 1);
+  }
   static constexpr int kDeepest = 8;
   struct Frame {
     int job = 0;
@@ -66,6 +84,7 @@ class JobRunner {
   // False: it has no value, and the job has failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
+  void modal(const Step& step) noexcept;
   Next assign(const Step& step, Signals& signals) noexcept;
   Next branch(const Step& step, Signals& signals) noexcept;
   Next wait_time(const Step& step, double seconds) noexcept;
@@ -74,6 +93,7 @@ class JobRunner {
   [[nodiscard]] int cost_of(const Step& step) const noexcept;
   [[nodiscard]] bool touches_world(const Step& step) const noexcept;
   void jump(int step) noexcept;
+  [[nodiscard]] bool pauses_before(const Step& step) const noexcept;
   void loop(const Step& step) noexcept;
   void end_loop(const Step& step) noexcept;
   Next leave(MotionPort& port) noexcept;
@@ -92,6 +112,12 @@ class JobRunner {
   double tool_speed_ = 0;
   double zone_ = 0;
   int tool_ = 0;
+  bool single_ = false;
+  Breakpoints breakpoints_{};
+  bool free_ = false;    // the present line does not pause again
+  bool in_job_ = false;  // it began with another line than the first, and has not moved yet
+  int last_step_ = -1;   // done last, of last_job_
+  int last_job_ = -1;
   std::uint32_t line_ = 0;
   std::uint32_t cycles_ = 0;
   Fault fault_;

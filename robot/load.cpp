@@ -39,6 +39,7 @@ Diagnostics check_settings(const Settings& s) {
   positive("tool_turn_speed", s.tool_turn_speed);
   positive("emergency_factor", s.emergency_factor);
   positive("following_limit", s.following_limit);
+  positive("regain_distance", s.regain_distance);
   positive("plan_time", s.plan_time);
   positive("counts_per_mm", s.counts_per_mm);
   if (s.emergency_category != StopCategory::Category0 && s.emergency_category != StopCategory::Category1) {

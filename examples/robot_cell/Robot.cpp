@@ -88,7 +88,7 @@ void read_requests() {
   const ROBOT_MODULE_SERVICE_t service = ROBOT_MODULE_SERVICE;
   in.service = {service.eOpCode,   service.nRequest, service.t_pl, static_cast<double>(service.t_speed),
                 service.p_Target,  service.p_Mid,    service.nJob, service.dTarget,
-                service.dVelocity, service.nTool};
+                service.dVelocity, service.nLine,    service.nTool};
   in.edit = msgRobotServiceEditNum != 0;
   in.requests_known = valid(ROBOT_MODULE_SERVICE) && valid(AXIS_SERVICE);
   const auto axes = AXIS_SERVICE.get();
@@ -98,6 +98,11 @@ void read_requests() {
   }
   in.speed_override = ROBOT_OVERRIDE;
   in.hold = ROBOT_HOLD != 0;
+  const ROBOT_PAUSE_t pause = ROBOT_PAUSE;
+  in.single_step = pause.bStep != 0;
+  for (std::size_t k = 0; k < in.breakpoints.size(); ++k) {
+    in.breakpoints[k] = {pause.nJob[k], pause.nLine[k]};
+  }
   // Who cannot hear the emergency stop, which is the cell's, stops.
   in.emergency = PLC_ROBOT::EMERGENCY_STOP.bActive != 0 || !valid(PLC_ROBOT::EMERGENCY_STOP);
 }
@@ -154,6 +159,7 @@ void write_job() {
   job->nCycles = out.job.cycles;
   job->name = out.job.name;
   job->cMessage = out.job.message;
+  job->bResume = out.job.can_resume;
 }
 
 void write_axis_states() {
@@ -199,6 +205,7 @@ void start() {
       irp::property("emergency_category", static_cast<int>(settings.emergency_category)));
   settings.plan_time = irp::property("plan_time", settings.plan_time);
   settings.plan_in_tick = irp::property("plan_in_tick", time_stands());
+  settings.regain_distance = irp::property("regain_distance", settings.regain_distance);
   settings.following_limit = irp::property("following_limit", settings.following_limit);
 
   std::vector<std::string> errors;

@@ -62,6 +62,7 @@ struct ServiceRequest {
   std::uint32_t job = 0;
   AxisNumbers target{};    // deg, mm of sliding axes; or a pose: mm and deg
   double velocity = 0;     // DirectAbsolute: %, LinearAbsolute: mm/s; 0: `speed` counts
+  std::uint32_t line = 0;  // JobStart: where it begins; 0: with the first one
   std::uint32_t tool = 0;  // SelectTool: in the order of the files, from 1; 0: none, the arm's end
 };
 
@@ -87,6 +88,13 @@ class Signals {
   virtual void write(std::size_t index, double value) noexcept = 0;
 };
 
+// A job that is to pause before a line of its file.
+struct Breakpoint {
+  std::uint32_t job = 0;   // from 1; 0: none
+  std::uint32_t line = 0;  // from 1
+};
+using Breakpoints = std::array<Breakpoint, 8>;
+
 // What one period takes in: drives as they were read, requests as PLC programs wrote them, all of one moment.
 struct Inputs {
   std::array<DriveIn, kJoints> drives{};
@@ -98,6 +106,8 @@ struct Inputs {
   double speed_override = 100;  // %
   bool hold = false;
   bool emergency = false;
+  bool single_step = false;  // jobs pause before each line
+  Breakpoints breakpoints{};
 };
 
 // What is told of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.
@@ -122,6 +132,7 @@ struct JobReport {
   std::uint32_t cycles = 0;
   const char* name = "";     // lives as long as the controller
   const char* message = "";  // the same
+  bool can_resume = false;   // JobResume goes on with it
 };
 
 // What one period puts out. Set points in `drives` keep every limit of the URDF; an error stops on the path, and what
@@ -174,6 +185,7 @@ struct Settings {
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // of the accelerations, in an emergency stop
   double following_limit = 10;    // deg or mm an axis may be behind
+  double regain_distance = 100;   // mm the tip may be away from where a job left its path, to go on with it
   // s from asking for a motion to its beginning, if the robot stands: what planning it has time for. More for many
   // short lines, as much again for each second that they take.
   double plan_time = 0.02;

@@ -39,7 +39,9 @@ enum class Service : std::int32_t {
   JobStart,
   JobStop,
   DirectAborting,
-  SelectTool
+  SelectTool,
+  JobResume,
+  JobBack
 };
 
 // Services of one axis.
@@ -77,7 +79,9 @@ enum class ErrorCode : std::uint32_t {
   Acceleration,  // the way would need a joint to accelerate harder than it can
   Jerk,          // the way would need a joint to change its acceleration faster than it can
   Workspace,     // the target or the way there is outside of the workspace
-  Tool           // no such tool
+  Tool,          // no such tool
+  NoResume,      // there is no job to go on with
+  Away           // the robot is too far from where its job left the path
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an
@@ -88,7 +92,7 @@ enum class StopCategory : std::int16_t {
   Category2 = 2   // the robot is brought to rest and keeps its power
 };
 
-enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed };
+enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed, Paused };
 
 // "the target is out of reach", for messages.
 [[gnu::visibility("default")]] const char* to_string(ErrorCode code) noexcept;

@@ -13,67 +13,10 @@
 #include <map>
 #include <random>
 
-#include "group_cell.h"
+#include "limit_judge.h"
 
 namespace indurop::robot {
 namespace {
-
-constexpr double kEmergency = 1.5;  // Settings::emergency_factor
-
-// Differences between set points of drives that follow them, each against its limit.
-class Judge {
- public:
-  explicit Judge(double period) : period_(period) {}
-
-  // Empty, or what is broken.
-  std::string look(const Cell& cell, double hardness) {
-    std::string broken;
-    for (std::size_t i = 0; i < kJoints; ++i) {
-      Seen& seen = seen_[i];
-      const double p = radians(cell.out.command[i]);
-      if (cell.in.drives[i].status != 0x27 || cell.in.drives[i].mode != 8) {
-        seen = {p, 0, 0};
-        continue;
-      }
-      const auto k = static_cast<Eigen::Index>(i);
-      const Axis& axis = arm_.axis(static_cast<int>(i));
-      const double v = (p - seen.p) / period_;
-      const double a = (v - seen.v) / period_;
-      const double j = (a - seen.a) / period_;
-      const double beyond = std::max(axis.lower - p, p - axis.upper);
-      if (!axis.endless && !(beyond <= 1e-6)) {
-        broken += fmt::format("axis {} is {} rad beyond its range; ", i + 1, beyond);
-      }
-      judge(broken, i, "speed", v / limits_.velocity[k]);
-      judge(broken, i, "acceleration", a / limits_.acceleration[k] / hardness);
-      judge(broken, i, "jerk", j / limits_.jerk[k] / hardness / hardness);
-      seen = {p, v, a};
-    }
-    return broken;
-  }
-
- private:
-  struct Seen {
-    double p = 0, v = 0, a = 0;
-  };
-  static void judge(std::string& broken, std::size_t axis, const char* what, double part) {
-    if (!(std::abs(part) <= 1.001)) {
-      broken += fmt::format("axis {}: {} {:.3f} times its limit; ", axis + 1, what, part);
-    }
-  }
-
-  double period_;
-  Arm arm_ = cell_arm();
-  JointLimits limits_ = limits_of(Settings{});
-  std::array<Seen, kJoints> seen_{};
-
-  static JointLimits limits_of(const Settings& settings) {
-    auto cell = cell_limits();
-    cell.acceleration = cell.velocity / settings.time_to_speed;
-    cell.jerk = cell.acceleration / settings.time_to_acceleration;
-    return cell;
-  }
-};
 
 struct RandomJob {
   std::string text;
