@@ -7,6 +7,7 @@
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
 #include "tools/command/config_file.h"
+#include "tools/plant/check_chain.h"
 #include "tools/plant/check_plant.h"
 #include "tools/verbs/verbs.h"
 
@@ -17,6 +18,8 @@ struct Options {
   std::string file;
   bool adjust = false;
   bool simulation = false;
+  std::vector<std::string> chain;
+  std::int64_t network_ns = 0;  // 0: not told
   config::CheckOptions::Times times;
 };
 
@@ -79,6 +82,17 @@ int check(Context& context, const Options& options) {
   }
   const config::CheckOptions all{
       .files = true, .adjust = options.adjust, .simulation = options.simulation, .times = &options.times};
+  if (!options.chain.empty()) {
+    if (options.chain.size() != 2) {
+      context.out.error("--chain wants two variables: where it begins and where it ends");
+      return kUsage;
+    }
+    ChainQuestion question{options.chain[0], options.chain[1], {}};
+    if (options.network_ns > 0) {
+      question.network = base::Nanos(options.network_ns);
+    }
+    return check_chain(context, *file, all, question);
+  }
   return config::is_plant_file(*file) ? check_plant_file(context, *file, all) : check_one(context, *file, all);
 }
 
@@ -88,6 +102,12 @@ Action declare(base::Options& app, Context& context) {
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
   app.flag("--sim", options->simulation, "Also note what a simulation (run --sim) cannot repeat");
+  app.add("--chain", "NAME", options->chain,
+          "Two variables: how old what one says is when it has become the other, over modules and boards")
+      .completes(base::Completion::Variable);
+  add_time_option(
+      app, "--network", options->network_ns,
+      "With --chain: what a way between boards takes at most (default: as boards here measure it, else 1 ms)");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return check(c, *options); };
@@ -105,6 +125,7 @@ const Verb kCheckVerb{
     "Examples:\n"
     "  indurop check\n"
     "  indurop check plant.xml\n"
+    "  indurop check plant.xml --chain cell::encoder cell::torque\n"
     "  indurop check module.xml -o json\n",
     &declare};
 

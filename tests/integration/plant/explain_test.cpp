@@ -69,6 +69,20 @@ TEST_F(ExplainPlant, Tells_a_board_without_power_from_a_pulled_cable) {
   }
 }
 
+TEST_F(ExplainPlant, Chains_have_an_age_over_boards) {
+  const auto ask = [&](const char* from, const char* to) {
+    return indurop({"check", plant_, "--chain", from, to, "--network", "300us", "-o", "json"}).finish();
+  };
+  const auto json = base::Json::parse(ask("cell::encoder", "cell::torque").out);
+  ASSERT_TRUE(json);
+  ASSERT_EQ((*json)["chains"].values().size(), 1U);
+  const base::Json& chain = (*json)["chains"].values()[0];
+  EXPECT_EQ(chain["worst_ns"].integer(), 1'300'000) << "a cycle and the network";
+  EXPECT_EQ(chain["crossings"].integer(), 1);
+  EXPECT_EQ(ask("cell::torque", "cell::lag").code, 0);
+  EXPECT_EQ(ask("cell::torqe", "cell::lag").code, 1);
+}
+
 TEST_F(ExplainPlant, Says_who_set_and_who_forces_a_value_and_which_module_wrote_it) {
   Program& sut = indurop({"run", plant_, "--sim", "--step"});
   ASSERT_TRUE(sut.prints("tick 0, "));

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is predicted of a chain's age, compared with schedules in virtual time: never older, never newer, and on one
+// board as old as predicted.
+
+#include "config/check/chain_age.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "scheduler/simulated_kernel.h"
+#include "tests/unit/scheduler/fixture.h"
+
+namespace indurop::config {
+namespace {
+
+using base::Nanos;
+
+constexpr std::int64_t kBasic = 1'000'000;
+constexpr std::uint64_t kTicks = 240;
+
+struct Random {
+  std::mt19937 engine;
+  int upto(int least, int most) { return std::uniform_int_distribution(least, most)(engine); }
+};
+
+struct Run {
+  std::int64_t release = 0;
+  std::int64_t start = 0;
+  std::int64_t end = 0;
+};
+using Runs = std::vector<std::vector<Run>>;  // by module
+
+struct World {
+  Runs runs;
+  bool overrun = false;
+};
+
+// One board by itself: values do not change when its modules run. Nothing if one does not end before its next release.
+std::optional<Runs> run(const std::vector<Timed>& board) {
+  std::vector<scheduler::Task> tasks;
+  for (std::size_t i = 0; i < board.size(); ++i) {
+    scheduler::Task task = scheduler::periodic(
+        static_cast<std::uint32_t>(i), board[i].period.count(), static_cast<int>(i) + 1, +[] {});
+    task.offset_ns = board[i].offset.count();
+    task.work_ns = board[i].execution.count();
+    tasks.push_back(task);
+  }
+  const scheduler::BlockPointer block = scheduler::make_block(tasks, kBasic, 10 * kBasic);
+  World world{Runs(board.size()), false};
+  scheduler::Hooks hooks;
+  hooks.context = &world;
+  hooks.ended = [](void* context, std::uint32_t module, std::uint64_t, const scheduler::RunTimes& times,
+                   bool) noexcept {
+    static_cast<World*>(context)->runs[module].push_back({times.release_ns, times.start_ns, times.end_ns});
+  };
+  scheduler::EngineSettings settings;
+  settings.basic_period_ns = kBasic;
+  settings.spin.mode = scheduler::SpinMode::Off;
+  settings.order = scheduler::CoreOrder::Data;
+  scheduler::SimulatedKernel kernel(rt::mono_time(kBasic), {}, {});
+  scheduler::Engine engine(*block, tasks, settings, hooks, kernel);
+  EXPECT_TRUE(engine.start(kTicks).ok());
+  engine.join();
+  for (std::size_t i = 0; i < board.size(); ++i) {
+    if (block->modules()[i].overruns.load() + block->modules()[i].skipped.load() > 0) {
+      return std::nullopt;
+    }
+    for (Run& one : world.runs[i]) {
+      one = {one.release - block->epoch_ns, one.start - block->epoch_ns, one.end - block->epoch_ns};
+    }
+  }
+  return world.runs;
+}
+
+std::vector<Timed> random_board(Random& random, int modules) {
+  std::vector<Timed> board;
+  for (int i = 0; i < modules; ++i) {
+    Timed one;
+    one.period = Nanos(kBasic * std::array{1, 1, 2, 5, 10}.at(static_cast<std::size_t>(random.upto(0, 4))));
+    one.offset = random.upto(0, 2) == 0 ? Nanos(kBasic * random.upto(0, 9)) % one.period : Nanos{};
+    one.execution = one.period * random.upto(10, 150) / 100 / modules;
+    board.push_back(one);
+  }
+  return board;
+}
+
+struct Version {
+  std::int64_t visible = 0;
+  std::int64_t release = 0;
+  std::int64_t origin = 0;  // release of the first run it comes from
+};
+
+struct Measured {
+  std::int64_t least = INT64_MAX;
+  std::int64_t most = INT64_MIN;
+};
+
+// Goes through the plant with what every module wrote, link by link.
+class Walk {
+ public:
+  Walk(const std::vector<Runs>& runs, std::vector<std::int64_t> phases, NetworkShare network, Random& random)
+      : runs_(runs), phases_(std::move(phases)), network_(network), random_(random) {}
+
+  Measured along(const std::vector<ChainLink>& links) {
+    std::vector<Version> versions;
+    Measured measured;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      std::vector<Version> next;
+      std::int64_t sent = INT64_MIN / 2;
+      for (const Run& run : runs_[links[i].board][links[i].module]) {
+        const std::int64_t phase = phases_[links[i].board];
+        const auto origin = i == 0 ? std::optional(run.release + phase) : newest(versions, run.start + phase);
+        if (!origin) {
+          continue;
+        }
+        const bool last = i + 1 == links.size();
+        const bool leaves = !last && links[i + 1].board != links[i].board;
+        // Boards do not end at the same time, nor begin.
+        if (last && run.release > 140 * kBasic && run.release < 220 * kBasic) {
+          measured.least = std::min(measured.least, run.release + phase - *origin);
+          measured.most = std::max(measured.most, run.release + phase - *origin);
+        }
+        if (!leaves) {
+          next.push_back({run.end + phase, run.release, *origin});
+        } else if (run.end - sent >= links[i].every.count()) {
+          sent = run.end;
+          next.push_back({run.end + phase + delay(), run.release, *origin});
+        }
+      }
+      versions = std::move(next);
+    }
+    return measured;
+  }
+
+ private:
+  std::int64_t delay() {
+    return random_.upto(static_cast<int>(network_.least.count()), static_cast<int>(network_.most.count()));
+  }
+  static std::optional<std::int64_t> newest(const std::vector<Version>& versions, std::int64_t now) {
+    const Version* found = nullptr;
+    for (const Version& one : versions) {
+      if (one.visible <= now && (found == nullptr || one.release >= found->release)) {
+        found = &one;
+      }
+    }
+    return found == nullptr ? std::nullopt : std::optional(found->origin);
+  }
+
+  const std::vector<Runs>& runs_;
+  std::vector<std::int64_t> phases_;
+  NetworkShare network_;
+  Random& random_;
+};
+
+std::vector<ChainLink> random_chain(Random& random, const std::vector<std::vector<Timed>>& plant) {
+  std::vector<ChainLink> links;
+  const int length = random.upto(2, 6);
+  std::size_t board = static_cast<std::size_t>(random.upto(0, static_cast<int>(plant.size()) - 1));
+  for (int i = 0; i < length; ++i) {
+    if (random.upto(0, 2) == 0) {
+      board = static_cast<std::size_t>(random.upto(0, static_cast<int>(plant.size()) - 1));
+    }
+    const auto module = static_cast<std::size_t>(random.upto(0, static_cast<int>(plant[board].size()) - 1));
+    const bool again = std::any_of(links.begin(), links.end(),
+                                   [&](const ChainLink& one) { return one.board == board && one.module == module; });
+    if (!again) {
+      links.push_back({board, module, {}});
+    }
+  }
+  return links;
+}
+
+TEST(ChainAge, Of_random_plants_is_never_above_what_is_predicted_and_on_one_board_reaches_it) {
+  const char* wanted = std::getenv("INDUROP_CHAIN_PLANTS");
+  const int plants = wanted == nullptr ? 100 : std::atoi(wanted);
+  int single = 0;
+  int crossing = 0;
+  int reached = 0;
+  for (unsigned seed = 0; single + crossing < plants; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random{std::mt19937(seed)};
+    std::vector<std::vector<Timed>> plant;
+    std::vector<Runs> runs;
+    std::vector<std::int64_t> phases;
+    const int boards = seed % 2 == 0 ? 1 : random.upto(2, 8);
+    for (int i = 0; i < boards; ++i) {
+      for (;;) {
+        auto board = random_board(random, random.upto(1, 50 / boards));
+        if (auto done = run(board)) {
+          plant.push_back(std::move(board));
+          runs.push_back(*std::move(done));
+          break;
+        }
+      }
+      phases.push_back(random.upto(0, 9'999'999));
+    }
+    const NetworkShare network{Nanos(100'000), Nanos(100'000 + random.upto(0, 1'500'000))};
+    const std::vector<ChainLink> links = random_chain(random, plant);
+    if (links.size() < 2) {
+      continue;
+    }
+    const ChainAge sut = chain_age(plant, links, network);
+    const Measured measured = Walk(runs, phases, network, random).along(links);
+    ASSERT_LE(measured.most, sut.most.count());
+    ASSERT_GE(measured.least, sut.least.count());
+    ASSERT_EQ(sut.exact, sut.crossings == 0);
+    (sut.exact ? single : crossing) += 1;
+    reached += sut.exact && static_cast<double>(measured.most) >= 0.95 * static_cast<double>(sut.most.count()) ? 1 : 0;
+  }
+  EXPECT_GE(reached * 100, 95 * single);
+  EXPECT_GT(crossing, plants / 4);
+}
+
+TEST(ChainAge, Is_the_way_through_the_schedule) {
+  const Nanos ms(kBasic);
+  // Sensor before control before actuator, in one tick; backwards each costs a period.
+  const std::vector<std::vector<Timed>> plant{{{ms, {}, {}, 0}, {2 * ms, {}, {}, 0}, {5 * ms, {}, {}, 0}}};
+  const ChainAge down = chain_age(plant, std::vector<ChainLink>{{0, 0, {}}, {0, 1, {}}, {0, 2, {}}}, {});
+  EXPECT_EQ(down.least, Nanos{});
+  EXPECT_EQ(down.most, ms) << "the actuator's tick is odd every other time";
+  const ChainAge up = chain_age(plant, std::vector<ChainLink>{{0, 2, {}}, {0, 0, {}}}, {});
+  EXPECT_EQ(up.least, ms);
+  EXPECT_EQ(up.most, 5 * ms);
+}
+
+TEST(ChainAge, Through_the_network_counts_the_senders_period_its_rate_and_the_delay) {
+  const Nanos ms(kBasic);
+  const std::vector<std::vector<Timed>> plant{{{ms, {}, {}, 0}}, {{ms, {}, {}, 0}}};
+  const NetworkShare network{ms / 10, ms / 2};
+  const ChainAge always = chain_age(plant, std::vector<ChainLink>{{0, 0, {}}, {1, 0, {}}}, network);
+  EXPECT_EQ(always.least, ms / 10);
+  EXPECT_EQ(always.most, ms + ms / 2);
+  EXPECT_EQ(always.crossings, 1U);
+  const ChainAge seldom = chain_age(plant, std::vector<ChainLink>{{0, 0, 10 * ms}, {1, 0, {}}}, network);
+  EXPECT_EQ(seldom.most, 10 * ms + ms / 2);
+}
+
+}  // namespace
+}  // namespace indurop::config
