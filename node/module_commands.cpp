@@ -139,6 +139,9 @@ bool ModuleCommands::enter(Work& work) {
   if (parts_.config.modules[work.module].operation == Operation::NonReal) {
     return answer(work, parts_.normal_threads.launch(work.module) ? started(work.module) : CommandResult::Failed);
   }
+  if (tape::Track* track = parts_.tape == nullptr ? nullptr : parts_.tape->of(work.module)) {
+    track->started_anew();
+  }
   record(work.module).state.store(ModuleState::Running);
   parts_.engine.enable(work.module);
   return answer(work, started(work.module));

@@ -13,6 +13,7 @@
 #include "node/processes.h"
 #include "scheduler/engine.h"
 #include "scheduler/module_command.h"
+#include "tape/tape.h"
 
 namespace indurop::node {
 
@@ -29,6 +30,7 @@ class ModuleCommands {
     Phases& phases;
     FailSafe& failsafe;
     Console& console;
+    tape::Tape* tape;  // null: none
   };
   explicit ModuleCommands(const Parts& parts) : parts_(parts) {}
 

@@ -56,6 +56,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
       signals_(signals),
       checked_(checked),
       prepared_(prepared),
+      libraries_(loaded.libraries),
       run_(prepared.run()),
       kernel_({&prepared.store->virtual_time(), &run_.virtual_ns}),
       runner_(run_, kernel_, hooks(), trace_, 1),
@@ -113,6 +114,9 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
         known ? reason_to_leave_out(configured[i], checked_.check.facts[i].file.imports) : "it is not in the recording";
     module.runs = module.why_not.empty();
     any = any || module.runs;
+    if (module.runs) {
+      warn_of_what_is_not_recorded(configured[i].name, checked_.check.facts[i].file.imports);
+    }
     if (!module.runs) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
                     module.why_not);
@@ -191,6 +195,9 @@ bool Replay::run_again(const recorder::RunWords& run) {
   run_.tick.store(run.tail.tick + 1);
   // One that asks again and again waits for a time: behind what is known of its clock, that has come.
   kernel_.set(module.clock.size() < std::size_t{tape::kMostReadings} ? run.tail.start_ns : run.tail.end_ns);
+  if (run.anew && !start_anew(module, index)) {
+    return false;
+  }
   give_inputs(module);
   if (module.state.task.type == ModuleType::Process) {
     if (!run_process(module, run.tail)) {

@@ -81,11 +81,15 @@ class Replay {
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
+  void warn_of_what_is_not_recorded(const std::string& module, const std::vector<std::string>& imports);
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();
   bool replay(RecordedRuns& recorded);
   bool run_again(const recorder::RunWords& run);
+  bool start_anew(Module& module, std::uint32_t index);
+  bool restart_process(std::uint32_t index);
+  bool call(std::uint32_t index, const char* phase, void (*function)());
   bool run_process(Module& module, const tape::RunTail& tail);
   void give_inputs(Module& module);
   void take_what_was_left(Module& module);
@@ -102,6 +106,7 @@ class Replay {
   base::StopSignal& signals_;
   Checked& checked_;
   Prepared& prepared_;
+  const std::vector<ModuleLibrary>& libraries_;
   scheduler::RunBlock& run_;
   Kernel kernel_;
   scheduler::CoreTrace trace_;

@@ -51,7 +51,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
       processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe),
       commands_(ModuleCommands::Parts{checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
-                                      phases_, *prepared.failsafe, console}) {}
+                                      phases_, *prepared.failsafe, console, prepared.tape.get()}) {}
 
 scheduler::Kernel& Running::make_kernel() {
   if (!options_.simulation.on) {

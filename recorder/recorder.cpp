@@ -251,7 +251,7 @@ Result<void, Problem> Recorder::write_run(const tape::Run& run) {
       return written;
     }
   }
-  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0}, cdr_);
+  to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kAnew) != 0}, cdr_);
   auto written = writer_->write(runs_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
                                 static_cast<std::uint32_t>(run.tail.number), cdr_);
   counts_.runs += written.ok() ? 1U : 0U;

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kLittleEndian{0, 1, 0, 0};
 constexpr std::size_t kTailBytes = sizeof(tape::RunTail);
-constexpr std::size_t kMessageBytes = kLittleEndian.size() + kTailBytes + sizeof(std::uint32_t) + 1;
+constexpr std::size_t kOldBytes = kLittleEndian.size() + kTailBytes + sizeof(std::uint32_t) + 1;
+constexpr std::size_t kMessageBytes = kOldBytes + 1;
 constexpr std::uint32_t kKindBits = 3;
 
 }  // namespace
@@ -29,6 +30,7 @@ const std::string_view kRunIdl =
     "    long long end_ns;\n"
     "    unsigned long module;\n"
     "    boolean faulted;\n"
+    "    boolean anew;\n"
     "  };\n"
     "};\n";
 
@@ -62,17 +64,20 @@ void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {
   const auto module = std::bit_cast<std::array<std::uint8_t, sizeof run.module>>(run.module);
   cdr.insert(cdr.end(), module.begin(), module.end());
   cdr.push_back(run.faulted ? 1 : 0);
+  cdr.push_back(run.anew ? 1 : 0);
 }
 
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr) {
-  if (cdr.size() != kMessageBytes || !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
+  if ((cdr.size() != kMessageBytes && cdr.size() != kOldBytes) ||
+      !std::equal(kLittleEndian.begin(), kLittleEndian.end(), cdr.begin())) {
     return Error{Errc::Corrupt, 0, "a run of a recording"};
   }
   std::array<std::uint8_t, kTailBytes> tail{};
   std::copy_n(cdr.begin() + kLittleEndian.size(), kTailBytes, tail.begin());
   std::array<std::uint8_t, sizeof(std::uint32_t)> module{};
   std::copy_n(cdr.begin() + kLittleEndian.size() + kTailBytes, module.size(), module.begin());
-  return RunWords{std::bit_cast<tape::RunTail>(tail), std::bit_cast<std::uint32_t>(module), cdr.back() != 0};
+  return RunWords{std::bit_cast<tape::RunTail>(tail), std::bit_cast<std::uint32_t>(module), cdr[kOldBytes - 1] != 0,
+                  cdr.size() == kMessageBytes && cdr.back() != 0};
 }
 
 std::uint32_t to_sequence(ValueWords words) noexcept {

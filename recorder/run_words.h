@@ -24,6 +24,7 @@ struct RunWords {
   tape::RunTail tail;
   std::uint32_t module = 0;
   bool faulted = false;
+  bool anew = false;  // its module was started anew since its run before; older recordings do not say
 };
 // What irp::now_ns() said to runs: messages of the channel indurop/clock, in the order of a run's calls.
 inline constexpr std::string_view kClockTopic = "indurop/clock";

@@ -16,7 +16,7 @@
 namespace indurop::tape {
 
 inline constexpr std::uint64_t kTapeMagic = 0x3145504154444e49ULL;  // "INDTAPE1"
-inline constexpr std::uint32_t kTapeAbi = 1;
+inline constexpr std::uint32_t kTapeAbi = 2;
 
 enum class EntryKind : std::uint32_t {
   Before = 1,  // value a run begins with
@@ -34,7 +34,10 @@ struct EntryHead {
 };
 static_assert(sizeof(EntryHead) == sizeof(std::uint64_t) && std::is_trivially_copyable_v<EntryHead>);
 
-enum RunFlags : std::uint32_t { kFaulted = 1 };  // it ended by a fault
+enum RunFlags : std::uint32_t {
+  kFaulted = 1,  // it ended by a fault
+  kAnew = 2,     // its module was started anew since its run before
+};
 
 // More of one run are not told: it waits for something, or measures.
 inline constexpr int kMostReadings = 64;

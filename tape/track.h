@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,8 @@ class Track {
   // Goes on behind what is on the track. `tape`: all its bytes, checked; borrowed, as the store. Not real-time safe.
   Track(std::byte* tape, TapeTrack& shared, const vars::Store& store);
 
+  // The module is started anew before its next run; while it does not run, on any thread.
+  void started_anew() noexcept { anew_.store(true, std::memory_order_release); }
   // What the run begins with. Real-time safe: no lock, no allocation, no system call.
   void begin() noexcept;
   // The run was told this time. Real-time safe.
@@ -58,8 +61,9 @@ class Track {
   std::uint64_t order_ = 0;
   std::size_t again_ = 0;
   int clock_left_ = 0;  // readings of this run that may still be told
-  bool all_ = true;     // nothing was told yet, or what was told is not published
-  bool open_ = false;   // a run has begun and not ended
+  std::atomic<bool> anew_;
+  bool all_ = true;    // nothing was told yet, or what was told is not published
+  bool open_ = false;  // a run has begun and not ended
 };
 
 }  // namespace indurop::tape

@@ -68,6 +68,37 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(nobody.err, "no module has this name or such a file");
 }
 
+TEST_F(Recording, Tells_which_modules_were_started_anew) {
+  std::vector<Module> modules = {{.file = "counter.so", .name = "counter"},
+                                 {.file = "keeper.so", .name = "keeper", .priority = 2},
+                                 {.file = "process.exe", .name = "process", .type = "process", .priority = 3}};
+  Program& sut = start_and_wait(modules, {"--record", file()});
+  ASSERT_TRUE(runs_reach("keeper", 50));
+  ASSERT_TRUE(runs_reach("process", 50));
+  for (const char* name : {"keeper", "process"}) {
+    const Outcome restarted = indurop({"restart", name, "--node", node()});
+    EXPECT_EQ(restarted.code, 0) << restarted.err;
+    EXPECT_TRUE(runs_reach(name, module(name).runs.load() + 50));
+  }
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
+TEST_F(Recording, Says_before_what_it_does_not_know) {
+  ASSERT_EQ(run_to_end({{.file = "counter.so", .name = "counter"},
+                        {.file = "caller.so", .name = "caller"},
+                        {.file = "server.so", .name = "server"}},
+                       {"--sim", "--until", "50ms", "--record", file()})
+                .code,
+            0);
+  const Outcome again = replay();
+  EXPECT_CONTAINS(again.err, "warning: module caller calls shared functions");
+  EXPECT_FALSE(contains(again.err, "module counter calls")) << again.err;
+}
+
 TEST_F(Recording, Is_readable_when_the_node_was_killed) {
   Program& sut = start_and_wait(threads(), {"--record", file()});
   ASSERT_TRUE(runs_reach("counter", 2500));

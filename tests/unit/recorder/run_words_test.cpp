@@ -9,7 +9,7 @@ namespace {
 
 TEST(RunWords, Come_back_as_they_were) {
   std::vector<std::uint8_t> cdr;
-  to_cdr(RunWords{{1, 2, 3, -4, 5, 6}, 77, true}, cdr);
+  to_cdr(RunWords{{1, 2, 3, -4, 5, 6}, 77, true, true}, cdr);
   const auto run = run_from_cdr(cdr);
   ASSERT_TRUE(run.ok());
   EXPECT_EQ(run->tail.number, 1U);
@@ -17,6 +17,12 @@ TEST(RunWords, Come_back_as_they_were) {
   EXPECT_EQ(run->tail.end_ns, 6);
   EXPECT_EQ(run->module, 77U);
   EXPECT_TRUE(run->faulted);
+  EXPECT_TRUE(run->anew);
+  cdr.pop_back();
+  const auto old = run_from_cdr(cdr);
+  ASSERT_TRUE(old.ok()) << "of a recording that did not tell that";
+  EXPECT_TRUE(old->faulted);
+  EXPECT_FALSE(old->anew);
   to_cdr(std::int64_t{-12}, cdr);
   EXPECT_EQ(clock_from_cdr(cdr).value(), -12);
   EXPECT_FALSE(run_from_cdr(cdr).ok());

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a replay does about what its values do not tell: modules that were started anew are so again, and what no
+// recording has is said before.
+
+#include <thread>
+
+#include "node/replay.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::milliseconds kPause{1};
+
+}  // namespace
+
+void Replay::warn_of_what_is_not_recorded(const std::string& module, const std::vector<std::string>& imports) {
+  bool calls = false;
+  bool channels = false;
+  for (const std::string& symbol : imports) {
+    calls = calls || symbol == "indurop_call";
+    channels = channels || symbol.starts_with("_ZN7channel");
+  }
+  if (calls) {
+    console_.warning(
+        "module {} calls shared functions: they are called again here, what they returned is not in the recording and "
+        "may differ",
+        module);
+  }
+  if (channels) {
+    console_.warning("module {} has channels: what it reads from them is not in the recording and may differ", module);
+  }
+}
+
+bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
+  if (function == nullptr) {
+    return true;
+  }
+  auto call = phases_.begin(index, phase, function);
+  while (call != nullptr && !phases_.ended(*call, rt::MonoClock::now(), Phases::kGrace)) {
+    std::this_thread::sleep_for(kPause);
+  }
+  return call != nullptr && phases_.conclude(std::move(call));
+}
+
+bool Replay::restart_process(std::uint32_t index) {
+  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  processes_.stop(index, rt::MonoClock::now());
+  bool started = false;
+  while (rt::MonoClock::now() < until) {
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    if (!started && processes_.has_ended(index)) {
+      started = processes_.start(index);
+    } else if (started && run_.modules()[index].state.load() == scheduler::ModuleState::Running) {
+      return true;
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
+}
+
+bool Replay::start_anew(Module& module, std::uint32_t index) {
+  bool good = true;
+  if (module.state.task.type == scheduler::ModuleType::Process) {
+    good = restart_process(index);
+  } else {
+    (void)call(index, "stop", libraries_[index].functions().stop);  // that it failed is said
+    good = call(index, "start", libraries_[index].functions().start);
+    module.state.record->state.store(scheduler::ModuleState::Running);
+    module.state.enabled.store(true);
+  }
+  if (!good) {
+    console_.error("module {} was started anew in the recording and could not be now", module.state.record->name);
+  }
+  return good;
+}
+
+}  // namespace indurop::node
