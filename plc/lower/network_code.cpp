@@ -17,6 +17,7 @@ std::optional<ast::Expression> NetworkCode::parse(std::string_view text, const P
   if (text.empty()) {
     return std::nullopt;  // the check of the drawing has said so
   }
+  text.remove_suffix(text.ends_with(';') ? 1 : 0);  // TwinCAT does not mind it
   return st::parse_expression({text, at}, diagnostics_);
 }
 

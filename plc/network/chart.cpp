@@ -132,6 +132,14 @@ class Reader {
     chart_.steps.push_back({&element, element.text, element.initial});
   }
 
+  // Those that do not end in a jump.
+  [[nodiscard]] std::size_t branches_of(const Element& convergence) {
+    std::size_t count = 0;
+    each_source(convergence, index_, diagnostics_,
+                [&](const Element& from) { count += from.kind == Kind::JumpStep ? 0 : 1; });
+    return count;
+  }
+
   // Steps before a transition: one, or all those of a simultaneous convergence.
   void before(const Element& element, std::vector<std::size_t>& into) {
     if (!passed_.insert(&element).second) {
@@ -146,8 +154,17 @@ class Reader {
         case Kind::SimultaneousConvergence:
           before(from, into);
           break;
+        case Kind::JumpStep:
+          if (element.kind == Kind::SelectionConvergence || element.kind == Kind::SimultaneousConvergence) {
+            break;  // its branch ends there
+          }
+          [[fallthrough]];
         default:
-          diagnostics_.error(element.at, fmt::format("{} stands before it, where a step must be", title_of(from)));
+          if (from.kind == Kind::SelectionConvergence && branches_of(from) == 1) {
+            before(from, into);  // as CODESYS draws it where all branches but one end in a jump
+          } else {
+            diagnostics_.error(element.at, fmt::format("{} stands before it, where a step must be", title_of(from)));
+          }
       }
     });
     passed_.erase(&element);
