@@ -63,6 +63,8 @@ class Follower final : private PathAhead {
   [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : acceleration_; }
   // s until the end of the present path, as things are.
   [[nodiscard]] double to_go() const noexcept;
+  // On the present motion.
+  [[nodiscard]] PathPlace path_place() const noexcept;
   // MoveCommand::source of the present path; 0: none.
   [[nodiscard]] int source() const noexcept;
 

@@ -66,4 +66,25 @@ void Follower::go_on() noexcept {
   replan();
 }
 
+// In a blend the present motion is the one before it.
+PathPlace Follower::path_place() const noexcept {
+  if (idle()) {
+    return {};
+  }
+  const Segment& s = segment(0);
+  double part = 0;
+  if (s.timed && s.move != Move::Joint) {
+    part = s.stretch > 0 ? s.timing.at(state_.position).place / s.stretch : 1;
+  } else {
+    double first = state_.position;
+    if (in_blend_) {
+      double second = 0;
+      blend_.parts_at(state_.position, first, second);
+      first += s.length;
+    }
+    part = s.length > 0 ? first / s.length : 1;
+  }
+  return {s.ticket, part * s.way, (1 - part) * s.way, to_go()};
+}
+
 }  // namespace indurop::robot

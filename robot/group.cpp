@@ -373,7 +373,9 @@ void Group::begin_next(bool more) noexcept {
   const ReadAhead::Next next = ahead_.next(from, more);
   if (next.chain != nullptr) {
     passed_known_ = 0;  // no step back goes over it
-    ask_for_plan({{}, next.chain, from, !follower_.idle()});
+    PlanRequest request{{}, next.chain, from, !follower_.idle()};
+    request.command.ticket = next.ticket;
+    ask_for_plan(request);
   } else if (next.command != nullptr) {
     passed_[passed_count_++ % passed_.size()] = {*next.command, from};
     passed_known_ = std::min(passed_known_ + 1, passed_.size());

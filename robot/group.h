@@ -96,6 +96,7 @@ class Group final : public Controller, private MotionPort {
   }
   Fault move(const MoveCommand& command) noexcept override;
   bool take_tool(int tool) noexcept override;
+  [[nodiscard]] PathPlace place() const noexcept override { return follower_.path_place(); }
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
   [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }

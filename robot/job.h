@@ -23,6 +23,8 @@ enum class Op : std::uint8_t {
   Zone,       // value: m
   Tool,       // index: tool
   Set,        // index: signal; formula
+  SetOnPath,  // the same, of the motion before it: value: m before its end, behind its beginning if mid is 1;
+              // timeout above 0: s instead
   Assign,     // index: variable of the job; formula
   WaitUntil,  // formula; timeout
   WaitTime,   // value: s

@@ -25,8 +25,8 @@ constexpr std::array<Sign, 8> kComparisons{{{"=", FormulaOp::Equal},
                                             {">=", FormulaOp::GreaterEqual}}};
 constexpr std::array<Sign, 3> kProducts{
     {{"*", FormulaOp::Multiply}, {"/", FormulaOp::Divide}, {"MOD", FormulaOp::Modulo}}};
-constexpr std::array<const char*, 14> kReserved{"AND",  "OR",      "NOT",  "MOD",  "ON",  "OFF",   "TO",
-                                                "STEP", "TIMEOUT", "GOTO", "ELSE", "END", "PARAM", "VAR"};
+constexpr std::array<const char*, 16> kReserved{"BEFORE", "AFTER", "AND",     "OR",   "NOT",  "MOD", "ON",    "OFF",
+                                                "TO",     "STEP",  "TIMEOUT", "GOTO", "ELSE", "END", "PARAM", "VAR"};
 
 }  // namespace
 

@@ -35,9 +35,54 @@ void JobParser::set() {
   const int index = signal("the name of a variable");
   accept("=");
   const int formula = failed_ ? -1 : expression("ON, OFF or the value");
-  Step& step = add(Op::Set);
+  Step step;
   step.index = index;
   step.formula = formula;
+  const bool before = !failed_ && accept("BEFORE");
+  if (before || (!failed_ && accept("AFTER"))) {
+    step.mid = before ? 0 : 1;
+    set_on_path(step);
+    return;
+  }
+  Step& added = add(Op::Set);
+  added.index = index;
+  added.formula = formula;
+}
+
+// "SET O8 ON BEFORE 50 mm", "SET O8 ON AFTER 0.2s"
+void JobParser::set_on_path(Step wanted) {
+  const auto& steps = job().steps;
+  auto motion = steps.rbegin();
+  while (motion != steps.rend() && motion->op == Op::SetOnPath) {
+    ++motion;
+  }
+  if (motion == steps.rend() || motion->op != Op::Move) {
+    error(tokens_[0], "BEFORE and AFTER are about the motion in the line above; there is none");
+    return;
+  }
+  if (wanted.formula >= 0 && book_.formulas[static_cast<std::size_t>(wanted.formula)].looks_out()) {
+    error(tokens_[0], "what is set on the way is computed before; it cannot look at shared variables");
+    return;
+  }
+  const JobToken number = peek();
+  const JobToken unit = tokens_[at_ + 1];
+  if (same_word(unit.text, "mm") && numbers(1, &wanted.value, "a distance")) {
+    accept("mm");
+    wanted.value /= 1000;
+    if (!(wanted.value >= 0)) {
+      error(number, "a distance is from 0 mm");
+    } else if (motion->move == Move::Joint) {
+      error(number, "the way of a MOVJ has no distance; give a time, BEFORE 0.2s");
+    }
+  } else if (duration(wanted.timeout)) {
+    wanted.timeout = std::max(wanted.timeout, 1e-6);
+  }
+  if (!failed_) {
+    Step& step = add(Op::SetOnPath);
+    wanted.op = step.op;
+    wanted.line = step.line;
+    step = wanted;
+  }
 }
 
 int JobParser::variable_called(std::string_view name) const noexcept {

@@ -61,6 +61,7 @@ class JobParser {
   void speed();
   void zone();
   void set();
+  void set_on_path(Step wanted);
   void assign();
   void variable();
   void parameters();

@@ -26,6 +26,8 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   tool_ = 0;
   line_ = 0;
   message_[0] = '\0';
+  triggers_ = {};
+  ticket_ = present_ = 0;
   last_job_ = last_step_ = -1;
   free_ = false;
   in_job_ = first != steps.begin();

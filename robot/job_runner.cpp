@@ -90,6 +90,7 @@ const Step* JobRunner::present() const noexcept {
 }
 
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
+  fire(seconds, signals, port);
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = present();
@@ -149,6 +150,9 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Speed:
     case Op::Zone:
       modal(step);
+      break;
+    case Op::SetOnPath:
+      next = set_on_path(step, signals);
       break;
     case Op::Tool:
       if (!port.take_tool(step.index)) {
@@ -217,6 +221,10 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
   command.straight = step.move == Move::Joint && step.value != 0;
   command.more = step.move == Move::Spline && step.value != 0;
   command.source = frame().job << kLineBits | static_cast<int>(step.line);
+  const auto& steps = job_of(frame().job).steps;
+  const auto behind = static_cast<std::size_t>(frame().step) + 1;
+  command.alone = behind < steps.size() && steps[behind].op == Op::SetOnPath;
+  command.ticket = ++ticket_;
   if (const Fault fault = port.move(command); !fault.ok()) {
     fail(fault, to_string(fault.code), command.source);
     return Next::Wait;

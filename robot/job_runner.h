@@ -25,6 +25,7 @@ class MotionPort {
   virtual Fault move(const MoveCommand& command) noexcept = 0;
   // Everything has ended. False: not yet.
   virtual bool take_tool(int) noexcept { return true; }
+  [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
 };
 
 class JobRunner {
@@ -84,6 +85,8 @@ class JobRunner {
   // False: it has no value, and the job has failed.
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
+  Next set_on_path(const Step& step, Signals& signals) noexcept;
+  void fire(double seconds, Signals& signals, const MotionPort& port) noexcept;
   void modal(const Step& step) noexcept;
   Next assign(const Step& step, Signals& signals) noexcept;
   Next branch(const Step& step, Signals& signals) noexcept;
@@ -112,6 +115,19 @@ class JobRunner {
   double tool_speed_ = 0;
   double zone_ = 0;
   int tool_ = 0;
+  // What is to be set on the way.
+  struct Trigger {
+    bool waits = false;
+    int signal = 0;
+    double value = 0;
+    std::uint32_t ticket = 0;
+    bool by_time = false, after = false;
+    double amount = 0;  // m or s
+  };
+  std::array<Trigger, 16> triggers_{};
+  std::uint32_t ticket_ = 0;   // of the last motion that was commanded
+  std::uint32_t present_ = 0;  // of the one that was followed last
+  double since_ = 0;           // s, that this one has been followed
   bool single_ = false;
   Breakpoints breakpoints_{};
   bool free_ = false;    // the present line does not pause again

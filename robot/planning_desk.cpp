@@ -82,6 +82,7 @@ void PlanningDesk::work() noexcept {
     plan_.fault = planner_.check(kPortion);
   }
   plan_.segment = planner_.segment();
+  plan_.segment.ticket = request_.command.ticket;
   if (plan_.fault.ok() && planner_.done()) {
     if (request_.follows) {
       plan_.blend = planner_.blend(before_, plan_.segment);

@@ -43,7 +43,7 @@ const MoveCommand& ReadAhead::take() noexcept {
 }
 
 bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
-  return command.move == Move::Line && command.speed > 0 && command.speed <= 1;
+  return command.move == Move::Line && !command.alone && command.speed > 0 && command.speed <= 1;
 }
 
 void ReadAhead::begin_scan(const Joints& from) noexcept {
@@ -92,7 +92,7 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   }
   spline.finish();
   spline_ = (spline_ + 1) % splines_.size();
-  return {&spline, nullptr};
+  return {&spline, nullptr, last.ticket};
 }
 
 ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {

@@ -30,6 +30,7 @@ class ReadAhead {
   struct Next {
     const ToolPath* chain = nullptr;  // stays as it is while five others are taken
     const MoveCommand* command = nullptr;
+    std::uint32_t ticket = 0;  // of a spline
   };
   // It begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;

@@ -32,19 +32,22 @@ struct Target {
 struct MoveCommand {
   Move move = Move::Joint;
   Target target;
-  Target mid;             // of circles
-  bool more = false;      // of splines: there are points behind this one
-  double speed = 1;       // part of full speed, above 0 to 1
-  double tool_speed = 0;  // m/s, of lines and circles instead of `speed`; 0: none
-  double zone = 0;        // m, how far before the target the path may already turn to the next one
-  bool straight = false;  // of joint motions: all joints in step, on a straight line between joint angles
-  int source = 0;         // the caller's name for it
+  Target mid;                // of circles
+  bool more = false;         // of splines: there are points behind this one
+  double speed = 1;          // part of full speed, above 0 to 1
+  double tool_speed = 0;     // m/s, of lines and circles instead of `speed`; 0: none
+  double zone = 0;           // m, how far before the target the path may already turn to the next one
+  bool straight = false;     // of joint motions: all joints in step, on a straight line between joint angles
+  int source = 0;            // the caller's name for it
+  std::uint32_t ticket = 0;  // its number among the motions of a job, from 1
+  bool alone = false;        // is not made one path with the lines around it
 };
 
 struct Segment {
   Move move = Move::Joint;
   bool timed = false;  // the timing is taken
   int source = 0;
+  std::uint32_t ticket = 0;
   Joints from = Joints::Zero();
   Joints to = Joints::Zero();
   Pose start;
@@ -89,6 +92,14 @@ struct Segment {
   double leave_timing(double place) noexcept;
   // m per s at full speed
   [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
+};
+
+// How far a motion has been followed.
+struct PathPlace {
+  std::uint32_t ticket = 0;  // of the motion; 0: none
+  double gone = 0;           // m, since its beginning
+  double left = 0;           // m
+  double to_go = 0;          // s, as things are
 };
 
 // Where two paths meet with a zone: from `zone` before the end of the first to `zone` behind the start of the second.

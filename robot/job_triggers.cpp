@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a job sets on the way of its motions, at a distance or time from their beginning or end.
+
+#include <algorithm>
+
+#include "robot/job_runner.h"
+
+namespace indurop::robot {
+
+JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexcept {
+  const auto free = std::find_if(triggers_.begin(), triggers_.end(), [](const Trigger& each) { return !each.waits; });
+  if (free == triggers_.end()) {
+    return Next::Wait;
+  }
+  double value = 0;
+  if (!compute(step.formula, signals, value)) {
+    return Next::Wait;
+  }
+  const bool by_time = step.timeout > 0;
+  *free = {true, step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value};
+  return Next::Go;
+}
+
+// Behind the end of its motion everything is set, whatever was asked for.
+void JobRunner::fire(double seconds, Signals& signals, const MotionPort& port) noexcept {
+  const PathPlace now = port.place();
+  since_ = now.ticket == present_ ? since_ + seconds : 0;
+  present_ = now.ticket > 0 ? now.ticket : present_;
+  const bool settled = port.settled();
+  for (Trigger& each : triggers_) {
+    if (!each.waits) {
+      continue;
+    }
+    const bool passed = settled || each.ticket < present_ || (now.ticket == 0 && each.ticket <= present_);
+    bool reached = false;
+    if (each.ticket == now.ticket) {
+      reached = each.by_time ? (each.after ? since_ >= each.amount : now.to_go <= each.amount)
+                             : (each.after ? now.gone >= each.amount : now.left <= each.amount);
+    }
+    if (passed || reached) {
+      each.waits = false;
+      signals.write(static_cast<std::size_t>(each.signal), each.value);
+    }
+  }
+}
+
+}  // namespace indurop::robot
