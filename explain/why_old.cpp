@@ -132,8 +132,14 @@ class Old {
     if (since < 0) {
       return not_known("the schedule had hardly begun");
     }
-    const std::uint64_t due =
-        static_cast<std::uint64_t>((since / every * every + module.offset_ns) / facts_.basic_period_ns);
+    auto due = static_cast<std::uint64_t>((since / every * every + module.offset_ns) / facts_.basic_period_ns);
+    // What is known often ends with the node: then its last run counts, not one that would have come.
+    const bool at_the_end = at_ns_ <= facts_.release_of(facts_.tick) + 2 * every;
+    if (at_the_end && facts_.tick > 0 && due >= facts_.tick) {
+      const auto step = static_cast<std::uint64_t>(std::max<std::int64_t>(every / facts_.basic_period_ns, 1));
+      const auto first = static_cast<std::uint64_t>(module.offset_ns / facts_.basic_period_ns);
+      due = facts_.tick > first ? first + (facts_.tick - 1 - first) / step * step : first;
+    }
     if (ran != nullptr && ran->tick >= due && !ran->faulted) {
       return {Cause::Unchanged,
               writer,

@@ -98,6 +98,14 @@ TEST(Explain, A_value_of_a_board_that_is_heard_is_followed_to_its_writer) {
   EXPECT_EQ(sut.culprit, "writer");
 }
 
+TEST(Explain, At_the_end_of_a_node_its_last_runs_count) {
+  std::vector<Facts> plant{board("here", 100)};
+  plant[0].stop_reason = "end of the duration";
+  plant[0].now_ns = 102 * kMs;
+  EXPECT_EQ(why_old(plant, 0, "x", plant[0].now_ns).cause, Cause::Unchanged);
+  EXPECT_EQ(why_old(plant, 0, "x", 200 * kMs).cause, Cause::Stopped) << "later it is the node's end";
+}
+
 TEST(Explain, A_rate_limit_is_told_only_within_its_time) {
   std::vector<Facts> plant{reader("alive", 3000 * kMs), board("other", 3000)};
   plant[0].variables.back().every_ns = 100 * kMs;
