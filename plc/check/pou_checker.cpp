@@ -238,7 +238,9 @@ void declare_methods(Context& context, Pou& pou) {
 
 void declare_pous(Context& context) {
   for (ast::Pou& tree : context.program.project.pous) {
-    if (elementary_named(tree.name)) {
+    // TIME is a function, too, which a project may replace.
+    const bool replaces = tree.kind == ast::Pou::Kind::Function && !find_functions(tree.name).empty();
+    if (elementary_named(tree.name) && !replaces) {
       context.error(tree.at, fmt::format("'{}' is a name of the standard, use another one", tree.name));
       continue;
     }
