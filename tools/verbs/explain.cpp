@@ -85,7 +85,9 @@ std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t ask
   const auto owner =
       std::find_if(plant.begin(), plant.end(), [&](const Facts& one) { return one.board == variable.owner; });
   const Facts& its = variable.owner.empty() || owner == plant.end() ? facts : *owner;
-  const std::int64_t at = options.tick == explain::kNone ? facts.now_ns : facts.release_of(options.tick);
+  // Of a node that has ended: as it was then.
+  const std::int64_t latest = facts.alive ? facts.now_ns : std::min(facts.now_ns, facts.release_of(facts.tick));
+  const std::int64_t at = options.tick == explain::kNone ? latest : facts.release_of(options.tick);
   return {{fmt::format("why is {} as old as it is?", name), explain::why_old(plant, asked, name, at)},
           {fmt::format("who changed {} last?", name),
            explain::who_changed(its, name, at + facts.wall_minus_node_ns - its.wall_minus_node_ns)}};
