@@ -18,7 +18,7 @@ constexpr std::uint32_t kKindBits = 3;
 
 static_assert(std::endian::native == std::endian::little, "messages are copied as they lie in memory");
 
-// In the order of RunTail, so that a message is its bytes.
+// In the order of RunTail, so that a message is its bytes. Words of IDL ("module") are no names in it.
 const std::string_view kRunIdl =
     "module indurop {\n"
     "  struct Run {\n"
@@ -28,7 +28,7 @@ const std::string_view kRunIdl =
     "    long long release_ns;\n"
     "    long long start_ns;\n"
     "    long long end_ns;\n"
-    "    unsigned long module;\n"
+    "    unsigned long module_index;\n"
     "    boolean faulted;\n"
     "    boolean anew;\n"
     "  };\n"
