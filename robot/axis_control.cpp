@@ -19,21 +19,26 @@ std::int32_t counts(double value) noexcept {
 
 }  // namespace
 
-void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute) noexcept {
+void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
+                         CommandTable* table) noexcept {
   lower_ = axis.lower;
   upper_ = axis.upper;
   endless_ = axis.endless;
   most_ = limits;
   scale_ = scale;
   homed_ = absolute;
+  table_ = table;
 }
 
 LineLimits AxisControl::limits(double hardness) const noexcept {
   return {most_.velocity, most_.acceleration * hardness, most_.jerk * hardness * hardness};
 }
 
-void AxisControl::sense(const DriveIn& in) noexcept {
+void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
+  const double before = measured_;
   measured_ = in.position / scale_.counts;
+  measured_speed_ = sensed_ ? (measured_ - before) / seconds : 0;
+  sensed_ = true;
   placed_anew_ = state_ == AxisState::Homing;
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
     motion_.reset({measured_, 0, 0});  // a drive without power is where it is
@@ -42,6 +47,7 @@ void AxisControl::sense(const DriveIn& in) noexcept {
       fail(ErrorCode::Drive, 1);
     } else if (state_ != AxisState::ErrorStop) {
       state_ = AxisState::Disabled;
+      release_stop();
     }
   } else if (state_ == AxisState::Disabled) {
     state_ = AxisState::Standstill;
@@ -53,11 +59,16 @@ bool AxisControl::busy() const noexcept {
          state_ == AxisState::Stopping || state_ == AxisState::Homing;
 }
 
-void AxisControl::finish(ErrorCode code) noexcept {
-  if (active_) {
-    (code == ErrorCode::Ok ? report_.done : report_.aborted) = report_.acknowledged;
+void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
+  if (owner.ticket == kNobody && code == ErrorCode::Ok) {
+    return;
   }
-  active_ = false;
+  if (owner.ticket == kRequest) {
+    (code == ErrorCode::Ok ? report_.done : report_.aborted) = report_.acknowledged;
+  } else if (owner.ticket != kNobody) {
+    table_->end(owner.ticket, code);
+  }
+  owner = {};
   report_.error = code == ErrorCode::Aborted ? report_.error : code;
 }
 
@@ -71,66 +82,26 @@ void AxisControl::serve(const AxisRequest& request, bool group_moves) noexcept {
   if (request.number == report_.acknowledged) {
     return;
   }
-  finish(ErrorCode::Aborted);
+  for (Owner* owner : {&admin_, &motion_owner_}) {
+    if (owner->ticket == kRequest) {
+      finish(*owner, ErrorCode::Aborted);
+    }
+  }
   report_.acknowledged = request.number;
-  active_ = true;
-  waited_ = 0;
-  service_ = static_cast<AxisService>(request.code);
-  if (group_moves && service_ != AxisService::Reset && service_ != AxisService::PowerOn) {
-    finish(ErrorCode::State);
+  const auto service = static_cast<AxisService>(request.code);
+  if (group_moves && service != AxisService::Reset && service != AxisService::PowerOn) {
+    Owner owner{kRequest, service};
+    finish(owner, ErrorCode::State);
     return;
   }
   report_.error = state_ == AxisState::ErrorStop ? report_.error : ErrorCode::Ok;
-  begin(request);
-}
-
-void AxisControl::begin(const AxisRequest& request) noexcept {
-  ErrorCode code = ErrorCode::Ok;
-  switch (service_) {
-    case AxisService::None:
-      finish(ErrorCode::Ok);
-      return;
-    case AxisService::PowerOn:
-      code = state_ == AxisState::ErrorStop ? ErrorCode::State : ErrorCode::Ok;
-      want_power_ = want_power_ || code == ErrorCode::Ok;
-      break;
-    case AxisService::PowerOff:
-      motion_.stop(limits(1));
-      break;
-    case AxisService::Home:
-      code = begin_home();
-      break;
-    case AxisService::MoveAbsolute:
-    case AxisService::MoveRelative:
-    case AxisService::MoveVelocity:
-      code = begin_motion(request, service_);
-      break;
-    case AxisService::Stop:
-      code = drive_.enabled() && state_ != AxisState::ErrorStop ? ErrorCode::Ok : ErrorCode::State;
-      if (code == ErrorCode::Ok) {
-        motion_.stop(limits(1));
-        state_ = AxisState::Stopping;
-      }
-      break;
-    case AxisService::Reset:
-      if (state_ != AxisState::ErrorStop && !drive_.faulty()) {
-        finish(ErrorCode::Ok);  // there is nothing to reset
-      }
-      return;
-    default:
-      code = ErrorCode::Opcode;
-  }
-  if (code != ErrorCode::Ok) {
-    finish(code);
-  }
-}
-
-ErrorCode AxisControl::begin_home() noexcept {
-  if (!drive_.enabled() || state_ != AxisState::Standstill) {
-    return ErrorCode::State;
-  }
-  home();
-  return ErrorCode::Ok;
+  Command command;
+  command.code = request.code;
+  command.to[0] = request.position;
+  command.velocity = request.velocity;
+  command.acceleration = request.acceleration;
+  command.jerk = request.jerk;
+  order(kRequest, command);
 }
 
 void AxisControl::home() noexcept {
@@ -140,47 +111,13 @@ void AxisControl::home() noexcept {
   drive_.home(true);
 }
 
-ErrorCode AxisControl::begin_motion(const AxisRequest& request, AxisService service) noexcept {
-  if (!drive_.enabled() || state_ == AxisState::ErrorStop || state_ == AxisState::Homing ||
-      state_ == AxisState::Stopping) {
-    return ErrorCode::State;
-  }
-  const auto chosen = [this](double wanted, double most) {
-    return wanted == 0 ? most : std::min(wanted * scale_.unit, most);
-  };
-  const bool to_velocity = service == AxisService::MoveVelocity;
-  const double speed = to_velocity ? std::abs(request.velocity) : request.velocity;
-  if (!std::isfinite(request.position) || !(speed >= 0 && request.acceleration >= 0 && request.jerk >= 0) ||
-      !std::isfinite(request.velocity)) {
-    return ErrorCode::Value;
-  }
-  const LineLimits wanted{chosen(speed, most_.velocity), chosen(request.acceleration, most_.acceleration),
-                          chosen(request.jerk, most_.jerk)};
-  if (to_velocity) {
-    motion_.move_with(request.velocity < 0 ? -wanted.velocity : wanted.velocity, wanted);
-    state_ = AxisState::ContinuousMotion;
-    return ErrorCode::Ok;
-  }
-  const bool relative = service == AxisService::MoveRelative;
-  if (!relative && !homed_) {
-    return ErrorCode::NotHomed;
-  }
-  const double target = request.position * scale_.unit + (relative ? motion_.state().position : 0);
-  if (!endless_ && !(target >= lower_ - 1e-9 && target <= upper_ + 1e-9)) {
-    return ErrorCode::JointLimit;
-  }
-  motion_.move_to(target, wanted);
-  state_ = AxisState::DiscreteMotion;
-  return ErrorCode::Ok;
-}
-
 void AxisControl::wait_for_power(double seconds) noexcept {
   waited_ += seconds;
   if (drive_.enabled()) {
-    finish(ErrorCode::Ok);
+    finish(admin_, ErrorCode::Ok);
   } else if (waited_ > kPowerTime) {
     want_power_ = false;
-    finish(drive_.faulty() ? ErrorCode::Drive : ErrorCode::Power);
+    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Power);
   }
 }
 
@@ -194,7 +131,7 @@ void AxisControl::wait_for_reset(double seconds) noexcept {
   }
   waited_ += seconds;
   if (!drive_.faulty() || waited_ > kPowerTime) {
-    finish(drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
+    finish(admin_, drive_.faulty() ? ErrorCode::Drive : ErrorCode::Ok);
   }
 }
 
@@ -207,8 +144,11 @@ void AxisControl::move_home(double seconds) noexcept {
   drive_.home(false);
   homed_ = !failed;
   motion_.reset({measured_, 0, 0});
+  if (failed) {
+    abort_queue();
+  }
   state_ = failed ? AxisState::ErrorStop : AxisState::Standstill;
-  finish(failed ? ErrorCode::NotHomed : ErrorCode::Ok);
+  end_motion(failed ? ErrorCode::NotHomed : ErrorCode::Ok);
 }
 
 // A motion without target must not run into the end of the axis.
@@ -220,14 +160,16 @@ void AxisControl::guard_limits(double seconds) noexcept {
   const bool ends =
       !endless_ && ((now.velocity > 0 && rest > upper_ - margin) || (now.velocity < 0 && rest < lower_ + margin));
   if (ends) {
-    finish(ErrorCode::JointLimit);
+    abort_queue();
+    finish(motion_owner_, ErrorCode::JointLimit);
     motion_.stop(limits(1));
     state_ = AxisState::Stopping;
   }
 }
 
 void AxisControl::move(double seconds) noexcept {
-  if (active_ && service_ == AxisService::PowerOn) {
+  look_at_commands();
+  if (admin_.service == AxisService::PowerOn) {
     wait_for_power(seconds);
   }
   if (state_ == AxisState::Homing) {
@@ -235,34 +177,61 @@ void AxisControl::move(double seconds) noexcept {
     return;
   }
   motion_.step(seconds);
-  if (active_ && service_ == AxisService::PowerOff && motion_.at_rest()) {
-    want_power_ = false;
-    finish(ErrorCode::Ok);
+  // What passes its end goes on with the next one, several times if they are short.
+  for (int i = 0; motion_.passed() && i < CommandTable::kMost; ++i) {
+    const double rest = motion_.rest_of_step();
+    end_motion(ErrorCode::Ok);
+    motion_.step(rest);
   }
-  if (active_ && service_ == AxisService::Reset) {
+  if (admin_.service == AxisService::PowerOff && motion_.at_rest()) {
+    want_power_ = false;
+    finish(admin_, ErrorCode::Ok);
+  }
+  if (admin_.service == AxisService::Reset) {
     wait_for_reset(seconds);
   }
-  report_.in_velocity = state_ == AxisState::ContinuousMotion && motion_.done();
-  if (state_ == AxisState::ContinuousMotion) {
-    if (report_.in_velocity && active_) {
-      finish(ErrorCode::Ok);
-    }
+  const bool goes_on = state_ == AxisState::ContinuousMotion;
+  report_.in_velocity = goes_on && motion_.done();
+  if (goes_on) {
+    note_velocity();
     guard_limits(seconds);
-  } else if ((state_ == AxisState::DiscreteMotion || state_ == AxisState::Stopping) && motion_.at_rest()) {
+  } else if (state_ == AxisState::DiscreteMotion && motion_.at_rest()) {
     state_ = AxisState::Standstill;
-    if (active_) {
-      finish(ErrorCode::Ok);
+    end_motion(ErrorCode::Ok);
+  } else if (state_ == AxisState::Stopping && motion_.at_rest()) {
+    finish(motion_owner_, ErrorCode::Ok);
+    if (stop_ != kNobody && table_->execute(stop_)) {
+      table_->holds(stop_);
+    } else {
+      state_ = AxisState::Standstill;
+      release_stop();
     }
+  }
+}
+
+// A motion without an end: its request ends here, its command when another one takes over.
+void AxisControl::note_velocity() noexcept {
+  if (motion_owner_.ticket == kRequest && report_.in_velocity) {
+    finish(motion_owner_, ErrorCode::Ok);
+  } else if (motion_owner_.ticket != kNobody && motion_owner_.ticket != kRequest) {
+    table_->reached(motion_owner_.ticket, report_.in_velocity);
+  }
+  if (report_.in_velocity && queued_ > 0) {
+    end_motion(ErrorCode::Aborted);
   }
 }
 
 void AxisControl::follow(const LineState& state) noexcept {
   motion_.reset(state);
+  release_stop();
   state_ = AxisState::SynchronizedMotion;
 }
 
 void AxisControl::fail(ErrorCode code, double hardness) noexcept {
-  finish(code);
+  finish(admin_, code);
+  finish(motion_owner_, code);
+  abort_queue();
+  release_stop();
   drive_.home(false);
   if (!motion_.at_rest()) {
     motion_.stop(limits(hardness));
@@ -293,9 +262,17 @@ DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
 AxisReport AxisControl::report() const noexcept {
   AxisReport report = report_;
   report.state = state_;
-  report.power = drive_.enabled() && !(active_ && service_ == AxisService::PowerOn);
+  report.power = drive_.enabled() && admin_.service != AxisService::PowerOn;
   report.homed = homed_;
-  report.position = measured_ / scale_.unit;
+  report.position = (measured_ - origin_) / scale_.unit;
+  report.command = (motion_.state().position - origin_) / scale_.unit;
+  report.acceleration = motion_.state().acceleration / scale_.unit;
+  report.measured_velocity = measured_speed_ / scale_.unit;
+  report.lower = (lower_ - origin_) / scale_.unit;
+  report.upper = (upper_ - origin_) / scale_.unit;
+  report.most_velocity = most_.velocity / scale_.unit;
+  report.most_acceleration = most_.acceleration / scale_.unit;
+  report.most_jerk = most_.jerk / scale_.unit;
   report.velocity = motion_.state().velocity / scale_.unit;
   return report;
 }

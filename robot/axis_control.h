@@ -6,6 +6,7 @@
 
 #include "robot/arm.h"
 #include "robot/axis_motion.h"
+#include "robot/command_table.h"
 #include "robot/drive.h"
 #include "robot/errors.h"
 
@@ -19,12 +20,15 @@ class AxisControl {
     double unit = kPi / 180;  // what its users count in: degrees or millimetres
   };
   AxisControl() = default;
-  void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute) noexcept;
+  void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
+              CommandTable* table) noexcept;
 
   // What the drive says, at the start of a period. Real-time safe, as all the rest.
-  void sense(const DriveIn& in) noexcept;
+  void sense(const DriveIn& in, double seconds) noexcept;
   // A new request, if its number is another one. `group_moves`: the axis is not free.
   void serve(const AxisRequest& request, bool group_moves) noexcept;
+  // A command from the table (axis_orders.cpp).
+  void take(int ticket, bool group_moves) noexcept;
   // Goes on with its own motion.
   void move(double seconds) noexcept;
   // Follows the group.
@@ -38,14 +42,17 @@ class AxisControl {
   // What the drive is told.
   [[nodiscard]] DriveOut command(const DriveIn& in, bool quick_stop) noexcept;
 
-  // Part of the speed of its own motions, from 0 (it holds) to 1.
+  // Part of the speed of its own motions, from 0 (it holds) to 1; of the accelerations and jerks of those that begin.
   void set_override(double part) noexcept { motion_.set_override(part); }
+  void set_factors(double acceleration, double jerk) noexcept;
   void power(bool on) noexcept { want_power_ = on; }
   // Homes on the group's behalf.
   void home() noexcept;
   // Comes to rest by itself and stays in ErrorStop until reset().
   void fail(ErrorCode code, double hardness) noexcept;
   void stop(double hardness) noexcept { motion_.stop(limits(hardness)); }
+  // Comes to rest by itself, whatever it was asked for.
+  void halt() noexcept;
   // Leaves ErrorStop; a fault of the drive is acknowledged.
   void reset() noexcept;
 
@@ -62,14 +69,42 @@ class AxisControl {
   [[nodiscard]] AxisReport report() const noexcept;
 
  private:
-  void begin(const AxisRequest& request) noexcept;
-  ErrorCode begin_motion(const AxisRequest& request, AxisService service) noexcept;
-  ErrorCode begin_home() noexcept;
-  void finish(ErrorCode code) noexcept;
+  // Who waits for the end of something: a place in the table, or the request.
+  static constexpr int kNobody = CommandTable::kNone;
+  static constexpr int kRequest = -2;
+  struct Owner {
+    int ticket = kNobody;
+    AxisService service = AxisService::None;
+  };
+  // A motion as it was asked for, in radians or metres.
+  struct Order {
+    double target = 0;  // position or velocity
+    LineLimits limits, braking;
+  };
+
+  void order(int ticket, const Command& command) noexcept;
+  void administer(int ticket, AxisService service) noexcept;
+  void stop_for(int ticket, const Command& command) noexcept;
+  void set_position(int ticket, const Command& command) noexcept;
+  void queue(int ticket, const Command& command) noexcept;
+  [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
+  [[nodiscard]] ErrorCode resolve(const Command& command, double from, Order& order) const noexcept;
+  [[nodiscard]] double turned(double target, double from, Direction direction) const noexcept;
+  void begin(int ticket, const Command& command) noexcept;
+  void begin_motion(AxisService service, const Order& order) noexcept;
+  void begin_next() noexcept;
+  void abort_queue() noexcept;
+  void choose_passing() noexcept;
+  void look_at_commands() noexcept;
+  void release_stop() noexcept;
+  void end_motion(ErrorCode code) noexcept;
+
+  void finish(Owner& owner, ErrorCode code) noexcept;
   void move_home(double seconds) noexcept;
   void wait_for_power(double seconds) noexcept;
   void wait_for_reset(double seconds) noexcept;
   void guard_limits(double seconds) noexcept;
+  void note_velocity() noexcept;
   [[nodiscard]] LineLimits limits(double hardness) const noexcept;
 
   double lower_ = 0, upper_ = 0;
@@ -80,13 +115,23 @@ class AxisControl {
   AxisMotion motion_;
   AxisState state_ = AxisState::Disabled;
   double measured_ = 0;
+  double measured_speed_ = 0;
+  bool sensed_ = false;
   bool want_power_ = false;
   bool homed_ = true;
   bool placed_anew_ = true;
-  bool first_ = true;    // before the first request was looked at
-  bool active_ = false;  // a request is on its way
-  double waited_ = 0;    // s, for power or home
-  AxisService service_ = AxisService::None;
+  bool first_ = true;  // before the first request was looked at
+  double waited_ = 0;  // s, for power or home
+  double origin_ = 0;  // of the positions that single axes are told, from the drive's
+  double acceleration_factor_ = 1, jerk_factor_ = 1;
+  CommandTable* table_ = nullptr;
+  Owner admin_;          // of power and reset
+  Owner motion_owner_;   // of the motion on its way
+  int stop_ = kNobody;   // the stop that holds the axis
+  double began_at_ = 0;  // where the motion on its way began
+  double added_to_ = 0;  // what MoveAdditive adds to
+  std::array<int, CommandTable::kMost> queue_{};
+  int queued_ = 0;
   AxisReport report_;
 };
 

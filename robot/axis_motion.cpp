@@ -16,14 +16,24 @@ void AxisMotion::reset(const LineState& state) noexcept {
   state_ = state;
   profile_ = Profile::coast(state);
   goal_ = Goal::Rest;
+  passing_ = passed_ = false;
   time_ = 0;
 }
 
-void AxisMotion::move_to(double position, const LineLimits& limits) noexcept {
+void AxisMotion::move_to(double position, const LineLimits& limits, const LineLimits& braking) noexcept {
   goal_ = Goal::Position;
   target_ = position;
   limits_ = limits;
+  braking_ = braking;
+  arrival_ = 0;
   plan();
+}
+
+void AxisMotion::pass_with(double velocity) noexcept {
+  if (goal_ == Goal::Position && velocity != arrival_) {
+    arrival_ = velocity;
+    plan();
+  }
 }
 
 void AxisMotion::move_with(double velocity, const LineLimits& limits) noexcept {
@@ -55,19 +65,66 @@ bool AxisMotion::held() const noexcept {
 
 void AxisMotion::plan() noexcept {
   time_ = 0;
+  passing_ = passed_ = false;
   if (goal_ == Goal::Rest || held()) {
     profile_ = Profile::to_velocity(state_, 0, limits_);
   } else if (goal_ == Goal::Velocity) {
     profile_ = Profile::to_velocity(state_, override_ * target_, limits_);
-  } else {
-    profile_ = Profile::to_rest(state_, target_, {override_ * limits_.velocity, limits_.acceleration, limits_.jerk});
+  } else if (!plan_pass()) {
+    profile_ =
+        Profile::to_rest(state_, target_, {override_ * limits_.velocity, limits_.acceleration, limits_.jerk}, braking_);
   }
+}
+
+// Where it is to be faster than on its way, it gets so just before the end. False: that way does not lead through the
+// position, so it ends there.
+bool AxisMotion::plan_pass() noexcept {
+  const double length = std::abs(target_ - state_.position);
+  const double sign = target_ < state_.position ? -1 : 1;
+  const double arrival = override_ * arrival_;
+  if (arrival <= 0 || sign * state_.velocity < 0) {
+    return false;
+  }
+  const LineState from{0, sign * state_.velocity, sign * state_.acceleration};
+  LineLimits limits = limits_;
+  limits.velocity *= override_;
+  const LineState cruising{0, limits.velocity, 0};
+  const LineLimits most{std::max(arrival, limits.velocity), limits.acceleration, limits.jerk};
+  const double gaining = arrival > limits.velocity ? ramp(cruising, arrival, most).distance : 0;
+  const bool room = ramp(from, limits.velocity, limits).distance + gaining <= length;
+  profile_ = room ? Profile::to_position(from, length - gaining, std::min(arrival, limits.velocity), limits, braking_)
+                  : Profile::to_position(from, length, arrival, most, braking_);
+  if (profile_.overshoots()) {
+    return false;
+  }
+  passing_ = true;
+  base_ = state_.position;
+  sign_ = sign;
+  faster_ = room && gaining > 0 ? Profile::to_velocity(profile_.end(), arrival, most) : Profile::coast(profile_.end());
+  return true;
+}
+
+LineState AxisMotion::on_profile(double time) const noexcept {
+  if (!passing_) {
+    return profile_.at(time);
+  }
+  const LineState way = time < profile_.duration() ? profile_.at(time) : faster_.at(time - profile_.duration());
+  return {base_ + sign_ * way.position, sign_ * way.velocity, sign_ * way.acceleration};
 }
 
 void AxisMotion::step(double seconds) noexcept {
   time_ += seconds;
-  state_ = profile_.at(time_);
-  if (goal_ == Goal::Position && done()) {
+  const double end = profile_.duration() + faster_.duration();
+  if (passing_ && time_ >= end) {
+    state_ = on_profile(end);
+    state_.position = target_;
+    left_over_ = time_ - end;
+    time_ = end;
+    passed_ = true;
+    return;
+  }
+  state_ = on_profile(time_);
+  if (goal_ == Goal::Position && !passing_ && done()) {
     goal_ = Goal::Rest;  // it is there
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of a single axis by itself: to a position, on and on with a velocity, to rest; each from whatever it is doing.
-// An override slows it down at any moment, to rest at 0, and it goes on when that ends.
+// Motion of a single axis by itself: to a position, also through it with a velocity, on and on with a velocity, to
+// rest; each from whatever it is doing. An override slows it down at any moment, to rest at 0, and it goes on when that
+// ends.
 
 #pragma once
 
@@ -13,7 +14,11 @@ class AxisMotion {
   // Moving on like this, with nothing to do. Real-time safe, as all here.
   void reset(const LineState& state) noexcept;
   // As fast as the limits allow, also where the way is too short or backwards.
-  void move_to(double position, const LineLimits& limits) noexcept;
+  void move_to(double position, const LineLimits& limits, const LineLimits& braking) noexcept;
+  void move_to(double position, const LineLimits& limits) noexcept { move_to(position, limits, limits); }
+  // On the way to a position: passes it with a velocity in the direction it has there, not above the axis' own. 0:
+  // comes to rest there.
+  void pass_with(double velocity) noexcept;
   void move_with(double velocity, const LineLimits& limits) noexcept;
   void stop(const LineLimits& limits) noexcept;
   // Part of the speed of motions, from 0 to 1; stops are not slowed down.
@@ -21,20 +26,36 @@ class AxisMotion {
 
   void step(double seconds) noexcept;
 
+  // Position or velocity it goes to, and how fast at most.
+  [[nodiscard]] double target() const noexcept { return target_; }
+  [[nodiscard]] double speed() const noexcept { return limits_.velocity; }
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
   [[nodiscard]] bool done() const noexcept { return !held() && time_ >= profile_.duration(); }
-  [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0; }
+  [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0 && !passed_; }
+  // It is exactly at the position that it passes; `rest_of_step()` seconds of the last step are left.
+  [[nodiscard]] bool passed() const noexcept { return passed_; }
+  [[nodiscard]] double rest_of_step() const noexcept { return left_over_; }
 
  private:
   enum class Goal { Rest, Position, Velocity };
 
   [[nodiscard]] bool held() const noexcept;
   void plan() noexcept;
+  bool plan_pass() noexcept;
+  [[nodiscard]] LineState on_profile(double time) const noexcept;
 
   Goal goal_ = Goal::Rest;
   double target_ = 0;  // position or velocity
-  LineLimits limits_;
+  LineLimits limits_, braking_;
+  double arrival_ = 0;  // what the position is passed with, in the direction of the way there
+  bool passing_ = false;
+  bool passed_ = false;
+  double left_over_ = 0;
+  // While it passes a position the profile is a way ahead of `base_`, in the direction of `sign_`; `faster_` follows on
+  // it.
+  double base_ = 0, sign_ = 1;
+  Profile faster_;
   double override_ = 1;
   Profile profile_;
   double time_ = 0;

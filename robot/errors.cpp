@@ -53,6 +53,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "there is no job to go on with; start one";
     case ErrorCode::Away:
       return "the robot is too far from where its job left the path; bring it back there, or start the job anew";
+    case ErrorCode::Full:
+      return "there are more commands than there is room for";
   }
   return "unknown error";
 }

@@ -30,7 +30,7 @@ Group::Group(GroupParts parts)
   for (int i = 0; i < count(); ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
-    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute);
+    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute, &table_);
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }
@@ -54,6 +54,7 @@ Joints Group::commanded() const noexcept {
 void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   sense(in);
   watch(in);
+  serve_commands(in);
   if (in.requests_known) {
     serve(in.service, in.edit);
     for (int i = 0; i < count(); ++i) {
@@ -71,20 +72,9 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   report(out);
 }
 
-// Hold and override, of the path and of axes that move by themselves.
-void Group::set_pace(const Inputs& in) noexcept {
-  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
-  const double part = sane ? in.speed_override / 100 : 0;
-  follower_.set_override(part);
-  follower_.set_hold(in.hold);
-  for (AxisControl& a : axes()) {
-    a.set_override(in.hold ? 0 : part);
-  }
-}
-
 void Group::sense(const Inputs& in) noexcept {
   for (int i = 0; i < count(); ++i) {
-    axes_[at(i)].sense(in.drives[at(i)]);
+    axes_[at(i)].sense(in.drives[at(i)], period_);
   }
   emergency_ = in.emergency;
 }
@@ -123,10 +113,12 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   finish_service(code, axis);
   error_ = code;
   error_axis_ = axis;
+  drop_motions(code);
   forget_plans();
   enabling_ = false;
   state_ = GroupState::Stopping;
   to_error_ = true;
+  release_stop();
   hardness_ = hardness;
   const bool cut = code == ErrorCode::Emergency && parts_.settings.emergency_category == StopCategory::Category0;
   for (AxisControl& a : axes()) {
@@ -156,6 +148,10 @@ void Group::leave_path(ErrorCode code, double hardness) noexcept {
 }
 
 void Group::motion_failed(Fault fault, int source) noexcept {
+  if (source < 0) {
+    fail_motions(-source - 1, fault.code);
+    return;
+  }
   const bool job = job_.running();
   job_.fail(fault, to_string(fault.code), source);
   finish_service(fault.code, fault.axis);
@@ -210,6 +206,8 @@ void Group::come_to_standby() noexcept {
   state_ = GroupState::Standby;
   on_path_ = true;
   job_moves_ = false;
+  interrupted_ = false;
+  end_interrupt(ErrorCode::Ok);
   for (AxisControl& a : axes()) {
     if (a.state() == AxisState::SynchronizedMotion) {
       a.rest();
@@ -291,12 +289,18 @@ void Group::run_motion(Signals& signals) noexcept {
       return;
     }
     begin_next(ahead_.count() > before);
+  } else if (motion_count_ > 0) {
+    feed_motions();
+    begin_next(false);
   }
   take_plan();
   follow_path();
+  if (state_ == GroupState::Moving) {
+    note_progress();
+  }
   if (state_ == GroupState::Moving && settled() && return_ != Return::None) {
     end_return();
-  } else if (state_ == GroupState::Moving && settled() && !job_.running()) {
+  } else if (state_ == GroupState::Moving && settled() && !job_.running() && motion_count_ == 0) {
     come_to_standby();
     finish_service(error_);
   }
@@ -325,10 +329,14 @@ void Group::run_stopping() noexcept {
       a.power(false);
     }
     finish_service(ErrorCode::Ok);
+  } else if (stop_ != CommandTable::kNone && table_.execute(stop_)) {
+    table_.holds(stop_);
+    return;
   } else {
     come_to_standby();
     finish_service(ErrorCode::Ok);
   }
+  release_stop();
   to_error_ = to_disabled_ = false;
   on_path_ = true;
 }
@@ -373,21 +381,15 @@ void Group::begin_next(bool more) noexcept {
   const ReadAhead::Next next = ahead_.next(from, more);
   if (next.chain != nullptr) {
     passed_known_ = 0;  // no step back goes over it
+    asked_ = next.chain->source_at(0);
     PlanRequest request{{}, next.chain, from, !follower_.idle()};
     request.command.ticket = next.ticket;
     ask_for_plan(request);
   } else if (next.command != nullptr) {
+    asked_ = next.command->source;
     passed_[passed_count_++ % passed_.size()] = {*next.command, from};
-    passed_known_ = std::min(passed_known_ + 1, passed_.size());
+    passed_known_ = asked_ < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
     ask_for_plan({*next.command, nullptr, from, !follower_.idle()});
-  }
-}
-
-void Group::forget_plans() noexcept {
-  desk_.forget();
-  return_ = Return::None;
-  if (!aside_) {
-    ahead_.clear();
   }
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "robot/axis_control.h"
+#include "robot/command_table.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
 #include "robot/planning_desk.h"
@@ -39,7 +40,7 @@ class Group final : public Controller, private MotionPort {
  private:
   // Services (group_services.cpp).
   void serve(const ServiceRequest& request, bool edit) noexcept;
-  void begin_service(const ServiceRequest& request) noexcept;
+  void begin_service(Service service, const ServiceRequest& request) noexcept;
   ErrorCode begin(Service service, const ServiceRequest& request) noexcept;
   ErrorCode enable() noexcept;
   ErrorCode disable() noexcept;
@@ -62,9 +63,39 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] double speed_back(const Joints& to) const noexcept;
   void finish_service(ErrorCode code, int axis = 0) noexcept;
 
+  // Commands (group_commands.cpp).
+  void serve_commands(const Inputs& in) noexcept;
+  void take(int ticket) noexcept;
+  void administer(int ticket, Service service) noexcept;
+  void stop_for(int ticket) noexcept;
+  void release_stop() noexcept;
+  void interrupt(int ticket) noexcept;
+  void go_on(int ticket) noexcept;
+  void end_interrupt(ErrorCode code) noexcept;
+  ErrorCode set_transform(const Command& command) noexcept;
+
+  // Motions by commands (group_motions.cpp).
+  static Pose pose_of(const std::array<double, 8>& numbers) noexcept;
+  [[nodiscard]] Pose pose_of(const std::array<double, 8>& numbers, const Command& command,
+                             const Pose& from) const noexcept;
+  [[nodiscard]] Joints joints_of_axes(const std::array<double, 8>& numbers) const noexcept;
+  ErrorCode make_target(const Command& command, const std::array<double, 8>& numbers, Target& target) const noexcept;
+  ErrorCode make_circle(const Command& command, MoveCommand& move) const noexcept;
+  ErrorCode make_motion(int ticket, MoveCommand& move) const noexcept;
+  void queue_motion(int ticket) noexcept;
+  void begin_moving() noexcept;
+  void replace_motions(int ticket) noexcept;
+  [[nodiscard]] double zone_of(int i) const noexcept;
+  void feed_motions() noexcept;
+  void halt(int ticket) noexcept;
+  void note_progress() noexcept;
+  void end_first(int many, ErrorCode code) noexcept;
+  void fail_motions(int ticket, ErrorCode code) noexcept;
+  void drop_motions(ErrorCode first) noexcept;
+
   // States (group.cpp).
   void sense(const Inputs& in) noexcept;
-  void set_pace(const Inputs& in) noexcept;
+  void set_pace(const Inputs& in) noexcept;  // group_commands.cpp
   void watch(const Inputs& in) noexcept;
   void trip(ErrorCode code, int axis, double hardness) noexcept;
   void leave_path(ErrorCode code, double hardness) noexcept;
@@ -108,9 +139,11 @@ class Group final : public Controller, private MotionPort {
 
   void report(Outputs& out) noexcept;  // group_report.cpp
   void report_motion(Outputs& out) noexcept;
+  void report_tool(const Twist& moved, Outputs& out) noexcept;
 
   GroupParts parts_;
   ToolSet tools_;
+  CommandTable table_;
   Places places_;
   int tool_ = 0;
   Follower follower_;
@@ -150,6 +183,19 @@ class Group final : public Controller, private MotionPort {
   std::size_t passed_known_ = 0;  // the last ones of them, which were not overwritten
   double waited_ = 0;
 
+  // Commands: who waits for the service (kNone: the request), for the stop, for the interruption.
+  int ticket_ = CommandTable::kNone;
+  int stop_ = CommandTable::kNone;
+  int interrupt_ = CommandTable::kNone;
+  int later_ = CommandTable::kNone;  // waits for the planning thread
+  bool interrupted_ = false;
+  std::array<int, CommandTable::kMost> motions_{};
+  int motion_count_ = 0;
+  int fed_ = 0;    // so many have been given to the planner
+  int asked_ = 0;  // MoveCommand::source of what is being planned
+  Pose ahead_of_;  // where the next motion begins
+  Pose product_;   // the product's coordinates
+
   // The request that is being served.
   bool first_ = true;
   bool active_ = false;
@@ -160,6 +206,7 @@ class Group final : public Controller, private MotionPort {
   std::uint32_t acknowledged_ = 0;
   std::uint32_t done_ = 0;
   Pose last_pose_;
+  Twist last_moved_ = Twist::Zero();
   Joints last_command_ = Joints::Zero();
   Joints last_speed_ = Joints::Zero();
   bool emergency_ = false;

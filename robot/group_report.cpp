@@ -22,6 +22,7 @@ void Group::report(Outputs& out) noexcept {
   for (std::size_t i = 0; i < kJoints; ++i) {
     out.axes[i] = axes_[i].report();
   }
+  out.commands = table_.answers();
   report_motion(out);
 }
 
@@ -36,6 +37,7 @@ void Group::report_motion(Outputs& out) noexcept {
     out.joints[k] = axes_[k].measured() / unit;
     out.command[k] = now[i] / unit;
     out.speed[k] = axes_[k].commanded().velocity / unit;
+    out.acceleration[k] = axes_[k].commanded().acceleration / unit;
   }
   const Vec3 rpy = to_rpy(pose.orientation);
   for (int i = 0; i < 3; ++i) {
@@ -45,11 +47,38 @@ void Group::report_motion(Outputs& out) noexcept {
     out.velocity[k] = 1000 * moved[i];
     out.turning[k] = degrees(moved[i + 3]);
   }
+  report_tool(moved, out);
   out.tool_speed = 1000 * moved.head<3>().norm();
   out.path_speed = 100 * follower_.speed();
   out.to_go = follower_.to_go();
   last_pose_ = pose;
   last_command_ = now;
+}
+
+void Group::report_tool(const Twist& moved, Outputs& out) noexcept {
+  Joints measured = Joints::Zero();
+  for (int i = 0; i < count(); ++i) {
+    measured[i] = axes_[static_cast<std::size_t>(i)].measured();
+  }
+  const Pose tool = places_.arm().forward(measured);
+  const Twist change = (moved - last_moved_) / period_;
+  last_moved_ = moved;
+  const auto tell = [&](const Pose& pose, const Quat& turn, ToolReport& report) {
+    const Vec3 rpy = to_rpy(pose.orientation);
+    const auto put = [](const Vec3& metres, const Vec3& angle, std::array<double, 6>& to) {
+      for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        to[k] = 1000 * metres[i];
+        to[k + 3] = degrees(angle[i]);
+      }
+    };
+    put(pose.position, rpy, report.position);
+    put(turn * moved.head<3>(), turn * moved.tail<3>(), report.velocity);
+    put(turn * change.head<3>(), turn * change.tail<3>(), report.acceleration);
+  };
+  const Quat back = product_.orientation.conjugate();
+  tell(tool, Quat::Identity(), out.machine);
+  tell({back * (tool.position - product_.position), back * tool.orientation}, back, out.product);
 }
 
 }  // namespace indurop::robot

@@ -41,11 +41,14 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   }
   acknowledged_ = request.number;
   by_edit_ = !numbered;
-  begin_service(request);
+  if (active_ && ticket_ != CommandTable::kNone) {
+    finish_service(ErrorCode::Aborted);
+  }
+  begin_service(asked > Service::JobBack ? static_cast<Service>(-1) : asked, request);
 }
 
-void Group::begin_service(const ServiceRequest& request) noexcept {
-  service_ = static_cast<Service>(request.code);
+void Group::begin_service(Service service, const ServiceRequest& request) noexcept {
+  service_ = service;
   active_ = true;
   motion_done_ = false;
   if (!failed()) {
@@ -62,6 +65,12 @@ void Group::finish_service(ErrorCode code, int axis) noexcept {
     return;
   }
   active_ = false;
+  if (ticket_ != CommandTable::kNone) {
+    table_.end(ticket_, code);
+    ticket_ = CommandTable::kNone;
+    error_axis_ = failed() ? error_axis_ : axis;
+    return;
+  }
   done_ = acknowledged_;
   motion_done_ = code == ErrorCode::Ok;
   edit_done_ = by_edit_;
@@ -105,6 +114,8 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
       return back_job();
     case Service::SelectTool:
       return select_tool(request.tool);
+    default:
+      break;
   }
   return ErrorCode::Opcode;
 }
@@ -216,7 +227,7 @@ ErrorCode Group::may_move() const noexcept {
 }
 
 ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
-  if (!can_plan()) {
+  if (!can_plan() || motion_count_ > 0) {
     return ErrorCode::State;
   }
   if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {

@@ -134,12 +134,12 @@ Profile Profile::to_velocity(const LineState& from, double velocity, const LineL
 
 // First on the ramp to the top speed, then down to the last one: the later it leaves the ramp the farther it comes, and
 // the limits are used up all the way.
-void Profile::append_way(double length, double last, const LineLimits& limits) noexcept {
+void Profile::append_way(double length, double last, const LineLimits& limits, const LineLimits& braking) noexcept {
   const LineState from{0, end_.velocity, end_.acceleration};
   const Ramp up = ramp(from, limits.velocity, limits);
   const auto way = [&](double time) {
     const LineState there = after(up, from, time);
-    return there.position + ramp(there, last, limits).distance;
+    return there.position + ramp(there, last, braking).distance;
   };
   double time = up.duration();
   double cruise = 0;
@@ -158,17 +158,17 @@ void Profile::append_way(double length, double last, const LineLimits& limits) n
     end_.velocity = limits.velocity;
     append(cruise, 0);
   }
-  append(ramp(end_, last, limits));
+  append(ramp(end_, last, braking));
 }
 
-Profile Profile::to_position(const LineState& from, double position, double arrival,
-                             const LineLimits& limits) noexcept {
+Profile Profile::to_position(const LineState& from, double position, double arrival, const LineLimits& limits,
+                             const LineLimits& braking) noexcept {
   const double length = position - from.position;
   double last = std::min(arrival, limits.velocity);
-  const auto straight = [&](double velocity) { return ramp(from, velocity, limits).distance; };
+  const auto straight = [&](double velocity) { return ramp(from, velocity, braking).distance; };
   Profile profile = coast(from);
   if (straight(last) <= length) {
-    profile.append_way(length, last, limits);
+    profile.append_way(length, last, limits, braking);
   } else {
     // Too short to come to the wanted velocity: as near to it as possible, but when slowing down not above `arrival`.
     const double unloaded = velocity_unloaded(from, limits);
@@ -176,7 +176,7 @@ Profile Profile::to_position(const LineState& from, double position, double arri
     nearest = straight(nearest) <= length ? nearest : 0;
     profile.overshoots_ = straight(nearest) > length * (1 + 1e-9) + 1e-12;
     last = straight(nearest) > length ? 0 : just_fitting(nearest, last, length, straight);
-    profile.append(ramp(from, last, limits));
+    profile.append(ramp(from, last, braking));
   }
   if (!profile.overshoots_) {
     profile.end_.position = position;
@@ -185,13 +185,14 @@ Profile Profile::to_position(const LineState& from, double position, double arri
   return profile;
 }
 
-Profile Profile::to_rest(const LineState& from, double position, const LineLimits& limits) noexcept {
+Profile Profile::to_rest(const LineState& from, double position, const LineLimits& limits,
+                         const LineLimits& braking) noexcept {
   const double length = position - from.position;
-  const double stopping = ramp(from, 0, limits).distance;
+  const double stopping = ramp(from, 0, braking).distance;
   // Where it comes to rest if it brakes at once decides in which direction it has to go; the other one in the mirror.
   const double sign = length < stopping ? -1 : 1;
   Profile profile = coast({0, sign * from.velocity, sign * from.acceleration});
-  profile.append_way(std::max(sign * length, sign * stopping), 0, limits);
+  profile.append_way(std::max(sign * length, sign * stopping), 0, limits, braking);
   profile.mirror(sign, from, position);
   return profile;
 }

@@ -47,10 +47,20 @@ class Profile {
   // limit, if that is lower) or, where the way is too short for that, as near to it as possible but never above
   // `arrival`. `from.velocity` is not negative. If the way is too short even for that, it comes to rest as soon as
   // possible behind `position`, and overshoots() says so.
-  static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits) noexcept;
+  // `braking`: of its last ramp.
+  static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits,
+                             const LineLimits& braking) noexcept;
+  static Profile to_position(const LineState& from, double position, double arrival,
+                             const LineLimits& limits) noexcept {
+    return to_position(from, position, arrival, limits, limits);
+  }
 
   // From any velocity and acceleration to rest at `position`, wherever that is, as fast as possible.
-  static Profile to_rest(const LineState& from, double position, const LineLimits& limits) noexcept;
+  static Profile to_rest(const LineState& from, double position, const LineLimits& limits,
+                         const LineLimits& braking) noexcept;
+  static Profile to_rest(const LineState& from, double position, const LineLimits& limits) noexcept {
+    return to_rest(from, position, limits, limits);
+  }
   // What to_rest() made with these limits, but in `duration` by not getting that fast; the same if it takes as long
   // anyway, or where nothing takes just that long.
   [[nodiscard]] Profile slower(const LineLimits& limits, double duration) const noexcept;
@@ -68,7 +78,7 @@ class Profile {
  private:
   void append(const Ramp& ramp) noexcept;
   void append(double duration, double jerk) noexcept;
-  void append_way(double length, double last, const LineLimits& limits) noexcept;
+  void append_way(double length, double last, const LineLimits& limits, const LineLimits& braking) noexcept;
   void mirror(double sign, const LineState& from, double position) noexcept;
 
   LineState start_;

@@ -84,13 +84,56 @@ void write_axes() {
 
 namespace {
 
+void read_commands() {
+  const auto commands = MC_COMMAND.get();
+  for (std::size_t k = 0; k < commands.size(); ++k) {
+    const MC_COMMAND_t& c = commands[k];
+    in.commands[k] = {c.nNumber,
+                      c.eOpCode,
+                      c.nAxis,
+                      c.nUpdates,
+                      static_cast<robot::BufferMode>(c.eBufferMode),
+                      static_cast<robot::Direction>(c.eDirection),
+                      static_cast<robot::CoordSystem>(c.eCoordSystem),
+                      c.nOption,
+                      c.bExecute,
+                      c.nJob,
+                      c.dTo,
+                      c.dAux,
+                      c.dVelocity,
+                      c.dAcceleration,
+                      c.dDeceleration,
+                      c.dJerk,
+                      c.dTransition};
+  }
+  const MC_FACTORS_t factors = MC_FACTORS;
+  if (factors.bSet != 0) {
+    in.factors = {factors.dVelocity, factors.dAcceleration, factors.dJerk, factors.dGroup};
+  } else {
+    in.factors = {};
+  }
+}
+
+void write_tool() {
+  MC_TOOL = {out.machine.position,     out.product.position,     out.machine.velocity, out.product.velocity,
+             out.machine.acceleration, out.product.acceleration, out.acceleration};
+}
+
+void write_answers() {
+  auto answers = lock(MC_ANSWER);
+  for (std::size_t k = 0; k < out.commands.size(); ++k) {
+    const robot::CommandAnswer& a = out.commands[k];
+    answers[k] = {a.number, static_cast<int16_t>(a.state), a.reached, static_cast<uint32_t>(a.error)};
+  }
+}
+
 void read_requests() {
   const ROBOT_MODULE_SERVICE_t service = ROBOT_MODULE_SERVICE;
   in.service = {service.eOpCode,   service.nRequest, service.t_pl, static_cast<double>(service.t_speed),
                 service.p_Target,  service.p_Mid,    service.nJob, service.dTarget,
                 service.dVelocity, service.nLine,    service.nTool};
   in.edit = msgRobotServiceEditNum != 0;
-  in.requests_known = valid(ROBOT_MODULE_SERVICE) && valid(AXIS_SERVICE);
+  in.requests_known = valid(ROBOT_MODULE_SERVICE) && valid(AXIS_SERVICE) && valid(MC_COMMAND);
   const auto axes = AXIS_SERVICE.get();
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const AXIS_SERVICE_t& a = axes[k];
@@ -166,8 +209,24 @@ void write_axis_states() {
   auto axes = lock(AXIS_STATE);
   for (std::size_t k = 0; k < MAX_JOINTS; ++k) {
     const robot::AxisReport& a = out.axes[k];
-    axes[k] = {static_cast<int32_t>(a.state), a.acknowledged, a.done,        a.aborted,  static_cast<uint32_t>(a.error),
-               static_cast<short>(a.power),   a.homed,        a.in_velocity, a.position, a.velocity};
+    axes[k] = {static_cast<int32_t>(a.state),
+               a.acknowledged,
+               a.done,
+               a.aborted,
+               static_cast<uint32_t>(a.error),
+               static_cast<short>(a.power),
+               a.homed,
+               a.in_velocity,
+               a.position,
+               a.velocity,
+               a.command,
+               a.acceleration,
+               a.measured_velocity,
+               a.lower,
+               a.upper,
+               a.most_velocity,
+               a.most_acceleration,
+               a.most_jerk};
   }
 }
 
@@ -232,6 +291,7 @@ void start() {
 void run() {
   read_axes();
   read_requests();
+  read_commands();
   plcRobot->step(in, *signals, out);
   if (out.edit_done) {
     msgRobotServiceEditNum = 0;
@@ -241,6 +301,8 @@ void run() {
   write_arm();
   write_job();
   write_axis_states();
+  write_answers();
+  write_tool();
 }
 
 INDUROP_MODULE(run = &::run, start = &::start, name = "Robot", description = "robot task")

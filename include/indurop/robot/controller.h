@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <indurop/robot/commands.h>
 #include <indurop/robot/words.h>
 
 #include <algorithm>
@@ -101,6 +102,14 @@ struct Inputs {
   ServiceRequest service;
   bool edit = false;  // msgRobotServiceEditNum: a request without a number
   std::array<AxisRequest, kJoints> axes{};
+  Commands commands{};
+  // Parts of speed, acceleration and jerk of single axes; of the speed of the group.
+  struct Factors {
+    AxisNumbers velocity{1, 1, 1, 1, 1, 1, 1, 1};
+    AxisNumbers acceleration{1, 1, 1, 1, 1, 1, 1, 1};
+    AxisNumbers jerk{1, 1, 1, 1, 1, 1, 1, 1};
+    double group = 1;
+  } factors;
   // False while the board that asks has not been heard: a request of the time before is not taken for a new one.
   bool requests_known = true;
   double speed_override = 100;  // %
@@ -120,8 +129,22 @@ struct AxisReport {
   bool power = false;
   bool homed = false;
   bool in_velocity = false;
-  double position = 0;  // deg, measured
-  double velocity = 0;  // deg/s, commanded
+  double position = 0;      // deg, measured
+  double velocity = 0;      // deg/s, commanded
+  double command = 0;       // deg
+  double acceleration = 0;  // deg/s^2, commanded
+  double measured_velocity = 0;
+  // What it can do at most.
+  double lower = 0, upper = 0;
+  double most_velocity = 0, most_acceleration = 0, most_jerk = 0;
+};
+
+// The tool in the coordinates of the machine or of the product: x y z in mm, roll pitch yaw in degrees. Velocity and
+// acceleration are as commanded, turning about the coordinates' axes.
+struct ToolReport {
+  std::array<double, 6> position{};  // measured
+  std::array<double, 6> velocity{};
+  std::array<double, 6> acceleration{};
 };
 
 // The job that runs or ran last; `line` is that of its file, from 1.
@@ -159,6 +182,9 @@ struct Outputs {
   double path_speed = 0;                // % of full speed
   double to_go = 0;                     // s
   std::array<AxisReport, kJoints> axes{};
+  CommandAnswers commands{};
+  ToolReport machine, product;
+  AxisNumbers acceleration{};  // deg/s^2, commanded
   JobReport job;
   std::uint32_t tool = 0;      // held now; 0: none
   const char* tool_name = "";  // lives as long as the controller

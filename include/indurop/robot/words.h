@@ -41,7 +41,16 @@ enum class Service : std::int32_t {
   DirectAborting,
   SelectTool,
   JobResume,
-  JobBack
+  JobBack,
+  // The others by commands only.
+  DirectRelative,
+  LinearRelative,
+  CircularAbsolute,
+  CircularRelative,
+  Halt,
+  Interrupt,
+  Continue,
+  SetTransform
 };
 
 // Services of one axis.
@@ -54,7 +63,10 @@ enum class AxisService : std::int32_t {
   MoveRelative,
   MoveVelocity,
   Stop,
-  Reset
+  Reset,
+  Halt,
+  MoveAdditive,
+  SetPosition
 };
 
 enum class ErrorCode : std::uint32_t {
@@ -81,7 +93,8 @@ enum class ErrorCode : std::uint32_t {
   Workspace,     // the target or the way there is outside of the workspace
   Tool,          // no such tool
   NoResume,      // there is no job to go on with
-  Away           // the robot is too far from where its job left the path
+  Away,          // the robot is too far from where its job left the path
+  Full           // more commands than there is room for
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an

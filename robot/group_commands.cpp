@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands of the group that are no motions: each one ends by itself, and a later one takes over from the one before.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "robot/group.h"
+
+namespace indurop::robot {
+
+namespace {
+
+bool is_motion(Service service) noexcept {
+  switch (service) {
+    case Service::DirectAbsolute:
+    case Service::DirectRelative:
+    case Service::LinearAbsolute:
+    case Service::LinearRelative:
+    case Service::CircularAbsolute:
+    case Service::CircularRelative:
+    case Service::Halt:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void Group::serve_commands(const Inputs& in) noexcept {
+  table_.read(in.commands, in.requests_known);
+  if (later_ != CommandTable::kNone && !desk_.holds_forgotten()) {
+    const int ticket = std::exchange(later_, CommandTable::kNone);
+    administer(ticket, static_cast<Service>(table_.command(ticket).code));
+  }
+  for (int ticket = table_.take(); ticket != CommandTable::kNone; ticket = table_.take()) {
+    const int axis = table_.command(ticket).axis;
+    if (axis == 0) {
+      take(ticket);
+    } else if (axis > 0 && axis <= count()) {
+      axes_[static_cast<std::size_t>(axis - 1)].take(ticket, powered() && state_ != GroupState::Standby);
+    } else {
+      table_.end(ticket, ErrorCode::Value);
+    }
+  }
+}
+
+void Group::take(int ticket) noexcept {
+  const Command& command = table_.command(ticket);
+  const auto service = static_cast<Service>(command.code);
+  if (later_ != CommandTable::kNone) {
+    table_.end(std::exchange(later_, CommandTable::kNone), ErrorCode::Aborted);
+  }
+  if (is_motion(service)) {
+    queue_motion(ticket);
+    return;
+  }
+  switch (service) {
+    case Service::GroupEnable:
+    case Service::GroupDisable:
+    case Service::GroupReset:
+    case Service::GroupHome:
+    case Service::JobStart:
+    case Service::SelectTool:
+      administer(ticket, service);
+      break;
+    case Service::Stop:
+      stop_for(ticket);
+      break;
+    case Service::Interrupt:
+      interrupt(ticket);
+      break;
+    case Service::Continue:
+      go_on(ticket);
+      break;
+    case Service::SetTransform:
+      table_.end(ticket, set_transform(command));
+      break;
+    default:
+      table_.end(ticket, ErrorCode::Opcode);
+  }
+}
+
+void Group::administer(int ticket, Service service) noexcept {
+  if (service == Service::JobStart && state_ == GroupState::Moving) {
+    table_.end(ticket, ErrorCode::State);
+    return;
+  }
+  const bool tools = service == Service::JobStart || service == Service::SelectTool;
+  if (tools && settled() && desk_.holds_forgotten()) {
+    later_ = ticket;  // a plan of the tool before is still looked at
+    return;
+  }
+  ServiceRequest request;
+  request.job = request.tool = static_cast<std::uint32_t>(std::max<std::int16_t>(0, table_.command(ticket).job));
+  finish_service(ErrorCode::Aborted);
+  table_.active(ticket);
+  ticket_ = ticket;
+  begin_service(service, request);
+}
+
+// From any state with power: it holds as long as its block has its Execute.
+void Group::stop_for(int ticket) noexcept {
+  if (!powered() || to_error_ || to_disabled_) {
+    table_.end(ticket, ErrorCode::State);
+    return;
+  }
+  finish_service(ErrorCode::Aborted);
+  release_stop();
+  stop_ = ticket;
+  table_.active(ticket);
+  if (state_ == GroupState::Stopping) {
+    return;
+  }
+  set_job_aside();
+  job_.stop();
+  forget_plans();
+  if (state_ == GroupState::Moving) {
+    follower_.stop();
+  } else {
+    follower_.reset(commanded());
+    on_path_ = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
+    for (AxisControl& a : axes()) {
+      a.halt();
+    }
+  }
+  state_ = GroupState::Stopping;
+}
+
+void Group::release_stop() noexcept {
+  if (stop_ != CommandTable::kNone) {
+    table_.end(stop_, !to_error_ && !to_disabled_ && !table_.execute(stop_) ? ErrorCode::Ok : ErrorCode::Aborted);
+    stop_ = CommandTable::kNone;
+  }
+}
+
+// At rest on the path, whatever is to come.
+void Group::interrupt(int ticket) noexcept {
+  if (state_ != GroupState::Moving) {
+    table_.end(ticket, ErrorCode::State);
+    return;
+  }
+  end_interrupt(ErrorCode::Aborted);
+  interrupted_ = true;
+  interrupt_ = ticket;
+  table_.active(ticket);
+}
+
+void Group::go_on(int ticket) noexcept {
+  table_.end(ticket, interrupted_ ? ErrorCode::Ok : ErrorCode::State);
+  interrupted_ = false;
+  end_interrupt(ErrorCode::Aborted);
+}
+
+void Group::end_interrupt(ErrorCode code) noexcept {
+  if (interrupt_ != CommandTable::kNone) {
+    table_.end(interrupt_, code);
+    interrupt_ = CommandTable::kNone;
+  }
+}
+
+// Hold and override, of the path and of axes that move by themselves.
+void Group::set_pace(const Inputs& in) noexcept {
+  const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
+  const double part = sane ? in.speed_override / 100 : 0;
+  const auto factor = [](double given) { return given >= 0 && given <= 1 ? given : 0; };
+  follower_.set_override(part * factor(in.factors.group));
+  follower_.set_hold(in.hold || interrupted_);
+  for (std::size_t i = 0; i < axis_count(); ++i) {
+    axes_[i].set_override(in.hold ? 0 : part * factor(in.factors.velocity[i]));
+    axes_[i].set_factors(in.factors.acceleration[i], in.factors.jerk[i]);
+  }
+}
+
+// Where the product's coordinates are in those of the machine.
+ErrorCode Group::set_transform(const Command& command) noexcept {
+  if (!std::all_of(command.to.begin(), command.to.begin() + 6, [](double x) { return std::isfinite(x); })) {
+    return ErrorCode::Value;
+  }
+  product_ = pose_of(command.to);
+  return ErrorCode::Ok;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random commands against the state diagrams of PLCopen Motion Control, part 1 (figure of the axis) and part 4 (figure
+// of the group), written down here by themselves: each state is one that may follow, each command ends once and as its
+// state allows, and no set point breaks a limit. INDUROP_ROBOT_DIAGRAMS says how many runs, INDUROP_ROBOT_SEED from
+// which one on.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "command_cell.h"
+
+namespace indurop::robot {
+namespace {
+
+long from_environment(const char* name, long otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
+}
+
+// What may follow in the next period, whatever caused it. A motion may end and another one begin in the same period, so
+// that the state between them is not seen.
+bool may_follow(AxisState from, AxisState to) {
+  using enum AxisState;
+  static const std::set<std::pair<AxisState, AxisState>> arrows = {
+      {Disabled, Standstill},
+      {Disabled, ErrorStop},
+      {Standstill, Homing},
+      {Standstill, DiscreteMotion},
+      {Standstill, ContinuousMotion},
+      {Standstill, Stopping},
+      {Homing, Standstill},
+      {Homing, Stopping},
+      {Homing, DiscreteMotion},    // over Standstill
+      {Homing, ContinuousMotion},  // over Standstill
+      {DiscreteMotion, Standstill},
+      {DiscreteMotion, ContinuousMotion},
+      {DiscreteMotion, Stopping},
+      {DiscreteMotion, Homing},  // over Standstill
+      {ContinuousMotion, DiscreteMotion},
+      {ContinuousMotion, Stopping},
+      {ContinuousMotion, Standstill},  // power is taken away at rest
+      {Stopping, Standstill},
+      {ErrorStop, Standstill},
+      {ErrorStop, Disabled},
+  };
+  return from == to || to == Disabled || to == ErrorStop || arrows.contains({from, to});
+}
+
+bool may_follow(GroupState from, GroupState to) {
+  using enum GroupState;
+  static const std::set<std::pair<GroupState, GroupState>> arrows = {
+      {Disabled, Standby},  {Standby, Moving},     {Standby, Homing},   {Standby, Stopping}, {Moving, Standby},
+      {Moving, Stopping},   {Homing, Standby},     {Homing, Stopping},  {Stopping, Standby}, {Stopping, Disabled},
+      {ErrorStop, Standby}, {ErrorStop, Disabled}, {Standby, Disabled}, {Moving, Disabled},  // which stands
+      {Disabled, Stopping},  // an emergency while it gets power
+  };
+  return from == to || to == ErrorStop || arrows.contains({from, to});
+}
+
+// Whether a command that is given in this state may be carried out at all.
+bool accepts(AxisState state, AxisService service) {
+  using enum AxisState;
+  switch (service) {
+    case AxisService::Home:
+      return state == Standstill;
+    case AxisService::MoveAbsolute:
+    case AxisService::MoveRelative:
+    case AxisService::MoveAdditive:
+    case AxisService::MoveVelocity:
+    case AxisService::Halt:
+      return state == Standstill || state == DiscreteMotion || state == ContinuousMotion;
+    case AxisService::Stop:
+      return state != Disabled && state != ErrorStop;
+    default:
+      return true;
+  }
+}
+
+bool accepts(GroupState state, Service service) {
+  using enum GroupState;
+  switch (service) {
+    case Service::GroupHome:
+      return state == Standby;
+    case Service::DirectAbsolute:
+    case Service::LinearAbsolute:
+    case Service::Halt:
+      return state == Standby || state == Moving;
+    case Service::Interrupt:
+    case Service::Continue:
+      return state == Moving;
+    case Service::Stop:
+      return state == Standby || state == Moving || state == Homing || state == Stopping;
+    default:
+      return true;
+  }
+}
+
+class Diagram : public CommandCell {
+ public:
+  explicit Diagram(unsigned seed) : CommandCell(10, in_tick()), random_(seed) {}
+  static Settings in_tick() {
+    Settings settings;
+    settings.plan_in_tick = true;
+    return settings;
+  }
+
+ protected:
+  struct Watched {
+    Given given;
+    bool may = true;  // be carried out, by the diagram
+    std::string name;
+    CommandState last = CommandState::None;
+  };
+  int one_of(int many) { return std::uniform_int_distribution<int>(0, many - 1)(random_); }
+  double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  BufferMode any_mode() { return static_cast<BufferMode>(one_of(2) == 0 ? 0 : one_of(6)); }
+
+  void watch(const Given& given, bool may, std::string name) { watched_.push_back({given, may, std::move(name)}); }
+  // Answers go forward only, and what the diagram forbids is refused.
+  void look_at_answers() {
+    for (Watched& w : watched_) {
+      const CommandState now = state(w.given);
+      if (now == CommandState::None) {
+        continue;  // its place has another one
+      }
+      const bool ended = w.last >= CommandState::Done;
+      const bool stopped = w.last == CommandState::Done && now == CommandState::Aborted;  // a stop that was held
+      EXPECT_TRUE(!ended || now == w.last || stopped) << w.name;
+      EXPECT_TRUE(w.may || (now == CommandState::Error && error(w.given) != ErrorCode::Ok)) << w.name << " was taken";
+      w.last = now;
+    }
+  }
+  void release_stops() {
+    for (Command& c : cell.in.commands) {
+      c.execute = one_of(20) == 0 ? 0 : c.execute;
+    }
+  }
+  // Differences between set points.
+  void look_at_limits() {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double p = cell.out.command[i];
+      const double v = (p - place_[i]) / 0.01;
+      const double most = cell.out.axes[i].most_velocity;
+      const bool follows = (cell.in.drives[i].status & 0x6FU) == 0x27 && cell.in.drives[i].mode == 8;
+      known_[i] = follows ? known_[i] + 1 : 0;
+      if (known_[i] > 2) {
+        EXPECT_LE(std::abs(v), most * 1.001) << "axis " << i + 1;
+        EXPECT_LE(std::abs(v - speed_[i]) / 0.01, cell.out.axes[i].most_acceleration * 1.501) << "axis " << i + 1;
+      }
+      place_[i] = p;
+      speed_[i] = v;
+    }
+  }
+
+  std::mt19937 random_;
+  std::vector<Watched> watched_;
+
+ private:
+  std::array<double, 6> place_{}, speed_{};
+  std::array<int, 6> known_{};  // periods since the drive follows
+};
+
+class AxisDiagram : public Diagram {
+ public:
+  using Diagram::Diagram;
+  void run(int periods) {
+    AxisState before = axis(0);
+    for (int i = 0; i < periods && !testing::Test::HasFailure(); ++i) {
+      const bool given = one_of(15) == 0;
+      if (given) {
+        give_one();
+      }
+      release_stops();
+      if (one_of(800) == 0) {
+        cell.in.drives[0].status = Cell::kFault;
+      }
+      cell.step();
+      EXPECT_TRUE(may_follow(before, axis(0)))
+          << "from " << static_cast<int>(before) << " to " << static_cast<int>(axis(0));
+      before = axis(0);
+      look_at_answers();
+      look_at_limits();
+    }
+  }
+
+ private:
+  void give_one() {
+    using enum AxisService;
+    static constexpr AxisService kAll[] = {PowerOn,      PowerOn,      MoveAbsolute, MoveAbsolute,
+                                           MoveRelative, MoveAdditive, Halt,         MoveVelocity,
+                                           Stop,         Reset,        Home,         PowerOff};
+    const int pick = one_of(60);
+    const AxisService service = pick < 55 ? kAll[pick % 11] : PowerOff;
+    const BufferMode mode = any_mode();
+    const Given given = give(1, service, in(-100, 100), in(5, 150), mode);
+    // Buffered ones wait for their turn; whether the state allows them is seen then.
+    const bool may = accepts(axis(0), service) || (mode != BufferMode::Aborting && axis(0) == AxisState::Homing) ||
+                     (mode != BufferMode::Aborting && service == Home && accepts(axis(0), Halt));
+    watch(given, may || faulty_now(), fmt::format("service {}", static_cast<int>(service)));
+  }
+  // What the drive says next is not known to whoever gives the command.
+  [[nodiscard]] bool faulty_now() const { return axis(0) == AxisState::Disabled && cell.in.drives[0].status == 0x27; }
+};
+
+class GroupDiagram : public Diagram {
+ public:
+  using Diagram::Diagram;
+  void run(int periods) {
+    GroupState before = cell.out.state;
+    for (int i = 0; i < periods && !testing::Test::HasFailure(); ++i) {
+      if (one_of(20) == 0) {
+        give_one();
+      }
+      release_stops();
+      cell.in.emergency = one_of(600) == 0 || (cell.in.emergency && one_of(20) != 0);
+      cell.step();
+      EXPECT_TRUE(may_follow(before, cell.out.state))
+          << "from " << static_cast<int>(before) << " to " << static_cast<int>(cell.out.state);
+      before = cell.out.state;
+      look_at_answers();
+      look_at_limits();
+    }
+  }
+
+ private:
+  void give_one() {
+    using enum Service;
+    static constexpr Service kAll[] = {GroupEnable,    GroupEnable,    DirectAbsolute, DirectAbsolute,
+                                       LinearAbsolute, LinearAbsolute, Halt,           Stop,
+                                       GroupReset,     Interrupt,      Continue,       GroupHome};
+    const int pick = one_of(60);
+    const Service service = pick < 58 ? kAll[pick % 12] : GroupDisable;
+    const BufferMode mode = any_mode();
+    Given given;
+    if (service == LinearAbsolute) {
+      given = give(service, {in(350, 600), in(-250, 250), in(250, 500), 180, 0, 180}, in(100, 600), mode,
+                   CoordSystem::Machine, one_of(2) * 40);
+    } else {
+      given = give(service, {in(-60, 60), in(-20, 40), in(-40, 20), in(-30, 30), in(30, 90), in(-90, 90)}, in(20, 100),
+                   mode);
+    }
+    watch(given, accepts(cell.out.state, service), fmt::format("service {}", static_cast<int>(service)));
+  }
+};
+
+TEST(StateDiagram, Of_an_axis_by_random_commands) {
+  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 40);
+  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  for (long i = first; i < first + runs && !HasFailure(); ++i) {
+    SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
+    AxisDiagram(static_cast<unsigned>(i)).run(4000);
+  }
+}
+
+TEST(StateDiagram, Of_the_group_by_random_commands) {
+  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 20);
+  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  for (long i = first; i < first + runs && !HasFailure(); ++i) {
+    SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
+    GroupDiagram(static_cast<unsigned>(i)).run(3000);
+  }
+}
+
+}  // namespace
+}  // namespace indurop::robot
