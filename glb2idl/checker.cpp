@@ -237,6 +237,7 @@ class Checker {
     result.unit = std::move(notes.unit);
     result.description = std::move(notes.description);
     result.range = notes.range;
+    result.alarms = std::move(notes.alarms);
     result.retain = notes.retain;
     result.maxage_ns = notes.maxage_ns;
     result.source = source(name);

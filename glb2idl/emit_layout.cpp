@@ -83,6 +83,23 @@ std::string properties(const schema::Variable& v) {
   return or_dash(out);
 }
 
+void add_alarms(std::vector<Row>& rows, const std::string& name, const schema::Type& type,
+                const std::vector<schema::Alarm>& alarms) {
+  for (const schema::Alarm& alarm : alarms) {
+    const std::string condition = schema::condition_text(type, alarm);
+    rows.push_back({condition.empty() ? name : fmt::format("{} {}", name, condition),
+                    alarm.deadband == 0 ? "-" : fmt::format("{}", alarm.deadband), schema::word_of(alarm.priority),
+                    alarm.delay_ns == 0 ? "-" : duration_text(alarm.delay_ns), alarm.text});
+  }
+}
+
+// Alarms of a variable or of a struct's fields.
+void add_field_alarms(std::vector<Row>& rows, const schema::Type& type, const std::string& prefix) {
+  for (const schema::Field& field : type.fields) {
+    add_alarms(rows, prefix + field.name, field.type, field.alarms);
+  }
+}
+
 void add_fields(std::vector<Row>& rows, const schema::Type& type, const std::string& prefix, std::uint64_t base) {
   for (const schema::Field& field : type.fields) {
     const std::uint64_t offset = base + field.offset;
@@ -99,6 +116,7 @@ void add_fields(std::vector<Row>& rows, const schema::Type& type, const std::str
 
 std::string emit_layout(const Program& program, const GlbFile& unit) {
   std::vector<Row> variables{{"variable", "type", "bytes", "kind", "unit", "range", "properties", "description"}};
+  std::vector<Row> alarms{{"alarm", "deadband", "priority", "delay", "text"}};
   std::string structs;
   std::uint64_t bytes = 0;
   std::string functions;
@@ -108,7 +126,9 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
       variables.push_back({v->name, schema::display_name(v->type), fmt::format("{}", v->type.size()),
                            v->kind == abi::Kind::Scalar ? "scalar" : "ring", or_dash(v->unit), range_text(v->range),
                            properties(*v), comment_line(v->description)});
+      add_alarms(alarms, v->name, v->type, v->alarms);
     } else if (const auto* s = std::get_if<Structure>(&item)) {
+      add_field_alarms(alarms, s->type, s->type.name + ".");
       std::vector<Row> rows{{"offset", "bytes", "field", "type", "unit", "range", "description"}};
       add_fields(rows, s->type, "", 0);
       structs += fmt::format("\nstruct {}: {} bytes, aligned to {}\n{}", s->type.name, s->type.element_size,
@@ -128,6 +148,9 @@ std::string emit_layout(const Program& program, const GlbFile& unit) {
     out += fmt::format("\n{}", table(variables, "  r"));
   }
   out += structs;
+  if (alarms.size() > 1) {
+    out += fmt::format("\n{}", table(alarms, ""));
+  }
   return functions.empty() ? out : fmt::format("{}\nshared functions\n{}", out, functions);
 }
 

@@ -5,11 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
 
 #include "base/nearest.h"
+#include "glb2idl/alarm_note.h"
 #include "glb2idl/initial.h"
 #include "glb2idl/text.h"
 
@@ -22,12 +24,14 @@ struct Rule {
   bool on_fields;
   std::string_view usage;
 };
-constexpr std::array<Rule, 6> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
+constexpr std::size_t kSome = 99;  // read_alarm() counts itself
+constexpr std::array<Rule, 7> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
                                       {"range", 2, true, "@range(0, 180)"},
                                       {"desc", 1, true, "@desc(\"what it is\")"},
                                       {"retain", 0, false, "@retain"},
                                       {"maxage", 1, false, "@maxage(10ms)"},
-                                      {"fallback", 1, false, "@fallback(0)"}}};
+                                      {"fallback", 1, false, "@fallback(0)"},
+                                      {"alarm", kSome, true, "@alarm(\"what is wrong\", high, 500ms)"}}};
 
 bool is_number(const schema::Type& type) noexcept {
   using schema::Base;
@@ -40,7 +44,10 @@ class Reader {
       : context_(context), type_(type), target_(target), notes_(notes) {}
 
   // What a declarator has itself replaces what stands in front of all.
-  void begin_list() { seen_.clear(); }
+  void begin_list() {
+    seen_.clear();
+    inherited_alarms_ = true;
+  }
 
   void read(const ast::Annotation& annotation) {
     const Rule* rule = nullptr;
@@ -55,12 +62,12 @@ class Reader {
                                                                annotation.name.text, join_names(known, ", @"))
                                                  : fmt::format("there is no annotation '@{}', did you mean '@{}'?",
                                                                annotation.name.text, near));
-    } else if (annotation.arguments.size() != rule->arguments) {
+    } else if (rule->arguments != kSome && annotation.arguments.size() != rule->arguments) {
       const auto count = rule->arguments == 0   ? std::string("no value")
                          : rule->arguments == 1 ? "one value"
                                                 : "two values";
       context_.error(annotation.at, fmt::format("@{} takes {}, write {}", rule->name, count, rule->usage));
-    } else if (!seen_.insert(rule->name).second) {
+    } else if (rule->arguments != kSome && !seen_.insert(rule->name).second) {
       context_.error(annotation.at, fmt::format("@{} is given twice, remove one", rule->name));
     } else if (is_allowed(*rule, annotation)) {
       apply(*rule, annotation);
@@ -94,12 +101,30 @@ class Reader {
       read_range(annotation);
     } else if (rule.name == "retain") {
       notes_.retain = true;
+    } else if (rule.name == "alarm") {
+      if (std::exchange(inherited_alarms_, false)) {
+        notes_.alarms.clear();
+      }
+      if (auto alarm = read_alarm(context_, annotation, type_)) {
+        add_alarm(annotation, std::move(*alarm));
+      }
     } else if (rule.name == "fallback") {
       notes_.fallback = &annotation.arguments[0];
     } else if (!annotation.arguments[0].value) {
       context_.error(annotation.at, "expected a time, write @maxage(10ms)");
     } else {
       notes_.maxage_ns = read_duration(context_, *annotation.arguments[0].value, "@maxage").value_or(0);
+    }
+  }
+
+  void add_alarm(const ast::Annotation& annotation, schema::Alarm alarm) {
+    const bool twice = std::any_of(notes_.alarms.begin(), notes_.alarms.end(), [&](const schema::Alarm& one) {
+      return one.comparison == alarm.comparison && one.limit == alarm.limit;
+    });
+    if (twice) {
+      context_.error(annotation.at, "there is an alarm of this condition already, remove one");
+    } else {
+      notes_.alarms.push_back(std::move(alarm));
     }
   }
 
@@ -143,6 +168,7 @@ class Reader {
   NoteTarget target_;
   Notes& notes_;
   std::set<std::string_view> seen_;
+  bool inherited_alarms_ = true;  // those in front of all are replaced by the first one behind
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotations: @unit("mm") @range(0, 180) @retain @maxage(10ms) @fallback(0) @desc("...").
+// Annotations: @unit("mm") @range(0, 180) @retain @maxage(10ms) @fallback(0) @desc("...") @alarm("...", high).
 
 #pragma once
 
@@ -17,6 +17,7 @@ struct Notes {
   std::string unit;
   std::string description;
   std::optional<schema::Range> range;
+  std::vector<schema::Alarm> alarms;
   bool retain = false;
   std::int64_t maxage_ns = 0;
   const ast::Initializer* fallback = nullptr;  // inside the annotation given

@@ -244,6 +244,7 @@ bool TypeBuilder::add_fields(const ast::Declaration& declaration, const std::str
     field.unit = std::move(notes.unit);
     field.description = std::move(notes.description);
     field.range = notes.range;
+    field.alarms = std::move(notes.alarms);
     context_.field_names.insert(field.name);
     to.fields.push_back(std::move(field));
   }

@@ -99,6 +99,47 @@ bool read_limit(const json& value, double& to) {
   return value == "inf" || value == "-inf";
 }
 
+bool read_condition(const json& object, Alarm& to) {
+  const json* when = member(object, "when");
+  if (when == nullptr || !when->is_array() || when->size() != 2 || !(*when)[0].is_string() ||
+      !read_limit((*when)[1], to.limit)) {
+    return false;
+  }
+  const std::string& symbol = (*when)[0].get_ref<const std::string&>();
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(Comparison::GreaterEqual); ++i) {
+    to.comparison = static_cast<Comparison>(i);
+    if (symbol == symbol_of(to.comparison)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool read_alarms(const json& object, std::vector<Alarm>& to) {
+  const json* list = member(object, "alarms");
+  if (list == nullptr) {
+    return true;
+  }
+  return list->is_array() && std::all_of(list->begin(), list->end(), [&](const json& value) {
+           Alarm alarm;
+           std::string word;
+           if (!value.is_object() || !read_string(value, "text", alarm.text) || !read_string(value, "priority", word) ||
+               !read_condition(value, alarm) || !read_time(value, "delay_ns", alarm.delay_ns)) {
+             return false;
+           }
+           const auto priority = priority_of(word);
+           const json* deadband = member(value, "deadband");
+           const bool good =
+               priority && (deadband == nullptr || (deadband->is_number() && deadband->get<double>() >= 0));
+           if (good) {
+             alarm.priority = *priority;
+             alarm.deadband = deadband == nullptr ? 0 : deadband->get<double>();
+             to.push_back(std::move(alarm));
+           }
+           return good;
+         });
+}
+
 template <class Declaration>
 bool read_notes(const json& object, Declaration& to) {
   if (const json* range = member(object, "range")) {
@@ -108,7 +149,8 @@ bool read_notes(const json& object, Declaration& to) {
       return false;
     }
   }
-  return read_string(object, "unit", to.unit) && read_string(object, "description", to.description);
+  return read_string(object, "unit", to.unit) && read_string(object, "description", to.description) &&
+         read_alarms(object, to.alarms);
 }
 
 bool read_base(const json& value, Base& to) {

@@ -27,6 +27,18 @@ ordered_json number_json(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(value > 0 ? "inf" : "-inf");
 }
 
+ordered_json alarm_json(const Alarm& alarm) {
+  ordered_json out{{"text", alarm.text}, {"priority", word_of(alarm.priority)}};
+  out["when"] = ordered_json::array({symbol_of(alarm.comparison), number_json(alarm.limit)});
+  if (alarm.deadband != 0) {
+    out["deadband"] = alarm.deadband;
+  }
+  if (alarm.delay_ns != 0) {
+    out["delay_ns"] = alarm.delay_ns;
+  }
+  return out;
+}
+
 template <class Declaration>
 void write_notes(ordered_json& out, const Declaration& from) {
   if (!from.unit.empty()) {
@@ -37,6 +49,9 @@ void write_notes(ordered_json& out, const Declaration& from) {
   }
   if (from.range) {
     out["range"] = ordered_json::array({number_json(from.range->min), number_json(from.range->max)});
+  }
+  for (const Alarm& alarm : from.alarms) {
+    out["alarms"].push_back(alarm_json(alarm));
   }
 }
 

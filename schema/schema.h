@@ -65,6 +65,26 @@ struct Range {
   double max = 0;
 };
 
+enum class Priority : std::uint8_t { Critical, High, Medium, Low };
+enum class Comparison : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual };
+
+// What somebody has to act on: @alarm. Of an array each element by itself.
+struct Alarm {
+  std::string text;
+  Priority priority = Priority::Medium;
+  Comparison comparison = Comparison::Equal;  // value COMPARISON limit
+  double limit = 1;
+  double deadband = 0;        // so far the value has to be back behind the limit
+  std::int64_t delay_ns = 0;  // so long it has to be true
+};
+const char* word_of(Priority priority) noexcept;  // "critical"
+std::optional<Priority> priority_of(std::string_view word) noexcept;
+const char* symbol_of(Comparison comparison) noexcept;  // "=="
+// "> 80", "== FAULT"; empty for a bool that is true.
+std::string condition_text(const Type& type, const Alarm& alarm);
+// Deadband counts for a condition that was true.
+bool is_met(const Alarm& alarm, double value, bool was_met) noexcept;
+
 struct Field {
   std::string name;
   Type type;
@@ -72,6 +92,7 @@ struct Field {
   std::string unit;
   std::string description;
   std::optional<Range> range;
+  std::vector<Alarm> alarms;
 };
 
 struct Variable {
@@ -88,6 +109,7 @@ struct Variable {
   bool given = false;                  // an initial value was written down, be it 0: without a writer it is a parameter
   std::vector<std::uint8_t> fallback;  // empty: none declared
   std::string source;                  // "knuRobot.glb:3"
+  std::vector<Alarm> alarms;
   [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
 };
 

@@ -49,13 +49,13 @@ Type mixed() {
   type.name = "knu::mixed_t";
   type.element_size = 40;
   type.align = 8;
-  type.fields.push_back({"on", scalar(Base::Bool), 0, "", "", {}});
-  type.fields.push_back({"name", text, 1, "", "", {}});
-  type.fields.push_back({"mode", mode, 8, "", "", {}});
-  type.fields.push_back({"x", scalar(Base::Double), 16, "", "", {}});
-  type.fields.push_back({"n", scalar(Base::Int16), 24, "", "", {}});
-  type.fields.push_back({"f", scalar(Base::Float), 28, "", "", {}});
-  type.fields.push_back({"big", scalar(Base::UInt64), 32, "", "", {}});
+  type.fields.push_back({"on", scalar(Base::Bool), 0, "", "", {}, {}});
+  type.fields.push_back({"name", text, 1, "", "", {}, {}});
+  type.fields.push_back({"mode", mode, 8, "", "", {}, {}});
+  type.fields.push_back({"x", scalar(Base::Double), 16, "", "", {}, {}});
+  type.fields.push_back({"n", scalar(Base::Int16), 24, "", "", {}, {}});
+  type.fields.push_back({"f", scalar(Base::Float), 28, "", "", {}, {}});
+  type.fields.push_back({"big", scalar(Base::UInt64), 32, "", "", {}, {}});
   return type;
 }
 

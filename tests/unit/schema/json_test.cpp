@@ -22,6 +22,8 @@ Schema sample() {
   joints.source = "knuRobot.glb:3";
   joints.type.fields[1].unit = "rad";
   joints.type.fields[1].range = Range{-3.25, 3.25};
+  joints.type.fields[1].alarms.push_back({"too far", Priority::Critical, Comparison::GreaterEqual, 3.5, 0.25, 7});
+  joints.alarms.push_back({"odd", Priority::Low, Comparison::NotEqual, 0, 0, 0});
   schema.variables.push_back(joints);
   Variable mode = variable("knu::Robot::mode", mode_type());
   mode.range = Range{-std::numeric_limits<double>::infinity(), 2};
@@ -67,6 +69,10 @@ TEST(Json, Everything_written_comes_back) {
   EXPECT_EQ(joints.maxage_ns, 5'000'000'000'000);
   ASSERT_TRUE(joints.type.fields[1].range);
   EXPECT_EQ(joints.type.fields[1].range->min, -3.25);
+  ASSERT_EQ(joints.type.fields[1].alarms.size(), 1U);
+  EXPECT_EQ(joints.type.fields[1].alarms[0].deadband, 0.25);
+  EXPECT_EQ(joints.type.fields[1].alarms[0].comparison, Comparison::GreaterEqual);
+  EXPECT_EQ(joints.alarms.at(0).priority, Priority::Low);
   EXPECT_EQ(sut.value().variables[1].range->min, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(sut.value().functions[0].type_hash, hash_of(sample().functions[0]));
 }

@@ -142,8 +142,8 @@ schema::Schema plant() {
   pose.name = "knu::pose";
   pose.type.base = schema::Base::Struct;
   pose.type.element_size = 16;
-  pose.type.fields.push_back({"x", scalar(schema::Base::Double), 0, "mm", "", {}});
-  pose.type.fields.push_back({"y", scalar(schema::Base::Double), 8, "mm", "", {}});
+  pose.type.fields.push_back({"x", scalar(schema::Base::Double), 0, "mm", "", {}, {}});
+  pose.type.fields.push_back({"y", scalar(schema::Base::Double), 8, "mm", "", {}, {}});
   schema.variables = {joints, on, label, pose};
   return schema;
 }
