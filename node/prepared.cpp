@@ -55,6 +55,14 @@ void begin_values(vars::Store& store, Retainer& retainer, bool previous_run_ende
   }
 }
 
+void begin_run(scheduler::RunBlock& run, const scheduler::RunBlockSetup& setup, const scheduler::Obtained& obtained) {
+  run.node_pid.store(::getpid());
+  run.node_start_time = vars::process_start_time(::getpid());
+  run.started_wall_ns = rt::wall_ns();
+  run.obtained = obtained;
+  scheduler::init_run_block(run, setup);
+}
+
 }  // namespace
 
 ClaimedName::ClaimedName(std::string node, vars::NodeLock lock) : node_(std::move(node)), lock_(std::move(lock)) {
@@ -125,11 +133,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     return no_memory("the run's shared memory", file.error(), console);
   }
   auto& run = *static_cast<scheduler::RunBlock*>(file->data());
-  run.node_pid.store(::getpid());
-  run.node_start_time = vars::process_start_time(::getpid());
-  run.started_wall_ns = rt::wall_ns();
-  run.obtained = rights->obtained;
-  scheduler::init_run_block(run, setup);
+  begin_run(run, setup, rights->obtained);
   if (!checked.mirror) {
     (void)vars::remove_shm_file(vars::mirror_file(options.node));  // of an earlier run as a board
   }
@@ -145,9 +149,14 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   if (!tape) {
     return no_memory("the tape", tape.error(), console);
   }
+  auto batch = vars::Batch::create(options.node, *store);
+  if (!batch) {
+    return no_memory("changes from outside", batch.error(), console);
+  }
   console.watch(run);
-  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),    std::move(store),
-                  std::move(file).value(), std::move(failsafe),       std::move(retainer), std::move(tape).value()};
+  return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),
+                  std::move(store),        std::move(file).value(),   std::move(failsafe),
+                  std::move(retainer),     std::move(tape).value(),   std::move(batch).value()};
 }
 
 }  // namespace indurop::node

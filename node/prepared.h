@@ -14,6 +14,7 @@
 #include "node/rights.h"
 #include "scheduler/run_block_setup.h"
 #include "tape/tape.h"
+#include "vars/batch.h"
 #include "vars/node_lock.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
@@ -48,6 +49,7 @@ struct Prepared {
   std::unique_ptr<FailSafe> failsafe;
   std::unique_ptr<Retainer> retainer;  // none in a simulation
   std::unique_ptr<tape::Tape> tape;    // none if it was not wanted
+  vars::Batch batch;                   // values that are to change in one tick
   [[nodiscard]] scheduler::RunBlock& run() const noexcept {
     return *static_cast<scheduler::RunBlock*>(run_file.data());
   }

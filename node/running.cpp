@@ -110,10 +110,17 @@ scheduler::Hooks Running::plain_hooks() {
 // Those of the schedule.
 scheduler::Hooks Running::hooks() {
   scheduler::Hooks hooks = plain_hooks();
+  hooks.ticks = [](void* context, std::uint64_t tick, std::int64_t /*release_ns*/) noexcept {
+    static_cast<Running*>(context)->change_batch(tick);
+  };
   if (prepared_.tape) {
     set_tape(hooks, *prepared_.tape);
   }
   return hooks;
+}
+
+void Running::change_batch(std::uint64_t tick) noexcept {
+  prepared_.batch.carry_out(*prepared_.store, tick);
 }
 
 // Everything a run saw and wrote goes to the tape.
@@ -135,6 +142,7 @@ void Running::set_tape(scheduler::Hooks& hooks, const tape::Tape& tape) {
   if (tape.others() != nullptr) {
     hooks.ticks = [](void* context, std::uint64_t tick, std::int64_t release_ns) noexcept {
       auto& self = *static_cast<Running*>(context);
+      self.change_batch(tick);
       const std::int64_t now = rt::to_ns(self.kernel_.now());
       self.prepared_.tape->others()->look({0, 0, tick, release_ns, now, now});
     };

@@ -48,6 +48,7 @@ class Running {
   bool await_processes(rt::MonoTime until);
   int pass();
   scheduler::Hooks hooks();
+  void change_batch(std::uint64_t tick) noexcept;  // values that somebody wants changed in one tick
   scheduler::Hooks plain_hooks();
   static void set_tape(scheduler::Hooks& hooks, const tape::Tape& tape);
   [[nodiscard]] scheduler::EngineSettings engine_settings() const;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vars/batch.h"
 #include "vars/block.h"
 #include "vars/node_lock.h"
 #include "vars/store.h"
@@ -56,8 +57,9 @@ Status remove_node(const std::string& node) {
   retire_block(node);
   Status result;
   // The lock file last: until then nobody else can start a node of this name.
-  for (const std::string& name : {block_file(node), run_file(node), tape_file(node), mirror_file(node),
-                                  external_file(node), block_file(node) + ".kernel", lock_file(node)}) {
+  for (const std::string& name :
+       {block_file(node), run_file(node), tape_file(node), batch_file(node), mirror_file(node), external_file(node),
+        block_file(node) + ".kernel", lock_file(node)}) {
     for (const Status& status : {remove_unfinished(name), remove_shm_file(name)}) {
       if (!status && result.ok()) {
         result = status;

@@ -110,13 +110,8 @@ void catch_up(RingHeader& ring, std::uint64_t now, unsigned char* to, const unsi
   }
 }
 
-inline unsigned char* begin(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
-  const rt::LockResult result = rt::lock_within(ring.lock);
-  if (result != rt::LockResult::Locked) [[unlikely]] {
-    if (!not_locked(ring, result)) {
-      return nullptr;
-    }
-  }
+// With the lock.
+inline unsigned char* open_slot(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
   const std::uint64_t now = ring.seq.load(std::memory_order_relaxed);
   // A reader that sees any byte of the new version must see `seq` as it is now, or a later one.
   std::atomic_thread_fence(std::memory_order_release);
@@ -125,6 +120,16 @@ inline unsigned char* begin(RingHeader& ring, std::uint32_t offset, std::uint32_
     bring_up_to_date(ring, to, {offset, std::uint64_t{offset} + length});
   }
   return to;
+}
+
+inline unsigned char* begin(RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept {
+  const rt::LockResult result = rt::lock_within(ring.lock);
+  if (result != rt::LockResult::Locked) [[unlikely]] {
+    if (!not_locked(ring, result)) {
+      return nullptr;
+    }
+  }
+  return open_slot(ring, offset, length);
 }
 
 }  // namespace
@@ -147,6 +152,21 @@ void* begin_write(RingHeader& ring, std::uint32_t offset, std::uint32_t length) 
 void* begin_edit(RingHeader& ring) noexcept {
   unsigned char* to = begin(ring, 0, 0);
   if (to != nullptr && ring.value_size > kWholeCopyLimit) {
+    store_dirty(ring, ring.seq.load(std::memory_order_relaxed) + 1, {0, ring.value_size});
+  }
+  return to;
+}
+
+void* try_begin_edit(RingHeader& ring) noexcept {
+  const rt::LockResult result = rt::try_lock(ring.lock);
+  if (!rt::is_locked(result)) {
+    return nullptr;
+  }
+  if (result == rt::LockResult::OwnerDied) {
+    mark_all_dirty(ring);
+  }
+  unsigned char* to = open_slot(ring, 0, 0);
+  if (ring.value_size > kWholeCopyLimit) {
     store_dirty(ring, ring.seq.load(std::memory_order_relaxed) + 1, {0, ring.value_size});
   }
   return to;

@@ -25,6 +25,8 @@ bool init_ring(void* memory, std::uint32_t value_size, const void* initial) noex
 void* begin_write(abi::RingHeader& ring, std::uint32_t offset, std::uint32_t length) noexcept;
 // The same for changes anywhere: the slot is a copy of the current version.
 void* begin_edit(abi::RingHeader& ring) noexcept;
+// The same, but null at once if somebody has the lock.
+void* try_begin_edit(abi::RingHeader& ring) noexcept;
 void commit(abi::RingHeader& ring) noexcept;   // readers see the new version from here on
 void discard(abi::RingHeader& ring) noexcept;  // the current version stays
 

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several values that change in one tick: somebody outside the node puts them into a file of shared memory, and the
+// tick carries them out before anything of it runs, all or none. A tick without such an order costs a load.
+
+#pragma once
+
+#include <indurop/result.h>
+#include <pthread.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vars/shm_file.h"
+#include "vars/store.h"
+
+namespace indurop::vars {
+
+// What a tick may be asked to do at once, so that it stays short.
+inline constexpr std::size_t kMostBatchValues = 512;
+inline constexpr std::size_t kMostBatchBytes = std::size_t{32} << 10U;
+
+enum class BatchState : std::uint32_t { Free, Staged, Working, Done, Busy, Wrong };
+
+struct BatchEntry {
+  std::uint32_t variable;  // in the store's directory
+  std::uint32_t offset;    // of the part
+  std::uint32_t size;
+  std::uint32_t data;  // where its bytes are
+};
+
+struct BatchBlock {
+  std::atomic<std::uint64_t> magic;  // stored last
+  std::uint64_t layout_hash;         // of the store that this is for
+  pthread_mutex_t lock;              // for those who ask
+  std::atomic<BatchState> state;
+  std::uint32_t count;
+  std::atomic<std::uint64_t> tick;  // that carried it out
+  BatchEntry entries[kMostBatchValues];
+  unsigned char data[kMostBatchBytes];
+};
+
+std::string batch_file(const std::string& node);  // indurop.<node>.batch
+
+// The node's side.
+class Batch {
+ public:
+  // For one run of a node, in place of the file of an earlier one. Errors: as of ShmFile::create, System.
+  static Result<Batch> create(const std::string& node, const Store& store);
+  // On the tick thread, before anything of the tick runs. Real-time safe: a variable that somebody is just writing is
+  // not waited for, the next tick tries again.
+  void carry_out(const Store& store, std::uint64_t tick) noexcept;
+
+ private:
+  explicit Batch(ShmFile file) noexcept : file_(std::move(file)) {}
+  [[nodiscard]] BatchBlock& block() const noexcept { return *reinterpret_cast<BatchBlock*>(file_.data()); }
+
+  ShmFile file_;
+  std::uint32_t tries_ = 0;
+};
+
+struct Change {
+  const DirectoryEntry* variable = nullptr;
+  std::uint32_t offset = 0;
+  std::span<const std::uint8_t> bytes;
+};
+
+// Asks the node that runs for the changes and waits until they are done. Returns the tick.
+// Errors: NotFound (the node is of a version that cannot do this), InvalidArgument (more than a tick may do),
+// TypeMismatch (its variables are others by now), Busy (somebody else's are not done, or a variable is being written by
+// somebody who is stopped), Timeout (no tick came; they are not done and will not be), PermissionDenied.
+Result<std::uint64_t> change_in_one_tick(const std::string& node, const Store& store, std::span<const Change> changes,
+                                         std::chrono::nanoseconds patience);
+
+}  // namespace indurop::vars
