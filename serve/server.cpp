@@ -19,9 +19,10 @@ std::int64_t wall_ns() {
       .count();
 }
 
-ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version,
+ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version, const AlarmDesk& alarms,
                      std::function<std::vector<ClientFigures>()> clients) {
   ServerFacts facts;
+  facts.alarms = [&alarms](const std::string& board) { return alarms.counts(board); };
   facts.version = version;
   facts.clients = std::move(clients);
   facts.most_clients = options.clients;
@@ -40,7 +41,7 @@ Server::Server(tools::ServeOptions options, GateSettings gate, std::string versi
     : options_(std::move(options)),
       gate_(std::move(gate)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
-      api_(gate_, audit_, facts_of(options_, version, [this] { return hub_.clients(); })),
+      api_(gate_, audit_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node),
       hub_(boards_, version, [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
@@ -182,6 +183,15 @@ int Server::run() {
     looking->set(kLookNs);
   });
   looking->set(kLookNs);
+  constexpr std::int64_t kAlarmsNs = 100'000'000;
+  Door::Alarm watching(*door_, [this, &watching] {
+    alarms_.look(boards_.names());
+    for (const std::string& word : alarms_.news()) {
+      hub_.tell_all(word);
+    }
+    watching.set(kAlarmsNs);
+  });
+  watching.set(kAlarmsNs);
   door_->serve([] { return tools::interrupted(); });
   looking.reset();
   sampling_.reset();

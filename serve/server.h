@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "serve/alarms/alarm_desk.h"
 #include "serve/api/api.h"
 #include "serve/api/audit.h"
 #include "serve/api/router.h"
@@ -52,6 +53,7 @@ class Server final : public House {
   tools::ServeOptions options_;
   Gate gate_;
   Audit audit_;
+  AlarmDesk alarms_;
   Api api_;
   Page page_;
   Boards boards_;

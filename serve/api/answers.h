@@ -42,6 +42,18 @@ Reply variables(Api& api, const Call& call);
 Reply variable(Api& api, const Call& call);
 Reply scope(Api& api, const Call& call);
 
+Reply alarms(Api& api, const Call& call);
+Reply alarm_history(Api& api, const Call& call);
+Reply acknowledge_alarms(Api& api, const Call& call);
+Reply shelve_alarms(Api& api, const Call& call);
+Reply unshelve_alarms(Api& api, const Call& call);
+
+Reply recipes(Api& api, const Call& call);
+Reply recipe(Api& api, const Call& call);
+Reply save_recipe(Api& api, const Call& call);
+Reply load_recipe(Api& api, const Call& call);
+Reply remove_recipe(Api& api, const Call& call);
+
 Reply set(Api& api, const Call& call);
 Reply force(Api& api, const Call& call);
 Reply release(Api& api, const Call& call);

@@ -3,6 +3,7 @@
 #include "serve/api/answers.h"
 #include "serve/boards/board.h"
 #include "serve/boards/trouble.h"
+#include "tools/alarms/alarm_list.h"
 #include "tools/values/external_view.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
@@ -22,7 +23,7 @@ base::Json texts_of(const std::vector<Trouble>& troubles) {
   return out;
 }
 
-base::Json summary_of(const Board& board) {
+base::Json summary_of(const Api& api, const Board& board) {
   const auto run = board.run();
   const tools::NodeReport report = run ? tools::report_of(board.name(), *run) : tools::NodeReport{};
   base::Json out = about(board);
@@ -35,7 +36,9 @@ base::Json summary_of(const Board& board) {
   out["overruns"] = report.overruns;
   out["faults"] = report.faults;
   out["forces"] = board.store() != nullptr ? board.store()->forces().size() : 0;
-  out["trouble"] = texts_of(troubles_of(board, run));
+  const tools::AlarmCounts alarms = api.facts().alarms(board.name());
+  out["alarms"] = tools::json_of(alarms);
+  out["trouble"] = texts_of(troubles_of(board, run, alarms));
   out["layout"] = board.layout();
   return out;
 }
@@ -51,11 +54,11 @@ base::Json module_of(base::Json row, const scheduler::ModuleRecord& record) {
 
 }  // namespace
 
-Reply boards(Api& /*api*/, const Call& call) {
+Reply boards(Api& api, const Call& call) {
   base::Json list = base::Json::array();
   for (const std::string& name : call.boards->names()) {
     if (const Board* const one = call.boards->find(name)) {
-      list.push_back(summary_of(*one));
+      list.push_back(summary_of(api, *one));
     }
   }
   base::Json body = base::Json::object();
@@ -63,7 +66,7 @@ Reply boards(Api& /*api*/, const Call& call) {
   return json_reply(body);
 }
 
-Reply board(Api& /*api*/, const Call& call) {
+Reply board(Api& api, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -77,7 +80,9 @@ Reply board(Api& /*api*/, const Call& call) {
   body["alive"] = one.alive();
   body["state"] = one.state();
   body["layout"] = one.layout();
-  body["trouble"] = texts_of(troubles_of(one, run));
+  const tools::AlarmCounts alarms = api.facts().alarms(one.name());
+  body["alarms"] = tools::json_of(alarms);
+  body["trouble"] = texts_of(troubles_of(one, run, alarms));
   body["forces"] = one.store() != nullptr ? tools::json_of(tools::view_forces(*one.store())) : base::Json::array();
   body["mirror"] = mirror ? tools::json_of(*mirror) : base::Json();
   body["external"] = external ? tools::json_of(*external) : base::Json();
@@ -104,13 +109,13 @@ Reply modules(Api& /*api*/, const Call& call) {
   return json_reply(body);
 }
 
-Reply faults(Api& /*api*/, const Call& call) {
+Reply faults(Api& api, const Call& call) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
   }
   base::Json list = base::Json::array();
-  for (const Trouble& trouble : troubles_of(**found, (*found)->run())) {
+  for (const Trouble& trouble : troubles_of(**found, (*found)->run(), api.facts().alarms((*found)->name()))) {
     base::Json one = base::Json::object();
     one["severity"] = word_of(trouble.severity);
     one["module"] = trouble.module;

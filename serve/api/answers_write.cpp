@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "serve/api/answers.h"
+#include "serve/api/write.h"
 #include "serve/boards/board.h"
 #include "serve/boards/variable.h"
 #include "tools/plant/commands.h"
@@ -20,73 +21,6 @@ struct Wish {
   std::string reason;
   std::int64_t for_ns = 0;
   bool all = false;
-};
-
-// One write of a client, from its body to the note in the audit log.
-class Write {
- public:
-  Write(Api& api, const Call& call, std::string action) : api_(&api) {
-    entry_.who = call.who;
-    entry_.from = call.request->from;
-    entry_.board = call.part.find("board")->second;
-    entry_.action = std::move(action);
-    context_.out.divert(&messages_);
-  }
-  tools::Context& context() noexcept { return context_; }
-  [[nodiscard]] std::string message() const { return messages_.empty() ? std::string() : messages_.back(); }
-
-  // Opens the board's store to write; it has to run if `running`.
-  Result<vars::Store, Reply> open(bool running) {
-    context_.node = entry_.board;
-    auto source = std::make_shared<tools::HereSource>(entry_.board, vars::Mode::ReadWrite);
-    auto store = source->attach();
-    if (!store.ok()) {
-      const bool denied = store.error().code == Errc::PermissionDenied;
-      return failed(denied ? status::kForbidden : status::kConflict,
-                    tools::explain_open_error(store.error(), entry_.board, true));
-    }
-    if (const std::string absence = source->absence(&store.value()); running && !absence.empty()) {
-      return failed(status::kConflict, source->gone(absence) + ": forces are for a node that runs");
-    }
-    context_.values = std::move(source);
-    return std::move(store).value();
-  }
-
-  void about(std::string what, std::string reason) {
-    entry_.what = std::move(what);
-    entry_.reason = std::move(reason);
-  }
-
-  Reply failed(int code, std::string why) {
-    entry_.outcome = why;
-    static_cast<void>(api_->audit().note(entry_));  // nothing was written, so there is nothing to hide
-    return refusal(code, std::move(why), messages_.size() > 1 ? messages_ : std::vector<std::string>());
-  }
-  Reply failed_with(int exit_code) {
-    std::string why = messages_.empty() ? "it failed" : messages_.front();
-    return failed(exit_code == kUnreachable ? status::kNoAnswer : status::kWrongValue, std::move(why));
-  }
-  // Before anything is changed: without a note nothing is written.
-  std::optional<Reply> begin() {
-    entry_.outcome = "begun";
-    const std::string problem = api_->audit().note(entry_);
-    if (problem.empty()) {
-      return std::nullopt;
-    }
-    return refusal(status::kFailed, fmt::format("nothing was written, because it cannot be noted down in {}: {}",
-                                                api_->audit().file().string(), problem));
-  }
-  Reply done(const base::Json& body) {
-    entry_.outcome = "done";
-    static_cast<void>(api_->audit().note(entry_));  // that it was begun is noted already
-    return json_reply(body);
-  }
-
- private:
-  Api* api_;
-  AuditEntry entry_;
-  std::vector<std::string> messages_;
-  tools::Context context_;
 };
 
 Result<Wish, std::string> read_wish(const std::string& body) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "serve/boards/board.h"
+#include "tools/alarms/alarm_book.h"
 
 namespace indurop::serve {
 
@@ -22,6 +23,7 @@ struct Trouble {
   std::optional<std::uint64_t> tick;
 };
 
-std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::RunView>& run);
+std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::RunView>& run,
+                                 const tools::AlarmCounts& alarms);
 
 }  // namespace indurop::serve

@@ -129,8 +129,12 @@ void Hub::look_around() {
     return;
   }
   boards_word_ = std::move(text);
+  tell_all(boards_word_);
+}
+
+void Hub::tell_all(const std::string& word) {
   for (StreamClient* const client : clients_) {
-    client->tell(boards_word_);
+    client->tell(word);
   }
 }
 

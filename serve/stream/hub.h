@@ -37,6 +37,8 @@ class Hub {
   void run(std::int64_t now_ns);
   // Looks for boards that came, went or changed, and tells all.
   void look_around();
+  // The same word to all clients.
+  void tell_all(const std::string& word);
   [[nodiscard]] std::vector<ClientFigures> clients() const;
 
   // For clients.

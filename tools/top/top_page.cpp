@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "rt/clock.h"
+#include "tools/alarms/alarm_journal.h"
+#include "tools/alarms/alarm_list.h"
 #include "tools/command/screen.h"
 #include "tools/command/units.h"
 #include "vars/store.h"
@@ -161,6 +163,15 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   if (const auto store = vars::Store::attach(node, vars::Mode::ReadOnly)) {
     sample.forces = store->forces().size();
   }
+  AlarmJournal alarms(node);
+  alarms.refresh();
+  sample.alarms = alarms.book().counts();
+  for (const ListedAlarm& one : list_alarms({}, alarms.book(), false)) {
+    if (one.record.state != AlarmState::Shelved) {
+      sample.troubles.push_back(printable(
+          fmt::format("{} alarm, {}: {}", schema::word_of(one.priority), word_of(one.record.state), one.text)));
+    }
+  }
   add_troubles(sample, mirror);
   return sample;
 }
@@ -172,15 +183,17 @@ std::vector<TopLine> top_page(const TopSample& sample, const TopLook& look, int 
     load += module.load;
   }
   const auto if_any = [](std::uint64_t count, Style style) { return count > 0 ? style : Style::None; };
+  const std::size_t alarms = sample.alarms.active + sample.alarms.unacknowledged;
   std::vector<TopLine> lines;
   lines.push_back({heading(sample, look), report.alive ? Style::Good : Style::Bad, false});
   lines.push_back({fmt::format("tick {}  lost {}  load {:.1f} %  late {}, 99 % {}, max {}", report.ticks,
                                report.lost_ticks, load * 100, human_ns(report.lateness.p50),
                                human_ns(report.lateness.p99), human_ns(report.lateness.max)),
                    if_any(report.lost_ticks, Style::Warn), false});
-  lines.push_back({fmt::format("modules {}  overruns {}  faults {}  forced {}  stale {}", report.modules,
-                               report.overruns, report.faults, sample.forces, sample.stale),
-                   if_any(report.faults + report.overruns + sample.forces + sample.stale, Style::Warn), false});
+  lines.push_back({fmt::format("modules {}  overruns {}  faults {}  forced {}  stale {}  alarms {}", report.modules,
+                               report.overruns, report.faults, sample.forces, sample.stale, alarms),
+                   if_any(report.faults + report.overruns + sample.forces + sample.stale + alarms, Style::Warn),
+                   false});
   for (std::size_t i = 0; i < sample.troubles.size() && i < kTroubles; ++i) {
     lines.push_back({sample.troubles[i], Style::Bad, false});
   }

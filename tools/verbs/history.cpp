@@ -4,10 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <ctime>
 #include <tuple>
 
-#include "rt/clock.h"
+#include "tools/command/people.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_history.h"
 #include "tools/plant/board_roster.h"
@@ -21,15 +20,6 @@ struct Options {
   deploy::LinkSettings link;
   std::int64_t wait_ns = 1'000'000'000;
 };
-
-std::string local_time(std::int64_t wall_ns) {
-  const std::time_t seconds = wall_ns / rt::kNanosPerSecond;
-  std::tm parts{};
-  ::localtime_r(&seconds, &parts);
-  char text[32] = "";
-  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-  return text;
-}
 
 struct Row {
   PastDeployment past;

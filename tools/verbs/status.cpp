@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "rt/clock.h"
+#include "tools/alarms/alarm_journal.h"
+#include "tools/alarms/alarm_list.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/repeat.h"
 #include "tools/command/units.h"
@@ -23,12 +25,19 @@ std::vector<ForceView> forces_here(const std::string& node) {
   return store ? view_forces(*store) : std::vector<ForceView>();
 }
 
+AlarmCounts alarms_here(const std::string& node) {
+  AlarmJournal journal(node);
+  journal.refresh();
+  return journal.book().counts();
+}
+
 int show_once(Context& context, const BoardRun& chosen) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
   const NodeReport report = report_of(node, run);
   const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
   const auto external = run.here() ? view_external(node) : std::nullopt;
+  const AlarmCounts alarms = run.here() ? alarms_here(node) : AlarmCounts{};
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
@@ -36,6 +45,9 @@ int show_once(Context& context, const BoardRun& chosen) {
     }
     if (!forces.empty()) {
       context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
+    }
+    if (const std::string text = sentence_of(alarms); !text.empty()) {
+      context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
     }
     if (mirror) {
       for (const std::string& line : mirror_lines(*mirror, context.out)) {
@@ -52,6 +64,7 @@ int show_once(Context& context, const BoardRun& chosen) {
   JsonValue head = json_of(report);
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
   head["forces"] = json_of(forces);
+  head["alarms"] = json_of(alarms);
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), head, "modules");
   return report.alive || chosen.kept ? kOk : kUnreachable;

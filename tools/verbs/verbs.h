@@ -7,6 +7,7 @@
 
 namespace indurop::tools {
 
+extern const Verb kAlarmsVerb;
 extern const Verb kBlackboxVerb;
 extern const Verb kBoardsVerb;
 extern const Verb kChartVerb;
@@ -28,6 +29,7 @@ extern const Verb kNodesVerb;
 extern const Verb kOverrunsVerb;
 extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
+extern const Verb kRecipeVerb;
 extern const Verb kRecordVerb;
 extern const Verb kRecordingVerb;
 extern const Verb kReplayVerb;

@@ -92,6 +92,14 @@ schema::Schema make_schema(int many) {
   text.element_size = 16;
   schema.variables.push_back(variable("station::name", text));
 
+  auto oil = variable("press::oil", scalar(schema::Base::Double));
+  oil.unit = "degC";
+  oil.alarms.push_back({"the oil is too hot", schema::Priority::High, schema::Comparison::Greater, 80, 5, 0});
+  schema.variables.push_back(oil);
+  auto door = variable("press::door_open", scalar(schema::Base::Bool));
+  door.alarms.push_back({"the door is open", schema::Priority::Medium, schema::Comparison::Equal, 1, 0, 0});
+  schema.variables.push_back(door);
+
   auto starts = variable("station::starts", scalar(schema::Base::Int32));
   starts.retain = true;
   set_initial(starts, std::int32_t{5});

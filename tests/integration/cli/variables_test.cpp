@@ -150,9 +150,9 @@ TEST_F(WithNode, Vars_lists_types_units_and_values) {
   const auto text = indurop({"vars", "gain"});
   EXPECT_EQ(text.code, 0);
   EXPECT_THAT(text.out, HasSubstr("knu::Robot::gain  double      1  mm    0..10"));
-  EXPECT_EQ(indurop({"vars", "--names", "-t", "double"}).out, "knu::Robot::gain\n");
+  EXPECT_EQ(indurop({"vars", "--names", "-t", "double"}).out, "knu::Robot::gain\npress::oil\n");
   const auto json = indurop({"vars", "-o", "json"}).json();
-  EXPECT_EQ(json["variables"].size(), 6U);
+  EXPECT_EQ(json["variables"].size(), 8U);
   EXPECT_EQ(json["variables"][0]["name"], "knu::Robot::gain");
   EXPECT_EQ(json["variables"][0]["range"], nlohmann::json::parse("[0.0,10.0]"));
   EXPECT_EQ(json["variables"][0]["description"], "amplitude");

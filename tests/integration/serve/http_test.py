@@ -310,6 +310,19 @@ def test_tls_and_client_certificates(setting):
         pass
 
 
+def test_clients_turn_away_an_expired_certificate(setting):
+    make_certificate(setting, "server", days=-1)
+    server = setting.start_server("--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key",
+                                  setting.folder / "server.key", "--token-file", setting.tokens)
+    for _ in range(3):  # it is still there for the next one
+        try:
+            ask_tls(setting, server.port, API + "/status", token=TOKEN)
+            raise AssertionError("an expired certificate was taken")
+        except ssl.SSLCertVerificationError as refused:
+            assert "expired" in str(refused), refused
+    assert server.child.poll() is None
+
+
 def test_is_not_open_by_mistake(setting):
     for options in (["--bind", "0.0.0.0"], ["--bind", "0.0.0.0", "--write", "--token-file", setting.tokens],
                     ["--cert", "a.pem"], ["--client-ca", "a.pem"], ["--bind", "nonsense"], ["--bind", "192.0.2.1"]):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PLC view as plc.py says.
-import { Browser, check, order, press, sees } from "./browser.mjs";
+import { Browser, check, fill, order, press, sees, sees_no } from "./browser.mjs";
 
 const browser = await Browser.launch();
 const powered = (page) => page.evaluate(() => document.querySelectorAll(".network .power").length);
@@ -33,5 +33,31 @@ await browser.run({
     await page.waitForFunction(() => document.querySelector("[aria-label^='Network 1: ']")?.getAttribute("aria-label").includes("stop off"))
       .catch(async () => { throw new Error(`the contact is not open: ${await page.evaluate(first)}`); });
     check((await powered(page)) < before + 4, "power flows although stop is forced");
+  },
+
+  async "A recipe is saved, compared, loaded in one tick, and removed"() {
+    const page = await browser.open("recipes", { width: 1280, height: 800 });
+    await sees(page, "There are no recipes of this board yet.");
+    await order("conveyor::acknowledge=false");
+    await fill(page, "Name", "clean");
+    await fill(page, "Which variables", "conveyor::start conveyor::acknowledge");
+    await fill(page, "Comment", "cleaning");
+    await press(page, "Save what is now");
+    await sees(page, "clean: 2 values saved.");
+    await press(page, "clean");
+    await sees(page, "All values are as they are now.");
+    await order("conveyor::acknowledge=true");
+    await sees(page, "1 value differs from what is now.");
+    await browser.judge(page, "recipes-wide");
+    await press(page, "load");
+    await sees(page, "2 values loaded in tick ");
+    await sees(page, "All values are as they are now.");
+    await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
+    await sees(page, "All values are as they are now.");
+    await browser.judge(page, "recipes-phone");
+    await page.setViewport({ width: 1280, height: 800 });
+    await press(page, "remove");
+    await sees_no(page, "cleaning");
+    await page.close();
   },
 });

@@ -4,7 +4,7 @@
 
 import { frame_of, type Frame } from "./decode";
 import { token } from "./http";
-import type { StreamBoard, Subscribed, ValuesFrame } from "./types";
+import type { AlarmCounts, StreamBoard, Subscribed, ValuesFrame } from "./types";
 
 const RETRY_MS = [250, 500, 1000, 2000];
 const RESUBSCRIBE_MS = 1500;
@@ -31,6 +31,7 @@ class Stream {
   private readonly answers = new Map<number, Subscribed>();
   on_link: (link: Link) => void = () => {};
   on_boards: (boards: StreamBoard[]) => void = () => {};
+  on_alarms: (board: string, counts: AlarmCounts) => void = () => {};
 
   open(): void {
     const protocols = ["indurop.v1"];
@@ -77,6 +78,7 @@ class Stream {
   private said(message: any): void {
     switch (message.type) {
       case "boards": return this.on_boards(message.boards);
+      case "alarms": return this.on_alarms(message.board, message);
       case "subscribed":
         if (!this.wanted.has(message.id)) return;
         this.answers.set(message.id, message);

@@ -25,6 +25,7 @@ export interface BoardSummary {
   overruns: number;
   faults: number;
   forces: number;
+  alarms: AlarmCounts;
   trouble: string[];
   layout: string;
 }
@@ -185,6 +186,63 @@ export interface Fault {
   module: string;
   text: string;
   tick?: number;
+}
+
+export interface AlarmCounts {
+  active: number;
+  unacknowledged: number;
+  shelved: number;
+  worst: Priority | null;
+}
+
+export type Priority = "critical" | "high" | "medium" | "low";
+
+export interface Alarm {
+  alarm: string;
+  name: string;
+  text: string;
+  priority: Priority;
+  condition: string;
+  unit: string;
+  delay_ns: number;
+  state: "normal" | "unacknowledged" | "acknowledged" | "returned" | "shelved";
+  count: number;
+  since_wall_ns?: number;
+  value?: string;
+  who?: string;
+  reason?: string;
+  until_wall_ns?: number;
+}
+
+export interface Alarms {
+  watched: boolean;
+  declared: number;
+  counts: AlarmCounts;
+  alarms: Alarm[];
+}
+
+export interface Recipe {
+  recipe: string;
+  comment: string;
+  who: string;
+  saved_wall_ns: number;
+  values: number;
+}
+
+export interface RecipeValues {
+  recipe: string;
+  values: { name: string; recipe: unknown; now: unknown; same: boolean }[];
+}
+
+export interface AlarmEvent {
+  wall_ns: number;
+  alarm: string;
+  event: string;
+  text: string;
+  priority: Priority;
+  value?: string;
+  who?: string;
+  reason?: string;
 }
 
 export interface Range {

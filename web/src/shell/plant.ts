@@ -43,6 +43,11 @@ export function start_looking(): void {
     if (!boards || !known) return void look();
     update({ boards: boards.map((one) => ({ ...one, ...seen.find(({ board }) => board === one.board) })) });
   };
+  stream.on_alarms = (board, { active, unacknowledged, shelved, worst }) => {
+    const boards = plant.get().boards;
+    const alarms = { active, unacknowledged, shelved, worst };
+    if (boards) update({ boards: boards.map((one) => (one.board === board ? { ...one, alarms } : one)) });
+  };
   stream.open();
   const again = async () => {
     if (!document.hidden) await look();

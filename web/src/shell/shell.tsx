@@ -21,6 +21,7 @@ function Icon({ path }: { path: string }) {
 function Navigation({ views }: { views: View[] }) {
   const { view, query } = useStore(place);
   const board = query.get("board");
+  const alarms = useBoard()?.alarms.unacknowledged ?? 0;
   return (
     <nav aria-label="Views">
       <ul>
@@ -28,6 +29,7 @@ function Navigation({ views }: { views: View[] }) {
           <li key={name}>
             <a href={address(name, board ? { board } : {})} aria-current={view === name ? "page" : undefined}>
               <Icon path={icon} /><span>{title}</span>
+              {name === "alarms" && alarms > 0 && <span class="badge" title={`${alarms} not acknowledged`}>{alarms}</span>}
             </a>
           </li>))}
       </ul>

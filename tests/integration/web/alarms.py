@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The page's alarms in headless Chromium: one comes, is acknowledged, shelved and gone; the server is killed in between."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+from page_server import PATIENCE, PageServer, prepared
+
+
+class Press(PageServer):
+    node = f"web_alarms_{os.getpid()}"
+
+    def start_node(self, *more):
+        self.process = subprocess.Popen([self.options.fake_node, self.node, *more], env=self.environment, stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout.readline() == "ready\n"
+
+    def obey(self, word):
+        if word == "kill-server":
+            self.server.kill()
+            self.server.wait(timeout=PATIENCE)
+        elif word == "deploy":  # other variables, as after a deployment
+            self.process.kill()
+            self.process.wait(timeout=PATIENCE)
+            self.start_node("many", "12")
+        elif word == "start-server":
+            self.start_server()
+        else:
+            name, value = word.split("=")
+            self.indurop("set", "--node", self.node, name, value, check=True)
+
+    def end(self):
+        super().end()
+        self.process.kill()
+        self.process.wait(timeout=PATIENCE)
+        self.indurop("clean", "--node", self.node)
+
+
+def main():
+    options = prepared(__doc__, "--fake-node")
+    with tempfile.TemporaryDirectory() as folder:
+        press = Press(options, folder)
+        try:
+            press.start_node()
+            press.start_server()
+            return press.drive("alarms.mjs")
+        finally:
+            press.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

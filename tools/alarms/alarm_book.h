@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happened to alarms, entry by entry, and how each stands after that. Knows no file and no clock.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/json.h"
+#include "schema/schema.h"
+#include "tools/alarms/alarm_state.h"
+
+namespace indurop::tools {
+
+// A line of the history. `state` instead of `event`: how an alarm stood when the history was cut.
+struct AlarmEntry {
+  std::int64_t wall_ns = 0;
+  std::string alarm;  // "press::oil > 80"
+  std::optional<AlarmEvent> event;
+  std::optional<AlarmState> state;
+  std::string text;
+  schema::Priority priority = schema::Priority::Medium;
+  std::string value;  // when it was raised
+  std::string who;    // of what people do
+  std::string from;   // address
+  std::string reason;
+  std::int64_t until_ns = 0;  // of shelving, CLOCK_REALTIME
+  std::uint64_t count = 0;    // of a state: how often it was raised
+};
+base::Json json_of(const AlarmEntry& entry);
+std::optional<AlarmEntry> parse_alarm_line(std::string_view line);
+
+struct AlarmRecord {
+  AlarmState state = AlarmState::Normal;
+  std::int64_t since_ns = 0;  // of the state, CLOCK_REALTIME
+  std::uint64_t count = 0;    // how often it was raised
+  AlarmEntry last;
+};
+
+// Numbers for a headline.
+struct AlarmCounts {
+  std::size_t active = 0;
+  std::size_t unacknowledged = 0;  // active or returned
+  std::size_t shelved = 0;
+  std::optional<schema::Priority> worst;  // of those that want attention or are active
+  bool operator==(const AlarmCounts&) const = default;
+};
+
+class AlarmBook {
+ public:
+  // Entries that mean nothing in the alarm's state change nothing: two may have had the same idea.
+  void add(const AlarmEntry& entry);
+  // Normal if it was never heard of.
+  [[nodiscard]] AlarmRecord find(std::string_view alarm) const;
+  // All that are not normal, by name.
+  [[nodiscard]] const std::map<std::string, AlarmRecord, std::less<>>& standing() const noexcept { return standing_; }
+  [[nodiscard]] AlarmCounts counts() const;
+  // Grows with every change.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+
+ private:
+  std::map<std::string, AlarmRecord, std::less<>> standing_;
+  std::map<std::string, AlarmRecord, std::less<>> normal_;  // for their counts
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace indurop::tools

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/alarms/alarm_watch.h"
+
+#include <fmt/format.h>
+#include <indurop/detail/freshness.h>
+
+#include <array>
+#include <cstring>
+#include <set>
+#include <span>
+#include <string_view>
+
+namespace indurop::tools {
+namespace {
+
+// The longest value of one element.
+using Bytes = std::array<std::uint8_t, sizeof(std::uint64_t)>;
+
+template <class T>
+double number_in(const Bytes& bytes) noexcept {
+  T value{};
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return static_cast<double>(value);
+}
+
+double number_of(schema::Base base, const Bytes& bytes) noexcept {
+  switch (base) {
+    case schema::Base::Bool:
+    case schema::Base::Char:
+    case schema::Base::UInt8:
+      return number_in<std::uint8_t>(bytes);
+    case schema::Base::Int8:
+      return number_in<std::int8_t>(bytes);
+    case schema::Base::Int16:
+      return number_in<std::int16_t>(bytes);
+    case schema::Base::UInt16:
+      return number_in<std::uint16_t>(bytes);
+    case schema::Base::Int32:
+    case schema::Base::Enum:
+      return number_in<std::int32_t>(bytes);
+    case schema::Base::UInt32:
+      return number_in<std::uint32_t>(bytes);
+    case schema::Base::Int64:
+      return number_in<std::int64_t>(bytes);
+    case schema::Base::UInt64:
+      return number_in<std::uint64_t>(bytes);
+    case schema::Base::Float:
+      return number_in<float>(bytes);
+    case schema::Base::Double:
+    case schema::Base::Text:
+    case schema::Base::Struct:
+      break;
+  }
+  return number_in<double>(bytes);
+}
+
+// Values of other boards count while they are confirmed.
+bool is_fresh(const vars::Store& store, const DeclaredAlarm& alarm, std::int64_t now_ns) noexcept {
+  void* const entry = store.entry(alarm.entry->name_hash, alarm.entry->type_hash);
+  const std::int64_t confirmed =
+      entry != nullptr ? abi::confirmed_of(entry, alarm.entry->kind).load(std::memory_order_acquire) : 0;
+  return detail::is_valid(confirmed, alarm.variable->maxage_ns, [now_ns] { return now_ns; });
+}
+
+}  // namespace
+
+bool AlarmCondition::look(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept {
+  const bool met = schema::is_met(alarm, value, known_ ? met_ : standing);
+  if (!known_ || met != met_) {
+    since_ns_ = now_ns;
+  }
+  standing_ = known_ ? standing_ : standing;
+  known_ = true;
+  met_ = met;
+  const std::int64_t wait = met ? alarm.delay_ns : kBackForNs;
+  if (met != standing_ && now_ns - since_ns_ >= wait) {
+    standing_ = met;
+  }
+  return standing_;
+}
+
+bool AlarmWatch::attach() {
+  if (!store_ || store_->retired() || source_.generation() != generation_) {
+    const std::uint64_t generation = source_.generation();
+    auto fresh = source_.attach();
+    if (!fresh.ok()) {
+      store_.reset();
+      return false;
+    }
+    store_ = std::move(fresh).value();
+    generation_ = generation;
+    alarms_ = declared_alarms(*store_);
+    conditions_.assign(alarms_.size(), {});
+    standing_.clear();
+    for (const DeclaredAlarm& one : alarms_) {
+      standing_.push_back(is_active(journal_.book().find(one.name).state) ? 1 : 0);
+    }
+    values_.assign(alarms_.size(), {});
+  }
+  return source_.absence(&*store_).empty();
+}
+
+std::string AlarmWatch::look() {
+  journal_.refresh();
+  if (!attach()) {
+    return {};
+  }
+  if (idle() || !journal_.become_watcher()) {
+    return {};
+  }
+  const std::int64_t now_ns = rt::to_ns(store_->now());
+  for (std::size_t i = 0; i < alarms_.size(); ++i) {
+    const DeclaredAlarm& one = alarms_[i];
+    Bytes bytes{};
+    const std::span<std::uint8_t> part(bytes.data(), one.type.element_size);
+    const bool before = is_active(journal_.book().find(one.name).state);
+    if (!is_fresh(*store_, one, now_ns) || !store_->read(*one.entry, one.offset, part).ok()) {
+      continue;
+    }
+    standing_[i] = conditions_[i].look(one.alarm, number_of(one.type.base, bytes), now_ns, before) ? 1 : 0;
+    values_[i] = standing_[i] != 0 ? schema::format_value(one.type, part) : std::string();
+  }
+  if (decide(journal_.book()).empty()) {
+    return {};
+  }
+  return journal_.change([this](const AlarmBook& book) { return decide(book); });
+}
+
+std::vector<AlarmEntry> AlarmWatch::decide(const AlarmBook& book) const {
+  std::vector<AlarmEntry> all;
+  const std::int64_t wall_ns = wall_now_ns();
+  std::set<std::string_view> declared;
+  const auto add = [&](const DeclaredAlarm& one, AlarmEvent event, const std::string& value) {
+    all.push_back({wall_ns, one.name, event, {}, one.alarm.text, one.alarm.priority, value, {}, {}, {}, 0, 0});
+  };
+  for (std::size_t i = 0; i < alarms_.size(); ++i) {
+    const DeclaredAlarm& one = alarms_[i];
+    declared.insert(one.name);
+    const auto known = book.standing().find(one.name);
+    AlarmState state = known == book.standing().end() ? AlarmState::Normal : known->second.state;
+    if (state == AlarmState::Shelved && known->second.last.until_ns <= wall_ns) {
+      add(one, AlarmEvent::Unshelved, {});
+      state = AlarmState::Normal;
+    }
+    const AlarmEvent event = standing_[i] != 0 ? AlarmEvent::Raised : AlarmEvent::Cleared;
+    if (state != AlarmState::Shelved && after(state, event)) {
+      add(one, event, standing_[i] != 0 ? values_[i] : std::string());
+    }
+  }
+  for (const auto& [name, record] : book.standing()) {
+    if (!declared.contains(name)) {
+      AlarmEntry entry = record.last;
+      entry.wall_ns = wall_ns;
+      entry.alarm = name;
+      entry.event = AlarmEvent::Removed;
+      entry.state.reset();
+      all.push_back(std::move(entry));
+    }
+  }
+  return all;
+}
+
+}  // namespace indurop::tools

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks at the conditions of a node's alarms and keeps what happens. Reads the store as every observer does: no tick
+// notices it. Of one thread.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/alarms/alarm_journal.h"
+#include "tools/alarms/declared_alarms.h"
+#include "tools/values/here_source.h"
+#include "vars/store.h"
+
+namespace indurop::tools {
+
+// A condition has to be over for so long, so that one that flickers does not fill the history.
+inline constexpr std::int64_t kBackForNs = 1'000'000'000;
+
+// One condition over time.
+class AlarmCondition {
+ public:
+  // True from `delay` after it came until kBackForNs after it went. `standing`: how it was before the first look.
+  bool look(const schema::Alarm& alarm, double value, std::int64_t now_ns, bool standing) noexcept;
+
+ private:
+  bool known_ = false;
+  bool met_ = false;
+  bool standing_ = false;
+  std::int64_t since_ns_ = 0;  // of met_
+};
+
+class AlarmWatch {
+ public:
+  explicit AlarmWatch(std::string node)
+      : node_(std::move(node)), journal_(node_), source_(node_, vars::Mode::ReadOnly) {}
+
+  // Looks once, about ten times a second; writes nothing if another process watches already. Returns why what happened
+  // could not be kept, else nothing.
+  std::string look();
+  [[nodiscard]] const AlarmJournal& journal() const noexcept { return journal_; }
+  // Nothing to look at: ask more rarely.
+  [[nodiscard]] bool idle() const noexcept { return alarms_.empty() && journal_.book().standing().empty(); }
+
+ private:
+  bool attach();
+  std::vector<AlarmEntry> decide(const AlarmBook& book) const;
+
+  std::string node_;
+  AlarmJournal journal_;
+  HereSource source_;
+  std::optional<vars::Store> store_;
+  std::uint64_t generation_ = 0;
+  std::vector<DeclaredAlarm> alarms_;
+  std::vector<AlarmCondition> conditions_;  // beside alarms_
+  std::vector<char> standing_;              // beside alarms_: by the last look
+  std::vector<std::string> values_;         // beside alarms_: of those that stand
+};
+
+}  // namespace indurop::tools
