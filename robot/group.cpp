@@ -61,6 +61,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
       axes_[at(i)].serve(in.axes[at(i)], powered() && state_ != GroupState::Standby);
     }
   }
+  serve_jog(in.jog);
   set_pace(in);
   job_.watch(in.single_step, in.breakpoints);
   desk_.expect_work(powered());
@@ -156,6 +157,10 @@ void Group::motion_failed(Fault fault, int source) noexcept {
   job_.fail(fault, to_string(fault.code), source);
   finish_service(fault.code, fault.axis);
   return_ = Return::None;
+  if (jogging_) {
+    jog_shorter();
+    return;
+  }
   if (job) {
     stop_for(fault);
   }
@@ -208,6 +213,7 @@ void Group::come_to_standby() noexcept {
   job_moves_ = false;
   interrupted_ = false;
   end_interrupt(ErrorCode::Ok);
+  jogging_ = false;
   for (AxisControl& a : axes()) {
     if (a.state() == AxisState::SynchronizedMotion) {
       a.rest();
@@ -344,19 +350,6 @@ void Group::run_stopping() noexcept {
 Fault Group::move(const MoveCommand& command) noexcept {
   ahead_.add(command);
   return {};
-}
-
-// False while a forgotten plan is still looked at, which was made for the tool before.
-bool Group::take_tool(int tool) noexcept {
-  if (!settled() || desk_.holds_forgotten()) {
-    return false;
-  }
-  if (tool != tool_) {
-    tool_ = tool;
-    places_.take(tools_.arm(tool), tools_.inverse(tool));
-    last_pose_ = places_.arm().forward(last_command_);
-  }
-  return true;
 }
 
 // For a motion that begins where the last one ends.

@@ -53,6 +53,13 @@ class Group final : public Controller, private MotionPort {
   ErrorCode stop_motion() noexcept;
   ErrorCode select_tool(std::uint32_t tool) noexcept;
 
+  // Moving by hand (group_jog.cpp).
+  void serve_jog(const JogRequest& jog) noexcept;
+  void begin_jog() noexcept;
+  [[nodiscard]] MoveCommand jog_axis(int axis, double part) const noexcept;
+  [[nodiscard]] MoveCommand jog_tip(int direction, double part) const noexcept;
+  void jog_shorter() noexcept;
+
   // Jobs that were left and go on (group_resume.cpp).
   void set_job_aside() noexcept;
   void pause_job() noexcept;
@@ -165,6 +172,13 @@ class Group final : public Controller, private MotionPort {
   bool enabling_ = false;
   bool quick_stop_ = false;
   bool job_moves_ = false;
+
+  bool jogging_ = false;
+  bool jog_blocked_ = false;  // it cannot go on that way, until another one is asked for
+  double jog_part_ = 1;       // of the longest way
+  JogFrame jog_frame_ = JogFrame::Joint;
+  int jog_index_ = -1;
+  double jog_speed_ = 0;  // part of the fastest, with its sign
 
   // A job that can go on: its path is the follower's, what was to be planned is here and in `ahead_`.
   enum class Return { None, ToPath, Back };

@@ -326,6 +326,19 @@ ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
   return ErrorCode::Ok;
 }
 
+// False while a forgotten plan is still looked at, which was made for the tool before.
+bool Group::take_tool(int tool) noexcept {
+  if (!settled() || desk_.holds_forgotten()) {
+    return false;
+  }
+  if (tool != tool_) {
+    tool_ = tool;
+    places_.take(tools_.arm(tool), tools_.inverse(tool));
+    last_pose_ = places_.arm().forward(last_command_);
+  }
+  return true;
+}
+
 // Between motions only: what moves goes on with the tool it was planned for.
 ErrorCode Group::select_tool(std::uint32_t tool) noexcept {
   if (tool >= parts_.book.tools.size()) {

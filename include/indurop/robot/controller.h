@@ -89,6 +89,14 @@ class Signals {
   virtual void write(std::size_t index, double value) noexcept = 0;
 };
 
+// Moving by hand while the group stands by: one axis, or the tip along or about one direction.
+enum class JogFrame : std::int16_t { Joint, Base, Tool };
+struct JogRequest {
+  bool enabled = false;  // the enabling switch; without it the robot comes to rest
+  JogFrame frame = JogFrame::Joint;
+  AxisNumbers speed{};  // %, with its sign; of axes, or x y z and turns about them. The first that is not 0 counts
+};
+
 // A job that is to pause before a line of its file.
 struct Breakpoint {
   std::uint32_t job = 0;   // from 1; 0: none
@@ -117,6 +125,7 @@ struct Inputs {
   bool emergency = false;
   bool single_step = false;  // jobs pause before each line
   Breakpoints breakpoints{};
+  JogRequest jog;
 };
 
 // What is told of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.

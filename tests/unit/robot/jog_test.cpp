@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moving by hand: directions, where it ends, and random requests that break no limit, nor 250 mm/s of the tip (ISO
+// 10218-1).
+#include <random>
+
+#include "limit_judge.h"
+
+namespace indurop::robot {
+namespace {
+
+Vec3 tip(const Cell& cell) {
+  return {cell.out.position[0], cell.out.position[1], cell.out.position[2]};
+}
+
+bool stands(const Cell& cell) {
+  return cell.out.state == GroupState::Standby;
+}
+
+TEST(Jog, Random_requests_break_no_limit_and_the_tip_is_never_faster_than_250_mm_per_second) {
+  double fastest = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    const double period_ms = seed % 2 == 0 ? 4 : 10;
+    Cell cell("TOOL long = POSE 0 100 300 RPY 0 0 0\n", period_ms);
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.service.tool = seed % 3 == 0 ? 1 : 0;
+    ASSERT_TRUE(cell.serve(Service::SelectTool));
+    cell.in.service.point = 1;
+    ASSERT_TRUE(cell.serve(Service::MoveJoints));
+    Judge judge(period_ms / 1000);
+    for (int k = 0; k < 4; ++k) {
+      cell.step();
+      static_cast<void>(judge.look(cell, 1));
+    }
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    for (int i = 0; i < 30'000 / period_ms; ++i) {
+      if (in(0, 1) < 1.5 * period_ms / 1000) {
+        cell.in.jog = {};
+        cell.in.jog.enabled = in(0, 1) < 0.9;
+        cell.in.jog.frame = static_cast<JogFrame>(std::uniform_int_distribution<int>(0, 2)(random));
+        cell.in.jog.speed[std::uniform_int_distribution<std::size_t>(0, 5)(random)] = in(0, 1) < 0.5 ? 100 : -100;
+      }
+      const Vec3 before = tip(cell);
+      cell.step();
+      ASSERT_EQ(judge.look(cell, 1), "") << "seed " << seed << ", period " << i;
+      ASSERT_NE(cell.out.state, GroupState::ErrorStop) << to_string(cell.out.error);
+      fastest = std::max(fastest, (tip(cell) - before).norm() / period_ms * 1000);
+      ASSERT_LE(fastest, 250) << "seed " << seed << ", period " << i;
+    }
+  }
+  fmt::print("at most {:.1f} mm/s\n", fastest);
+  EXPECT_GT(fastest, 200);
+}
+
+TEST(Jog, Goes_straight_and_rests_when_the_switch_is_released) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.point = 2;
+  ASSERT_TRUE(cell.serve(Service::MoveJoints));
+  const Vec3 from = tip(cell);
+  cell.in.jog.frame = JogFrame::Base;
+  cell.in.jog.speed[2] = 50;
+  for (int i = 0; i < 50; ++i) {
+    cell.step();
+  }
+  EXPECT_LT((tip(cell) - from).norm(), 1e-9) << "the enabling switch is not pressed";
+  cell.in.jog.enabled = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.tool_speed > 120; }));
+  cell.in.jog.enabled = false;
+  ASSERT_TRUE(cell.until([&] { return stands(cell); }, 100));
+  EXPECT_GT(tip(cell).z(), from.z() + 5);
+  EXPECT_LT((tip(cell) - from).head<2>().norm(), 1e-6);
+}
+
+TEST(Jog, An_axis_comes_to_its_limit_and_rests_there) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.jog.enabled = true;
+  cell.in.jog.speed[4] = 100;
+  const double limit = degrees(cell_arm().axis(4).upper);
+  ASSERT_TRUE(cell.until([&] { return std::abs(cell.out.command[4] - limit) < 1e-6; }, 20'000));
+  cell.in.jog.enabled = false;
+  EXPECT_TRUE(cell.until([&] { return stands(cell); }, 100));
+}
+
+}  // namespace
+}  // namespace indurop::robot
