@@ -25,6 +25,7 @@ await browser.run({
     const field = "[aria-label='New value of conveyor::stop']";
     await page.waitForSelector(field);
     await page.select(field, "true");
+    await page.select("[aria-label='How long to force']", "3");  // until released
     await press(page, "Force");
     await sees(page, "1 value is forced");
     await page.evaluate(() => { location.hash = "#/plc"; });
