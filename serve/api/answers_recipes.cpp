@@ -124,13 +124,13 @@ Reply load_recipe(Api& api, const Call& call) {
   if (auto refused = write.begin()) {
     return *refused;
   }
-  std::uint64_t tick = 0;
+  std::optional<std::uint64_t> tick;
   if (const int code = tools::load_values(write.context(), *store, *one, tick); code != kOk) {
     return write.failed_with(code);
   }
   base::Json body = about(**found);
   body["recipe"] = one->name;
-  body["tick"] = tick == 0 ? base::Json() : base::Json(tick);
+  body["tick"] = tick ? base::Json(*tick) : base::Json();
   body["values"] = one->values.size();
   return write.done(body);
 }

@@ -77,7 +77,7 @@ std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe) 
   return all;
 }
 
-int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::uint64_t& tick) {
+int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::optional<std::uint64_t>& tick) {
   std::vector<std::string> words;
   for (const auto& [name, value] : recipe.values) {
     words.push_back(fmt::format("{}={}", name, text_of(value)));
@@ -89,7 +89,7 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
   if (any_forced(context, store, *assignments)) {
     return kFailed;
   }
-  tick = 0;
+  tick.reset();
   if (!context.values->absence(&store).empty()) {
     for (const auto& [item, bytes] : *assignments) {
       if (const auto done = context.values->set(store, item.name, *item.entry, item.place, bytes); !done) {

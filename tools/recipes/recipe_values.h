@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ struct Difference {
 std::vector<Difference> compare(const vars::Store& store, const Recipe& recipe);
 
 // All of them in one tick of the node `context.node`, or none: types, ranges and forces are looked at before, and every
-// value that is wrong is an error message. Of a node that does not run they wait for its next start: `tick` is 0 then.
-// `store` is open to write. The exit code.
-int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::uint64_t& tick);
+// value that is wrong is an error message. Of a node that does not run they wait for its next start: `tick` is empty
+// then. `store` is open to write. The exit code.
+int load_values(Context& context, vars::Store& store, const Recipe& recipe, std::optional<std::uint64_t>& tick);
 
 }  // namespace indurop::tools

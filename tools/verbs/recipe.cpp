@@ -73,7 +73,7 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
   entry.board = context.node;
   entry.action = "load recipe";
   entry.what = recipe.name;
-  std::uint64_t tick = 0;
+  std::optional<std::uint64_t> tick;
   const int code = load_values(context, store, recipe, tick);
   entry.wall_ns = wall_now_ns();
   entry.outcome = code == kOk ? "done" : "nothing was changed";
@@ -81,8 +81,8 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
     context.out.note(fmt::format("{} cannot be written: {}", usual_audit_file().string(), problem));
   }
   if (code == kOk) {
-    context.out.note(tick != 0 ? fmt::format("loaded {} values in tick {}", recipe.values.size(), tick)
-                               : fmt::format("{} values wait for the node's next start", recipe.values.size()));
+    context.out.note(tick ? fmt::format("loaded {} values in tick {}", recipe.values.size(), *tick)
+                          : fmt::format("{} values wait for the node's next start", recipe.values.size()));
   }
   return code;
 }
