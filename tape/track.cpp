@@ -44,7 +44,7 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store)
       head_(shared.head.load(kRelaxed)),
       claimed_(shared.claimed.load(kRelaxed)),
       number_(shared.runs.load(kRelaxed)),
-      anew_(number_ > 0) {  // another process of a module that has run
+      anew_(number_ > 0 ? std::uint32_t{kAnew} : 0U) {  // another process of a module that has run
   const auto* const indices = reinterpret_cast<const std::uint32_t*>(tape + shared.items_offset);
   std::uint64_t largest = 0;
   for (std::size_t i = 0; i < reads_end_ + shared.only_written; ++i) {
@@ -164,11 +164,11 @@ void Track::publish(RunTail tail, std::uint32_t flags) noexcept {
   shared_.runs.store(number_, kRelaxed);
   tail.order = order_;
   claim(1 + kRunWords);
-  const bool anew = anew_.load(std::memory_order_acquire);
-  if (anew) {
-    anew_.store(false, kRelaxed);
+  const std::uint32_t anew = anew_.load(std::memory_order_acquire);
+  if (anew != 0) [[unlikely]] {
+    anew_.store(0, kRelaxed);
   }
-  put_head(EntryKind::Run, flags | (anew ? std::uint32_t{kAnew} : 0U));
+  put_head(EntryKind::Run, flags | anew);
   for (const std::uint64_t word : std::bit_cast<std::array<std::uint64_t, kRunWords>>(tail)) {
     put(word);
   }

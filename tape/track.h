@@ -19,7 +19,7 @@ class Track {
   Track(std::byte* tape, TapeTrack& shared, const vars::Store& store);
 
   // The module is started anew before its next run; while it does not run, on any thread.
-  void started_anew() noexcept { anew_.store(true, std::memory_order_release); }
+  void started_anew() noexcept { anew_.store(kAnew, std::memory_order_release); }
   // What the run begins with. Real-time safe: no lock, no allocation, no system call.
   void begin() noexcept;
   // The run was told this time. Real-time safe.
@@ -60,10 +60,10 @@ class Track {
   std::uint64_t number_ = 0;
   std::uint64_t order_ = 0;
   std::size_t again_ = 0;
-  int clock_left_ = 0;  // readings of this run that may still be told
-  std::atomic<bool> anew_;
-  bool all_ = true;    // nothing was told yet, or what was told is not published
-  bool open_ = false;  // a run has begun and not ended
+  int clock_left_ = 0;               // readings of this run that may still be told
+  std::atomic<std::uint32_t> anew_;  // kAnew or 0
+  bool all_ = true;                  // nothing was told yet, or what was told is not published
+  bool open_ = false;                // a run has begun and not ended
 };
 
 }  // namespace indurop::tape

@@ -167,11 +167,10 @@ Result<Batch> Batch::create(const std::string& node, const Store& store) {
   return Batch(std::move(file).value());
 }
 
-void Batch::carry_out(const Store& store, std::uint64_t tick) noexcept {
+void Batch::carry_out_staged(const Store& store, std::uint64_t tick) noexcept {
   BatchBlock& to_do = block();
   auto state = BatchState::Staged;
-  if (to_do.state.load(std::memory_order_relaxed) != state ||
-      !to_do.state.compare_exchange_strong(state, BatchState::Working, std::memory_order_acquire)) {
+  if (!to_do.state.compare_exchange_strong(state, BatchState::Working, std::memory_order_acquire)) {
     return;
   }
   const BatchState result = Order(store, to_do).carry_out();

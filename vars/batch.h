@@ -53,9 +53,14 @@ class Batch {
   static Result<Batch> create(const std::string& node, const Store& store);
   // On the tick thread, before anything of the tick runs. Real-time safe: a variable that somebody is just writing is
   // not waited for, the next tick tries again.
-  void carry_out(const Store& store, std::uint64_t tick) noexcept;
+  void carry_out(const Store& store, std::uint64_t tick) noexcept {
+    if (block().state.load(std::memory_order_relaxed) == BatchState::Staged) [[unlikely]] {
+      carry_out_staged(store, tick);
+    }
+  }
 
  private:
+  void carry_out_staged(const Store& store, std::uint64_t tick) noexcept;
   explicit Batch(ShmFile file) noexcept : file_(std::move(file)) {}
   [[nodiscard]] BatchBlock& block() const noexcept { return *reinterpret_cast<BatchBlock*>(file_.data()); }
 
