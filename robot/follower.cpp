@@ -82,9 +82,6 @@ void Follower::stop_hard(double hardness) noexcept {
     return;
   }
   mode_ = Mode::HardStop;
-  if (!idle() && segment(0).timed && segment(0).move != Move::Joint) {
-    leave_timing();
-  }
   brake_.begin(hardness);
   if (at_rest()) {
     reset(q_);
@@ -167,12 +164,6 @@ void Follower::begin_piece() noexcept {
     state_ = {0, wanted_pace(), 0};
   }
   replan();
-}
-
-// Where the place itself is braked, not its timing.
-void Follower::leave_timing() noexcept {
-  state_.position = segments_[0].leave_timing(state_.position);
-  past_.moved = {passed_[0] - passed_[1], passed_[1] - passed_[2]};
 }
 
 // What has a timing is planned anew in each period.
@@ -285,6 +276,18 @@ Reach Follower::joints_ahead(double distance, const Joints& near, Joints& q) con
   return places_.on(segment(1), blend_.zone + beyond, near, q);
 }
 
+// A blend begins or ends there.
+double Follower::smooth_until(double distance) const noexcept {
+  if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
+    return HUGE_VAL;
+  }
+  const double end = piece_end() - state_.position;
+  if (distance < end) {
+    return end;
+  }
+  return !in_blend_ && distance < end + blend_.length() ? end + blend_.length() : HUGE_VAL;
+}
+
 double Follower::left() const noexcept {
   const double here = piece_end() - state_.position;
   if (count_ < 2 || (blend_.zone <= 0 && !in_blend_)) {
@@ -330,13 +333,9 @@ Fault Follower::brake(double seconds) noexcept {
   go(distance);
   state_.velocity = distance / seconds;
   state_.acceleration = (state_.velocity - before) / seconds;
-  speed_ = state_.velocity;
-  acceleration_ = state_.acceleration;
   q_ = q;
   note(distance);
-  if (has_shape()) {
-    note_joints(seconds);
-  }
+  note_place(seconds);
   if (distance <= 0) {
     reset(q_);
   }

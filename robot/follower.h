@@ -82,7 +82,6 @@ class Follower final : private PathAhead {
   [[nodiscard]] bool can_begin(const JointState& now, double pace) const noexcept;
   bool leave_shares() noexcept;
   Profile pace_of_timing(double seconds) noexcept;
-  void leave_timing() noexcept;
   void note_place(double seconds) noexcept;
   void note_joints(double seconds) noexcept;
   void try_blend() noexcept;
@@ -101,6 +100,10 @@ class Follower final : private PathAhead {
   [[nodiscard]] double left() const noexcept override;
   [[nodiscard]] bool has_shape() const noexcept override { return segment(0).timed && segment(0).move == Move::Joint; }
   [[nodiscard]] Shape shape_ahead(double distance) const noexcept override;
+  [[nodiscard]] double smooth_until(double distance) const noexcept override;
+  [[nodiscard]] bool is_timed() const noexcept override { return segment(0).timed && segment(0).move != Move::Joint; }
+  [[nodiscard]] Timed timed_ahead(double distance) const noexcept override;
+  Reach joints_on_path(double along, const Joints& near, Joints& q) const noexcept override;
 
   void put_aside() noexcept;
 

@@ -173,6 +173,16 @@ PathAhead::Shape Follower::shape_ahead(double distance) const noexcept {
   return shape;
 }
 
+Timed Follower::timed_ahead(double distance) const noexcept {
+  Timed there = segment(0).timing.at(state_.position + distance);
+  there.place -= passed_[0];
+  return there;
+}
+
+Reach Follower::joints_on_path(double along, const Joints& near, Joints& q) const noexcept {
+  return is_timed() ? places_.on_path(segment(0), passed_[0] + along, near, q) : joints_ahead(along, near, q);
+}
+
 // How the pace of a motion with a timing goes on.
 Profile Follower::pace_of_timing(double seconds) noexcept {
   Segment& s = segments_[0];

@@ -22,24 +22,81 @@ void PathBrake::begin(double hardness) noexcept {
   length_ = gone_ = changed_ = 0;
 }
 
-Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double distance) noexcept {
+Reach PathBrake::fit(const PathAhead& path, Joints& near, double from, double length) noexcept {
   std::array<Joints, 5> f;
-  f[0] = here;
+  f[0] = near;
   for (std::size_t i = 1; i < 5; ++i) {
-    f[i] = f[i - 1];
-    if (const Reach reach = path.joints_ahead(distance * static_cast<double>(i) / 4, f[i - 1], f[i]);
-        reach != Reach::Ok) {
+    const Reach reach = path.joints_on_path(from + length * static_cast<double>(i) / 4, near, f[i]);
+    if (reach != Reach::Ok) {
       return reach;
     }
+    near = f[i];
   }
   const Joints d1 = f[1] - f[0];
   const Joints d2 = f[2] - 2 * f[1] + f[0];
   const Joints d3 = f[3] - 3 * f[2] + 3 * f[1] - f[0];
   const Joints d4 = f[4] - 4 * f[3] + 6 * f[2] - 4 * f[1] + f[0];
-  shape_ = {f[0], d1 - d2 / 2 + d3 / 3 - d4 / 4, d2 / 2 - d3 / 2 + d4 * (11.0 / 24), d3 / 6 - d4 / 4, d4 / 24};
+  shape_[pieces_] = {f[0], d1 - d2 / 2 + d3 / 3 - d4 / 4, d2 / 2 - d3 / 2 + d4 * (11.0 / 24), d3 / 6 - d4 / 4, d4 / 24};
+  return Reach::Ok;
+}
+
+Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double distance) noexcept {
+  timed_ = path.is_timed();
+  const auto time = [&](int i) { return path.timed_ahead(distance * i / kTimes); };
+  const double way = timed_ ? time(kTimes).place : distance;
+  pieces_ = 0;
+  bounds_[0] = 0;
+  Joints near = here;
+  while (bounds_[pieces_] < way) {
+    const double from = bounds_[pieces_];
+    const double end = timed_ || pieces_ == kMostPieces - 1 ? way : std::min(way, path.smooth_until(from));
+    if (const Reach reach = fit(path, near, from, end - from); reach != Reach::Ok) {
+      return reach;
+    }
+    bounds_[++pieces_] = end;
+  }
+  for (int i = 0; i <= kTimes && timed_; ++i) {
+    times_[static_cast<std::size_t>(i)] = time(i);
+  }
   length_ = distance;
   gone_ = 0;
   return Reach::Ok;
+}
+
+// Between two instants a polynomial of the fifth degree.
+Timed PathBrake::timed(double place) const noexcept {
+  if (!timed_) {
+    return {place, 1, 0, 0};
+  }
+  const double unit = kTimes / length_;
+  const double x = std::clamp(place * unit, 0.0, double{kTimes});
+  const auto i = static_cast<std::size_t>(std::min(x, kTimes - 1.0));
+  const Timed& from = times_[i];
+  const Timed& to = times_[i + 1];
+  const double t = x - static_cast<double>(i);
+  const double v = from.speed / unit;
+  const double a = from.acceleration / (unit * unit);
+  const double s = to.place - from.place - v - a / 2;
+  const double w = to.speed / unit - v - a;
+  const double b = to.acceleration / (unit * unit) - a;
+  const double c3 = 10 * s - 4 * w + b / 2;
+  const double c4 = -15 * s + 7 * w - b;
+  const double c5 = 6 * s - 3 * w + b / 2;
+  return {from.place + t * (v + t * (a / 2 + t * (c3 + t * (c4 + t * c5)))),
+          unit * (v + t * (a + t * (3 * c3 + t * (4 * c4 + 5 * t * c5)))),
+          unit * unit * (a + t * (6 * c3 + t * (12 * c4 + 20 * t * c5))),
+          unit * unit * unit * (6 * c3 + t * (24 * c4 + 60 * t * c5))};
+}
+
+// That of a place on the path, which becomes the place in quarters of it; `unit`: of them for each of the path.
+const PathBrake::Polynomial& PathBrake::polynomial(double& place, double& unit) const noexcept {
+  std::size_t i = 0;
+  while (i + 1 < pieces_ && place > bounds_[i + 1]) {
+    ++i;
+  }
+  unit = 4 / (bounds_[i + 1] - bounds_[i]);
+  place = (std::min(place, bounds_[i + 1]) - bounds_[i]) * unit;
+  return shape_[i];
 }
 
 PathBrake::Rates PathBrake::rates(double place) const noexcept {
@@ -47,11 +104,19 @@ PathBrake::Rates PathBrake::rates(double place) const noexcept {
     const PathAhead::Shape shape = exact_->shape_ahead(place - gone_);
     return {shape.first, shape.second, shape.third};
   }
-  const double unit = 4 / length_;
-  const double t = std::min(place, length_) * unit;
-  const auto& c = shape_;
-  return {unit * (c[1] + t * (2 * c[2] + t * (3 * c[3] + 4 * t * c[4]))),
-          unit * unit * (2 * c[2] + t * (6 * c[3] + 12 * t * c[4])), unit * unit * unit * (6 * c[3] + 24 * t * c[4])};
+  const Timed now = timed(place);
+  double t = now.place;
+  double unit = 0;
+  const Polynomial& c = polynomial(t, unit);
+  const Joints first = unit * (c[1] + t * (2 * c[2] + t * (3 * c[3] + 4 * t * c[4])));
+  const Joints second = unit * unit * (2 * c[2] + t * (6 * c[3] + 12 * t * c[4]));
+  const Joints third = unit * unit * unit * (6 * c[3] + 24 * t * c[4]);
+  if (!timed_) {
+    return {first, second, third};
+  }
+  const double v = now.speed;
+  return {v * first, v * v * second + now.acceleration * first,
+          v * v * v * third + 3 * v * now.acceleration * second + now.jerk * first};
 }
 
 PathBrake::Span PathBrake::span_of(const Joints& first, const Joints& rest, const Joints& most) noexcept {
@@ -192,14 +257,15 @@ Joints PathBrake::joints_at(double place) const noexcept {
   if (exact_ != nullptr) {
     return exact_->shape_ahead(place - gone_).value;
   }
-  const double t = std::min(place, length_) * (4 / length_);
-  const auto& c = shape_;
+  double t = timed(place).place;
+  double unit = 0;
+  const Polynomial& c = polynomial(t, unit);
   return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
 }
 
 Reach PathBrake::next(const PathAhead& path, const PathHistory& past, double period, double& distance,
                       Joints& q) noexcept {
-  constexpr int kTries = 4;
+  constexpr int kTries = 8;
   constexpr double kInset = 1e-3;  // of what is possible: the polynomials are not that exact
   distance = 0;
   q = past.joints[0];

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "robot/arm.h"
 #include "robot/inverse.h"
+#include "robot/path_timing.h"
 #include "robot/profile.h"
 
 namespace indurop::robot {
@@ -27,6 +29,15 @@ class PathAhead {
   };
   [[nodiscard]] virtual bool has_shape() const noexcept { return false; }
   [[nodiscard]] virtual Shape shape_ahead(double /*distance*/) const noexcept { return {}; }
+  // Where distances are seconds of a timing: how far along the path, from the present place on, that is, and joint
+  // angles there.
+  [[nodiscard]] virtual bool is_timed() const noexcept { return false; }
+  [[nodiscard]] virtual Timed timed_ahead(double distance) const noexcept { return {distance}; }
+  virtual Reach joints_on_path(double along, const Joints& near, Joints& q) const noexcept {
+    return joints_ahead(along, near, q);
+  }
+  // Where the piece of the path ends on which that distance is; infinite: the last one. Shapes change abruptly there.
+  [[nodiscard]] virtual double smooth_until(double /*distance*/) const noexcept { return HUGE_VAL; }
   // How far the path goes on.
   [[nodiscard]] virtual double left() const noexcept = 0;
 };
@@ -63,6 +74,11 @@ class PathBrake {
   [[nodiscard]] double far(const PathHistory& past, double period) const noexcept;
   Reach keep_in_sight(const PathAhead& path, const PathHistory& past, double period) noexcept;
   Reach look_ahead(const PathAhead& path, const Joints& here, double distance) noexcept;
+  using Polynomial = std::array<Joints, 5>;
+
+  Reach fit(const PathAhead& path, Joints& near, double from, double length) noexcept;
+  [[nodiscard]] const Polynomial& polynomial(double& place, double& unit) const noexcept;
+  [[nodiscard]] Timed timed(double place) const noexcept;
   [[nodiscard]] Joints joints_at(double place) const noexcept;
   [[nodiscard]] Rates rates(double place) const noexcept;
   // What |first * y + rest| <= most leaves for y.
@@ -80,8 +96,15 @@ class PathBrake {
   const PathAhead* exact_ = nullptr;  // in next(), where it is exact; else polynomials do
   Joints acceleration_ = Joints::Zero();
   Joints jerk_ = Joints::Zero();
-  // The path ahead as polynomials of the fourth degree, in quarters of `length_`.
-  std::array<Joints, 5> shape_;
+  // The path ahead as polynomials of the fourth degree, in quarters of their part of it, one for each of its pieces;
+  // the timing of it in equal parts of `length_`, if it has one.
+  static constexpr std::size_t kMostPieces = 3;
+  static constexpr int kTimes = 16;
+  std::size_t pieces_ = 0;
+  std::array<double, kMostPieces + 1> bounds_{};
+  std::array<Polynomial, kMostPieces> shape_;
+  std::array<Timed, kTimes + 1> times_{};
+  bool timed_ = false;
   double length_ = 0;
   double gone_ = 0;     // since they were made
   double changed_ = 0;  // last change of the acceleration, per period, as a distance

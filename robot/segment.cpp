@@ -41,17 +41,15 @@ void Segment::take_joint_timing(const JointState& state, const JointLimits& join
   settled = JointTiming::settling(state, own, joints.velocity);
 }
 
-double Segment::leave_timing(double place) noexcept {
-  length = stretch;
-  timed = false;
-  return timing.at(place).place;
+Pose Segment::pose_at(double place) const noexcept {
+  return pose_on_path(timed ? timing.at(place).place : place);
 }
 
-Pose Segment::pose_at(double place) const noexcept {
+Pose Segment::pose_on_path(double along) const noexcept {
   if (chain != nullptr) {
-    return chain->pose_at(timed ? timing.at(place).place : place);
+    return chain->pose_at(along);
   }
-  const double part = length > 0 ? std::clamp(timed ? timing.at(place).place / stretch : place / length, 0.0, 1.0) : 1;
+  const double part = length > 0 ? std::clamp(along / (timed ? stretch : length), 0.0, 1.0) : 1;
   Pose pose;
   pose.orientation = start.orientation * rotation_by(part * turn);
   if (move == Move::Circle) {
@@ -95,6 +93,14 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
   const auto found = inverse_->nearest(segment.pose_at(place), near);
   if (found.reach == Reach::Ok) {
     solution = found.solution;
+  }
+  return found.reach;
+}
+
+Reach Places::on_path(const Segment& segment, double along, const Joints& near, Joints& q) const noexcept {
+  const auto found = inverse_->nearest(segment.pose_on_path(along), near);
+  if (found.reach == Reach::Ok) {
+    q = found.solution.q;
   }
   return found.reach;
 }

@@ -80,6 +80,8 @@ struct Segment {
   [[nodiscard]] Joints joints_at(double place) const noexcept;
   // Of lines and circles.
   [[nodiscard]] Pose pose_at(double place) const noexcept;
+  // The same by how far it is on the path, whether the timing is taken or not.
+  [[nodiscard]] Pose pose_on_path(double along) const noexcept;
   // A joint motion to there, at part of full speed, whose axes arrive together.
   static Segment together_to(const Joints& to, double speed) noexcept;
   // What the tool and the command allow of the speed at a place, whether the timing is taken or not.
@@ -88,8 +90,6 @@ struct Segment {
   void take_timing() noexcept;
   // Of joint motions, from any state. The limits are the joints'.
   void take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept;
-  // Returns what `place` is then.
-  double leave_timing(double place) noexcept;
   // m per s at full speed
   [[nodiscard]] double pace() const noexcept { return length > 0 ? way / length : 0; }
 };
@@ -131,6 +131,8 @@ class Places {
   // The joint angles nearest to `near`. Other than Ok leaves `q` alone. Paths of joints have posture 0.
   Reach on(const Segment& segment, double place, const Joints& near, Joints& q) const noexcept;
   Reach on(const Segment& segment, double place, const Joints& near, Solution& solution) const noexcept;
+  // Of lines and circles, by how far it is on the path.
+  Reach on_path(const Segment& segment, double along, const Joints& near, Joints& q) const noexcept;
   Reach on(const Segment& first, const Blend& blend, const Segment& second, double place, const Joints& near,
            Joints& q) const noexcept;
 
