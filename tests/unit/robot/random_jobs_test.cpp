@@ -29,7 +29,7 @@ struct RandomJob {
 };
 
 RandomJob random_job(std::mt19937& random) {
-  static const Arm arm = cell_arm();
+  const Arm arm = cell_arm();
   RandomJob job;
   job.reach(arm.forward(Joints::Zero()).position);
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
