@@ -59,7 +59,7 @@ export function Detail({ board, part, live, close, changed }: Props) {
       {plotted.length > 0 && plotted.length <= MOST_PLOTTED && (
         <p><a href={address("plots", { board, c: plotted.join(",") })}>{plotted.length === 1 ? "Plot it" : `Plot its ${plotted.length} numbers`}</a></p>)}
       {status?.may_write && (is_number(part) || ["text", "char"].includes(part.form.kind)) && !part.form.dims?.length &&
-        <Write board={board} part={part} value={value} forced={forced.length > 0} done={() => { asked.again(); changed(); }} />}
+        <Write key={`${board} ${part.name}`} board={board} part={part} value={value} forced={forced.length > 0} done={() => { asked.again(); changed(); }} />}
       {status && !status.may_write && <p class="quiet">This page may only look. To write: indurop serve --write</p>}
     </aside>);
 }

@@ -59,14 +59,19 @@ interface Props {
 }
 
 export function Write({ board, part, value, forced, done }: Props) {
-  const [text, write] = useState("");
+  const [text, put] = useState("");
+  const [touched, touch] = useState(false);
   const [how_long, choose] = useState(0);
   const [reason, give] = useState("");
   const [said, say] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
+  // The present value is what the field begins with; when it comes late, it must not replace what was written meanwhile.
   useEffect(() => {
-    write(value === undefined ? "" : value_text(value, part.form.enumerators));
-    say({ text: "", bad: false });
-  }, [part.name, value === undefined]);
+    if (!touched) put(value === undefined ? "" : value_text(value, part.form.enumerators));
+  }, [value === undefined]);
+  const write = (what: string) => {
+    touch(true);
+    put(what);
+  };
   const order = async (path: string, body: object, what: string) => {
     try {
       await post(board_path(board, path), reason ? { ...body, reason } : body);
