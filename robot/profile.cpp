@@ -143,7 +143,9 @@ void Profile::append_way(double length, double last, const LineLimits& limits, c
   };
   double time = up.duration();
   double cruise = 0;
-  if (const double all = way(time); all <= length) {
+  // At the top speed exactly: what rounding leaves of it would be the root of that in time.
+  const double all = up.distance + ramp({0, limits.velocity, 0}, last, braking).distance;
+  if (all <= length) {
     cruise = limits.velocity > 0 ? (length - all) / limits.velocity : 0;
   } else {
     time = just_fitting(0, time, length, way);

@@ -126,6 +126,20 @@ Case any_case(std::mt19937& random) {
   return c;
 }
 
+// What rounding leaves of the way to the top speed is little speed, but its root in time.
+TEST(Profile, Ends_where_it_says_also_from_nearly_the_top_speed) {
+  std::mt19937 random(12);
+  const auto any = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int i = 0; i < 20000; ++i) {
+    const LineLimits limits{any(0.05, 1), any(0.05, 4), any(1, 40)};
+    const double rounding = std::pow(10, any(-17, -9));
+    const LineState from{0, limits.velocity * (1 + any(-1, 1) * rounding), any(-1, 1) * rounding};
+    const double length = any(0.001, 0.1);
+    const Profile sut = Profile::to_position(from, length, limits.velocity, limits);
+    ASSERT_NEAR(sut.at(sut.duration() * (1 - 1e-14)).position, length, 1e-13) << i;
+  }
+}
+
 TEST(Profile, To_rest_from_any_state_within_the_limits) {
   std::mt19937 random(14);
   for (int i = 0; i < 20000; ++i) {
