@@ -130,12 +130,17 @@ Reach Places::on(const Segment& first, const Blend& blend, const Segment& second
     }
     return found.reach;
   }
-  // At least one of them is a path of joints: the sum is made of joint angles.
+  // At least one of them is a path of joints: the sum is made of joint angles, and what it adds says where the other
+  // one is.
   Joints a;
   Joints b;
-  Reach reach = on(first, before, near, a);
-  if (reach == Reach::Ok) {
-    reach = on(second, behind, second.from, b);
+  Reach reach = Reach::Ok;
+  if (first.move == Move::Joint) {
+    a = first.joints_at(before);
+    reach = on(second, behind, near - (a - second.from), b);
+  } else {
+    b = second.joints_at(behind);
+    reach = on(first, before, near - (b - second.from), a);
   }
   if (reach == Reach::Ok) {
     q = a + (b - second.from);
