@@ -8,12 +8,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStill = 1e-3;    // an override below is a hold
 constexpr double kRounded = 1e-6;  // a speed below is none
-
-LineLimits lower(const LineLimits& a, const LineLimits& b) noexcept {
-  return {std::min(a.velocity, b.velocity), std::min(a.acceleration, b.acceleration), std::min(a.jerk, b.jerk)};
-}
 
 }  // namespace
 
@@ -115,45 +110,11 @@ const LineLimits& Follower::piece_limits() const noexcept {
   return in_blend_ ? blend_.limits : segment(0).limits;
 }
 
-LineLimits Follower::stop_limits() const noexcept {
-  const LineLimits& here = piece_limits();
-  // Without a blend this piece ends at rest. A stop that does not end on it keeps the limits of those it goes through.
-  if (blend_.zone <= 0 || state_.position + ramp(state_, 0, here).distance <= piece_end()) {
-    return here;
-  }
-  const LineLimits& next = segment(1).limits;
-  return lower(here, lower(blend_.limits, next));
-}
-
-// Whether the first two segments go over into each other is decided once, before the first one is so near its end that
-// it could not be at the blend's speed any more.
-void Follower::try_blend() noexcept {
-  if (in_blend_ || blend_.zone > 0 || stopping() || segment(0).timed) {
-    return;
-  }
-  Blend wanted = blends_[1];
-  if (wanted.zone <= 0) {
-    return;
-  }
-  // The second one may be the last: it must be possible to stop on it.
-  const double rest = segment(1).length - wanted.zone;
-  double& speed = wanted.limits.velocity;
-  while (speed > kStill && ramp({0, speed, 0}, 0, segment(1).limits).distance > rest) {
-    speed *= 0.9;
-  }
-  const double left = segment(0).length - wanted.zone - state_.position;
-  const bool in_time = left > 0 && (state_.velocity <= 0 ||
-                                    ramp(state_, std::min(speed, state_.velocity), segment(0).limits).distance <= left);
-  if (speed > kStill && in_time) {
-    blend_ = wanted;
-    replan();
-  }
-}
-
 // Whether a path is followed by its timing is decided where it begins: from rest, with no way into the next one. There
 // it is followed at once, since it begins at rest itself.
 void Follower::begin_piece() noexcept {
   Segment& first = segments_[0];
+  to_end_ = false;
   if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && (first.timing.known() || first.together)) {
     if (first.together) {
       first.take_joint_timing({first.from, Joints::Zero(), Joints::Zero()}, most_, wanted_pace());
@@ -168,18 +129,31 @@ void Follower::begin_piece() noexcept {
 
 // What has a timing is planned anew in each period.
 void Follower::replan() noexcept {
-  time_ = 0;
   if (segment(0).timed) {
-    return;
-  }
-  if (mode_ != Mode::Run || override_ < kStill) {
-    profile_ = Profile::to_velocity(state_, 0, stop_limits());
+    time_ = 0;
     return;
   }
   LineLimits limits = piece_limits();
-  limits.velocity *= override_;
-  const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
-  profile_ = Profile::to_position(state_, piece_end(), exit, limits);
+  Profile next;
+  bool to_end = false;
+  if (mode_ == Mode::Run && override_ >= kStill) {
+    limits.velocity *= override_;
+    const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
+    next = Profile::to_position(state_, piece_end(), exit, limits);
+    to_end = !next.overshoots();
+  } else {
+    next = Profile::to_velocity(state_, 0, limits);
+  }
+  if (!to_end && !in_blend_ && blend_.zone > 0 && next.end().position > piece_end()) {
+    next = into_blend();
+    to_end = true;
+    if (next.overshoots() && to_end_) {
+      return;  // by rounding; it is nearly there as planned
+    }
+  }
+  profile_ = next;
+  to_end_ = to_end;
+  time_ = 0;
 }
 
 // When the end of the present piece is passed; it is between these two times.
@@ -227,7 +201,7 @@ double Follower::advance(double seconds) noexcept {
       time_ = 0;
     }
     const double until = time_ + seconds;
-    const bool running = !timed && wanted_pace() > 0 && !profile_.overshoots();
+    const bool running = !timed && to_end_;
     double reached = until;
     bool crossed = false;
     if (running) {

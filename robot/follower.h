@@ -70,12 +70,13 @@ class Follower final : private PathAhead {
 
  private:
   static constexpr int kMost = 3;
+  static constexpr double kStill = 1e-3;  // an override below is a hold
   enum class Mode { Run, Hold, Stop, HardStop };
 
   [[nodiscard]] const Segment& segment(int i) const noexcept { return segments_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double piece_end() const noexcept;
   [[nodiscard]] const LineLimits& piece_limits() const noexcept;
-  [[nodiscard]] LineLimits stop_limits() const noexcept;
+  [[nodiscard]] Profile into_blend() const noexcept;
   [[nodiscard]] double wanted_pace() const noexcept;
   void begin_piece() noexcept;
   Reach motion(JointState& now) const noexcept;
@@ -131,6 +132,7 @@ class Follower final : private PathAhead {
   PathBrake brake_;
   PathHistory past_;
   Profile profile_;
+  bool to_end_ = false;  // of the present piece, where the profile ends
   PaceChange pace_;
   double time_ = 0;    // in the profile
   double period_ = 0;  // the last one

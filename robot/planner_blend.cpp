@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr int kBlendPlaces = 16;
+constexpr int kBlendPlaces = 64;  // its jerk is greatest at its ends, where differences see the mean of three parts
 
 // Whether a sharp corner is not so slow to go round that stopping there would be faster.
 bool faster(const Segment& first, const Blend& blend, const Segment& second) noexcept {

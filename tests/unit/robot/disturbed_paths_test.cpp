@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random lines, circles and chains of short lines one after the other, with holds, overrides and stops at random
-// instants: the set points they make keep all limits before any gate has looked at them. (Emergency stops are in
-// random_jobs_test.cpp, behind the gate.) INDUROP_ROBOT_PATHS says how many, INDUROP_ROBOT_SEED from which one on.
+// Random lines, circles and chains of short lines one after the other, or motions of all kinds that are blended, with
+// holds, overrides and stops at random instants: the set points they make keep all limits before any gate has looked at
+// them. (Emergency stops are in random_jobs_test.cpp, behind the gate.) INDUROP_ROBOT_PATHS says how many,
+// INDUROP_ROBOT_SEED from which one on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +27,13 @@ int setting(const char* name, int otherwise) {
 
 class Disturbed {
  public:
-  explicit Disturbed(unsigned seed) : random_(seed), period_(seed % 3 == 0 ? 0.001 : seed % 3 == 1 ? 0.004 : 0.01) {}
+  // `blended`: motions of all kinds go over into each other; else each begins and ends at rest.
+  Disturbed(unsigned seed, bool blended)
+      : random_(seed),
+        blended_(blended),
+        period_(seed % 3 == 0   ? 0.001
+                : seed % 3 == 1 ? 0.004
+                                : 0.01) {}
 
   // Empty, or what broke.
   std::string run() {
@@ -65,16 +72,19 @@ class Disturbed {
   bool plan(const Joints& from) {
     MoveCommand command;
     const double far = std::exp(in(std::log(0.005), std::log(0.8)));
-    command.move = in(0, 1) < 0.6 ? Move::Line : Move::Circle;
+    const double kind = in(0, 1);
+    command.move = kind < 0.6 ? Move::Line : blended_ && kind < 0.8 ? Move::Joint : Move::Circle;
+    command.zone = blended_ ? in(0, 0.1) : 0;
     command.mid = pose_near(from, far / 2);
     command.target = pose_near(from, far);
     command.speed = in(0, 1) < 0.5 ? 1 : in(0.05, 1);
-    Fault fault = in(0, 1) < 0.25 ? begin_chain(from) : planner_.begin(command, from);
+    Fault fault = !blended_ && in(0, 1) < 0.25 ? begin_chain(from) : planner_.begin(command, from);
     while (fault.ok() && !planner_.done()) {
       fault = planner_.check(1000);
     }
     if (fault.ok()) {
-      follower_.add(planner_.segment());
+      follower_.add(planner_.segment(), follower_.idle() ? Blend{} : planner_.blend(before_, planner_.segment()));
+      before_ = planner_.segment();
     }
     return fault.ok();
   }
@@ -134,6 +144,7 @@ class Disturbed {
   }
 
   std::mt19937 random_;
+  bool blended_;
   double period_;
   Arm arm_ = cell_arm();
   Inverse inverse_{arm_};
@@ -143,22 +154,28 @@ class Disturbed {
   Planner planner_{places_, limits_, tool_};
   std::array<Chain, 5> chains_;
   std::size_t next_chain_ = 0;
+  Segment before_;
   Follower follower_{places_, limits_};
   Joints q_, v_ = Joints::Zero(), a_ = Joints::Zero();
 };
 
-TEST(Disturbed_paths, Keep_all_limits_before_any_gate) {
+class Disturbed_paths : public testing::TestWithParam<bool> {};
+
+TEST_P(Disturbed_paths, Keep_all_limits_before_any_gate) {
   const int first = setting("INDUROP_ROBOT_SEED", 1);
   const int many = setting("INDUROP_ROBOT_PATHS", 400);
   int bad = 0;
   for (int i = 0; i < many; ++i) {
     const auto seed = static_cast<unsigned>(first + i);
-    const std::string broken = Disturbed(seed).run();
+    const std::string broken = Disturbed(seed, GetParam()).run();
     EXPECT_EQ(broken, "") << "seed " << seed;
     bad += broken.empty() ? 0 : 1;
   }
   fmt::print("{} of {} break a limit\n", bad, many);
 }
+
+INSTANTIATE_TEST_SUITE_P(Motions, Disturbed_paths, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "blended" : "from_rest"; });
 
 }  // namespace
 }  // namespace indurop::robot
