@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kSpacing = 0.01;      // m between places that are looked at
 constexpr int kFewest = 24;            // places
-constexpr double kSlowest = 0.02;      // part of full speed below which a path counts as singular
 constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to turn over
 
 ErrorCode code_of(Reach reach) noexcept {
@@ -167,6 +166,7 @@ void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
   s.length = std::max(s.way / tool_.velocity, angle / tool_.turn_velocity);
   if (s.length <= 1e-9) {
     s.length = 0;
+    s.to = s.from;  // joint angles of the target may be another way to hold the tool there
     return;
   }
   const double pace = s.way / s.length;
@@ -350,7 +350,7 @@ Fault Planner::looked() noexcept {
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
-  if (segment_.limits.velocity < std::min(kSlowest, wanted_)) {
+  if (segment_.limits.velocity < std::min(kSlowestPace, wanted_)) {
     return {ErrorCode::Singular};
   }
   // What may be blended has one speed for all of it.
@@ -383,6 +383,9 @@ Fault Planner::check(int places) noexcept {
         break;
       case Stage::Done:
         break;
+    }
+    if (stage_ == Stage::Done && crawls()) {
+      return {ErrorCode::Singular};
     }
   }
   return {};

@@ -37,6 +37,7 @@ class Planner {
 
  private:
   static constexpr int kMost = 256;
+  static constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
   using Samples = std::array<Joints, kMost + 1>;
 
   // Looking for reach, limits and singular positions; then for a timing; then going through what came out.
@@ -49,6 +50,7 @@ class Planner {
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   void end_rehearsal() noexcept;
+  [[nodiscard]] bool crawls() const noexcept;
   [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;

@@ -93,4 +93,15 @@ void Planner::end_rehearsal() noexcept {
   }
 }
 
+// Whether all of it takes so much longer than it would by the tool's speed that nobody waits for it: what is seen in
+// places only, a singular position that is nearly met, shows in the rehearsal.
+bool Planner::crawls() const noexcept {
+  const Segment& s = segment_;
+  const double least =
+      s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();
+  const double taken =
+      s.timing.known() ? s.timing.duration() : Profile::to_position({}, s.length, 0, s.limits).duration();
+  return taken * kSlowestPace > least;
+}
+
 }  // namespace indurop::robot
