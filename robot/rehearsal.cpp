@@ -11,7 +11,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kSure = 0.99;  // of the limits, between two instants
-constexpr int kFewest = 96;     // instants
+constexpr int kFewest = 300;    // instants: jerk of short motions peaks between the knots of their timing
 constexpr int kMost = 1 << 20;
 
 }  // namespace
