@@ -15,7 +15,7 @@ import time
 import unittest
 
 SKIPPED = 77
-PATIENCE = 300
+PATIENCE = 1200  # seconds; translated machines on a busy host are a hundred times slower than this one
 options = None
 
 
@@ -27,7 +27,7 @@ class Lab:
 
     def __call__(self, *words, code=0, **more):
         done = subprocess.run([f"{options.bin}/indurop-lab", "-l", self.name, *words], env=self.environment, text=True,
-                              capture_output=True, timeout=1200, check=False, **more)
+                              capture_output=True, timeout=3000, check=False, **more)
         if code is not None and done.returncode != code:
             raise AssertionError(f"{words}: {done.returncode} instead of {code}\n{done.stdout}{done.stderr}")
         return done.stdout + done.stderr
@@ -87,7 +87,8 @@ class Machines(unittest.TestCase):
         for board in ("sensor", "control"):
             lab.agent(board)
         lab.until(lambda said: said.count("empty") == 2, "exec", "laptop", "indurop", "boards")
-        self.assertIn("is committed", lab("exec", "laptop", "indurop", "deploy", "plant.xml", cwd=lab.folder))
+        # A board that is too slow to answer or to start its node in time takes its deployment back: it is given again.
+        lab.until(lambda said: "is committed" in said, "exec", "laptop", "indurop", "deploy", "--timeout", "60s", "plant.xml")
         lab("exec", "control", "indurop", "set", "target", "5")
         moved = r"angle: 0*[1-9]|angle: 0\.0*[1-9]"
         lab.until(lambda said: re.search(moved, said), "exec", "sensor", "indurop", "get", "encoder")
