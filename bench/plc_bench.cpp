@@ -34,6 +34,15 @@ void thousand_rungs(benchmark::State& state) {
 }
 BENCHMARK(thousand_rungs);
 
+// The same, telling `indurop plc watch` about all variables and the power in all rungs.
+void thousand_rungs_watched(benchmark::State& state) {
+  static const Run run = scan_of(PLC_MODULES "/bench_rungs_watched.so");
+  for (auto _ : state) {
+    run();
+  }
+}
+BENCHMARK(thousand_rungs_watched);
+
 void loop_in_st(benchmark::State& state) {
   static const Run run = scan_of(PLC_MODULES "/bench_loop.so");
   for (auto _ : state) {

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace indurop::runtime {
 
 namespace {
+
+std::atomic<std::uint32_t> bindings_done{0};  // NOLINT(*avoid-non-const-global*): one number for the process
 
 std::string type_text(const schema::Type& type) {
   return fmt::format("{} ({} bytes)", display_name(type), type.size());
@@ -55,6 +58,11 @@ void RefTables::bind_table(Table& table, const Attachment* to, std::vector<Bindi
     // Other threads may be looking at the old entry, which stays mapped.
     __atomic_store_n(&ref.entry, entry != nullptr ? entry : private_.entry_of(ref), __ATOMIC_RELEASE);
   }
+  bindings_done.fetch_add(1, std::memory_order_release);
+}
+
+std::uint32_t RefTables::bindings() noexcept {
+  return bindings_done.load(std::memory_order_acquire);
 }
 
 BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Attachment& to) {

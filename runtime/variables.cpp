@@ -3,12 +3,14 @@
 
 #include <indurop/detail/abi.h>
 #include <indurop/lock.h>
+#include <indurop/plc/program.h>
 
 #include <cstdio>
 #include <stdexcept>
 #include <string>
 
 #include "runtime/process.h"
+#include "runtime/ref_tables.h"
 #include "vars/forces.h"
 #include "vars/ring.h"
 #include "vars/together.h"
@@ -35,6 +37,10 @@ void indurop_register_refs(indurop::abi::Ref* refs, std::uint32_t count, std::ui
 
 void indurop_unregister_refs(indurop::abi::Ref* refs) {
   indurop::runtime::Process::get().unregister_refs(refs);
+}
+
+std::uint32_t indurop_bindings() noexcept {
+  return indurop::runtime::RefTables::bindings();
 }
 
 void* indurop_begin_write(indurop::abi::RingHeader* ring, std::uint32_t offset, std::uint32_t length) noexcept {

@@ -14,7 +14,7 @@
 namespace indurop::plc {
 namespace {
 
-// A number, or a time: the same bytes in the program and in the store, which it reads and writes at once.
+// Of a number, or a time: the same bytes in the program and in the store, which it reads and writes at once.
 std::size_t word_bytes(const Type& type) {
   constexpr unsigned kBits = 8;
   return type.kind == Type::Kind::Elementary && !type.is_text() ? std::max(bits_of(type.elementary), kBits) / kBits : 0;
@@ -39,13 +39,9 @@ class Emitter {
   struct Word {
     std::string shared;  // "main::go"
     std::string now;
-    std::string before;
     bool written = false;
   };
-  struct Words {
-    std::vector<Word> read;
-    std::vector<Word> written;
-  };
+  using Words = std::vector<Word>;
 
   [[nodiscard]] bool is_word(const Global& global) const {
     return global.kind == Global::Kind::Own && word_bytes(*global.type) > 0;
@@ -55,24 +51,17 @@ class Emitter {
     for (const Global* global : globals_) {
       if (in_image(*global) && is_word(*global)) {
         const std::string name = cpp_name(*global);
-        add(*global->type,
-            {global->shared_name, "shared." + name, "before." + name, use_.globals.at(global).writes.contains("")});
+        add(*global->type, {global->shared_name, "shared." + name, use_.globals.at(global).writes.contains("")});
       }
     }
     for (const SharedLocal& one : use_.locals) {
       if (word_bytes(*one.type) > 0) {
-        add(*one.type, {one.shared_name, one.cpp, one.input ? "" : "before_" + one.name, !one.input});
+        add(*one.type, {one.shared_name, one.cpp, !one.input});
       }
     }
   }
 
-  void add(const Type& type, Word word) {
-    Words& words = words_[word_bytes(type)];
-    if (word.written) {
-      words.written.push_back(word);
-    }
-    words.read.push_back(std::move(word));
-  }
+  void add(const Type& type, Word word) { words_[word_bytes(type)].push_back(std::move(word)); }
 
   // Who reads and writes what, for those who look at a module's file; elsewhere each access leaves its own.
   void records() {
@@ -84,7 +73,7 @@ class Emitter {
     constexpr int kWrite = 2;
     out_.raw("asm(R\"(.pushsection .indurop.access,\"\",%progbits\n");
     for (const auto& [bytes, words] : words_) {
-      for (const Word& one : words.read) {
+      for (const Word& one : words) {
         const std::uint64_t hash = abi::fnv1a64(one.shared.data(), one.shared.size());
         out_.raw(fmt::format(".long {},{},{}\n", static_cast<std::uint32_t>(hash),
                              static_cast<std::uint32_t>(hash >> kHalf), one.written ? kRead | kWrite : kRead));
@@ -94,18 +83,16 @@ class Emitter {
   }
 
   void tables() {
-    for (const auto& [bytes, words] : words_) {
-      for (const auto& [name, list] : {std::pair("read", &words.read), std::pair("written", &words.written)}) {
-        if (list->empty()) {
-          continue;
-        }
-        out_.open(fmt::format("constinit const std::array<iec::SharedWord, {}> {}_{}", list->size(), name, bytes));
-        for (const Word& one : *list) {
-          out_.line(fmt::format("iec::SharedWord{{&INDUROP_TYPEOF(::{})::tag_type::ref(), &{}, {}}},", one.shared,
-                                one.now, one.before.empty() ? "nullptr" : "&" + one.before));
-        }
-        out_.close(";");
+    for (auto& [bytes, words] : words_) {
+      const auto read_only =
+          std::stable_partition(words.begin(), words.end(), [](const Word& one) { return one.written; });
+      out_.open(fmt::format("constinit const std::array<iec::SharedWord, {}> table_{}", words.size(), bytes));
+      for (const Word& one : words) {
+        out_.line(fmt::format("iec::SharedWord{{&INDUROP_TYPEOF(::{})::tag_type::ref(), &{}}},", one.shared, one.now));
       }
+      out_.close(";");
+      out_.line(fmt::format("constinit iec::SharedWords<{}, {}, {}> words_{}{{table_{}}};", unsigned_of(bytes),
+                            words.size(), read_only - words.begin(), bytes, bytes));
     }
     out_.line();
   }
@@ -113,7 +100,7 @@ class Emitter {
   void read() {
     out_.open("void read_shared()");
     for (const auto& [bytes, words] : words_) {
-      out_.line(fmt::format("iec::read_words<{}>(read_{});", unsigned_of(bytes), bytes));
+      out_.line(fmt::format("words_{}.read();", bytes));
     }
     bool copied = false;
     for (const Global* global : globals_) {
@@ -144,9 +131,7 @@ class Emitter {
   void write() {
     out_.open("void write_shared()");
     for (const auto& [bytes, words] : words_) {
-      if (!words.written.empty()) {
-        out_.line(fmt::format("iec::write_words<{}>(written_{});", unsigned_of(bytes), bytes));
-      }
+      out_.line(fmt::format("words_{}.write();", bytes));
     }
     for (const Global* global : globals_) {
       if (in_image(*global) && !is_word(*global)) {
@@ -203,6 +188,10 @@ class Emitter {
 
 bool in_image(const Global& global) noexcept {
   return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
+}
+
+bool is_copied_by_table(const Type& type) noexcept {
+  return word_bytes(type) > 0;
 }
 
 void emit_exchange(const TaskUse& use, const std::vector<const Global*>& globals, TextWriter& out) {

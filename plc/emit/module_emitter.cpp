@@ -187,7 +187,7 @@ class ModuleEmitter {
       }
     }
     for (const SharedLocal& one : use_.locals) {
-      if (!one.input) {
+      if (!one.input && !is_copied_by_table(*one.type)) {
         out_.line(fmt::format("{} before_{}{{}};", cpp_type(*one.type), one.name));
       }
     }

@@ -67,8 +67,8 @@ std::size_t StatementEmitter::flow(std::span<const Statement> body) {
     row += (points > 0 ? ", " : "") + condition(*body[points].value);
     ++points;
   }
-  out_.line(fmt::format("iec::put_flow({}, {}, std::array<bool, {}>{{{}}});",
-                        expressions_.variable(body[0].target->operands[0]), *first, points, row));
+  out_.line(fmt::format("iec::put_flow({}.data() + {}, {});", expressions_.variable(body[0].target->operands[0]),
+                        *first, row));
   return points;
 }
 

@@ -2,6 +2,7 @@
 #include "plc/lower/flow.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -63,9 +64,26 @@ bool is_flow(std::string_view variable) {
   return variable == kFlow || variable.starts_with(std::string(kFlow) + "_");
 }
 
+std::size_t number_points(std::vector<FlowPoint>& flow) {
+  std::map<std::pair<std::size_t, std::string>, std::size_t> known;  // by network
+  std::size_t next = 0;
+  for (FlowPoint& point : flow) {
+    if (point.kind == Kind::Value) {
+      continue;
+    }
+    const bool name = point.value.kind == ast::Expression::Kind::Name;
+    const auto [place, made] =
+        name ? known.try_emplace({point.behind, upper(point.value.name)}, next) : std::pair(known.end(), true);
+    point.number = made ? next : place->second;
+    next += made ? 1 : 0;
+  }
+  return next;
+}
+
 void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place& at, bool declare) {
   // What is jumped over has no power, so there it is written at the end only.
   const bool at_end = leave_through_end(lowered.body, at) || has_jumps(lowered.body);
+  number_points(lowered.flow);
   std::size_t points = 0;
   std::size_t taken = 0;
   ast::Body body;
@@ -75,7 +93,7 @@ void add_flow(LoweredNetworks& lowered, const std::string& variable, const Place
     }
   };
   for (FlowPoint& point : lowered.flow) {
-    if (point.kind == Kind::Value) {
+    if (point.kind == Kind::Value || point.number < points) {
       continue;
     }
     take_until(at_end ? lowered.body.size() : point.behind);

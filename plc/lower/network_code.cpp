@@ -165,6 +165,10 @@ std::string NetworkCode::temporary(std::string_view letter, const std::string& k
 }
 
 ast::Expression NetworkCode::power(const Element& element, ast::Expression value) {
+  if (value.kind == ast::Expression::Kind::Name && value.name.starts_with("_p") && names_.contains(value.name)) {
+    show(FlowPoint::Kind::Power, {&element, nullptr}, value);
+    return value;
+  }
   const std::string name = temporary("p", std::to_string(element.id), make::type(element.at, Elementary::Bool));
   add(make::assign(make::name(element.at, name), std::move(value)));
   show(FlowPoint::Kind::Power, {&element, nullptr}, make::name(element.at, name));

@@ -96,9 +96,12 @@ class NetworkLowering {
     } else if (element.negated) {
       variable = make::negation(std::move(*variable));
     }
-    code_.show(FlowPoint::Kind::Closed, {&element, nullptr}, *variable);
-    ast::Expression power = code_.input(element, element.inputs.front());
-    code_.define(element, nullptr, code_.power(element, make::both(std::move(power), std::move(*variable))));
+    ast::Expression before = code_.input(element, element.inputs.front());
+    const bool always = make::is_true(before);  // at the rail: the contact alone decides
+    ast::Expression closed = *variable;
+    const ast::Expression power = code_.power(element, make::both(std::move(before), std::move(*variable)));
+    code_.show(FlowPoint::Kind::Closed, {&element, nullptr}, always ? power : std::move(closed));
+    code_.define(element, nullptr, power);
   }
 
   void coil(const Element& element) {

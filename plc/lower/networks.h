@@ -33,6 +33,7 @@ struct FlowPoint {
   ast::Expression value;
   Elementary type = Elementary::Bool;
   std::size_t behind = 0;  // its network ends behind so many statements of the body
+  std::size_t number = 0;  // no Value: where it is told; those with the same value share a place
 };
 
 struct LoweredNetworks : Lowered {

@@ -9,16 +9,16 @@ namespace {
 using Language = network::Body::Language;
 using Kind = lower::FlowPoint::Kind;
 
-void number_points(const lower::LoweredNetworks& lowered, LiveBody& body) {
-  std::size_t next = 0;
+void number_points(lower::LoweredNetworks lowered, LiveBody& body) {
+  const std::size_t points = lower::number_points(lowered.flow);
   for (const lower::FlowPoint& point : lowered.flow) {
     if (point.kind == Kind::Power) {
-      body.power.emplace(LiveBody::Key(point.source.element, point.source.pin), next++);
+      body.power.emplace(LiveBody::Key(point.source.element, point.source.pin), point.number);
     } else if (point.kind == Kind::Closed) {
-      body.closed.emplace(point.source.element, next++);
+      body.closed.emplace(point.source.element, point.number);
     }
   }
-  body.flow_variable = next == 0 ? std::string() : lower::flow_variable(body.action);
+  body.flow_variable = points == 0 ? std::string() : lower::flow_variable(body.action);
 }
 
 class Reader {

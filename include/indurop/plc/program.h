@@ -19,6 +19,10 @@
 #include <type_traits>
 #include <utility>
 
+// A service of libindurop: another number after each time that it was decided where shared variables lie. Any thread;
+// real-time safe.
+extern "C" std::uint32_t indurop_bindings() noexcept;
+
 namespace indurop::iec {
 
 // Copies between the types of a PLC program and those of shared variables: numbers, BOOL and enumerations into each
@@ -86,33 +90,88 @@ struct SharedNumber {
 // A number of the program that is shared.
 struct SharedWord {
   const abi::Ref* shared;
-  void* now;     // of the program
-  void* before;  // what it was at the beginning of the scan; null: the program does not write it
+  void* now;  // of the program
 };
-template <class Bits, std::size_t N>
-void read_words(const std::array<SharedWord, N>& words) noexcept {
-  for (const SharedWord& one : words) {
-    Bits value;  // NOLINT(cppcoreguidelines-init-variables)
-    __atomic_load(static_cast<const Bits*>(one.shared->entry), &value, __ATOMIC_ACQUIRE);
-    std::memcpy(one.now, &value, sizeof value);
-    if (one.before != nullptr) {
-      std::memcpy(one.before, &value, sizeof value);
+
+// Numbers of one size, of which the program writes the first `Written`. Those that lie behind each other in the program
+// are copied as one stretch. Where the shared ones lie is remembered: to look it up in 48 bytes for each of thousands
+// takes longer than to copy them. One thread; real-time safe.
+template <class Bits, std::size_t N, std::size_t Written>
+class SharedWords {
+ public:
+  constexpr explicit SharedWords(const std::array<SharedWord, N>& words) noexcept : words_(words) {}
+
+  // Into the program, which sees them as they are now until the end of its scan.
+  void read() noexcept {
+    if (bindings_ != indurop_bindings()) {
+      bind();
+    }
+    const void* const* entry = entries_.data();
+    Bits* before = before_.data();
+    for (std::size_t i = 0; i < stretches_; ++i) {
+      Any* now = at_[i].now;
+      const void* const* const end = entry + at_[i].count;
+      if (i < written_stretches_) {
+        for (; entry != end; ++entry) {
+          const Bits value = __atomic_load_n(static_cast<const Bits*>(*entry), __ATOMIC_ACQUIRE);
+          *now++ = value;
+          *before++ = value;
+        }
+      } else {
+        for (; entry != end; ++entry) {
+          *now++ = __atomic_load_n(static_cast<const Bits*>(*entry), __ATOMIC_ACQUIRE);
+        }
+      }
     }
   }
-}
-// Those the program changed: what others wrote meanwhile stays.
-template <class Bits, std::size_t N>
-void write_words(const std::array<SharedWord, N>& words) noexcept {
-  for (const SharedWord& one : words) {
-    Bits now;     // NOLINT(cppcoreguidelines-init-variables)
-    Bits before;  // NOLINT(cppcoreguidelines-init-variables)
-    std::memcpy(&now, one.now, sizeof now);
-    std::memcpy(&before, one.before, sizeof before);
-    if (now != before) {
-      indurop::detail::scalar_write<Bits>(one.shared->entry, now);
+
+  // Those the program changed: what others wrote meanwhile stays.
+  void write() noexcept {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < written_stretches_; ++i) {
+      const Stretch& one = at_[i];
+      if (std::memcmp(one.now, before_.data() + first, one.count * sizeof(Bits)) != 0) {
+        for (std::size_t k = 0; k < one.count; ++k) {
+          if (one.now[k] != before_[first + k]) {
+            indurop::detail::scalar_write<Bits>(words_[first + k].shared->entry, one.now[k]);
+          }
+        }
+      }
+      first += one.count;
     }
   }
-}
+
+ private:
+  using Any [[gnu::may_alias]] = Bits;  // a number of any type of this size
+  struct Stretch {
+    Any* now;
+    std::size_t count;
+  };
+
+  void bind() noexcept {
+    bindings_ = indurop_bindings();
+    stretches_ = 0;
+    written_stretches_ = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+      entries_[i] = words_[i].shared->entry;
+      Any* now = static_cast<Any*>(words_[i].now);
+      if (i > 0 && i != Written && now == at_[stretches_ - 1].now + at_[stretches_ - 1].count) {
+        ++at_[stretches_ - 1].count;
+        continue;
+      }
+      at_[stretches_++] = {now, 1};
+      written_stretches_ += i < Written ? 1U : 0U;
+    }
+  }
+
+  const std::array<SharedWord, N>& words_;
+  std::array<const void*, N> entries_{};
+  std::array<Bits, std::max<std::size_t>(Written, 1)> before_{};  // what they were at the begin of the scan
+  std::array<Stretch, N> at_{};
+  std::size_t stretches_ = 0;
+  std::size_t written_stretches_ = 0;
+  std::uint32_t bindings_ = 0;
+};
 
 // FOR whose end, step or variable only the running program knows. It ends where the variable would overflow, or leave
 // its subrange, in which it then stays.

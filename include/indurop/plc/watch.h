@@ -53,10 +53,10 @@ class Watch {
   std::uint8_t* to_;
 };
 
-// The power at some points of a drawn body, from the first on.
-template <std::size_t Points, std::size_t N>
-void put_flow(std::array<bool, Points>& to, std::size_t first, const std::array<bool, N>& power) noexcept {
-  std::memcpy(to.data() + first, power.data(), N);
+// The power at some points of a drawn body, one by one: what was written in bytes is not read at once as a whole.
+template <class... Power>
+[[gnu::always_inline]] inline void put_flow(bool* to, Power... power) noexcept {
+  ((*to++ = power), ...);
 }
 
 }  // namespace indurop::iec

@@ -118,24 +118,20 @@ asm(R"(.pushsection .indurop.access,"",%progbits
 .long 3986820077,4020119091,1
 .long 1170899563,1760137135,3
 .popsection)");
-constinit const std::array<iec::SharedWord, 3> read_1 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::start)::tag_type::ref(), &shared.start, &before.start},
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::motor)::tag_type::ref(), &shared.motor, &before.motor},
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::IX0_3)::tag_type::ref(), &shared.IX0_3, &before.IX0_3},
+constinit const std::array<iec::SharedWord, 3> table_1 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::motor)::tag_type::ref(), &shared.motor},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::start)::tag_type::ref(), &shared.start},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::IX0_3)::tag_type::ref(), &shared.IX0_3},
 };
-constinit const std::array<iec::SharedWord, 1> written_1 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::motor)::tag_type::ref(), &shared.motor, &before.motor},
+constinit iec::SharedWords<std::uint8_t, 3, 1> words_1{table_1};
+constinit const std::array<iec::SharedWord, 1> table_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::speed)::tag_type::ref(), &shared.speed},
 };
-constinit const std::array<iec::SharedWord, 1> read_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::speed)::tag_type::ref(), &shared.speed, &before.speed},
-};
-constinit const std::array<iec::SharedWord, 1> written_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::speed)::tag_type::ref(), &shared.speed, &before.speed},
-};
+constinit iec::SharedWords<std::uint16_t, 1, 1> words_2{table_2};
 
 void read_shared() {
-  iec::read_words<std::uint8_t>(read_1);
-  iec::read_words<std::uint16_t>(read_2);
+  words_1.read();
+  words_2.read();
   iec::copy_value(shared.place, ::golden::place.get());
   iec::copy_value(shared.list, ::golden::list.get());
   iec::copy_value(shared.mode, ::golden::mode.get());
@@ -143,8 +139,8 @@ void read_shared() {
 }
 
 void write_shared() {
-  iec::write_words<std::uint8_t>(written_1);
-  iec::write_words<std::uint16_t>(written_2);
+  words_1.write();
+  words_2.write();
   iec::write_changed(::golden::place.x, shared.place.x, before.place.x);
   iec::write_changed(::golden::list, shared.list, before.list);
   iec::write_changed(::golden::mode, shared.mode, before.mode);

@@ -42,22 +42,19 @@ asm(R"(.pushsection .indurop.access,"",%progbits
 .long 979773781,1195062668,1
 .long 2513238408,2420247943,3
 .popsection)");
-constinit const std::array<iec::SharedWord, 3> read_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::lock_value)::tag_type::ref(), &shared.lock, &before.lock},
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::virtual_value)::tag_type::ref(), &shared.virtual_, &before.virtual_},
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::fine)::tag_type::ref(), &shared.fine, &before.fine},
+constinit const std::array<iec::SharedWord, 3> table_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::lock_value)::tag_type::ref(), &shared.lock},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::fine)::tag_type::ref(), &shared.fine},
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::virtual_value)::tag_type::ref(), &shared.virtual_},
 };
-constinit const std::array<iec::SharedWord, 2> written_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::lock_value)::tag_type::ref(), &shared.lock, &before.lock},
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::fine)::tag_type::ref(), &shared.fine, &before.fine},
-};
+constinit iec::SharedWords<std::uint16_t, 3, 2> words_2{table_2};
 
 void read_shared() {
-  iec::read_words<std::uint16_t>(read_2);
+  words_2.read();
 }
 
 void write_shared() {
-  iec::write_words<std::uint16_t>(written_2);
+  words_2.write();
 }
 }  // namespace
 

@@ -44,28 +44,23 @@ inline void Fast::operator()([[maybe_unused]] const iec::Scan& scan) {
 }  // namespace plc
 
 plc::Fast instance_first;
-std::int32_t before_first_starts{};
 
 asm(R"(.pushsection .indurop.access,"",%progbits
 .long 2494403304,1036407876,3
 .long 3010591142,678381738,3
 .popsection)");
-constinit const std::array<iec::SharedWord, 1> read_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+constinit const std::array<iec::SharedWord, 1> table_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed},
 };
-constinit const std::array<iec::SharedWord, 1> written_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+constinit iec::SharedWords<std::uint16_t, 1, 1> words_2{table_2};
+constinit const std::array<iec::SharedWord, 1> table_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::first_starts)::tag_type::ref(), &instance_first.starts},
 };
-constinit const std::array<iec::SharedWord, 1> read_4 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::first_starts)::tag_type::ref(), &instance_first.starts, &before_first_starts},
-};
-constinit const std::array<iec::SharedWord, 1> written_4 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::first_starts)::tag_type::ref(), &instance_first.starts, &before_first_starts},
-};
+constinit iec::SharedWords<std::uint32_t, 1, 1> words_4{table_4};
 
 void read_shared() {
-  iec::read_words<std::uint16_t>(read_2);
-  iec::read_words<std::uint32_t>(read_4);
+  words_2.read();
+  words_4.read();
   iec::copy_value(shared.I0, ::PLC_ROBOT::I0.get());
   iec::copy_value(shared.O0, ::PLC_ROBOT::O0.get());
   iec::copy_value(shared.PLC_ROBOT_I1, ::PLC_ROBOT::I1.get());
@@ -75,8 +70,8 @@ void read_shared() {
 }
 
 void write_shared() {
-  iec::write_words<std::uint16_t>(written_2);
-  iec::write_words<std::uint32_t>(written_4);
+  words_2.write();
+  words_4.write();
   iec::write_changed(::PLC_ROBOT::O0, shared.O0, before.O0);
   iec::write_changed(::PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode, shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode, before.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode);
 }
@@ -136,25 +131,25 @@ asm(R"(.pushsection .indurop.access,"",%progbits
 .long 2494403304,1036407876,1
 .long 152152703,2512190842,3
 .popsection)");
-constinit const std::array<iec::SharedWord, 1> read_2 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed, &before.handed},
+constinit const std::array<iec::SharedWord, 1> table_2 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::handed)::tag_type::ref(), &shared.handed},
 };
-constinit const std::array<iec::SharedWord, 1> read_4 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::hours)::tag_type::ref(), &shared.hours, &before.hours},
+constinit iec::SharedWords<std::uint16_t, 1, 0> words_2{table_2};
+constinit const std::array<iec::SharedWord, 1> table_4 {
+  iec::SharedWord{&INDUROP_TYPEOF(::golden::hours)::tag_type::ref(), &shared.hours},
 };
-constinit const std::array<iec::SharedWord, 1> written_4 {
-  iec::SharedWord{&INDUROP_TYPEOF(::golden::hours)::tag_type::ref(), &shared.hours, &before.hours},
-};
+constinit iec::SharedWords<std::uint32_t, 1, 1> words_4{table_4};
 
 void read_shared() {
-  iec::read_words<std::uint16_t>(read_2);
-  iec::read_words<std::uint32_t>(read_4);
+  words_2.read();
+  words_4.read();
   iec::copy_value(shared.speed, ::PLC_ROBOT::speed.get());
   before = shared;
 }
 
 void write_shared() {
-  iec::write_words<std::uint32_t>(written_4);
+  words_2.write();
+  words_4.write();
   iec::write_changed(::PLC_ROBOT::speed, shared.speed, before.speed);
 }
 }  // namespace
