@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "plc/check/access_paths.h"
 #include "plc/check/configured.h"
 #include "plc/check/constant_order.h"
 #include "plc/check/enable.h"
@@ -54,13 +55,14 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   check_identifiers(context);
   declare_pous(context);
   declare_objects(context);
-  order_constants(context.program.project);
+  order_constants(context.program.project, diagnostics);
   declare_globals(context, true);
   declare_types(context);
   declare_globals(context, false);
   apply_configured(context);
   declare_variables(context);
   declare_starts(context);
+  resolve_accesses(context);
   check_objects(context);
   name_types(context);
   check_bodies(context);

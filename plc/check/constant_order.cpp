@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/check/constant_order.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace indurop::plc {
 namespace {
@@ -35,7 +38,8 @@ void collect(const ast::Initial& initial, std::vector<std::string>& to) {
 
 class Order {
  public:
-  explicit Order(std::vector<ast::Variable>& variables) : variables_(variables) {
+  Order(std::vector<ast::Variable>& variables, Diagnostics& diagnostics)
+      : variables_(variables), diagnostics_(diagnostics) {
     for (std::size_t i = 0; i < variables.size(); ++i) {
       if (is_constant(i)) {
         names_.emplace(upper(variables[i].name), i);
@@ -76,36 +80,59 @@ class Order {
     if (variables_[i].initial) {
       collect(*variables_[i].initial, needed);
     }
+    open_.push_back(i);
     for (const std::string& name : needed) {
-      if (const auto found = names_.find(name); found != names_.end()) {
+      const auto found = names_.find(name);
+      if (found == names_.end()) {
+        continue;
+      }
+      if (std::find(open_.begin(), open_.end(), found->second) != open_.end()) {
+        circle(found->second);
+      } else {
         visit(found->second);
       }
     }
+    open_.pop_back();
     order_.push_back(i);
   }
 
+  // Said once; the declarations count as errors, so that their uses are none.
+  void circle(std::size_t first) {
+    std::string way;
+    for (auto one = std::find(open_.begin(), open_.end(), first); one != open_.end(); ++one) {
+      way += variables_[*one].name + " -> ";
+      variables_[*one].type.kind = ast::TypeSpec::Kind::Inferred;
+      variables_[*one].initial.reset();
+    }
+    diagnostics_.error(variables_[first].at,
+                       fmt::format("a constant cannot need its own value: {}{}, give one of them a number", way,
+                                   variables_[first].name));
+  }
+
   std::vector<ast::Variable>& variables_;
+  Diagnostics& diagnostics_;
+  std::vector<std::size_t> open_;  // being visited
   std::set<std::size_t> seen_;
   std::map<std::string, std::size_t> names_;
   std::vector<std::size_t> order_;
 };
 
-}  // namespace
-
-void order_constants(std::vector<ast::Variable>& variables) {
-  Order(variables).run();
+void order_constants(std::vector<ast::Variable>& variables, Diagnostics& diagnostics) {
+  Order(variables, diagnostics).run();
 }
 
-void order_constants(Project& project) {
-  order_constants(project.globals);
+}  // namespace
+
+void order_constants(Project& project, Diagnostics& diagnostics) {
+  order_constants(project.globals, diagnostics);
   for (Configuration& configuration : project.configurations) {
-    order_constants(configuration.globals);
+    order_constants(configuration.globals, diagnostics);
     for (Resource& resource : configuration.resources) {
-      order_constants(resource.globals);
+      order_constants(resource.globals, diagnostics);
     }
   }
   for (ast::Pou& pou : project.pous) {
-    order_constants(pou.variables);
+    order_constants(pou.variables, diagnostics);
   }
 }
 

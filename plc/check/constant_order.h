@@ -3,14 +3,12 @@
 
 #pragma once
 
-#include <vector>
-
+#include "plc/model/diagnostics.h"
 #include "plc/model/project.h"
 
 namespace indurop::plc {
 
-// Those that others need come first; everything else keeps its order. Circles stay as they are, and are errors later.
-void order_constants(std::vector<ast::Variable>& variables);
-void order_constants(Project& project);
+// Those that others need come first; everything else keeps its order. Circles are errors.
+void order_constants(Project& project, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

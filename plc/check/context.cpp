@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/check/context.h"
 
+#include <fmt/format.h>
+
 #include "base/nearest.h"
 
 namespace indurop::plc {
@@ -8,6 +10,26 @@ namespace indurop::plc {
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
   const std::string found = base::nearest(name, known);
   return found.empty() ? "" : ", did you mean '" + found + "'?";
+}
+
+void complain_undeclared(Context& context, const Place& at, const std::string& name) {
+  const std::string capitals = upper(name);
+  if (context.known_errors.contains({nullptr, capitals}) ||
+      !context.known_errors.insert({context.pou, capitals}).second) {
+    return;
+  }
+  std::vector<std::string> known;
+  if (context.pou != nullptr) {
+    for (const Variable& variable : context.pou->variables) {
+      known.push_back(variable.name);
+    }
+  }
+  for (const Global& one : context.program.globals) {
+    known.push_back(one.name);
+  }
+  const std::string hint = did_you_mean(name, known);
+  context.error(
+      at, fmt::format("'{}' is not declared{}", name, hint.empty() ? ", declare it between VAR and END_VAR" : hint));
 }
 
 }  // namespace indurop::plc

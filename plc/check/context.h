@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,8 @@ struct Context {
   Pou* pou = nullptr;  // the one being checked
   // The variables of the FOR statements around: a Variable or a Global, and where the loop stands.
   std::vector<std::pair<const void*, Place>> loop_variables{};
+  // Names whose declaration has an error, or that a POU uses and nobody declares: said once. Globals: of no POU.
+  std::set<std::pair<const Pou*, std::string>> known_errors{};
 
   void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
   void warning(const Place& at, std::string text) { diagnostics.warning(at, located(std::move(text))); }
@@ -39,6 +42,9 @@ struct Context {
     return pou != nullptr ? pou->title() + ": " + text : std::move(text);
   }
 };
+
+// Nobody declares the name; said once in a POU, and never of a global whose declaration has an error.
+void complain_undeclared(Context& context, const Place& at, const std::string& name);
 
 // ", did you mean 'x'?" for the nearest of `known`, or "".
 [[nodiscard]] std::string did_you_mean(std::string_view name, const std::vector<std::string>& known);

@@ -185,6 +185,11 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
     context_.error(expression.at, fmt::format("{} is outside of {}, use a value inside", *number, to_string(to)));
     return false;
   }
+  if (const auto* text = known != nullptr ? std::get_if<std::string>(known) : nullptr;
+      text != nullptr && to.is(Elementary::String) && text->size() > to.length) {
+    context_.warning(expression.at,
+                     fmt::format("the text has {} characters and is cut to {}", text->size(), to.length));
+  }
   return true;
 }
 

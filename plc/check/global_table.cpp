@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "plc/check/expression_checker.h"
@@ -113,6 +114,7 @@ void declare_one(Context& context, ast::Variable& variable, const Type& type) {
   global.initial = variable.initial ? &*variable.initial : nullptr;
   global.address = variable.address ? ast::to_string(*variable.address) : "";
   if (variable.initial && !ExpressionChecker(context).initial(*variable.initial, type)) {
+    context.known_errors.insert({nullptr, upper(variable.name)});
     return;
   }
   if (variable.constant && !variable.initial) {
@@ -151,6 +153,11 @@ bool can_show(const Type& as, const Type& of) noexcept {
                                     (bits_of(as.elementary) == bits_of(other) || as.is(Elementary::Bool)));
 }
 
+// Whether the letter of the address is that of the type.
+bool lies_at(const Type& type, const ast::DirectAddress& address) noexcept {
+  return type.kind <= Type::Kind::Enum && !type.is_text() && bits_of(type.elementary) == bits_of_size(address.size);
+}
+
 // An array at an address that this one lies in.
 const Global* covering_array(const Program& program, const ast::DirectAddress& address) {
   ast::DirectAddress begin = address;
@@ -158,7 +165,8 @@ const Global* covering_array(const Program& program, const ast::DirectAddress& a
     const std::string text = ast::to_string(begin);
     const auto found = std::find_if(program.globals.begin(), program.globals.end(),
                                     [&](const Global& one) { return one.address == text; });
-    if (found != program.globals.end() && found->type->kind == Type::Kind::Array) {
+    if (found != program.globals.end() && found->type->kind == Type::Kind::Array &&
+        lies_at(*found->type->element, address)) {
       const auto offset = static_cast<std::uint64_t>(address.numbers.back() - begin.numbers.back());
       return offset < parts_of(*found->type) ? &*found : nullptr;
     }
@@ -166,11 +174,34 @@ const Global* covering_array(const Program& program, const ast::DirectAddress& a
   return nullptr;
 }
 
+// Something else that is where this one is to lie, of which one is an array.
+const Global* overlapping(const Program& program, const ast::DirectAddress& address, const Type& type) {
+  if (const Global* array = covering_array(program, address)) {
+    return array;
+  }
+  if (type.kind != Type::Kind::Array || !lies_at(*type.element, address)) {
+    return nullptr;
+  }
+  const auto stem = [](const std::string& text) { return text.find_last_of("%IQMXBWDL.") + 1; };
+  const std::string begin = ast::to_string(address);
+  const std::size_t same = stem(begin);
+  const auto inside = [&](const Global& one) {
+    if (one.address.size() <= same || stem(one.address) != same || one.address.compare(0, same, begin, 0, same) != 0) {
+      return false;
+    }
+    const long long offset = std::atoll(one.address.c_str() + same) - address.numbers.back();
+    return offset > 0 && static_cast<std::uint64_t>(offset) < parts_of(type);
+  };
+  const auto found = std::find_if(program.globals.begin(), program.globals.end(), inside);
+  return found == program.globals.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 void declare_global(Context& context, ast::Variable& variable) {
   const Type* type = build_type(context, variable.type);
   if (type == nullptr) {
+    context.known_errors.insert({nullptr, upper(variable.name)});
     return;
   }
   if (variable.address && variable.address->numbers.empty()) {
@@ -205,9 +236,7 @@ Global* declare_placeless(Context& context, ast::Variable& variable, const Type&
 
 Global& declare_located(Context& context, ast::Variable& variable, const Type& type) {
   const Type& one = type.kind == Type::Kind::Array ? *type.element : type;  // an array fills the places behind it
-  const bool fits =
-      one.kind <= Type::Kind::Enum && !one.is_text() && bits_of(one.elementary) == bits_of_size(variable.address->size);
-  if (!fits) {
+  if (!lies_at(one, *variable.address) && !(context.codesys() && variable.address->size == 'B' && !is_private(one))) {
     context.error(variable.at, fmt::format("{} does not lie at {}, use the size letter of its type: X B W D L",
                                            with_article(type), ast::to_string(*variable.address)));
   }
@@ -220,6 +249,12 @@ Global& declare_located(Context& context, ast::Variable& variable, const Type& t
       context.program.global_names.emplace(upper(variable.name), known);  // another name of it
     }
     return *known;
+  }
+  if (const Global* other = overlapping(context.program, *variable.address, type)) {
+    context.error(variable.at, fmt::format("{} and '{}' at {} share places, use the elements of the array",
+                                           variable.name.empty() ? ast::to_string(*variable.address)
+                                                                 : fmt::format("'{}'", variable.name),
+                                           other->name, other->address));
   }
   const std::string wanted = variable.name.empty() ? name_of(*variable.address) : variable.name;
   const std::string before = variable.name;

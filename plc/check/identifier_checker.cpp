@@ -26,6 +26,9 @@ class Walk {
         tasks(resource);
       }
     }
+    for (const Access& one : project.accesses) {
+      name(one.name, one.at);
+    }
   }
 
  private:

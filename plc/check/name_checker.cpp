@@ -163,18 +163,7 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
                                pou->second->name));
     return nullptr;
   }
-  std::vector<std::string> known;
-  if (context_.pou != nullptr) {
-    for (const Variable& variable : context_.pou->variables) {
-      known.push_back(variable.name);
-    }
-  }
-  for (const Global& one : context_.program.globals) {
-    known.push_back(one.name);
-  }
-  const std::string hint = did_you_mean(expression.name, known);
-  context_.error(expression.at, fmt::format("'{}' is not declared{}", expression.name,
-                                            hint.empty() ? ", declare it between VAR and END_VAR" : hint));
+  complain_undeclared(context_, expression.at, expression.name);
   return nullptr;
 }
 
@@ -268,6 +257,9 @@ const Type* ExpressionChecker::member(Expression& expression) {
   }
   if (type->kind == Type::Kind::Block) {
     return block_member(expression, *type);
+  }
+  if (type->kind == Type::Kind::Enum) {
+    return enum_value(expression, *type, expression.name);  // e.Red, where e is a variable
   }
   if (type->kind == Type::Kind::Elementary && !type->is_text()) {
     return named_bit(expression, *type);

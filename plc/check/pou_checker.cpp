@@ -364,6 +364,9 @@ void check_bodies(Context& context) {
       fine.push_back(&pou);
     }
   }
+  if (context.diagnostics.failed()) {  // what is left out there may use everything
+    fine.clear();
+  }
   for (Pou* pou : fine) {  // methods use variables of their instances, too
     context.pou = pou;
     const bool special = pou->owner != nullptr && upper(pou->name).starts_with("FB_");  // nobody looks at its result
@@ -374,7 +377,9 @@ void check_bodies(Context& context) {
     warn_about_usage(context, *pou);
   }
   context.pou = nullptr;
-  warn_about_uncalled(context);
+  if (!context.diagnostics.failed()) {
+    warn_about_uncalled(context);
+  }
 }
 
 void order_pous(Context& context) {

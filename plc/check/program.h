@@ -22,6 +22,7 @@
 namespace indurop::plc {
 
 struct LibraryFunction;
+struct LibraryParameter;
 
 // A variable that outlives its POU's call and is not the POU's own: VAR_GLOBAL, located, or declared in a .glb file.
 struct Global {
@@ -148,9 +149,44 @@ struct Resolved {
   const ast::Argument* enable_out = nullptr;
 };
 
+// What a path leads to that is written outside of POUs: resource.program.instance.list[3]
+struct Reached {
+  struct Step {  // one of them
+    const Variable* variable = nullptr;
+    const Field* field = nullptr;
+    const LibraryParameter* pin = nullptr;
+    std::vector<std::uint64_t> index = {};  // from 0
+  };
+  const Global* global = nullptr;  // null: a variable of a program
+  const Pou* program = nullptr;
+  const ProgramInstance* instance = nullptr;  // null: the program stands in no configuration, or all its instances
+  std::vector<Step> steps;
+  const Type* type = nullptr;
+  bool constant = false;
+  bool input = false;  // %I
+};
+
+// VAR_ACCESS: a shared variable that follows another one.
+struct AccessPath {
+  Place at;
+  std::string name;
+  const Type* type = nullptr;
+  bool writable = false;
+  bool of_each_instance = false;  // declared in the program
+  Reached to;
+};
+
+// An input or output that a configuration connects: with a global variable, or an input with a value.
+struct ConnectedPin {
+  const Variable* parameter = nullptr;
+  Reached other;
+  const ast::Initial* value = nullptr;
+};
+
 struct TaskProgram {
   std::string instance;
   const Pou* pou = nullptr;
+  const ProgramInstance* declared = nullptr;  // null: no configuration does
 };
 
 // One module.
@@ -159,6 +195,8 @@ struct TaskPlan {
   std::string name;
   std::int64_t interval_ns = 0;
   std::int32_t priority = 1;
+  const Global* single = nullptr;  // SINGLE: runs at its rising edge
+  bool periodic = true;
   std::vector<TaskProgram> programs;
 };
 
@@ -176,6 +214,8 @@ struct Program {
   std::deque<ast::Pou> made_functions;                       // of them, for the types they are called with
   std::map<std::string, const Global*> placed;  // where VAR_CONFIG puts AT %I* of instances: "MAIN_MOTOR_RUNNING"
   std::map<const Global*, const Pou*> starts;   // functions that run what their instances begin with
+  std::vector<AccessPath> accesses;
+  std::map<const ProgramInstance*, std::vector<ConnectedPin>> connections;
   bool types_known = false;
   bool has_objects = false;                                     // classes, interfaces, methods
   std::vector<std::pair<Type*, ast::TypeSpec*>> open_pointers;  // to types that come later

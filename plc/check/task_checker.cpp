@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "plc/check/global_table.h"
 #include "plc/check/reach.h"
+#include "plc/st/literal.h"
 
 namespace indurop::plc {
 namespace {
@@ -85,11 +87,8 @@ class TaskPlanner {
       context_.error(task.at, fmt::format("the task '{}' is declared twice, rename one of them", task.name));
       return;
     }
-    if (!task.single.empty()) {
-      context_.error(task.at, "SINGLE is not supported, use INTERVAL and R_TRIG in the program");
-      return;
-    }
-    if (!task.interval_ns) {
+    const Global* single = task.single.empty() ? nullptr : single_of(task);
+    if (!task.interval_ns && task.single.empty()) {
       context_.warning(
           task.at,
           fmt::format("the task {} has no interval and runs every 10 ms, write INTERVAL := T#10ms", task.name));
@@ -100,6 +99,24 @@ class TaskPlanner {
     in_resource_[{resource_, upper(task.name)}] = name;
     made.interval_ns = task.interval_ns.value_or(kDefaultIntervalNs);
     made.priority = task.priority.value_or(static_cast<std::int32_t>(tasks().size()));
+    made.single = single;
+    made.periodic = single == nullptr || task.interval_ns.has_value();
+  }
+
+  // Null with an error.
+  const Global* single_of(const Task& task) {
+    const auto known = context_.program.global_names.find(upper(task.single));
+    const auto address = st::address_literal(task.single);
+    const Global* found = known != context_.program.global_names.end() ? known->second
+                          : address                                    ? &located_global(context_, *address, task.at)
+                                                                       : nullptr;
+    const bool fits = found != nullptr && found->type->is(Elementary::Bool) &&
+                      (found->kind == Global::Kind::Own || found->kind == Global::Kind::Foreign);
+    if (!fits) {
+      context_.error(task.at,
+                     fmt::format("SINGLE := {}: there is no global variable of this name that is a BOOL", task.single));
+    }
+    return fits ? found : nullptr;
   }
 
   void instance(const ProgramInstance& one, const std::string& name) {
@@ -122,7 +139,7 @@ class TaskPlanner {
       return;
     }
     TaskPlan& plan = one.task.empty() ? default_task() : *task;
-    plan.programs.push_back({name, pou->second});
+    plan.programs.push_back({name, pou->second, &one});
   }
 
   std::vector<TaskPlan>& tasks() { return context_.program.tasks; }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 
+#include "plc/emit/access_emitter.h"
 #include "plc/emit/cpp_text.h"
 
 namespace indurop::plc {
@@ -29,6 +30,7 @@ class Emitter {
     sort();
     records();
     tables();
+    declare_accesses(use_, out_);
     read();
     write();
     restore();
@@ -122,6 +124,7 @@ class Emitter {
     if (copied) {
       out_.line("before = shared;");
     }
+    read_accesses(use_, out_);
     out_.close();
     out_.line();
   }
@@ -130,6 +133,7 @@ class Emitter {
 
   void write() {
     out_.open("void write_shared()");
+    write_accesses(use_, out_);
     for (const auto& [bytes, words] : words_) {
       out_.line(fmt::format("words_{}.write();", bytes));
     }
@@ -185,10 +189,6 @@ class Emitter {
 };
 
 }  // namespace
-
-bool in_image(const Global& global) noexcept {
-  return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
-}
 
 bool is_copied_by_table(const Type& type) noexcept {
   return word_bytes(type) > 0;

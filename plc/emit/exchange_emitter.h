@@ -10,8 +10,6 @@
 
 namespace indurop::plc {
 
-// Those of the image: what the program sees of them is copied.
-[[nodiscard]] bool in_image(const Global& global) noexcept;
 // Whether shared variables of the type are copied without a variable that keeps their value of before.
 [[nodiscard]] bool is_copied_by_table(const Type& type) noexcept;
 // "read_shared()", "write_shared()" and, if there is something to restore, "restore(scan)".

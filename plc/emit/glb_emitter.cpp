@@ -78,12 +78,22 @@ class GlbEmitter {
       }
     }
     for (const TaskPlan& task : program_.tasks) {
-      for (const SharedLocal& one : use_of(program_, task, show_locals).locals) {
+      const TaskUse use = use_of(program_, task, show_locals);
+      for (const SharedLocal& one : use.locals) {
         if (program_.placed.contains(upper(one.name))) {
           continue;  // VAR_CONFIG puts it where a global is
         }
         need(*one.type);
         variable(std::string(last_name(one.shared_name)), *one.type, one.initial, one.retain, one.comment, one.at);
+      }
+      for (const SharedAccess& one : use.accesses) {
+        const AccessPath& path = *one.path;
+        const bool own = path.to.steps.size() == 1 && path.to.steps.front().variable != nullptr;
+        const auto* declared = own ? path.to.steps.front().variable->declared : nullptr;
+        need(*path.type);
+        variable(std::string(last_name(one.shared_name)), *path.type,
+                 declared != nullptr && declared->initial ? &*declared->initial : nullptr, false,
+                 path.writable ? "VAR_ACCESS" : "VAR_ACCESS, read only", path.at);
       }
       for (std::size_t i = 0; watch && i < task.programs.size(); ++i) {
         const WatchLayout layout = watch_layout(task.programs[i]);

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "plc/check/starts.h"
+#include "plc/emit/access_emitter.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/exchange_emitter.h"
 #include "plc/emit/object_emitter.h"
@@ -258,8 +259,19 @@ class ModuleEmitter {
     if (debug) {
       out_.open("try");
     }
+    const bool gated = task_.single != nullptr && task_.periodic;
+    if (gated) {
+      out_.line("static bool single_before = false;");
+      out_.line(fmt::format("const bool single = shared.{0} != 0;", cpp_name(*task_.single)));
+      out_.line("const bool runs = !single || !single_before;  // periodic while SINGLE is FALSE, once when it rises");
+      out_.line("single_before = single;");
+      out_.open("if (runs)");
+    }
     for (const TaskProgram& one : task_.programs) {
-      out_.line(instance_of(one) + "(scan);");
+      call_program(program_, task_, one, out_);
+    }
+    if (gated) {
+      out_.close();
     }
     if (debug) {
       out_.reopen("catch (const std::exception& fault)");
@@ -292,7 +304,23 @@ class ModuleEmitter {
     out_.line();
     out_.line("void run() { POU_PROGRAM(); }");
     out_.line();
-    out_.line(fmt::format("INDUROP_MODULE(run = &::run, name = {})", quoted(options_.name)));
+    if (!task_.periodic) {
+      condition();
+    }
+    out_.line(fmt::format("INDUROP_MODULE(run = &::run, {}name = {})",
+                          task_.periodic ? "" : "condition = &::condition, ", quoted(options_.name)));
+  }
+
+  void condition() {
+    out_.line("// SINGLE: the event is its rising edge.");
+    out_.open("bool condition()");
+    out_.line("static bool before = false;");
+    out_.line(fmt::format("const bool now = {}.get() != 0;", proxy_of(*task_.single)));
+    out_.line("const bool rises = now && !before;");
+    out_.line("before = now;");
+    out_.line("return rises;");
+    out_.close();
+    out_.line();
   }
 
   const Program& program_;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "plc/check/reach.h"
+#include "plc/emit/access_emitter.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/shared_locals.h"
 
@@ -13,6 +14,10 @@ namespace indurop::plc {
 
 std::string instance_of(const TaskProgram& program) {
   return program.pou->instance != nullptr ? "plc::" + cpp_name(*program.pou->instance) : "instance_" + program.instance;
+}
+
+bool in_image(const Global& global) noexcept {
+  return global.kind == Global::Kind::Own || global.kind == Global::Kind::Foreign;
 }
 
 TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals) {
@@ -33,6 +38,7 @@ TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals) {
     }
   }
   find_shared_locals(program, task, show_locals, out);
+  find_accesses(program, task, out);
   return out;
 }
 

@@ -25,12 +25,24 @@ struct SharedLocal {
   Place at;
 };
 
+// A shared variable that follows another one: VAR_ACCESS.
+struct SharedAccess {
+  std::string cpp;          // what it follows: "instance_main.c.n"
+  std::string name;         // "pressure"
+  std::string shared_name;  // "main::pressure"
+  const AccessPath* path = nullptr;
+};
+
 struct TaskUse {
   std::vector<const Pou*> pous;  // each behind those it uses
   std::map<const Global*, GlobalUse> globals;
   std::vector<SharedLocal> locals;
+  std::vector<SharedAccess> accesses;
   std::vector<std::string> restored;  // statements of C++ for when what is RETAIN has come
 };
+
+// Whether it is copied at the begin of a scan: a shared variable.
+[[nodiscard]] bool in_image(const Global& global) noexcept;
 
 [[nodiscard]] TaskUse use_of(const Program& program, const TaskPlan& task, bool show_locals);
 

@@ -76,7 +76,7 @@ class Compiler {
       module.cpp = emit_module(
           *program, task,
           {module.name, sources, options_.show_locals, options_.watch, options_.debug ? &module.debug : nullptr});
-      module.period_ns = task.interval_ns;
+      module.period_ns = task.periodic ? task.interval_ns : 0;
       module.priority = task.priority;
       out_.modules.push_back(std::move(module));
     }
@@ -114,11 +114,12 @@ std::string module_xml(const std::vector<ModuleText>& modules) {
         "  <module>\n"
         "    <filename>./{}.so</filename>\n"
         "    <moduletype>thread</moduletype>\n"
-        "    <operationtype>periodic</operationtype>\n"
-        "    <period>{}</period>\n"
+        "    <operationtype>{}</operationtype>\n"
+        "{}"
         "    <priority>{}</priority>\n"
         "  </module>\n",
-        one.name, duration(one.period_ns), one.priority);
+        one.name, one.period_ns > 0 ? "periodic" : "sporadic",
+        one.period_ns > 0 ? fmt::format("    <period>{}</period>\n", duration(one.period_ns)) : "", one.priority);
   }
   return out;
 }

@@ -32,7 +32,7 @@ struct CompileOptions {
 struct ModuleText {
   std::string name;  // "main"; with several tasks "main_fast"
   std::string cpp;
-  std::int64_t period_ns = 0;
+  std::int64_t period_ns = 0;  // 0: it is sporadic
   std::int32_t priority = 1;
   DebugTable debug;
 };

@@ -30,6 +30,7 @@ void append(Project& into, Project from) {
   move_all(into.global_lists, from.global_lists);
   move_all(into.left_out, from.left_out);
   move_all(into.configured, from.configured);
+  move_all(into.accesses, from.accesses);
   into.incomplete = into.incomplete || from.incomplete;
   into.dialect = from.dialect == Dialect::Iec ? into.dialect : from.dialect;
   move_all(into.configurations, from.configurations);

@@ -19,15 +19,35 @@ struct Task {
   std::string name;
   std::optional<std::int64_t> interval_ns;  // none: the default period
   std::optional<std::int32_t> priority;
-  std::string single;  // SINGLE := variable: runs at its rising edge
+  std::string single;  // SINGLE := variable or "%IX0.0": runs at its rising edge
 };
 
-// PROGRAM instance WITH task : type
+// input := variable, output => variable, of a program's instance.
+struct Connection {
+  Place at;
+  std::string parameter;
+  bool output = false;
+  ast::Expression value;
+  std::optional<ast::Initial> initial;  // checker: the value, where it is no variable
+};
+
+// PROGRAM instance WITH task : type (input := variable)
 struct ProgramInstance {
   Place at;
   std::string name;
   std::string task;  // empty: the default task
   std::string type;
+  std::vector<Connection> connections = {};
+};
+
+// Of VAR_ACCESS: pressure : plc.main.tank.pressure : REAL READ_WRITE; of an address the resource is left out.
+struct Access {
+  Place at;
+  std::string name;
+  std::string program;  // the PROGRAM in which it is declared; empty: a configuration
+  ast::Expression to;
+  ast::TypeSpec type;
+  bool writable = false;
 };
 
 // Of VAR_CONFIG: plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
@@ -60,6 +80,7 @@ struct Project {
   std::vector<ast::Variable> globals;  // VAR_GLOBAL outside of configurations
   std::vector<Configuration> configurations;
   std::vector<Configured> configured;
+  std::vector<Access> accesses;
   std::vector<ast::NameAt> left_out;      // POUs with C code, and where that stands
   bool incomplete = false;                // something that is not supported was left out, so that names may miss
   Dialect dialect = Dialect::Iec;         // of the editor that wrote it, as far as the files say

@@ -182,6 +182,13 @@ void DeclarationWriter::spec(const TypeSpec& of) {
   }
 }
 
+void DeclarationWriter::typed(const TypeSpec& type, const ast::Initial* value) {
+  holder("type", type);
+  if (value != nullptr) {
+    initial(*value);
+  }
+}
+
 void DeclarationWriter::elementary(Elementary type) {
   const std::string_view name = type == Elementary::TimeOfDay     ? "TOD"
                                 : type == Elementary::DateAndTime ? "DT"

@@ -22,6 +22,8 @@ class DeclarationWriter {
   void interface(const ast::Pou& pou);
   // <globalVars> for each stretch of variables that have the same attributes
   void globals(const std::vector<ast::Variable>& variables);
+  // <type> and, unless it is null, <initialValue>
+  void typed(const ast::TypeSpec& type, const ast::Initial* value);
 
  private:
   void lists(const std::vector<ast::Variable>& variables);

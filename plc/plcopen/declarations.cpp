@@ -139,9 +139,9 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
       read_variables(node, list->second, what, pou.variables, diagnostics);
     } else if (node.name == "returnType") {
       pou.result = read_type(node, what, diagnostics);
-    } else if (node.name == "accessVars") {
-      diagnostics.error(within(node.at, what), "VAR_ACCESS is not supported; globals are shared variables anyway");
-    } else if (node.name != "addData" && node.name != "documentation") {
+    } else if (node.name == "accessVars" && pou.kind != ast::Pou::Kind::Program) {
+      diagnostics.error(within(node.at, what), "VAR_ACCESS is for programs and configurations, remove it");
+    } else if (node.name != "accessVars" && node.name != "addData" && node.name != "documentation") {
       diagnostics.error(within(node.at, what), fmt::format("<{}> is not a part of an interface; remove it", node.name));
     }
   }

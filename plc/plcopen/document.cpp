@@ -10,6 +10,7 @@
 #include "plc/plcopen/extensions.h"
 #include "plc/plcopen/instances.h"
 #include "plc/plcopen/objects.h"
+#include "plc/plcopen/outside.h"
 
 namespace indurop::plc::plcopen {
 namespace {
@@ -44,7 +45,7 @@ class Reader {
       }
     }
     if (const Node* instances = root.child("instances")) {
-      read_instances(*instances, document_.project.configurations, diagnostics_);
+      read_instances(*instances, document_.project, diagnostics_);
     }
     if (const Node* instances = root.child("instances")) {
       extensions_below(*instances);
@@ -83,6 +84,10 @@ class Reader {
     }
     if (const Node* interface = node.child("interface")) {
       read_interface(*interface, what, made.pou, diagnostics_);
+      if (const Node* accesses = interface->child("accessVars");
+          made.pou.kind == ast::Pou::Kind::Program && accesses != nullptr) {
+        read_accesses(*accesses, made.pou.name, what, document_.project.accesses, diagnostics_);
+      }
     }
     if (const Node* body = node.child("body")) {
       made.code.body = read_body(*body, what, diagnostics_);
@@ -143,7 +148,7 @@ class Reader {
         } else if (part.name == "dataType") {
           read_data_type(part, document_.project.types, diagnostics_);
         } else if (part.name == "resource") {
-          read_application(part, document_.project.configurations, diagnostics_);
+          read_application(part, document_.project, diagnostics_);
           extensions(part);
           extensions_below(part);
         }

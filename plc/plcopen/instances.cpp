@@ -9,6 +9,7 @@
 
 #include "plc/plcopen/body_reader.h"
 #include "plc/plcopen/declarations.h"
+#include "plc/plcopen/outside.h"
 #include "plc/st/parser.h"
 
 namespace indurop::plc::plcopen {
@@ -78,7 +79,7 @@ std::optional<std::int64_t> clock_ns(std::string_view text) {
 
 class Reader {
  public:
-  explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  Reader(Project& project, Diagnostics& diagnostics) : project_(project), diagnostics_(diagnostics) {}
 
   Configuration configuration(const Node& node) {
     Configuration made;
@@ -89,11 +90,10 @@ class Reader {
         made.resources.push_back(resource(child));
       } else if (child.name == "globalVars") {
         read_variables(child, ast::Section::Global, "configuration " + made.name, made.globals, diagnostics_);
-      } else if (child.name == "accessVars" || child.name == "configVars") {
-        if (!child.children.empty()) {
-          diagnostics_.error(within(child.at, "configuration " + made.name),
-                             fmt::format("<{}> is not supported; declare the variables as globals", child.name));
-        }
+      } else if (child.name == "accessVars") {
+        read_accesses(child, "", "configuration " + made.name, project_.accesses, diagnostics_);
+      } else if (child.name == "configVars") {
+        read_configured(child, "configuration " + made.name, project_.configured, diagnostics_);
       }
     }
     return made;
@@ -193,6 +193,7 @@ class Reader {
     resource.programs.push_back(std::move(made));
   }
 
+  Project& project_;
   Diagnostics& diagnostics_;
 };
 
@@ -205,15 +206,15 @@ std::optional<std::int64_t> interval_ns(std::string_view text) {
   return text.starts_with('P') ? iso_ns(text) : literal_ns(text);
 }
 
-void read_application(const Node& resource, std::vector<Configuration>& into, Diagnostics& diagnostics) {
-  into.push_back(Reader(diagnostics).application(resource));
+void read_application(const Node& resource, Project& into, Diagnostics& diagnostics) {
+  into.configurations.push_back(Reader(into, diagnostics).application(resource));
 }
 
-void read_instances(const Node& instances, std::vector<Configuration>& into, Diagnostics& diagnostics) {
+void read_instances(const Node& instances, Project& into, Diagnostics& diagnostics) {
   const Node* list = instances.child("configurations");
   for (const Node& node : children_of(list)) {
     if (node.name == "configuration") {
-      into.push_back(Reader(diagnostics).configuration(node));
+      into.configurations.push_back(Reader(into, diagnostics).configuration(node));
     }
   }
 }

@@ -3,17 +3,18 @@
 
 #pragma once
 
-#include <vector>
+#include <optional>
+#include <string_view>
 
 #include "plc/model/project.h"
 #include "plc/plcopen/xml.h"
 
 namespace indurop::plc::plcopen {
 
-void read_instances(const Node& instances, std::vector<Configuration>& into, Diagnostics& diagnostics);
+void read_instances(const Node& instances, Project& into, Diagnostics& diagnostics);
 
 // A <resource> that stands for itself, as a configuration of its name.
-void read_application(const Node& resource, std::vector<Configuration>& into, Diagnostics& diagnostics);
+void read_application(const Node& resource, Project& into, Diagnostics& diagnostics);
 
 // "T#10ms", "TIME#1s", ISO 8601 as in "PT0.01S", "P1DT2H", or "00:00:00.010000": nanoseconds; empty if it is neither.
 [[nodiscard]] std::optional<std::int64_t> interval_ns(std::string_view text);

@@ -9,6 +9,7 @@
 #include "plc/plcopen/declaration_writer.h"
 #include "plc/plcopen/diagram_writer.h"
 #include "plc/plcopen/extensions.h"
+#include "plc/plcopen/outside.h"
 #include "plc/print/expression_text.h"
 
 namespace indurop::plc::plcopen {
@@ -181,6 +182,10 @@ class Writer {
       declarations_.globals(document_.project.globals);
     }
     declarations_.globals(of.globals);
+    if (!outside_written_) {
+      outside_written_ = true;
+      write_outside(document_.project, out_, declarations_, diagnostics_);
+    }
     out_.close();
   }
 
@@ -209,6 +214,11 @@ class Writer {
     for (const ProgramInstance& one : of.programs) {
       if (same_name(one.task, task)) {
         out_.leaf("pouInstance", {{"name", one.name}, {"typeName", one.type}});
+        if (!one.connections.empty()) {
+          diagnostics_.error(one.connections.front().at,
+                             "connections of a program are not part of PLCopen XML, use "
+                             "VAR_EXTERNAL in the program");
+        }
       }
     }
   }
@@ -219,6 +229,7 @@ class Writer {
   XmlWriter out_;
   DeclarationWriter declarations_;
   bool globals_written_ = false;
+  bool outside_written_ = false;
   int tasks_ = 0;
 };
 

@@ -181,53 +181,6 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
   return true;
 }
 
-void DeclarationParser::configured(std::vector<Configured>& to) {
-  const int line = in_.previous().line;
-  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
-    const std::size_t from = in_.position();
-    Configured one;
-    if (configured(one)) {
-      to.push_back(std::move(one));
-    } else {
-      recover("END_VAR");
-    }
-    if (in_.position() == from) {
-      break;
-    }
-  }
-  if (in_.expect("END_VAR", fmt::format("to close the VAR_CONFIG of line {}", line))) {
-    in_.accept(";");
-  }
-}
-
-// plc.main.motor.running AT %QX1.0 : BOOL := TRUE;
-bool DeclarationParser::configured(Configured& out) {
-  out.at = in_.here();
-  do {
-    if (!in_.expect_name("a resource, program, instance or variable")) {
-      return false;
-    }
-    out.path.emplace_back(in_.take().text);
-  } while (in_.accept("."));
-  ast::Variable place;
-  if (in_.accept("AT") && !address(place)) {
-    return false;
-  }
-  out.address = place.address;
-  auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
-  if (!spec) {
-    return false;
-  }
-  out.type = std::move(*spec);
-  if (in_.accept(":=")) {
-    out.initial = expressions_.initial(out.type.kind == ast::TypeSpec::Kind::Array);
-    if (!out.initial) {
-      return false;
-    }
-  }
-  return in_.expect_end("behind the variable");
-}
-
 bool DeclarationParser::address(ast::Variable& out) {
   out.address = in_.peek().kind == TokenKind::Address ? address_literal(in_.peek().text) : std::nullopt;
   if (!out.address) {

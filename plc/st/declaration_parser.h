@@ -21,10 +21,10 @@ class DeclarationParser {
   // VAR ... END_VAR
   void variables(std::vector<ast::Variable>& to);
   // Behind TYPE, up to and with END_TYPE.
+  // %IX0.3, behind AT.
+  [[nodiscard]] bool address(ast::Variable& out);
   // As it stands behind the name of a variable.
   [[nodiscard]] std::optional<ast::TypeSpec> type();
-  // Behind VAR_CONFIG.
-  void configured(std::vector<Configured>& to);
   void types(std::vector<ast::TypeDeclaration>& to);
 
  private:
@@ -39,7 +39,6 @@ class DeclarationParser {
   };
   [[nodiscard]] std::optional<Block> block();
   [[nodiscard]] bool declaration(const Block& block, std::vector<ast::Variable>& to);
-  [[nodiscard]] bool address(ast::Variable& out);
   static bool broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to);
   [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
   [[nodiscard]] bool pointer(ast::TypeSpec& out);
@@ -53,7 +52,6 @@ class DeclarationParser {
   // The comment behind the ';' on its line, else the one on lines of its own before the declaration, which begins with
   // `first` and stands behind line `before`.
   [[nodiscard]] std::string comment(const Token& first, int before) const;
-  [[nodiscard]] bool configured(Configured& out);
   // Behind the next ';', or before `end`.
   void recover(std::string_view end);
 

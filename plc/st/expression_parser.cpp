@@ -114,6 +114,9 @@ std::optional<Expression> ExpressionParser::primary() {
   if (token.kind == TokenKind::Typed) {
     return typed();
   }
+  if (token.kind == TokenKind::Text && token.follows_error) {
+    return std::nullopt;  // it has no end
+  }
   if (token.kind == TokenKind::Number || token.kind == TokenKind::Text) {
     in_.take();
     Literal found = token.kind == TokenKind::Text ? text_literal(token.text) : number_literal(token.text);

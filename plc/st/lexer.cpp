@@ -76,6 +76,7 @@ class Lexer {
     }
     begin();
     push(TokenKind::End);
+    out_.back().follows_error = broken_;
     return std::move(out_);
   }
 
@@ -102,6 +103,10 @@ class Lexer {
     out_.push_back({kind, text_.substr(from_, at_ - from_), from_line_, from_column_, comment_, comment_line_});
     comment_ = {};
     comment_line_ = 0;
+  }
+  void follow_error(std::size_t last) {
+    std::for_each(out_.end() - static_cast<std::ptrdiff_t>(last), out_.end(),
+                  [](Token& one) { one.follows_error = true; });
   }
   void error(std::string text) {
     Place place = origin_;
@@ -144,6 +149,14 @@ class Lexer {
   void block_comment(char close) {
     const std::array<char, 2> mark{'*', close};
     const std::string_view end(mark.data(), mark.size());
+    if (text_.substr(at_, 6) == "(*DBG:") {  // C code of the OpenPLC Editor 4, each line of which is a comment
+      const std::size_t line = std::min(text_.find('\n', at_), text_.size());
+      const std::size_t last = text_.substr(at_, line - at_).rfind(end);
+      if (last != std::string_view::npos) {
+        step(last + end.size());
+        return;
+      }
+    }
     std::size_t length = nested_ ? nested_comment(end) : 0;
     if (length == 0) {
       nested_ = false;
@@ -153,6 +166,7 @@ class Lexer {
     if (length == 0) {
       error(fmt::format("this comment has no end, close it with {}", end));
       step(text_.size() - at_);
+      broken_ = true;
       return;
     }
     step(length);
@@ -290,6 +304,11 @@ class Lexer {
     while (peek() != quote) {
       if (at_ >= text_.size() || peek() == '\n') {
         error(fmt::format("this text has no end, close it with {} on the same line", quote));
+        push(TokenKind::Text);
+        out_.back().text = quote == '"' ? "\"\"" : "''";
+        push(TokenKind::Symbol);
+        out_.back().text = ";";
+        follow_error(2);
         return;
       }
       step(peek() == '$' && peek(1) != '\n' ? 2 : 1);
@@ -337,6 +356,7 @@ class Lexer {
   int from_column_ = 1;
   std::string_view comment_;
   int comment_line_ = 0;
+  bool broken_ = false;  // a comment has no end: the text ends there
   bool nested_ = true;
 };
 

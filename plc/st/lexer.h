@@ -27,8 +27,9 @@ struct Token {
   std::string_view text;  // spelling
   int line = 1;
   int column = 1;
-  std::string_view comment;  // the last one between this token and the one before; without its marks
-  int comment_line = 0;      // where it begins; 0: none
+  std::string_view comment;    // the last one between this token and the one before; without its marks
+  int comment_line = 0;        // where it begins; 0: none
+  bool follows_error = false;  // stands for what could not be read: what misses here was said
 
   // Keywords in any case.
   [[nodiscard]] bool is(std::string_view word) const noexcept {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/st/project_parser.h"
 
-#include <limits>
-
 namespace indurop::plc::st {
 namespace {
 
@@ -20,10 +18,6 @@ std::string_view word_of(ast::Pou::Kind kind) noexcept {
       break;
   }
   return "";
-}
-
-bool is_end_word(const Token& token) noexcept {
-  return token.kind == TokenKind::Word && token.text.size() > 4 && same_name(token.text.substr(0, 4), "END_");
 }
 
 }  // namespace
@@ -44,6 +38,8 @@ Project ProjectParser::project() {
     }
     complained = !known;
   }
+  out.accesses.insert(out.accesses.end(), std::make_move_iterator(accesses_.begin()),
+                      std::make_move_iterator(accesses_.end()));
   out.incomplete = in_.left_out();
   return out;
 }
@@ -71,10 +67,8 @@ bool ProjectParser::element(Project& out) {
     using_directive(scope_.uses);
   } else if (scope_.space.empty() && in_.peek().is("VAR_GLOBAL")) {
     declarations_.variables(out.globals);
-  } else if (scope_.space.empty() && in_.accept("VAR_CONFIG")) {
-    declarations_.configured(out.configured);
-  } else if (scope_.space.empty() && in_.accept("CONFIGURATION")) {
-    configuration(out);
+  } else if (scope_.space.empty() && (in_.next_is({"CONFIGURATION", "VAR_CONFIG", "VAR_ACCESS"}))) {
+    configurations_.element(out);
   } else {
     return false;
   }
@@ -133,7 +127,11 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
     }
   }
   while (declarations_.at_variables()) {
-    declarations_.variables(out.variables);
+    if (kind == ast::Pou::Kind::Program && in_.peek().is("VAR_ACCESS")) {
+      configurations_.accesses(out.name, accesses_);
+    } else {
+      declarations_.variables(out.variables);
+    }
   }
   methods(out);
   ChartParser chart(in_);
@@ -213,149 +211,6 @@ ast::Body ProjectParser::body(std::string_view end) {
     out.insert(out.end(), std::make_move_iterator(rest.begin()), std::make_move_iterator(rest.end()));
   }
   return out;
-}
-
-void ProjectParser::recover() {
-  while (!in_.at_end() && !is_end_word(in_.peek())) {
-    if (in_.take().is(";")) {
-      return;
-    }
-  }
-}
-
-void ProjectParser::configuration(Project& to) {
-  Configuration out;
-  const int line = in_.previous().line;
-  out.at = in_.here();
-  if (!name(out.name, "the configuration")) {
-    recover();
-  }
-  Resource direct;  // tasks and programs outside of any resource
-  direct.at = out.at;
-  while (!in_.at_end() && !is_end_word(in_.peek())) {
-    if (in_.accept("VAR_CONFIG")) {
-      declarations_.configured(to.configured);
-    } else if (declarations_.at_variables()) {
-      declarations_.variables(out.globals);
-    } else if (in_.accept("RESOURCE")) {
-      resource(out.resources);
-    } else if (!resource_item(direct)) {
-      recover();
-    }
-  }
-  if (in_.expect("END_CONFIGURATION", fmt::format("to close the CONFIGURATION of line {}", line))) {
-    in_.accept(";");
-  }
-  if (!direct.tasks.empty() || !direct.programs.empty()) {
-    out.resources.push_back(std::move(direct));
-  }
-  to.configurations.push_back(std::move(out));
-}
-
-// RESOURCE name ON processor
-void ProjectParser::resource(std::vector<Resource>& to) {
-  Resource out;
-  const int line = in_.previous().line;
-  out.at = in_.here();
-  std::string processor;
-  const bool ok = name(out.name, "the resource") && (!in_.accept("ON") || name(processor, "the processor"));
-  if (!ok) {
-    recover();
-  }
-  while (!in_.at_end() && !is_end_word(in_.peek())) {
-    if (declarations_.at_variables()) {
-      declarations_.variables(out.globals);
-    } else if (!resource_item(out)) {
-      recover();
-    }
-  }
-  if (in_.expect("END_RESOURCE", fmt::format("to close the RESOURCE of line {}", line))) {
-    in_.accept(";");
-  }
-  to.push_back(std::move(out));
-}
-
-bool ProjectParser::resource_item(Resource& out) {
-  if (in_.accept("TASK")) {
-    return task(out);
-  }
-  if (in_.accept("PROGRAM")) {
-    return program(out);
-  }
-  const Token& token = in_.take();
-  in_.error(token,
-            fmt::format("expected TASK, PROGRAM, RESOURCE or VAR_GLOBAL, found {}", TokenReader::spelled(token)));
-  return false;
-}
-
-// TASK name (INTERVAL := T#10ms, PRIORITY := 1);
-bool ProjectParser::task(Resource& out) {
-  Task one;
-  one.at = in_.here();
-  if (!name(one.name, "the task")) {
-    return false;
-  }
-  if (in_.accept("(")) {
-    do {
-      if (!task_property(one)) {
-        return false;
-      }
-    } while (in_.accept(","));
-    if (!in_.expect(")", "behind the task's properties")) {
-      return false;
-    }
-  }
-  out.tasks.push_back(std::move(one));
-  return in_.expect(";", "behind the task");
-}
-
-bool ProjectParser::task_property(Task& out) {
-  const Token& word = in_.take();
-  if (!in_.expect(":=", "behind INTERVAL, PRIORITY or SINGLE")) {
-    return false;
-  }
-  const Token& at = in_.peek();
-  const auto value = expressions_.expression();
-  if (!value) {
-    return false;
-  }
-  const auto* time = std::get_if<std::int64_t>(&value->value);
-  const auto* number = std::get_if<std::uint64_t>(&value->value);
-  if (word.is("INTERVAL") && time != nullptr && *time > 0) {
-    out.interval_ns = *time;
-  } else if (word.is("PRIORITY") && number != nullptr && value->kind == ast::Expression::Kind::Literal &&
-             *number <= std::numeric_limits<std::int32_t>::max()) {
-    out.priority = static_cast<std::int32_t>(*number);
-  } else if (word.is("SINGLE") && value->kind == ast::Expression::Kind::Name) {
-    out.single = value->name;
-  } else {
-    in_.error(at, "a task has INTERVAL := T#10ms, PRIORITY := 1 and SINGLE := a variable, correct it");
-    return false;
-  }
-  return true;
-}
-
-// PROGRAM name WITH task : type (...);
-bool ProjectParser::program(Resource& out) {
-  ProgramInstance one;
-  while (in_.accept("RETAIN") || in_.accept("NON_RETAIN")) {
-  }
-  one.at = in_.here();
-  if (!name(one.name, "the program's instance")) {
-    return false;
-  }
-  if (in_.accept("WITH") && !name(one.task, "the task")) {
-    return false;
-  }
-  if (!in_.expect(":", "before the program's type") || !name(one.type, "the program")) {
-    return false;
-  }
-  if (in_.peek().is("(")) {
-    in_.error(in_.peek(), "connections of a program's instance are not supported, use VAR_EXTERNAL in the program");
-    return false;
-  }
-  out.programs.push_back(std::move(one));
-  return in_.expect(";", "behind the program");
 }
 
 }  // namespace indurop::plc::st

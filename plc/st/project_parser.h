@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Program organisation units and configurations of Structured Text.
+// Program organisation units of Structured Text.
 
 #pragma once
 
@@ -7,6 +7,7 @@
 
 #include "plc/model/project.h"
 #include "plc/st/chart_parser.h"
+#include "plc/st/configuration_parser.h"
 #include "plc/st/declaration_parser.h"
 #include "plc/st/statement_parser.h"
 
@@ -23,6 +24,7 @@ class ProjectParser {
         as_written_(wanted == Bodies::AsWritten),
         expressions_(in),
         declarations_(in),
+        configurations_(in),
         statements_(in),
         in_editor_(in_editor) {}
 
@@ -56,22 +58,16 @@ class ProjectParser {
   void object(ast::Pou::Kind kind, std::vector<ast::Pou>& to);
 
   [[nodiscard]] bool has_actions(std::string_view end) const;
-  void configuration(Project& to);
-  void resource(std::vector<Resource>& to);
-  [[nodiscard]] bool resource_item(Resource& out);
-  [[nodiscard]] bool task(Resource& out);
-  [[nodiscard]] bool task_property(Task& out);
-  [[nodiscard]] bool program(Resource& out);
   [[nodiscard]] bool name(std::string& to, std::string_view what);
-  // Behind the next ';', or before a word that begins with END_.
-  void recover();
 
   TokenReader& in_;
   bool as_written_;
   ExpressionParser expressions_;
   DeclarationParser declarations_;
+  ConfigurationParser configurations_;
   StatementParser statements_;
   std::vector<WrittenBody> written_;
+  std::vector<Access> accesses_;  // of its programs
   bool in_editor_;
   ast::Scope scope_;  // the namespace around what is read
 };

@@ -13,12 +13,6 @@ namespace {
 
 constexpr int kMaxNesting = 64;  // statements inside each other
 
-// Words that end the statement before them, so that reading can go on there after an error.
-bool begins_something(const Token& token) {
-  return token.kind == TokenKind::Word && is_keyword(token.text) && token.text.size() > 4 &&
-         same_name(token.text.substr(0, 4), "END_");
-}
-
 bool has_call(const ast::Expression& expression) {
   return expression.kind == ast::Expression::Kind::Call ||
          std::any_of(expression.operands.begin(), expression.operands.end(), has_call);
@@ -42,7 +36,7 @@ ast::Body StatementParser::list(std::initializer_list<std::string_view> ends) {
       }
       continue;
     }
-    if (begins_something(in_.peek())) {
+    if (TokenReader::is_end_word(in_.peek())) {
       break;  // the end of something around this list: its reader says what is missing
     }
     before_.clear();
@@ -71,7 +65,7 @@ std::optional<ast::Statement> StatementParser::c_code() {
 
 // Behind the next ';', or before a word that ends a statement around this one.
 void StatementParser::recover(std::size_t from) {
-  while (!in_.at_end() && !begins_something(in_.peek())) {
+  while (!in_.at_end() && !TokenReader::is_end_word(in_.peek())) {
     if (in_.position() > from && in_.next_is({"ELSE", "ELSIF", "UNTIL", "IF", "FOR", "WHILE", "REPEAT", "CASE"})) {
       return;
     }
@@ -114,6 +108,13 @@ bool StatementParser::fill(Statement& out) {
   }
   if (in_.accept("REPEAT")) {
     return repeat_statement(out);
+  }
+  if (in_.peek().is("__TRY")) {
+    in_.unsupported(in_.peek(),
+                    "__TRY is not supported: a fault ends its module, so look at divisors, indices and "
+                    "pointers before they are used");
+    in_.skip_behind("__ENDTRY");
+    return true;
   }
   if (in_.accept("EXIT")) {
     out.kind = Statement::Kind::Exit;
@@ -243,7 +244,7 @@ bool StatementParser::if_statement(Statement& out) {
     branch.at = in_.here();
     branch.condition = expressions_.expression();
     if (!branch.condition || !in_.expect("THEN", "behind the condition")) {
-      return false;
+      skip_header("THEN");
     }
     branch.body = list({"ELSIF", "ELSE", "END_IF"});
     out.branches.push_back(std::move(branch));
@@ -264,7 +265,7 @@ bool StatementParser::case_statement(Statement& out) {
   if (!out.value || !in_.expect("OF", "behind the value")) {
     return false;
   }
-  while (!in_.next_is({"ELSE", "END_CASE"}) && !in_.at_end() && !begins_something(in_.peek())) {
+  while (!in_.next_is({"ELSE", "END_CASE"}) && !in_.at_end() && !TokenReader::is_end_word(in_.peek())) {
     if (!case_branch(out)) {
       return false;
     }
@@ -323,57 +324,6 @@ bool StatementParser::at_case_label() const {
     }
     depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
   }
-}
-
-bool StatementParser::for_statement(Statement& out) {
-  out.kind = Statement::Kind::For;
-  if (!in_.expect_name("the loop's variable")) {
-    return false;
-  }
-  out.target = expressions_.designator();
-  if (!out.target || !in_.expect(":=", "behind the loop's variable")) {
-    return false;
-  }
-  out.value = expressions_.expression();
-  if (!out.value || !in_.expect("TO", "behind the first value")) {
-    return false;
-  }
-  out.to = expressions_.expression();
-  if (!out.to) {
-    return false;
-  }
-  if (in_.accept("BY")) {
-    out.by = expressions_.expression();
-    if (!out.by) {
-      return false;
-    }
-  }
-  if (!in_.expect("DO", "before the statements of the loop")) {
-    return false;
-  }
-  out.body = list({"END_FOR"});
-  return in_.expect("END_FOR", fmt::format("to close the FOR of line {}", out.at.line));
-}
-
-bool StatementParser::while_statement(Statement& out) {
-  out.kind = Statement::Kind::While;
-  out.value = expressions_.expression();
-  if (!out.value || !in_.expect("DO", "behind the condition")) {
-    return false;
-  }
-  out.body = list({"END_WHILE"});
-  return in_.expect("END_WHILE", fmt::format("to close the WHILE of line {}", out.at.line));
-}
-
-bool StatementParser::repeat_statement(Statement& out) {
-  out.kind = Statement::Kind::Repeat;
-  out.body = list({"UNTIL", "END_REPEAT"});
-  if (!in_.expect("UNTIL", fmt::format("to close the REPEAT of line {}", out.at.line))) {
-    return false;
-  }
-  out.value = expressions_.expression();
-  in_.accept(";");
-  return out.value && in_.expect("END_REPEAT", fmt::format("to close the REPEAT of line {}", out.at.line));
 }
 
 }  // namespace indurop::plc::st

@@ -33,6 +33,9 @@ class StatementParser {
   [[nodiscard]] bool if_statement(Statement& out);
   [[nodiscard]] bool case_statement(Statement& out);
   [[nodiscard]] bool case_branch(Statement& out);
+  void skip_header(std::string_view word);
+  [[nodiscard]] bool headless(ast::Statement& out, std::string_view end);
+  [[nodiscard]] bool for_header(ast::Statement& out);
   [[nodiscard]] bool for_statement(Statement& out);
   [[nodiscard]] bool while_statement(Statement& out);
   [[nodiscard]] bool repeat_statement(Statement& out);

@@ -75,7 +75,7 @@ class TokenReader {
   // What is not there: behind the last token if the line ended, else at the token found instead.
   void missing(const std::string& text) {
     const Token& last = previous();
-    if (at_ == 0 || peek().line == last.line) {
+    if (at_ == 0 || peek().line == last.line || peek().follows_error) {
       error(peek(), fmt::format("{}, found {}", text, spelled(peek())));
       return;
     }
@@ -83,7 +83,11 @@ class TokenReader {
     at.column += static_cast<int>(last.text.size());
     diagnostics_.error(at, text);
   }
-  void error(const Token& at, std::string text) { diagnostics_.error(place(at), std::move(text)); }
+  void error(const Token& at, std::string text) {
+    if (!at.follows_error) {
+      diagnostics_.error(place(at), std::move(text));
+    }
+  }
   void error(const Place& at, std::string text) { diagnostics_.error(at, std::move(text)); }
 
   // For what the language has and we have not: said once, and the project is not looked at any further.
@@ -96,6 +100,12 @@ class TokenReader {
   void skip_behind(std::string_view word) noexcept {
     while (!at_end() && !take().is(word)) {
     }
+  }
+
+  // END_IF and the like: the end of something around a list of statements or declarations.
+  [[nodiscard]] static bool is_end_word(const Token& token) noexcept {
+    return token.kind == TokenKind::Word && token.text.size() > 4 && same_name(token.text.substr(0, 4), "END_") &&
+           is_keyword(token.text);
   }
 
   void warning(const Place& at, std::string text) { diagnostics_.warning(at, std::move(text)); }

@@ -173,6 +173,42 @@ class SharedWords {
   std::uint32_t bindings_ = 0;
 };
 
+// VAR_ACCESS: a shared variable that follows one of a program. What others write into a Writable one goes into the
+// program's at the begin of the next scan; others get the program's value back.
+template <class T, bool Writable>
+class Access {
+ public:
+  template <class Shared>
+  void read(const Shared& from, T& variable) {
+    const T now = value_of(from);
+    if (known_ && !(now == seen_)) {
+      seen_ = now;
+      variable = now;
+    }
+  }
+  template <class Shared>
+  void write(const Shared& to, const T& variable) {
+    const bool differs = Writable ? !known_ || !(variable == seen_) : !(variable == value_of(to));
+    if (differs) {
+      typename Shared::whole_type value{};
+      copy_value(value, variable);
+      to = value;
+    }
+    seen_ = variable;
+    known_ = true;
+  }
+
+ private:
+  template <class Shared>
+  static T value_of(const Shared& shared) {
+    T out{};
+    copy_value(out, shared.get());
+    return out;
+  }
+  T seen_{};
+  bool known_ = false;
+};
+
 // FOR whose end, step or variable only the running program knows. It ends where the variable would overflow, or leave
 // its subrange, in which it then stays.
 template <Integer T>

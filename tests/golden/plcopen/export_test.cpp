@@ -179,13 +179,9 @@ TEST(Refused, What_the_format_does_not_have_is_an_error) {
   }
 }
 
-// Literals keep their type, their digits and every character.
-TEST(Literals, Are_written_as_they_are_read) {
-  const std::string text =
-      "VAR_GLOBAL a : STRING := 'it$'s <\"$$\"> $0A'; b : LREAL := 1.0E300; c : TIME := T#1h2m3s4ms5us6ns;\n"
-      "d : DT := DT#2024-01-31-12:30:00.25; e : ARRAY[1..2, 0..3] OF INT := [2(1), 3, 5(INT#16#7F)]; f : LREAL := 0.1;\n"
-      "g : TOD := TOD#1:2:3; h : DATE := D#2000-02-29; i : LINT := -9223372036854775808; j : WORD := 16#FFFF; END_VAR\n"
-      "PROGRAM p VAR_EXTERNAL a : STRING; END_VAR a := 'x]]>y'; END_PROGRAM\n";
+// The same program, of the text and of what it is exported as: the same shared variables, and code from which the places
+// are taken out.
+void expect_same_export(const std::string& text) {
   std::string exported;
   const glb2idl::FileReader reader = [&](const std::string& name) {
     return glb2idl::ReadResult{name == "in.st" ? text : exported, name, ""};
@@ -202,6 +198,27 @@ TEST(Literals, Are_written_as_they_are_read) {
   const Compiled after = compile(options, reader);
   ASSERT_TRUE(before.ok && after.ok) << base::to_text(after.diagnostics, "") << exported;
   EXPECT_EQ(after.glb.substr(after.glb.find('\n')), before.glb.substr(before.glb.find('\n')));
+  EXPECT_EQ(module_xml(after.modules), module_xml(before.modules));
+}
+
+TEST(Outside, What_configurations_name_is_written_as_it_is_read) {
+  expect_same_export(
+      "FUNCTION_BLOCK F VAR k AT %I* : INT; END_VAR VAR_OUTPUT n : INT; END_VAR n := k; END_FUNCTION_BLOCK\n"
+      "PROGRAM P VAR f : F; list : ARRAY[1..3] OF INT; END_VAR f(); list[1] := f.n; END_PROGRAM\n"
+      "CONFIGURATION c VAR_GLOBAL go : BOOL; END_VAR\n"
+      "VAR_ACCESS a : r.p.list[2] : INT READ_WRITE; b : p.f.n : INT READ_ONLY; d : r.%QW3 : WORD READ_WRITE; END_VAR\n"
+      "RESOURCE r ON pc TASK t (SINGLE := go, PRIORITY := 1); PROGRAM p WITH t : P; END_RESOURCE\n"
+      "VAR_CONFIG r.p.f.k AT %IW1 : INT; r.p.list : ARRAY[1..3] OF INT := [1, 2, 3]; END_VAR END_CONFIGURATION\n");
+}
+
+// Literals keep their type, their digits and every character.
+TEST(Literals, Are_written_as_they_are_read) {
+  const std::string text =
+      "VAR_GLOBAL a : STRING := 'it$'s <\"$$\"> $0A'; b : LREAL := 1.0E300; c : TIME := T#1h2m3s4ms5us6ns;\n"
+      "d : DT := DT#2024-01-31-12:30:00.25; e : ARRAY[1..2, 0..3] OF INT := [2(1), 3, 5(INT#16#7F)]; f : LREAL := 0.1;\n"
+      "g : TOD := TOD#1:2:3; h : DATE := D#2000-02-29; i : LINT := -9223372036854775808; j : WORD := 16#FFFF; END_VAR\n"
+      "PROGRAM p VAR_EXTERNAL a : STRING; END_VAR a := 'x]]>y'; END_PROGRAM\n";
+  expect_same_export(text);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ PlcModule::PlcModule(const std::string& name)
   ModuleDescriptor descriptor;
   reinterpret_cast<void (*)(ModuleDescriptor*)>(::dlsym(library_, "indurop_module_describe"))(&descriptor);
   run_ = descriptor.run;
+  condition_ = descriptor.condition.as_bool;
 }
 
 PlcModule::~PlcModule() {
@@ -46,6 +47,10 @@ PlcModule::~PlcModule() {
 void PlcModule::scan(std::chrono::nanoseconds at) const {
   time_of_test = at.count();
   run_();
+}
+
+bool PlcModule::due() const {
+  return condition_();
 }
 
 std::string PlcModule::fault() const {

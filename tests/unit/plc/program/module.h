@@ -20,10 +20,13 @@ class PlcModule {
   void scan(std::chrono::nanoseconds at = {}) const;
   // The text of the fault that ends the scan; "" if none does.
   [[nodiscard]] std::string fault() const;
+  // Of one that an event starts: whether it has occurred.
+  [[nodiscard]] bool due() const;
 
  private:
   void* library_ = nullptr;
   void (*run_)() = nullptr;
+  bool (*condition_)() = nullptr;
 };
 
 }  // namespace indurop::testing

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// <accessVars> and <configVars> of a PLCopen file: what is named from outside of POUs.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plc/model/project.h"
+#include "plc/plcopen/declaration_writer.h"
+#include "plc/plcopen/xml.h"
+
+namespace indurop::plc::plcopen {
+
+// <accessVars>; of the PROGRAM of this name, unless it is empty.
+void read_accesses(const Node& list, const std::string& program, const std::string& what, std::vector<Access>& into,
+                   Diagnostics& diagnostics);
+// <configVars>
+void read_configured(const Node& list, const std::string& what, std::vector<Configured>& into,
+                     Diagnostics& diagnostics);
+
+// Both, as a <configuration> has them behind its global variables.
+void write_outside(const Project& project, XmlWriter& out, DeclarationWriter& declarations, Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::plcopen

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// FOR, WHILE and REPEAT, and how the body of a statement is read whose head has an error.
+#include "plc/st/statement_parser.h"
+
+namespace indurop::plc::st {
+
+// Behind the word that ends the head of a statement, if it is there: its body is read although the head has an error.
+void StatementParser::skip_header(std::string_view word) {
+  for (std::size_t ahead = 0; in_.peek(ahead).kind != TokenKind::End; ++ahead) {
+    const Token& token = in_.peek(ahead);
+    if (token.is(";") || (token.is(":=") && ahead > 1) || TokenReader::is_end_word(token)) {
+      return;
+    }
+    if (token.is(word)) {
+      in_.skip_behind(word);
+      return;
+    }
+  }
+}
+
+// What stands in a loop whose head has an error.
+bool StatementParser::headless(Statement& out, std::string_view end) {
+  skip_header("DO");
+  out = {};
+  out.kind = Statement::Kind::If;
+  ast::Branch& branch = out.branches.emplace_back();
+  branch.at = in_.here();
+  branch.body = list({end});
+  return in_.accept(end);
+}
+
+bool StatementParser::for_statement(Statement& out) {
+  out.kind = Statement::Kind::For;
+  if (!for_header(out)) {
+    return headless(out, "END_FOR");
+  }
+  out.body = list({"END_FOR"});
+  return in_.expect("END_FOR", fmt::format("to close the FOR of line {}", out.at.line));
+}
+
+// i := 1 TO 10 BY 2 DO
+bool StatementParser::for_header(Statement& out) {
+  if (!in_.expect_name("the loop's variable")) {
+    return false;
+  }
+  out.target = expressions_.designator();
+  if (!out.target || !in_.expect(":=", "behind the loop's variable")) {
+    return false;
+  }
+  out.value = expressions_.expression();
+  if (!out.value || !in_.expect("TO", "behind the first value")) {
+    return false;
+  }
+  out.to = expressions_.expression();
+  if (!out.to) {
+    return false;
+  }
+  if (in_.accept("BY")) {
+    out.by = expressions_.expression();
+    if (!out.by) {
+      return false;
+    }
+  }
+  return in_.expect("DO", "before the statements of the loop");
+}
+
+bool StatementParser::while_statement(Statement& out) {
+  out.kind = Statement::Kind::While;
+  out.value = expressions_.expression();
+  if (!out.value || !in_.expect("DO", "behind the condition")) {
+    return headless(out, "END_WHILE");
+  }
+  out.body = list({"END_WHILE"});
+  return in_.expect("END_WHILE", fmt::format("to close the WHILE of line {}", out.at.line));
+}
+
+bool StatementParser::repeat_statement(Statement& out) {
+  out.kind = Statement::Kind::Repeat;
+  out.body = list({"UNTIL", "END_REPEAT"});
+  if (!in_.expect("UNTIL", fmt::format("to close the REPEAT of line {}", out.at.line))) {
+    return false;
+  }
+  out.value = expressions_.expression();
+  in_.accept(";");
+  return out.value && in_.expect("END_REPEAT", fmt::format("to close the REPEAT of line {}", out.at.line));
+}
+
+}  // namespace indurop::plc::st

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong is said once, whatever follows from it; and what is named from outside of POUs has to be there.
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "tests/unit/plc/front/compiled.h"
+
+namespace indurop::plc {
+namespace {
+
+using testing::compiled;
+using ::testing::HasSubstr;
+using testing::messages;
+using testing::wrong;
+
+// One mistake, one message: also where what follows cannot be understood any more.
+TEST(PlcMistakes, A_mistake_in_the_text_is_said_once) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  const std::string head = "PROGRAM Main VAR i : INT; s : STRING; END_VAR\n";
+  for (const auto& [text, message] : {
+           Row{"FOR i = 1 TO 10 DO\ni := 3;\nEND_FOR;\n", "expected ':=' behind the loop's variable"},
+           Row{"FOR i := 1 TO 10\ni := 3;\nEND_FOR;\n", "expected 'DO'"},
+           Row{"WHILE i < DO\ni := 3;\nEND_WHILE;\n", "expected a value"},
+           Row{"IF i = THEN\ni := 3;\nELSE\ni := 4;\nEND_IF;\n", "expected a value"},
+           Row{"IF i = 1\ni := 3;\nEND_IF;\n", "expected 'THEN'"},
+           Row{"s := 'abc;\ni := 1;\n", "this text has no end"},
+           Row{"s := CONCAT('abc, s);\ni := 1;\n", "this text has no end"},
+           Row{"(* i := 1;\n", "this comment has no end"},
+           Row{"i := j + 1;\nj := 2;\nIF j > 3 THEN i := 3; END_IF;\n", "'j' is not declared"},
+       }) {
+    const Compiled sut = compiled(head + text + "END_PROGRAM\n");
+    EXPECT_FALSE(sut.ok) << text;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+}
+
+TEST(PlcMistakes, Globals_with_a_mistake_are_no_further_ones_where_they_are_used) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  const std::string main = "PROGRAM Main VAR i : INT; END_VAR i := N + 1; END_PROGRAM";
+  for (const auto& [text, message] : {
+           Row{"VAR_GLOBAL CONSTANT N : INT := M + 1; M : INT := N; END_VAR ",
+               "a constant cannot need its own value: N -> M -> N"},
+           Row{"VAR_GLOBAL N : STRUCT a : INT; END_STRUCT; END_VAR ", "a STRUCT needs a name"},
+           Row{"VAR_GLOBAL N : INT := 'a'; END_VAR ", "is not converted"},
+       }) {
+    const Compiled sut = compiled(text + main);
+    EXPECT_FALSE(sut.ok) << text;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+}
+
+TEST(PlcMistakes, Places_of_an_array_are_no_variables_of_their_own) {
+  const std::string rest = " list[2] := x; END_PROGRAM";
+  EXPECT_THAT(wrong("PROGRAM Main VAR list AT %MW10 : ARRAY[0..9] OF INT; x AT %MW12 : INT; END_VAR" + rest),
+              HasSubstr("'x' and 'list' at %MW10 share places"));
+  EXPECT_THAT(wrong("PROGRAM Main VAR x AT %MW12 : INT; list AT %MW10 : ARRAY[0..9] OF INT; END_VAR" + rest),
+              HasSubstr("'list' and 'x' at %MW12 share places"));
+  EXPECT_EQ(wrong("PROGRAM Main VAR x AT %MW20 : INT; list AT %MW10 : ARRAY[0..9] OF INT; END_VAR" + rest), "");
+}
+
+TEST(PlcMistakes, What_is_named_from_outside_is_there_and_fits) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  const auto program = [](const std::string& access, const std::string& connections, const std::string& task) {
+    return "VAR_GLOBAL real : REAL; word : INT; END_VAR PROGRAM P VAR_INPUT k : INT; END_VAR VAR i AT %IW0 : INT; t : "
+           "TON; list : ARRAY[1..3] OF INT; END_VAR VAR_TEMP now : INT; END_VAR now := k + i + list[1]; t(IN := now > "
+           "3); END_PROGRAM CONFIGURATION c " +
+           (access.empty() ? "" : "VAR_ACCESS " + access + " END_VAR ") + "RESOURCE r ON pc TASK t (" + task +
+           "); PROGRAM p WITH t : P" + (connections.empty() ? "" : " (" + connections + ")") +
+           "; END_RESOURCE END_CONFIGURATION";
+  };
+  const std::string every = "INTERVAL := T#1ms";
+  for (const auto& [text, message] : {
+           Row{"a : p.zz : INT;", "P has no variable 'zz'"},
+           Row{"a : q.k : INT;", "there is no program or global"},
+           Row{"a : p.k : DINT;", "the variable is an INT"},
+           Row{"a : p : INT;", "is a program"},
+           Row{"a : p.t : TON;", "cannot be seen from outside"},
+           Row{"a : p.now : INT;", "is there only while P runs"},
+           Row{"a : p.list[4] : INT;", "outside of 1..3"},
+           Row{"a : p.k[1] : INT;", "no array"},
+           Row{"a : p.i : INT READ_WRITE;", "an input is not written"},
+           Row{"word : p.k : INT;", "there is a variable 'word' already"},
+           Row{"a : p.k : INT; a : p.k : INT;", "there is a variable 'a' already"},
+       }) {
+    EXPECT_THAT(wrong(program(text, "", every)), HasSubstr(message)) << text;
+  }
+  for (const auto& [text, message] : {
+           Row{"z := word", "P has no input 'z'"},
+           Row{"k := real", "a REAL is not given to an INT"},
+           Row{"k := 5.5", "5.5 does not fit INT"},
+           Row{"k := word, k := 5", "connected twice"},
+           Row{"t WITH t", "a task of its own for a function block"},
+           Row{"k => word", "P has no output 'k'"},
+       }) {
+    EXPECT_THAT(wrong(program("", text, every)), HasSubstr(message)) << text;
+  }
+  const Compiled sut = compiled(program("", "", "SINGLE := real"));
+  EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("no global variable of this name that is a BOOL"));
+}
+
+}  // namespace
+}  // namespace indurop::plc
