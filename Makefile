@@ -76,7 +76,7 @@ bench: ## compare with cyclictest, raw globals and futexes; prints ratios
 	@cmake --build --preset bench -j $(JOBS)
 	@cmake --build --preset bench --target run-bench
 
-bench-peers: ## compare with cyclictest, roscpp, iceoryx and Cyclone DDS; wants an idle machine
+bench-peers: ## compare with cyclictest, LinuxCNC, roscpp, iceoryx, Cyclone DDS, Fast DDS; wants an idle machine
 	@.ci/install-deps build bench peers
 	@cmake --preset bench --log-level=WARNING >/dev/null
 	@cmake --build --preset bench -j $(JOBS)
