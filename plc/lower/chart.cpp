@@ -19,6 +19,7 @@ class ChartLowering {
   Lowered run() {
     declare_steps();
     reset();
+    measure();
     evaluate();
     clear();
     measure();
@@ -136,7 +137,8 @@ class ChartLowering {
     }
   }
 
-  // The time for which a step is active; it stays when the step is left.
+  // The time for which a step is active; it stays when the step is left. Transitions see that of now; behind them it is
+  // measured again, so that it begins with the step.
   void measure() {
     for (std::size_t i = 0; i < chart_.steps.size(); ++i) {
       const Place& at = chart_.steps[i].element->at;

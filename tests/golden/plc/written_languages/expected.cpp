@@ -64,6 +64,30 @@ inline void press::operator()([[maybe_unused]] const iec::Scan& scan) {
   [[maybe_unused]] bool _al1{};
   [[maybe_unused]] bool _al2{};
   [[maybe_unused]] bool _al3{};
+  _st0.in = Ready.X;
+  _st0.pt = iec::Time{3153600000000000000};
+  _st0(scan);
+  if (Ready.X) {
+    Ready.T = _st0.et;
+  }
+  _st1.in = Lower.X;
+  _st1.pt = iec::Time{3153600000000000000};
+  _st1(scan);
+  if (Lower.X) {
+    Lower.T = _st1.et;
+  }
+  _st2.in = Clamp.X;
+  _st2.pt = iec::Time{3153600000000000000};
+  _st2(scan);
+  if (Clamp.X) {
+    Clamp.T = _st2.et;
+  }
+  _st3.in = Alarm.X;
+  _st3.pt = iec::Time{3153600000000000000};
+  _st3(scan);
+  if (Alarm.X) {
+    Alarm.T = _st3.et;
+  }
   _f0 = (_running && Ready.X) && fault;
   _f1 = ((_running && Ready.X) && !_f0) && (go && !fault);
   _f2 = ((_running && Lower.X) && Clamp.X) && (down && clamped);

@@ -103,10 +103,10 @@ TEST_F(PlcChart, A_simultaneous_convergence_needs_all_its_steps) {
   press::press_Fault = false;
   scan();  // Raise again, the stored action goes on
   EXPECT_TRUE(press::press_Horn.get());
-  for (int i = 0; i <= 10; ++i) {
+  for (int i = 1; i <= 10; ++i) {
     scan();
   }
-  EXPECT_TRUE(press::press_Horn.get()) << "Raise.T is not more than 1 s yet";
+  EXPECT_TRUE(press::press_Horn.get()) << "Raise.T is 1 s, not more";
   scan();
   EXPECT_TRUE(press::press_Released.get());
   EXPECT_FALSE(press::press_Horn.get()) << "the initial step resets it";
