@@ -9,7 +9,7 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStep = 0.004;      // s between instants of a motion that are looked at
+constexpr double kStep = 0.002;      // s between instants of a motion that are looked at
 constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
 constexpr int kMostRehearsals = 4;
