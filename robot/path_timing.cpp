@@ -32,6 +32,17 @@ PathTiming::Value spline(const double* coefficients, double part) noexcept {
   return {result[0], result[1], result[2], result[3]};
 }
 
+// A uniform cubic B-spline piece as a polynomial of the part.
+struct Cubic {
+  explicit Cubic(const double* z) noexcept
+      : a((z[0] + 4 * z[1] + z[2]) / 6),
+        b((z[2] - z[0]) / 2),
+        c((z[0] - 2 * z[1] + z[2]) / 2),
+        d((z[3] - 3 * z[2] + 3 * z[1] - z[0]) / 6) {}
+  [[nodiscard]] double at(double x) const noexcept { return a + x * (b + x * (c + x * d)); }
+  double a, b, c, d;
+};
+
 }  // namespace
 
 PathTiming::Value PathTiming::place(int piece, double part) const noexcept {
@@ -48,17 +59,12 @@ double PathTiming::seconds(int piece, double part) const noexcept {
                             0.59171732124782490, 0.76276620495816450, 0.89833323870681336, 0.98014492824876812};
   constexpr double kWeight[] = {0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
                                 0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
-  const double* z = squares_.data() + piece;
-  // The cubic as a polynomial of the part.
-  const double a = (z[0] + 4 * z[1] + z[2]) / 6;
-  const double b = (z[2] - z[0]) / 2;
-  const double c = (z[0] - 2 * z[1] + z[2]) / 2;
-  const double d = (z[3] - 3 * z[2] + 3 * z[1] - z[0]) / 6;
+  const Cubic square(squares_.data() + piece);
   // In two halves: what is lost shows as a step of speed between pieces.
   double sum = 0;
   for (int i = 0; i < 16; ++i) {
     const double x = part / 2 * (kAt[i % 8] + i / 8);
-    sum += kWeight[i % 8] / std::sqrt(a + x * (b + x * (c + x * d)));
+    sum += kWeight[i % 8] / std::sqrt(square.at(x));
   }
   return part / 2 * sum;
 }
@@ -90,14 +96,22 @@ Timed PathTiming::at(double time) const noexcept {
   const double begin = times_[static_cast<std::size_t>(piece)];
   const double length = *next - begin;
   const double rest = std::clamp(time - begin, 0.0, length);
-  double part = rest / length;
+  // Newton's steps from a cubic with the right speeds at both ends; what is left of the last one is its square.
+  constexpr double kNearly = 1e-9;
+  const double x = rest / length;
+  const Cubic squared(squares_.data() + piece);
+  const double begin_speed = length * std::sqrt(squared.at(0));
+  const double end_speed = length * std::sqrt(squared.at(1));
+  double part = x * (begin_speed + x * (3 - 2 * begin_speed - end_speed + x * (begin_speed + end_speed - 2)));
   for (int i = 0; i < 4; ++i) {
+    part = std::clamp(part, 0.0, 1.0);
     const double off = seconds(piece, part) - rest;
-    part = std::clamp(part - off * std::sqrt(square(piece, part).value), 0.0, 1.0);
-    if (std::abs(off) < 1e-14) {
+    part -= off * std::sqrt(squared.at(part));
+    if (std::abs(off) < kNearly * length) {
       break;
     }
   }
+  part = std::clamp(part, 0.0, 1.0);
   const Value s = place(piece, part);
   const Value w = square(piece, part);
   const double u = std::sqrt(w.value);
