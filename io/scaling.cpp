@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "io/number.h"
+#include "schema/leaf.h"
 
 namespace indurop::io {
 namespace {
@@ -37,39 +38,6 @@ bool put_real(Number value, std::uint64_t& bits) noexcept {
   const bool fits = to_real(value, real);
   put(real, bits);
   return fits;
-}
-
-Number number_in(Base base, std::uint64_t bits) noexcept {
-  switch (base) {
-    case Base::Bool:
-      return get<std::uint8_t>(bits) != 0 ? 1 : 0;
-    case Base::Char:
-    case Base::UInt8:
-      return get<std::uint8_t>(bits);
-    case Base::Int8:
-      return get<std::int8_t>(bits);
-    case Base::Int16:
-      return get<std::int16_t>(bits);
-    case Base::UInt16:
-      return get<std::uint16_t>(bits);
-    case Base::Enum:
-    case Base::Int32:
-      return get<std::int32_t>(bits);
-    case Base::UInt32:
-      return get<std::uint32_t>(bits);
-    case Base::Int64:
-      return static_cast<Number>(get<std::int64_t>(bits));
-    case Base::UInt64:
-      return static_cast<Number>(bits);
-    case Base::Float:
-      return static_cast<Number>(get<float>(bits));
-    case Base::Double:
-      return static_cast<Number>(get<double>(bits));
-    case Base::Text:
-    case Base::Struct:
-      break;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -114,7 +82,8 @@ bool to_variable(const Scaling& scaling, Number value, std::uint64_t& bits) noex
 }
 
 Number from_variable(const Scaling& scaling, std::uint64_t bits) noexcept {
-  return (number_in(scaling.base, bits) - static_cast<Number>(scaling.offset)) / static_cast<Number>(scaling.scale);
+  const auto value = schema::as_number<Number>(scaling.base, reinterpret_cast<const std::uint8_t*>(&bits)).value_or(0);
+  return (value - static_cast<Number>(scaling.offset)) / static_cast<Number>(scaling.scale);
 }
 
 }  // namespace indurop::io

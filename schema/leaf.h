@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "schema/schema.h"
 
@@ -59,6 +60,18 @@ bool with_number(Base base, const std::uint8_t* at, Use use) {
       break;
   }
   return false;
+}
+
+// The number at `at`, that of an enumerator and of a character too; true is 1. Nothing of text and structs.
+template <class T>
+std::optional<T> as_number(Base base, const std::uint8_t* at) noexcept {
+  if (base == Base::Bool) {
+    return *at != 0 ? T{1} : T{0};
+  }
+  const Base stored = base == Base::Char ? Base::UInt8 : base == Base::Enum ? Base::Int32 : base;
+  std::optional<T> number;
+  with_number(stored, at, [&number](auto value) { number = static_cast<T>(value); });
+  return number;
 }
 
 // Bytes between two neighbours of dimension `dim` (0 is the outermost).

@@ -54,21 +54,6 @@ bool is_plant(const std::filesystem::path& configuration) {
          indurop::base::xml_root_name(*text, {.most_bytes = text->size() + 1, .most_depth = kMostDepth}) == "plant";
 }
 
-std::optional<long double> number_in(schema::Base base, const std::vector<std::uint8_t>& bytes) {
-  switch (base) {
-    case schema::Base::Bool:
-    case schema::Base::Char:
-      return schema::load<std::uint8_t>(bytes.data());
-    case schema::Base::Enum:
-      return schema::load<std::int32_t>(bytes.data());
-    default:
-      break;
-  }
-  std::optional<long double> value;
-  schema::with_number(base, bytes.data(), [&value](auto number) { value = static_cast<long double>(number); });
-  return value;
-}
-
 }  // namespace
 
 struct Plant::Impl {
@@ -255,10 +240,12 @@ std::chrono::nanoseconds Plant::time() const {
 
 long double Plant::number(std::string_view name) const {
   const Impl::Part part = impl_->find(name);
-  const auto value = part.place.type.dims.empty() ? number_in(part.place.type.base, Impl::read(part)) : std::nullopt;
+  const schema::Type& type = part.place.type;
+  const auto value =
+      type.dims.empty() ? schema::as_number<long double>(type.base, Impl::read(part).data()) : std::nullopt;
   if (!value) {
     throw std::runtime_error(
-        fmt::format("{} is a {}, not a number: name a part of it", name, schema::display_name(part.place.type)));
+        fmt::format("{} is a {}, not a number: name a part of it", name, schema::display_name(type)));
   }
   return *value;
 }

@@ -5,54 +5,17 @@
 #include <indurop/detail/freshness.h>
 
 #include <array>
-#include <cstring>
 #include <set>
 #include <span>
 #include <string_view>
+
+#include "schema/leaf.h"
 
 namespace indurop::tools {
 namespace {
 
 // The longest value of one element.
 using Bytes = std::array<std::uint8_t, sizeof(std::uint64_t)>;
-
-template <class T>
-double number_in(const Bytes& bytes) noexcept {
-  T value{};
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return static_cast<double>(value);
-}
-
-double number_of(schema::Base base, const Bytes& bytes) noexcept {
-  switch (base) {
-    case schema::Base::Bool:
-    case schema::Base::Char:
-    case schema::Base::UInt8:
-      return number_in<std::uint8_t>(bytes);
-    case schema::Base::Int8:
-      return number_in<std::int8_t>(bytes);
-    case schema::Base::Int16:
-      return number_in<std::int16_t>(bytes);
-    case schema::Base::UInt16:
-      return number_in<std::uint16_t>(bytes);
-    case schema::Base::Int32:
-    case schema::Base::Enum:
-      return number_in<std::int32_t>(bytes);
-    case schema::Base::UInt32:
-      return number_in<std::uint32_t>(bytes);
-    case schema::Base::Int64:
-      return number_in<std::int64_t>(bytes);
-    case schema::Base::UInt64:
-      return number_in<std::uint64_t>(bytes);
-    case schema::Base::Float:
-      return number_in<float>(bytes);
-    case schema::Base::Double:
-    case schema::Base::Text:
-    case schema::Base::Struct:
-      break;
-  }
-  return number_in<double>(bytes);
-}
 
 // Values of other boards count while they are confirmed.
 bool is_fresh(const vars::Store& store, const DeclaredAlarm& alarm, std::int64_t now_ns) noexcept {
@@ -117,7 +80,8 @@ std::string AlarmWatch::look() {
     if (!is_fresh(*store_, one, now_ns) || !store_->read(*one.entry, one.offset, part).ok()) {
       continue;
     }
-    standing_[i] = conditions_[i].look(one.alarm, number_of(one.type.base, bytes), now_ns, before) ? 1 : 0;
+    const double value = schema::as_number<double>(one.type.base, bytes.data()).value_or(0);
+    standing_[i] = conditions_[i].look(one.alarm, value, now_ns, before) ? 1 : 0;
     values_[i] = standing_[i] != 0 ? schema::format_value(one.type, part) : std::string();
   }
   if (decide(journal_.book()).empty()) {

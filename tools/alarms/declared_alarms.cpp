@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "schema/leaf.h"
+
 namespace indurop::tools {
 namespace {
 
@@ -24,10 +26,7 @@ class Collector {
       return;
     }
     if (level < type.dims.size()) {
-      std::uint32_t stride = type.element_size;
-      for (std::size_t i = level + 1; i < type.dims.size(); ++i) {
-        stride *= type.dims[i];
-      }
+      const auto stride = static_cast<std::uint32_t>(schema::stride_of(type, level));
       for (std::uint32_t i = 0; i < type.dims[level] && to_.size() < kMostAlarms; ++i) {
         walk(type, level + 1, fmt::format("{}[{}]", name, i), offset + i * stride, alarms, unit);
       }

@@ -216,12 +216,7 @@ class Planner {
 }  // namespace
 
 double number_of(const ScopeInput& input, const std::uint8_t* bytes) noexcept {
-  double out = 0;
-  const std::uint8_t* const at = bytes + input.offset;
-  if (!schema::with_number(input.base, at, [&out](auto number) { out = static_cast<double>(number); })) {
-    out = input.base == Base::Enum ? static_cast<double>(schema::load<std::int32_t>(at)) : static_cast<double>(*at);
-  }
-  return out;
+  return schema::as_number<double>(input.base, bytes + input.offset).value_or(0);
 }
 
 Result<ScopePlan, Problem> plan_scope(const schema::Schema& schema, const std::vector<std::string>& texts,

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "schema/leaf.h"
 #include "tests/unit/schema/types.h"
 
 namespace indurop::schema {
@@ -64,6 +65,34 @@ TEST(Value, Integers_of_every_size_round_trip_at_their_limits) {
   expect_extremes<std::uint32_t>(Base::UInt32);
   expect_extremes<std::int64_t>(Base::Int64);
   expect_extremes<std::uint64_t>(Base::UInt64);
+}
+
+template <class T>
+void expect_number(Base base) {
+  const T lowest = std::numeric_limits<T>::lowest();
+  const T highest = std::numeric_limits<T>::max();
+  EXPECT_EQ(as_number<long double>(base, bytes_of<T>({lowest}).data()), static_cast<long double>(lowest));
+  EXPECT_EQ(as_number<long double>(base, bytes_of<T>({highest}).data()), static_cast<long double>(highest));
+  EXPECT_EQ(as_number<double>(base, bytes_of<T>({T{7}}).data()), 7.0);
+}
+
+TEST(Value, Numbers_of_every_type_are_read_out_of_bytes) {
+  expect_number<std::int8_t>(Base::Int8);
+  expect_number<std::uint8_t>(Base::UInt8);
+  expect_number<std::int16_t>(Base::Int16);
+  expect_number<std::uint16_t>(Base::UInt16);
+  expect_number<std::int32_t>(Base::Int32);
+  expect_number<std::uint32_t>(Base::UInt32);
+  expect_number<std::int64_t>(Base::Int64);
+  expect_number<std::uint64_t>(Base::UInt64);
+  expect_number<float>(Base::Float);
+  expect_number<double>(Base::Double);
+  expect_number<std::uint8_t>(Base::Char);
+  expect_number<std::int32_t>(Base::Enum);
+  EXPECT_EQ(as_number<double>(Base::Bool, Bytes{0}.data()), 0.0);
+  EXPECT_EQ(as_number<double>(Base::Bool, Bytes{2}.data()), 1.0);
+  EXPECT_FALSE(as_number<double>(Base::Text, Bytes{'7'}.data()));
+  EXPECT_FALSE(as_number<double>(Base::Struct, Bytes{7}.data()));
 }
 
 TEST(Value, Integers_beyond_their_type_are_out_of_range) {
