@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "base/exit_code.h"
@@ -14,11 +13,6 @@
 namespace indurop::serve {
 namespace {
 
-std::int64_t wall_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version, const AlarmDesk& alarms,
                      std::function<std::vector<ClientFigures>()> clients) {
   ServerFacts facts;
@@ -26,7 +20,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.version = version;
   facts.clients = std::move(clients);
   facts.most_clients = options.clients;
-  facts.started_wall_ns = wall_ns();
+  facts.started_wall_ns = rt::wall_ns();
   facts.started_ns = rt::now_ns();
   facts.web = Page(options.web).there();
   facts.plant = options.plant;

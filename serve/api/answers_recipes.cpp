@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about recipes: sets of parameters, compared with what is, and loaded in one tick.
+#include "rt/clock.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
-#include "tools/alarms/alarm_journal.h"
 #include "tools/recipes/recipe_values.h"
 
 namespace indurop::serve::answers {
@@ -86,7 +86,7 @@ Reply save_recipe(Api& api, const Call& call) {
   if (!store) {
     return store.error();
   }
-  tools::Recipe recipe{recipe_in(call), wanted->comment, call.who, tools::wall_now_ns(), {}};
+  tools::Recipe recipe{recipe_in(call), wanted->comment, call.who, rt::wall_ns(), {}};
   if (const int code = tools::take_values(write.context(), *store, wanted->names, recipe); code != kOk) {
     return write.failed_with(code);
   }

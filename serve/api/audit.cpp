@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/api/audit.h"
 
-#include <chrono>
+#include "rt/clock.h"
 
 namespace indurop::serve {
 
 std::string Audit::note(AuditEntry entry) const {
-  using std::chrono::system_clock;
-  const auto now = system_clock::now().time_since_epoch();
-  entry.wall_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  entry.wall_ns = rt::wall_ns();
   return tools::append_audit(file_, entry);
 }
 

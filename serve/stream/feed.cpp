@@ -4,18 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
+
+#include "rt/clock.h"
 
 namespace indurop::serve {
 namespace {
 
 constexpr double kNsPerSecond = 1e9;
-
-std::int64_t wall_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 
@@ -101,7 +97,7 @@ bool Feed::sample(const Board* board, std::int64_t now_ns) {
   head_.forced = std::find(forced_.begin(), forced_.end(), true) != forced_.end();
   head_.stream = number_;
   head_.seq = ++seq_;
-  head_.wall_ns = wall_ns();
+  head_.wall_ns = rt::wall_ns();
   record_.set_head(head_);
   binary_.reset();
   everything_.reset();

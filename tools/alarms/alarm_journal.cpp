@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 
 #include "base/read_file.h"
@@ -54,11 +53,6 @@ std::string write_all(const std::filesystem::path& file, int flags, const std::s
 }
 
 }  // namespace
-
-std::int64_t wall_now_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 AlarmJournal::AlarmJournal(const std::string& node)
     : AlarmJournal(vars::state_directory(node) / "alarms", kMostBytes) {}

@@ -52,7 +52,4 @@ class AlarmJournal {
   base::Descriptor watching_;
 };
 
-// CLOCK_REALTIME
-std::int64_t wall_now_ns();
-
 }  // namespace indurop::tools

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "rt/clock.h"
 #include "tools/values/variables.h"
 
 namespace indurop::tools {
@@ -71,7 +72,7 @@ Result<std::vector<std::string>, AlarmProblem> carry_out(AlarmJournal& journal,
                                                          const AlarmOrder& order) {
   std::vector<std::string> done;
   AlarmProblem problem;
-  const std::int64_t now = wall_now_ns();
+  const std::int64_t now = rt::wall_ns();
   const std::string failure = journal.change([&](const AlarmBook& book) {
     std::vector<AlarmEntry> entries;
     const auto all = known_alarms(declared, book);

@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "rt/clock.h"
 #include "schema/leaf.h"
 
 namespace indurop::tools {
@@ -92,7 +93,7 @@ std::string AlarmWatch::look() {
 
 std::vector<AlarmEntry> AlarmWatch::decide(const AlarmBook& book) const {
   std::vector<AlarmEntry> all;
-  const std::int64_t wall_ns = wall_now_ns();
+  const std::int64_t wall_ns = rt::wall_ns();
   std::set<std::string_view> declared;
   const auto add = [&](const DeclaredAlarm& one, AlarmEvent event, const std::string& value) {
     all.push_back({wall_ns, one.name, event, {}, one.alarm.text, one.alarm.priority, value, {}, {}, {}, 0, 0});

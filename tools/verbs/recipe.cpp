@@ -2,7 +2,7 @@
 // indurop recipe: sets of parameters, saved, compared, and loaded in one tick.
 #include <fmt/format.h>
 
-#include "tools/alarms/alarm_journal.h"
+#include "rt/clock.h"
 #include "tools/command/audit.h"
 #include "tools/command/people.h"
 #include "tools/command/units.h"
@@ -39,7 +39,7 @@ int show_list(Context& context) {
 }
 
 int save(Context& context, const vars::Store& store, const Options& options) {
-  Recipe recipe{options.name, options.comment, user_name(), wall_now_ns(), {}};
+  Recipe recipe{options.name, options.comment, user_name(), rt::wall_ns(), {}};
   if (const int code = take_values(context, store, options.names, recipe); code != kOk) {
     return code;
   }
@@ -75,7 +75,7 @@ int load(Context& context, vars::Store& store, const Recipe& recipe) {
   entry.what = recipe.name;
   std::optional<std::uint64_t> tick;
   const int code = load_values(context, store, recipe, tick);
-  entry.wall_ns = wall_now_ns();
+  entry.wall_ns = rt::wall_ns();
   entry.outcome = code == kOk ? "done" : "nothing was changed";
   if (const std::string problem = append_audit(usual_audit_file(), entry); !problem.empty()) {
     context.out.note(fmt::format("{} cannot be written: {}", usual_audit_file().string(), problem));

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 
+#include "rt/clock.h"
 #include "tools/alarms/alarm_list.h"
 #include "tools/alarms/alarm_orders.h"
 #include "tools/alarms/alarm_watch.h"
@@ -75,7 +76,7 @@ class Alarms : public ::testing::Test {
 
   static AlarmEntry entry(const std::string& alarm, Event event) {
     AlarmEntry out;
-    out.wall_ns = wall_now_ns();
+    out.wall_ns = rt::wall_ns();
     out.alarm = alarm;
     out.event = event;
     out.text = "text of " + alarm;
@@ -198,7 +199,7 @@ TEST_F(Alarms, Are_shelved_for_a_time) {
   order.what = Event::Shelved;
   order.names = {"door"};
   order.for_ns = 60 * kSecond;
-  const std::int64_t before = wall_now_ns();
+  const std::int64_t before = rt::wall_ns();
   ASSERT_TRUE(carry_out(sut, declared(), order).ok());
   EXPECT_GE(sut.book().find("press::door").last.until_ns, before + order.for_ns);
   const auto list = list_alarms(declared(), sut.book(), false);
