@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "serve/api/answers.h"
+#include "serve/api/write.h"
 #include "serve/boards/board.h"
 #include "tools/alarms/alarm_list.h"
 #include "tools/alarms/alarm_orders.h"
@@ -40,7 +41,6 @@ Result<tools::AlarmOrder, std::string> read_order(const Call& call, tools::Alarm
   return order;
 }
 
-// Noted in the audit log like every other write, before and after.
 Reply carry_out(Api& api, const Call& call, tools::AlarmEvent what, const char* word) {
   const auto found = board_of(call);
   if (!found) {
@@ -50,29 +50,19 @@ Reply carry_out(Api& api, const Call& call, tools::AlarmEvent what, const char* 
   if (!order) {
     return refusal(status::kBadRequest, order.error());
   }
-  AuditEntry entry;
-  entry.who = call.who;
-  entry.from = call.request->from;
-  entry.board = (*found)->name();
-  entry.action = word;
-  entry.what = order->all ? "all alarms" : fmt::format("{}", fmt::join(order->names, " "));
-  entry.reason = order->reason;
-  entry.outcome = "begun";
-  if (const std::string problem = api.audit().note(entry); !problem.empty()) {
-    return refusal(status::kFailed, fmt::format("nothing was done, because it cannot be noted down in {}: {}",
-                                                api.audit().file().string(), problem));
+  Write write(api, call, word);
+  write.about(order->all ? "all alarms" : fmt::format("{}", fmt::join(order->names, " ")), order->reason);
+  if (auto refused = write.begin()) {
+    return *refused;
   }
   tools::AlarmJournal journal((*found)->name());
   const auto done = tools::carry_out(journal, declared_of(**found), *order);
-  entry.outcome = done ? "done" : done.error().texts.front();
-  static_cast<void>(api.audit().note(entry));  // that it was begun is noted already
   if (!done) {
-    return refusal(done.error().failed ? status::kFailed : status::kWrongValue, done.error().texts.front(),
-                   done.error().texts);
+    return write.failed(done.error().failed ? status::kFailed : status::kWrongValue, done.error().texts);
   }
   base::Json body = about(**found);
   body["alarms"] = *done;
-  return json_reply(body);
+  return write.done(body);
 }
 
 }  // namespace

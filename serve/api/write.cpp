@@ -40,9 +40,18 @@ void Write::about(std::string what, std::string reason) {
 }
 
 Reply Write::failed(int code, std::string why) {
+  note_failure(why);
+  return refusal(code, std::move(why), messages_.size() > 1 ? messages_ : std::vector<std::string>());
+}
+
+Reply Write::failed(int code, const std::vector<std::string>& all) {
+  note_failure(all.front());
+  return refusal(code, all.front(), all);
+}
+
+void Write::note_failure(const std::string& why) {
   entry_.outcome = why;
   static_cast<void>(api_->audit().note(entry_));  // nothing was written, so there is nothing to hide
-  return refusal(code, std::move(why), messages_.size() > 1 ? messages_ : std::vector<std::string>());
 }
 
 Reply Write::failed_with(int exit_code) {

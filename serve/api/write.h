@@ -30,12 +30,16 @@ class Write {
   // What is noted.
   void about(std::string what, std::string reason);
   Reply failed(int code, std::string why);
+  // For all these reasons, at least one; the first one is noted.
+  Reply failed(int code, const std::vector<std::string>& all);
   Reply failed_with(int exit_code);
   // Before anything is changed: without a note nothing is written.
   std::optional<Reply> begin();
   Reply done(const base::Json& body);
 
  private:
+  void note_failure(const std::string& why);
+
   Api* api_;
   AuditEntry entry_;
   std::vector<std::string> messages_;
