@@ -76,8 +76,7 @@ Result<std::size_t, Problem> choose_source(const Sources& sources, const std::st
   }
   std::string names;
   for (std::size_t i = 0; i < sources.all.size(); ++i) {
-    const std::string& prefix = sources.all[i].prefix;
-    const std::string own = prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1);
+    const std::string own = sources.all[i].name();
     if (own == name) {
       return i;
     }

@@ -25,6 +25,8 @@ struct Source {
   std::string prefix;                // of its topics: "sensor/"; empty: the file is of one node
   recording::TextMap about;          // what recorder.h says of the node
   std::vector<std::string> modules;  // names, by index
+
+  [[nodiscard]] std::string name() const { return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1); }
 };
 
 enum class ChannelKind : std::uint8_t { Value, Run, Clock };

@@ -15,8 +15,6 @@ namespace {
 using base::Problem;
 using Whose = std::pair<std::size_t, std::uint32_t>;  // source and module
 
-constexpr std::size_t kMostDamages = 100;
-
 struct Counted {
   std::uint64_t messages = 0;
   std::set<Whose> modules;
@@ -108,23 +106,11 @@ Result<Survey, Problem> survey(const std::filesystem::path& file) {
   std::error_code ignored;
   survey.bytes = std::filesystem::file_size(file, ignored);
   survey.closed = reader->contents().has_summary;
-  for (const base::Problem& damage : reader->contents().damages) {
-    survey.damages.push_back(damage.text);
-  }
   for (const recording::McapAttachmentIndex& attachment : reader->contents().attachments) {
     survey.attachments.push_back(attachment.name);
   }
   Surveyor surveyor(survey);
-  while (survey.damages.size() < kMostDamages) {
-    auto message = reader->next();
-    if (!message) {
-      survey.damages.push_back(message.error().text);
-    } else if (*message) {
-      surveyor.take(**message);
-    } else {
-      break;
-    }
-  }
+  survey.damages = reader->each([&surveyor](const recording::McapMessage& message) { surveyor.take(message); });
   surveyor.tell(reader->contents());
   return survey;
 }

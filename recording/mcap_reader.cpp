@@ -106,6 +106,25 @@ Result<std::optional<McapMessage>, Problem> McapReader::next() {
   return std::optional(message);
 }
 
+std::vector<std::string> McapReader::each(const std::function<void(const McapMessage&)>& use) {
+  constexpr std::size_t kMostDamages = 100;
+  std::vector<std::string> damages;
+  for (const Problem& damage : contents_.damages) {
+    damages.push_back(damage.text);
+  }
+  while (damages.size() < kMostDamages) {
+    const auto message = next();
+    if (!message) {
+      damages.push_back(message.error().text);
+    } else if (*message) {
+      use(**message);
+    } else {
+      break;
+    }
+  }
+  return damages;
+}
+
 Result<Bytes, Problem> McapReader::attachment(const McapAttachmentIndex& index) const {
   const auto content =
       file_.read_content(Opcode::Attachment, index.offset, index.length, kMostAttachmentBytes + kMostMetadataBytes);

@@ -9,8 +9,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,9 @@ class McapReader {
   // last one. Its bytes are valid until the next call. Errors: a part of the file is damaged; the next call goes on
   // behind it.
   Result<std::optional<McapMessage>, base::Problem> next();
+  // Gives all messages that are left to `use`. Returns what of the file is not among them, as far as it is known from
+  // open() on; the hundredth such damage ends it.
+  std::vector<std::string> each(const std::function<void(const McapMessage&)>& use);
   // next() goes on with the first message that is not older than this.
   void seek(std::uint64_t log_time_ns);
 

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <string_view>
 
 #include "explain/facts_json.h"
 #include "recorder/run_words.h"
-#include "recording/mcap_reader.h"
+#include "recorder/sources.h"
 #include "tools/explain/gather.h"
 
 namespace indurop::tools {
@@ -18,9 +17,6 @@ namespace {
 
 using base::Problem;
 using explain::Facts;
-
-constexpr const char* kNodeMetadata = "indurop.node";
-constexpr int kMostDamages = 1000;
 
 std::int64_t number_of(const recording::TextMap& map, const std::string& key) {
   std::int64_t number = 0;
@@ -38,15 +34,15 @@ std::string text_of(const recording::TextMap& map, const std::string& key) {
 class Recorded {
  public:
   Recorded(recording::McapReader reader, std::string variable)
-      : reader_(std::move(reader)), variable_(std::move(variable)) {}
+      : reader_(std::move(reader)), sources_(recorder::find_sources(reader_)), variable_(std::move(variable)) {}
 
   Result<Facts, Problem> facts(const std::string& file) {
     if (!about_the_node()) {
       return Problem{fmt::format("{} is no recording of a node; give the recordings of the boards one by one", file)};
     }
     about_its_end();
-    channels();
-    messages();
+    name_modules();
+    (void)reader_.each([this](const recording::McapMessage& message) { take(message); });
     if (!facts_.runs.empty()) {
       conclude();
     }
@@ -56,18 +52,16 @@ class Recorded {
 
  private:
   bool about_the_node() {
-    for (const auto& index : reader_.contents().metadata) {
-      const auto about = index.name == kNodeMetadata ? reader_.metadata(index) : Problem{};
-      if (about) {
-        facts_.node = text_of(about->values, "node");
-        facts_.board = text_of(about->values, "board");
-        facts_.basic_period_ns = number_of(about->values, "basic_period_ns");
-        facts_.wall_minus_node_ns = number_of(about->values, "real_minus_node_ns");
-        config_ = text_of(about->values, "config");
-        return facts_.basic_period_ns > 0;
-      }
+    if (sources_.all.size() != 1 || !sources_.all.front().prefix.empty()) {
+      return false;
     }
-    return false;
+    const recording::TextMap& about = sources_.all.front().about;
+    facts_.node = text_of(about, "node");
+    facts_.board = text_of(about, "board");
+    facts_.basic_period_ns = number_of(about, "basic_period_ns");
+    facts_.wall_minus_node_ns = number_of(about, "real_minus_node_ns");
+    config_ = text_of(about, "config");
+    return facts_.basic_period_ns > 0;
   }
 
   // Written when the recording was closed; one that was not has none.
@@ -81,39 +75,23 @@ class Recorded {
     }
   }
 
-  void channels() {
-    for (const auto& [id, channel] : reader_.contents().channels) {
-      if (channel.topic == recorder::kRunsTopic) {
-        runs_channel_ = id;
-        for (std::size_t i = 0; channel.metadata.contains(std::to_string(i)); ++i) {
-          if (i >= facts_.modules.size()) {
-            facts_.modules.emplace_back();
-          }
-          facts_.modules[i].name = channel.metadata.at(std::to_string(i));
-        }
-      }
-      if (channel.topic == variable_) {
-        variable_channel_ = id;
-      }
+  void name_modules() {
+    const std::vector<std::string>& names = sources_.all.front().modules;
+    facts_.modules.resize(std::max(facts_.modules.size(), names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      facts_.modules[i].name = names[i];
     }
   }
 
-  void messages() {
-    std::map<std::uint32_t, std::vector<std::int64_t>> writes;  // by module: log times of new values
-    for (int damages = 0; damages < kMostDamages;) {
-      const auto message = reader_.next();
-      if (!message) {
-        ++damages;
-        continue;
-      }
-      if (!*message) {
-        return;
-      }
-      if ((*message)->channel == runs_channel_) {
-        take_run(**message);
-      } else if ((*message)->channel == variable_channel_ && variable_channel_ != 0) {
-        take_value(**message);
-      }
+  void take(const recording::McapMessage& message) {
+    const auto place = sources_.channels.find(message.channel);
+    if (place == sources_.channels.end()) {
+      return;
+    }
+    if (place->second.kind == recorder::ChannelKind::Run) {
+      take_run(message);
+    } else if (place->second.kind == recorder::ChannelKind::Value && place->second.name == variable_) {
+      take_value(message);
     }
   }
 
@@ -161,11 +139,10 @@ class Recorded {
   }
 
   recording::McapReader reader_;
+  recorder::Sources sources_;
   std::string variable_;
   std::string config_;
   Facts facts_;
-  std::uint16_t runs_channel_ = 0;
-  std::uint16_t variable_channel_ = 0;
   std::uint64_t first_number_ = 0;
   std::uint64_t last_tick_ = 0;
   bool complete_ = false;

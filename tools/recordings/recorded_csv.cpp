@@ -19,8 +19,6 @@ namespace {
 
 using base::Problem;
 
-constexpr std::size_t kMostDamages = 100;
-
 // A channel whose values are columns.
 struct Columns {
   std::vector<recording::IdlLeaf> layout;
@@ -160,19 +158,7 @@ Result<Exported, Problem> recorded_csv(const std::filesystem::path& file, const 
     return std::move(chosen).error();
   }
   sheet.out_.text = sheet.heading();
-  for (const base::Problem& damage : reader->contents().damages) {
-    sheet.out_.damages.push_back(damage.text);
-  }
-  while (sheet.out_.damages.size() < kMostDamages) {
-    auto message = reader->next();
-    if (!message) {
-      sheet.out_.damages.push_back(message.error().text);
-    } else if (*message) {
-      sheet.take(**message);
-    } else {
-      break;
-    }
-  }
+  sheet.out_.damages = reader->each([&sheet](const recording::McapMessage& message) { sheet.take(message); });
   return sheet.finish();
 }
 

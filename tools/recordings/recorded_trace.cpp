@@ -17,8 +17,6 @@ namespace {
 
 using base::Problem;
 
-constexpr std::size_t kMostDamages = 100;
-
 void name_tracks(const recorder::Sources& sources, std::string& out) {
   for (std::size_t i = 0; i < sources.all.size(); ++i) {
     const recorder::Source& source = sources.all[i];
@@ -69,33 +67,22 @@ Result<Exported, Problem> recorded_trace(const std::filesystem::path& file) {
         fmt::format("{} tells no runs: only recordings of indurop record and run --record do", file.string())};
   }
   Exported out;
-  for (const base::Problem& damage : reader->contents().damages) {
-    out.damages.push_back(damage.text);
-  }
   out.text = "{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n";
   name_tracks(sources, out.text);
   std::uint64_t begin = 0;
-  while (out.damages.size() < kMostDamages) {
-    auto message = reader->next();
-    if (!message) {
-      out.damages.push_back(message.error().text);
-      continue;
-    }
-    if (!*message) {
-      break;
-    }
-    begin = begin == 0 ? (*message)->log_time_ns : begin;
-    const auto place = sources.channels.find((*message)->channel);
+  out.damages = reader->each([&](const recording::McapMessage& message) {
+    begin = begin == 0 ? message.log_time_ns : begin;
+    const auto place = sources.channels.find(message.channel);
     if (place == sources.channels.end() || place->second.kind != recorder::ChannelKind::Run) {
-      continue;
+      return;
     }
-    const auto run = recorder::run_from_cdr((*message)->data.view);
+    const auto run = recorder::run_from_cdr(message.data.view);
     if (run && run->module != recorder::kOthers) {
       add_run(sources.all[place->second.source], place->second.source + 1, *run,
-              static_cast<std::int64_t>((*message)->log_time_ns - begin), out.text);
+              static_cast<std::int64_t>(message.log_time_ns - begin), out.text);
       ++out.count;
     }
-  }
+  });
   out.text += "\n]}\n";
   return out;
 }

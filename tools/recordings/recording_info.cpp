@@ -33,11 +33,6 @@ std::string time_text(std::int64_t ns) {
   return fmt::format("{}.{:03}", text, ns % rt::kNanosPerSecond / kNsPerMs);
 }
 
-std::string board_of(const Survey& survey, std::size_t source) {
-  const std::string& prefix = survey.sources.all[source].prefix;
-  return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1);
-}
-
 Table modules_of(const Survey& survey) {
   constexpr Align kRight = Align::Right;
   Table table({{"BOARD", "board"},
@@ -50,7 +45,7 @@ Table modules_of(const Survey& survey) {
                {"FAULTS", "faults", kRight}});
   const auto number = [](std::uint64_t value) { return Cell(std::to_string(value), value); };
   for (const recorder::SurveyedModule& module : survey.modules) {
-    table.add({Cell(printable(board_of(survey, module.source))), Cell(printable(module.name), Style::Bold),
+    table.add({Cell(printable(survey.sources.all[module.source].name())), Cell(printable(module.name), Style::Bold),
                number(module.runs), number(module.first_tick), number(module.last_tick), number(module.before),
                number(module.lost), number(module.faults)});
   }
