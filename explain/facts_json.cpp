@@ -44,8 +44,7 @@ class Reader {
   const Json& from_;
 };
 
-template <class Visit, class Fact>
-void module_fields(Visit&& visit, Fact& fact) {
+constexpr auto kModule = [](auto&& visit, auto& fact) {
   visit("name", fact.name);
   visit("type", fact.type);
   visit("operation", fact.operation);
@@ -60,10 +59,9 @@ void module_fields(Visit&& visit, Fact& fact) {
   visit("restarts", fact.restarts);
   visit("fault_tick", fact.fault_tick);
   visit("fault", fact.fault);
-}
+};
 
-template <class Visit, class Fact>
-void order_fields(Visit&& visit, Fact& fact) {
+constexpr auto kOrder = [](auto&& visit, auto& fact) {
   visit("node_ns", fact.node_ns);
   visit("wall_ns", fact.wall_ns);
   visit("who", fact.who);
@@ -71,10 +69,9 @@ void order_fields(Visit&& visit, Fact& fact) {
   visit("action", fact.action);
   visit("what", fact.what);
   visit("value", fact.value);
-}
+};
 
-template <class Visit, class Fact>
-void kernel_fields(Visit&& visit, Fact& fact) {
+constexpr auto kKernel = [](auto&& visit, auto& fact) {
   visit("from_ns", fact.from_ns);
   visit("to_ns", fact.to_ns);
   visit("core", fact.core);
@@ -82,20 +79,18 @@ void kernel_fields(Visit&& visit, Fact& fact) {
   visit("waited_ns", fact.waited_ns);
   visit("major_faults", fact.major_faults);
   visit("stolen_ns", fact.stolen_ns);
-}
+};
 
-template <class Visit, class Fact>
-void board_fields(Visit&& visit, Fact& fact) {
+constexpr auto kBoard = [](auto&& visit, auto& fact) {
   visit("name", fact.name);
   visit("state", fact.state);
   visit("problem", fact.problem);
   visit("heard_ns", fact.heard_ns);
   visit("losses", fact.losses);
   visit("lost_updates", fact.lost_updates);
-}
+};
 
-template <class Visit, class F>
-void own_fields(Visit&& visit, F& facts) {
+constexpr auto kOwn = [](auto&& visit, auto& facts) {
   visit("board", facts.board);
   visit("virtual", facts.is_virtual);
   visit("realtime", facts.realtime);
@@ -108,7 +103,7 @@ void own_fields(Visit&& visit, F& facts) {
   visit("wall_minus_node_ns", facts.wall_minus_node_ns);
   visit("kernel_from_ns", facts.kernel_from_ns);
   visit("kernel_to_ns", facts.kernel_to_ns);
-}
+};
 
 template <class Fact, class Fields>
 Json list_of(const std::vector<Fact>& facts, Fields fields) {
@@ -130,16 +125,11 @@ void read_list(const Json& list, std::vector<Fact>& to, Fields fields) {
   }
 }
 
-constexpr auto kModule = [](auto&& visit, auto& fact) { module_fields(visit, fact); };
-constexpr auto kOrder = [](auto&& visit, auto& fact) { order_fields(visit, fact); };
-constexpr auto kKernel = [](auto&& visit, auto& fact) { kernel_fields(visit, fact); };
-constexpr auto kBoard = [](auto&& visit, auto& fact) { board_fields(visit, fact); };
-
 }  // namespace
 
 std::string facts_text(const Facts& facts) {
   Writer writer;
-  own_fields(writer, facts);
+  kOwn(writer, facts);
   writer.json["modules"] = list_of(facts.modules, kModule);
   writer.json["orders"] = list_of(facts.orders, kOrder);
   writer.json["kernel"] = list_of(facts.kernel, kKernel);
@@ -152,7 +142,7 @@ bool read_facts(std::string_view text, Facts& facts) {
   if (!json || !json->is_object()) {
     return false;
   }
-  own_fields(Reader(*json), facts);
+  kOwn(Reader(*json), facts);
   facts.modules.clear();
   read_list((*json)["modules"], facts.modules, kModule);
   read_list((*json)["orders"], facts.orders, kOrder);
@@ -163,12 +153,12 @@ bool read_facts(std::string_view text, Facts& facts) {
 
 Json json_of(const OrderFact& order) {
   Writer writer;
-  order_fields(writer, order);
+  kOrder(writer, order);
   return std::move(writer.json);
 }
 
 bool read_order(const Json& json, OrderFact& order) {
-  order_fields(Reader(json), order);
+  kOrder(Reader(json), order);
   return !order.action.empty();
 }
 

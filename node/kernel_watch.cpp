@@ -2,7 +2,6 @@
 #include "node/kernel_watch.h"
 
 #include <pthread.h>
-#include <sched.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -14,22 +13,12 @@
 
 #include "explain/kernel_log.h"
 #include "rt/clock.h"
+#include "rt/thread.h"
 
 namespace indurop::node {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{100};
-
-void stay_on(const std::vector<int>& cores) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  for (const int core : cores) {
-    CPU_SET(static_cast<std::size_t>(core), &set);
-  }
-  if (!cores.empty()) {
-    (void)::pthread_setaffinity_np(::pthread_self(), sizeof set, &set);
-  }
-}
 
 }  // namespace
 
@@ -59,7 +48,7 @@ KernelWatch::KernelWatch(const std::string& node, bool realtime, std::vector<int
   impl_ = std::make_unique<Impl>(std::move(look).value());
   impl_->thread_ = std::thread([impl = impl_.get(), cores = std::move(cores)] {
     ::pthread_setname_np(::pthread_self(), "irp-kernel");
-    stay_on(cores);
+    (void)rt::pin_to_cores(cores);
     impl->loop();
   });
 }

@@ -2,13 +2,13 @@
 #include "node/record_part.h"
 
 #include <pthread.h>
-#include <sched.h>
 
 #include <utility>
 
 #include "base/read_file.h"
 #include "explain/facts_json.h"
 #include "rt/clock.h"
+#include "rt/thread.h"
 
 namespace indurop::node {
 namespace {
@@ -72,14 +72,7 @@ RecordPart::~RecordPart() {
 void RecordPart::start(const std::vector<int>& cores) {
   thread_ = std::thread([this, cores] {
     ::pthread_setname_np(::pthread_self(), "irp-record");
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    for (const int core : cores) {
-      CPU_SET(static_cast<std::size_t>(core), &set);
-    }
-    if (!cores.empty()) {
-      (void)::pthread_setaffinity_np(::pthread_self(), sizeof set, &set);
-    }
+    (void)rt::pin_to_cores(cores);
     loop();
   });
 }

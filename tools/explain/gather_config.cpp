@@ -7,6 +7,7 @@
 
 #include "config/check/uses.h"
 #include "config/xml/plant_reader.h"
+#include "scheduler/words.h"
 #include "tools/command/config_file.h"
 #include "tools/explain/gather.h"
 
@@ -23,10 +24,8 @@ void add_modules(const config::Config& config, const config::CheckResult& check,
     if (found == facts.modules.end() || known) {
       continue;
     }
-    found->operation = module.operation == scheduler::Operation::Periodic   ? "periodic"
-                       : module.operation == scheduler::Operation::Sporadic ? "sporadic"
-                                                                            : "non-real";
-    found->type = module.type == scheduler::ModuleType::Thread ? "thread" : "process";
+    found->operation = to_text(module.operation);
+    found->type = to_text(module.type);
     found->period_ns = module.operation == scheduler::Operation::Periodic ? module.period.count() : 0;
     found->offset_ns = module.offset.count();
     found->deadline_ns = module.deadline.count();
