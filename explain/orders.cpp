@@ -2,7 +2,6 @@
 #include "explain/orders.h"
 
 #include <fcntl.h>
-#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +13,7 @@
 
 #include "base/descriptor.h"
 #include "base/read_file.h"
+#include "base/user_name.h"
 #include "explain/facts_json.h"
 #include "rt/clock.h"
 #include "vars/retain.h"
@@ -29,16 +29,6 @@ std::filesystem::path file_of(const std::string& node) {
 
 std::filesystem::path before(const std::filesystem::path& file) {
   return file.string() + ".1";
-}
-
-std::string user() {
-  std::array<char, 4096> buffer{};
-  passwd entry{};
-  passwd* found = nullptr;
-  if (::getpwuid_r(::getuid(), &entry, buffer.data(), buffer.size(), &found) == 0 && found != nullptr) {
-    return entry.pw_name;
-  }
-  return std::to_string(::getuid());
 }
 
 // The address somebody came from, else this machine.
@@ -71,7 +61,7 @@ void read_lines(const std::filesystem::path& file, std::int64_t since_ns, std::v
 void note_order(const std::string& node, OrderFact order) {
   order.wall_ns = rt::wall_ns();
   if (order.who.empty()) {
-    order.who = user();
+    order.who = base::user_name();
     order.from = origin();
   }
   const std::filesystem::path file = file_of(node);

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <ctime>
 
 #include "base/text.h"
 #include "base/utf8.h"
+#include "rt/clock.h"
 
 namespace indurop::tools {
 namespace {
@@ -73,6 +75,15 @@ std::string human_bytes(std::uint64_t bytes) {
     }
   }
   return fmt::format("{} B", bytes);
+}
+
+std::string local_time(std::int64_t wall_ns) {
+  const std::time_t seconds = wall_ns / rt::kNanosPerSecond;
+  std::tm parts{};
+  ::localtime_r(&seconds, &parts);
+  char text[32] = "";
+  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+  return text;
 }
 
 std::string printable(std::string_view text) {

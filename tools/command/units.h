@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as people read them in a table. Pure functions.
+// Numbers and texts as people read them in a table.
 
 #pragma once
 
@@ -15,6 +15,8 @@ std::string human_ns(std::int64_t ns);
 std::string human_age(std::int64_t ns);
 // "512 B", "1.5 KiB", "206 MiB".
 std::string human_bytes(std::uint64_t bytes);
+// "2026-11-22 03:10:21", of CLOCK_REALTIME, in the time zone of this machine.
+std::string local_time(std::int64_t wall_ns);
 // Control characters (terminal escapes in foreign text) become '?'; invalid UTF-8 likewise.
 std::string printable(std::string_view text);
 // Columns `text` takes on a terminal: code points, combining marks not considered.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <string>
 
@@ -25,12 +24,7 @@ std::string time_text(std::int64_t ns) {
   if (ns < kVirtual) {
     return human_ns(ns);
   }
-  const std::time_t seconds = ns / rt::kNanosPerSecond;
-  std::tm parts{};
-  ::localtime_r(&seconds, &parts);
-  char text[32] = "";
-  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-  return fmt::format("{}.{:03}", text, ns % rt::kNanosPerSecond / kNsPerMs);
+  return fmt::format("{}.{:03}", local_time(ns), ns % rt::kNanosPerSecond / kNsPerMs);
 }
 
 Table modules_of(const Survey& survey) {

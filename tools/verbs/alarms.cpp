@@ -2,13 +2,13 @@
 // indurop alarms: how the alarms of a node stand, what happened to them, and what people do about them.
 #include <fmt/format.h>
 
+#include "base/user_name.h"
 #include "rt/clock.h"
 #include "tools/alarms/alarm_list.h"
 #include "tools/alarms/alarm_orders.h"
 #include "tools/alarms/alarm_watch.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
-#include "tools/command/people.h"
 #include "tools/command/units.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
@@ -125,8 +125,8 @@ int order(Context& context, const std::string& node, const std::vector<DeclaredA
     return kUsage;
   }
   AlarmJournal journal(node);
-  const auto done = carry_out(journal, declared,
-                              {what, options.names, options.all, options.for_ns, user_name(), "here", options.reason});
+  const auto done = carry_out(
+      journal, declared, {what, options.names, options.all, options.for_ns, base::user_name(), "here", options.reason});
   if (!done) {
     for (const std::string& text : done.error().texts) {
       context.out.error(text);

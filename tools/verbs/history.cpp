@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "tools/command/people.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_history.h"
 #include "tools/plant/board_roster.h"

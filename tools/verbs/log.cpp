@@ -2,10 +2,7 @@
 // indurop log: which module ran when, from the ring the real-time threads write; with --audit who wrote what.
 #include <fmt/format.h>
 
-#include <ctime>
-
 #include "base/replace_file.h"
-#include "rt/clock.h"
 #include "tools/command/audit.h"
 #include "tools/command/units.h"
 #include "tools/pictures/trace.h"
@@ -49,15 +46,6 @@ Table table_of(const RunView& run, const std::vector<SlotSample>& samples) {
                cell(sample.end_ns - sample.release_ns)});
   }
   return table;
-}
-
-std::string local_time(std::int64_t wall_ns) {
-  const std::time_t seconds = wall_ns / rt::kNanosPerSecond;
-  std::tm parts{};
-  ::localtime_r(&seconds, &parts);
-  char text[32] = "";
-  (void)std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
-  return text;
 }
 
 int show_audit(Context& context, const Options& options) {

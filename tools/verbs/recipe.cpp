@@ -2,9 +2,9 @@
 // indurop recipe: sets of parameters, saved, compared, and loaded in one tick.
 #include <fmt/format.h>
 
+#include "base/user_name.h"
 #include "rt/clock.h"
 #include "tools/command/audit.h"
-#include "tools/command/people.h"
 #include "tools/command/units.h"
 #include "tools/recipes/recipe_values.h"
 #include "tools/values/node_choice.h"
@@ -39,7 +39,7 @@ int show_list(Context& context) {
 }
 
 int save(Context& context, const vars::Store& store, const Options& options) {
-  Recipe recipe{options.name, options.comment, user_name(), rt::wall_ns(), {}};
+  Recipe recipe{options.name, options.comment, base::user_name(), rt::wall_ns(), {}};
   if (const int code = take_values(context, store, options.names, recipe); code != kOk) {
     return code;
   }
@@ -68,7 +68,7 @@ int diff(Context& context, const vars::Store& store, const Recipe& recipe) {
 
 int load(Context& context, vars::Store& store, const Recipe& recipe) {
   AuditEntry entry;
-  entry.who = user_name();
+  entry.who = base::user_name();
   entry.from = "here";
   entry.board = context.node;
   entry.action = "load recipe";
