@@ -185,10 +185,7 @@ void AxisControl::queue(int ticket, const Command& command) noexcept {
   if (ticket == kRequest || command.buffer == BufferMode::Aborting) {
     abort_queue();
     // What a target is added to is that of the motion before.
-    const double from = motion_owner_.service == AxisService::MoveAbsolute || is_relative(motion_owner_.service)
-                            ? motion_.target()
-                            : motion_.state().position;
-    added_to_ = from;
+    added_to_ = is_move(motion_owner_.service) ? motion_.target() : motion_.state().position;
     finish(motion_owner_, ErrorCode::Aborted);
     begin(ticket, command);
   } else if (!moves && queued_ == 0) {
@@ -338,17 +335,17 @@ void AxisControl::choose_passing() noexcept {
     const bool works = resolve(next, end, order) == ErrorCode::Ok;
     const double own = motion_.speed();
     const double other = order.limits.velocity;
-    const bool ahead =
-        is_move(service_of(next)) ? (order.target - end) * (end - began_at_) > 0 : order.target * (end - began_at_) > 0;
-    if (works && ahead && (is_move(service_of(next)) || service_of(next) == AxisService::MoveVelocity)) {
+    const bool to_a_place = is_move(service_of(next));
+    const double way = to_a_place ? order.target - end : order.target;
+    const bool ahead = way * (end - began_at_) > 0;
+    if (works && ahead && (to_a_place || service_of(next) == AxisService::MoveVelocity)) {
       passing = next.buffer == BufferMode::BlendingLow        ? std::min(own, other)
                 : next.buffer == BufferMode::BlendingPrevious ? own
                 : next.buffer == BufferMode::BlendingNext     ? other
                 : next.buffer == BufferMode::BlendingHigh     ? std::max(own, other)
                                                               : 0;
     }
-    while (passing > 1e-6 && is_move(service_of(next)) &&
-           ramp({0, passing, 0}, 0, order.braking).distance > std::abs(order.target - end)) {
+    while (passing > 1e-6 && to_a_place && ramp({0, passing, 0}, 0, order.braking).distance > std::abs(way)) {
       passing *= 0.98;
     }
     passing = passing > 1e-6 ? passing : 0;
