@@ -2,6 +2,7 @@
 #include "base/utf8.h"
 
 #include <algorithm>
+#include <array>
 
 namespace indurop::base {
 
@@ -35,6 +36,19 @@ std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept {
     at += length;
   }
   return std::nullopt;
+}
+
+void append_utf8(std::string& to, std::uint32_t code) {
+  if (code < 0x80) {
+    to += static_cast<char>(code);
+    return;
+  }
+  const unsigned others = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+  constexpr std::array<std::uint32_t, 4> kMarks{0, 0xC0, 0xE0, 0xF0};  // of a first byte, by the number of others
+  to += static_cast<char>(kMarks[others] | (code >> (6 * others)));
+  for (unsigned left = others; left-- > 0;) {
+    to += static_cast<char>(0x80U | ((code >> (6 * left)) & 0x3FU));
+  }
 }
 
 }  // namespace indurop::base

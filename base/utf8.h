@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace indurop::base {
@@ -14,6 +16,9 @@ std::size_t utf8_length(std::string_view text) noexcept;
 
 // Offset of the first byte that is not UTF-8, if any.
 std::optional<std::size_t> first_invalid_utf8(std::string_view text) noexcept;
+
+// Appends a character, at most U+10FFFF and no surrogate.
+void append_utf8(std::string& to, std::uint32_t code);
 
 // True for a byte that goes on with a character begun before.
 constexpr bool continues_utf8(char c) noexcept {

@@ -3,6 +3,8 @@
 
 #include <charconv>
 
+#include "base/utf8.h"
+
 namespace indurop::schema {
 namespace {
 
@@ -10,20 +12,6 @@ using namespace std::string_view_literals;
 
 bool is_space(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto tail = [code](unsigned shift) { return static_cast<char>(0x80U | ((code >> shift) & 0x3FU)); };
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xC0U | (code >> 6U));
-    out += tail(0);
-  } else {
-    out += static_cast<char>(0xE0U | (code >> 12U));
-    out += tail(6);
-    out += tail(0);
-  }
 }
 
 }  // namespace
@@ -70,7 +58,7 @@ const char* Cursor::quoted(std::string& to) {
       return wrong;
     }
     if (c.unicode) {
-      append_utf8(to, c.code);
+      base::append_utf8(to, c.code);
     } else {
       to += static_cast<char>(c.code);
     }
