@@ -22,19 +22,15 @@ constexpr std::array<SectionWord, 9> kSections{{{"VAR", ast::Section::Local},
                                                 {"VAR_STAT", ast::Section::Local},
                                                 {"VAR_INST", ast::Section::Local}}};
 
-// VAR PUBLIC; the words are names of variables where no other name follows.
-std::optional<ast::Access> access_word(const Token& word, const Token& next) {
-  if (next.kind != TokenKind::Word) {
-    return std::nullopt;
-  }
+}  // namespace
+
+std::optional<ast::Access> access_word(const Token& word) noexcept {
   return word.is("PUBLIC")      ? std::optional(ast::Access::Public)
          : word.is("PRIVATE")   ? std::optional(ast::Access::Private)
          : word.is("PROTECTED") ? std::optional(ast::Access::Protected)
          : word.is("INTERNAL")  ? std::optional(ast::Access::Internal)
                                 : std::nullopt;
 }
-
-}  // namespace
 
 bool DeclarationParser::at_variables() const {
   const std::string_view word = in_.peek().text;
@@ -69,7 +65,9 @@ std::optional<DeclarationParser::Block> DeclarationParser::block() {
   out.is_static = word.is("VAR_STAT");
   out.of_instance = word.is("VAR_INST");
   while (true) {
-    if (const auto access = access_word(in_.peek(), in_.peek(1))) {
+    // VAR PUBLIC; the words are names of variables where no other name follows.
+    const auto access = in_.peek(1).kind == TokenKind::Word ? access_word(in_.peek()) : std::nullopt;
+    if (access) {
       out.access = access;
       in_.take();
       continue;

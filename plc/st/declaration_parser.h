@@ -12,6 +12,9 @@
 
 namespace indurop::plc::st {
 
+// What PUBLIC, PRIVATE, PROTECTED and INTERNAL say; nothing of other words.
+std::optional<ast::Access> access_word(const Token& word) noexcept;
+
 class DeclarationParser {
  public:
   explicit DeclarationParser(TokenReader& in) : in_(in), expressions_(in) {}
@@ -20,11 +23,11 @@ class DeclarationParser {
   [[nodiscard]] bool at_variables() const;
   // VAR ... END_VAR
   void variables(std::vector<ast::Variable>& to);
-  // Behind TYPE, up to and with END_TYPE.
   // %IX0.3, behind AT.
   [[nodiscard]] bool address(ast::Variable& out);
   // As it stands behind the name of a variable.
   [[nodiscard]] std::optional<ast::TypeSpec> type();
+  // Behind TYPE, up to and with END_TYPE.
   void types(std::vector<ast::TypeDeclaration>& to);
 
  private:

@@ -12,14 +12,6 @@ std::string end_of(const Token& word) {
   return "END_" + upper(word.text);
 }
 
-std::optional<ast::Access> access_named(const Token& word) noexcept {
-  return word.is("PUBLIC")      ? std::optional(ast::Access::Public)
-         : word.is("PRIVATE")   ? std::optional(ast::Access::Private)
-         : word.is("PROTECTED") ? std::optional(ast::Access::Protected)
-         : word.is("INTERNAL")  ? std::optional(ast::Access::Internal)
-                                : std::nullopt;
-}
-
 }  // namespace
 
 // FUNCTION_BLOCK ABSTRACT Name, METHOD PUBLIC FINAL OVERRIDE Name. These words are names where no other follows.
@@ -28,7 +20,7 @@ void ProjectParser::modifiers(ast::Pou& out) {
          in_.peek(1).kind == TokenKind::Word && !is_keyword(in_.peek(1).text) && !in_.peek(1).is("EXTENDS") &&
          !in_.peek(1).is("IMPLEMENTS")) {
     const Token& word = in_.take();
-    out.access = access_named(word).value_or(out.access);
+    out.access = access_word(word).value_or(out.access);
     out.is_abstract = out.is_abstract || word.is("ABSTRACT");
     out.is_final = out.is_final || word.is("FINAL");
     out.overrides = out.overrides || word.is("OVERRIDE");
@@ -144,7 +136,7 @@ void ProjectParser::accessor(const ast::Pou& property, bool known, ast::Pou& to)
     out = accessor_of(property, which);
   }
   const ast::Access access = out.access;
-  while (const auto own = access_named(in_.peek())) {  // GET PRIVATE
+  while (const auto own = access_word(in_.peek())) {  // GET PRIVATE
     out.access = *own;
     in_.take();
   }
