@@ -1,35 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+// How it is waited for until a time is the system's own: linux/ and posix/.
 #include "rt/signal_word.h"
 
+#include <semaphore.h>
+
 #include <cerrno>
+#include <new>
 
 namespace indurop::rt {
 
+static_assert(sizeof(sem_t) <= sizeof(SignalWord) && alignof(sem_t) <= alignof(SignalWord));
+
 void SignalWord::init(bool process_shared) noexcept {
-  ::sem_init(&semaphore_, process_shared ? 1 : 0, 0);
+  ::sem_init(new (bytes_) sem_t, process_shared ? 1 : 0, 0);
 }
 
 void SignalWord::wake() noexcept {
-  ::sem_post(&semaphore_);
-}
-
-bool SignalWord::wait_until(MonoTime deadline) noexcept {
-  const timespec until = to_timespec(to_ns(deadline));
-  while (::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until) != 0) {
-    if (errno != EINTR) {
-      return false;
-    }
-  }
-  return true;
+  ::sem_post(reinterpret_cast<sem_t*>(bytes_));
 }
 
 void SignalWord::wait() noexcept {
-  while (::sem_wait(&semaphore_) != 0 && errno == EINTR) {
+  while (::sem_wait(reinterpret_cast<sem_t*>(bytes_)) != 0 && errno == EINTR) {
   }
 }
 
 bool SignalWord::try_wait() noexcept {
-  return ::sem_trywait(&semaphore_) == 0;
+  return ::sem_trywait(reinterpret_cast<sem_t*>(bytes_)) == 0;
 }
 
 }  // namespace indurop::rt

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wake-up that threads and processes sleep on: a POSIX semaphore in shared memory. Measured as fast as a bare
-// futex here, and every POSIX real-time system has it. Zero-filled memory must be initialised before use.
+// A wake-up that threads and processes sleep on: a semaphore in shared memory. Measured as fast as a bare futex here,
+// and every POSIX real-time system has it. Zero-filled memory must be initialised before use.
 
 #pragma once
-
-#include <semaphore.h>
 
 #include "rt/clock.h"
 
@@ -22,7 +20,7 @@ class SignalWord {
   bool try_wait() noexcept;
 
  private:
-  sem_t semaphore_;
+  alignas(8) unsigned char bytes_[32];  // what the system keeps there
 };
 
 }  // namespace indurop::rt

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <indurop/result.h>
-#include <pthread.h>
 
 #include <atomic>
 #include <chrono>
@@ -36,7 +35,7 @@ struct BatchEntry {
 struct BatchBlock {
   std::atomic<std::uint64_t> magic;  // stored last
   std::uint64_t layout_hash;         // of the store that this is for
-  pthread_mutex_t lock;              // for those who ask
+  abi::SharedMutex lock;             // for those who ask
   std::atomic<BatchState> state;
   std::uint32_t count;
   std::atomic<std::uint64_t> tick;  // that carried it out

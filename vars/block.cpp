@@ -9,6 +9,7 @@
 #include <new>
 #include <string_view>
 
+#include "rt/shared_mutex.h"
 #include "vars/call_layout.h"
 #include "vars/forces.h"
 #include "vars/ring.h"
@@ -48,7 +49,7 @@ std::uint64_t layout_hash(std::span<const DirectoryEntry> directory, std::string
   hash.add(abi::kVersion);
   hash.add(sizeof(BlockHeader));
   hash.add(sizeof(abi::RingHeader));
-  hash.add(sizeof(pthread_mutex_t));
+  hash.add(rt::kLockKind);
   hash.add(sizeof(void*));
   hash.add(std::endian::native == std::endian::little ? 1 : 0);
   hash.add(directory.data(), directory.size_bytes());
@@ -218,7 +219,7 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
   };
   put(plan.directory_offset, plan.directory.data(), plan.directory.size() * sizeof(DirectoryEntry));
   put(plan.schema_offset, plan.schema_text.data(), plan.schema_text.size());
-  const Error no_locks{Errc::Unsupported, 0, "robust priority-inheriting process-shared mutex"};
+  const Error no_locks{Errc::Unsupported, 0, "a lock that processes share"};
   for (const DirectoryEntry& entry : plan.directory) {
     const auto& initial = plan.schema.variables[entry.schema_index].initial;
     if (entry.kind == abi::Kind::Scalar) {

@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include <pthread.h>
+#include <indurop/detail/shared_mutex.h>
 
 #include <atomic>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct alignas(64) CallFunction {
   std::uint32_t result_size;
   std::uint32_t schema_index;             // into Schema::functions
   std::atomic<std::uint32_t> wake_index;  // the CallFunction whose `wake` its server sleeps on
-  pthread_mutex_t serving;                // held by the server's thread for as long as it serves: free = no server
+  abi::SharedMutex serving;               // held by the server's thread for as long as it serves: free = no server
   std::atomic<std::int32_t> server_pid;   // for people; 0: none yet, or ended in order
   std::uint32_t reserved;
   std::atomic<std::uint64_t> calls;     // answered
@@ -48,9 +48,9 @@ enum class CallState : std::uint8_t {
   Abandoned,  // nobody waits any more; the server frees the slot when it is through
 };
 
-// A caller owns a slot while it holds `caller`; a caller that is killed leaves it to the next one (robust mutex).
+// A caller owns a slot while it holds `caller`; a caller that is killed leaves it to the next one.
 struct alignas(64) CallSlot {
-  pthread_mutex_t caller;
+  abi::SharedMutex caller;
   std::atomic<std::uint64_t> state;
   std::atomic<std::uint32_t> error;  // Errc of the answer
   std::uint32_t reserved;
@@ -63,7 +63,7 @@ static_assert(std::is_standard_layout_v<CallSlot>);
 std::size_t call_area_size(const schema::Schema& schema);
 
 // Fills the zeroed area that begins `functions_offset` bytes (a multiple of 64) into `block`. Not real-time safe.
-// False if the system refuses to make a robust mutex.
+// False if the system refuses to make such a lock.
 bool init_call_area(std::byte* block, std::uint64_t functions_offset, const schema::Schema& schema);
 
 }  // namespace indurop::vars

@@ -6,15 +6,12 @@
 #include "vars/forces.h"
 
 #include <indurop/detail/access.h>
-#include <linux/membarrier.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
-#include <ctime>
 #include <optional>
 
+#include "rt/barrier.h"
 #include "rt/clock.h"
 #include "rt/shared_mutex.h"
 #include "vars/ring.h"
@@ -94,14 +91,6 @@ void write_word(void* entry, std::uint32_t size, std::uint64_t value) noexcept {
       return put(std::uint32_t{});
     default:
       return put(std::uint64_t{});
-  }
-}
-
-// Every store that a processor made before it could see what was announced is visible after this.
-void let_all_processors_see() noexcept {
-  if (::syscall(SYS_membarrier, MEMBARRIER_CMD_GLOBAL, 0, 0) != 0) {
-    constexpr timespec kStoresAreOut{0, 10'000'000};  // a processor keeps a store back for well below a microsecond
-    ::clock_nanosleep(CLOCK_MONOTONIC, 0, &kStoresAreOut, nullptr);
   }
 }
 
@@ -200,7 +189,7 @@ Status force(BlockHeader& header, const Force& what) noexcept {
   }
   abi::forces_offset_of(entry, what.variable->kind).store(distance(entry, &header.forces), std::memory_order_release);
   if (what.variable->kind == abi::Kind::Scalar) {
-    let_all_processors_see();
+    rt::let_all_processors_see();
     hold_scalar(entry);
     return {};
   }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
-#include <pthread.h>
 
 #include <atomic>
 #include <cstdint>
@@ -30,7 +29,7 @@ struct ForceSlot {
 };
 inline constexpr std::size_t kMostForces = 64;
 struct ForceTable {
-  pthread_mutex_t lock;  // robust, priority inheriting, process shared; for those who change the table
+  abi::SharedMutex lock;  // for those who change the table
   ForceSlot slots[kMostForces];
 };
 

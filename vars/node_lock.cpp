@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lock is flock() on a file; its text "PID START_TIME" only serves to say who has it. The file may be removed by
+// The lock is that of a file; its text "PID START_TIME" only serves to say who has it. The file may be removed by
 // the one who holds the lock, so whoever got a lock looks whether its file still has the name.
 
 #include "vars/node_lock.h"
 
 #include <fcntl.h>
 #include <pwd.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "rt/file_lock.h"
 #include "vars/block.h"
 #include "vars/os_error.h"
 #include "vars/process.h"
@@ -108,15 +108,16 @@ Result<NodeLock> NodeLock::acquire(const std::string& node, pid_t& holder) {
       return os_error(errno, "open the node's lock file");
     }
     NodeLock lock(number);
-    if (::flock(number, LOCK_EX | LOCK_NB) == 0) {
+    const Status locked = rt::lock_file(number, rt::FileLock::Exclusive);
+    if (locked) {
       if (has_name(number, path)) {
         write_holder(number);
         return lock;
       }
       continue;
     }
-    if (errno != EWOULDBLOCK && errno != EINTR) {
-      return os_error(errno, "lock the node's name");
+    if (locked.error().code != Errc::Busy) {
+      return os_error(locked.error().sys_errno, "lock the node's name");
     }
     // A holder that is ending, or one that is just removing the node's files, is gone in a moment.
     holder = read_holder(number);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 
-#include "rt/shared_mutex.h"
 #include "vars/forces.h"
 
 namespace indurop::vars {
@@ -184,7 +183,7 @@ void discard(RingHeader& ring) noexcept {
   rt::unlock(ring.lock);
 }
 
-void release_if_mine(RingHeader& ring, pid_t thread) noexcept {
+void release_if_mine(RingHeader& ring, rt::ThreadId thread) noexcept {
   if (rt::held_by(ring.lock, thread)) {
     rt::unlock(ring.lock);
   }
@@ -206,6 +205,7 @@ bool check_ring(RingHeader& ring, std::uint32_t value_size) noexcept {
   if (rt::is_locked(result)) {
     rt::unlock(ring.lock);
   }
+  rt::inherit_shared_mutex(ring.lock);
   return result != rt::LockResult::Broken;
 }
 

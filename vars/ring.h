@@ -5,10 +5,11 @@
 #pragma once
 
 #include <indurop/detail/abi.h>
-#include <sys/types.h>
 
 #include <cstddef>
 #include <cstdint>
+
+#include "rt/shared_mutex.h"
 
 namespace indurop::vars {
 
@@ -16,7 +17,7 @@ namespace indurop::vars {
 inline constexpr std::uint32_t kWholeCopyLimit = 512;
 
 // Fills a new entry: version 0 holds `initial` (value_size bytes, null: all zero). `memory` is zeroed, aligned to
-// abi::kAlign and abi::entry_size() long. False if the system has no robust locks. Not real-time safe.
+// abi::kAlign and abi::entry_size() long. False if the system has no such locks. Not real-time safe.
 bool init_ring(void* memory, std::uint32_t value_size, const void* initial) noexcept;
 
 // Takes the lock and returns the next version's slot, equal to the current version everywhere outside
@@ -35,8 +36,8 @@ void discard(abi::RingHeader& ring) noexcept;  // the current version stays
 bool check_ring(abi::RingHeader& ring, std::uint32_t value_size) noexcept;
 
 // Drops the unpublished version if the calling thread is between begin and commit; else nothing happens. `thread` is
-// its gettid(), asked for once when there are many rings.
-void release_if_mine(abi::RingHeader& ring, pid_t thread) noexcept;
+// the calling one, asked for once when there are many rings.
+void release_if_mine(abi::RingHeader& ring, rt::ThreadId thread) noexcept;
 
 // One consistent version of value bytes [offset, offset + length). False if detail::kReadTries copies were all
 // overtaken by three commits. Works on read-only memory. `value_size` is the caller's: what the memory says is not

@@ -340,7 +340,7 @@ void Store::release_locks_of_this_thread() noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return;
   }
-  const pid_t thread = ::gettid();
+  const rt::ThreadId thread = rt::this_thread();
   for (const DirectoryEntry& variable : impl_->index.directory) {
     if (variable.kind == abi::Kind::Ring) {
       release_if_mine(impl_->ring(variable), thread);

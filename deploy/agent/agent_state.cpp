@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "base/read_file.h"
 #include "base/replace_file.h"
 #include "keys/digest.h"
+#include "rt/file_lock.h"
 #include "vars/retain.h"
 
 namespace indurop::deploy {
@@ -107,7 +107,7 @@ Result<AgentState, Problem> AgentState::open(const std::string& board) {
     return failed("cannot open", lock_file, errno);
   }
   AgentState state(folder, lock);
-  if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
+  if (!rt::lock_file(lock, rt::FileLock::Exclusive)) {
     return Problem{fmt::format("another agent of board {} runs on this host", board)};
   }
   if (auto loaded = state.load(); !loaded) {

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Every function outside of the project that the tick path can reach is on the list tick_services.txt. What a kernel
 without Linux has to offer is that list; what allocates or may block is not on it.
-check_tick.py LIST LIBRARY.a...
+check_tick.py LIST SYSTEM LIBRARY.a...
+SYSTEM is the folder of rt/ that is linked: lines `service/SYSTEM` count for it only. As for the linker the first library that
+has a function counts.
 
 Followed are the calls and addresses in the machine code of the static libraries, from the roots on. Calls through tables
 (virtual functions, hooks) are not seen: what they lead to is a root of its own."""
@@ -33,7 +35,7 @@ class Code:
 
     def __init__(self):
         self.calls = collections.defaultdict(set)
-        self.known = collections.defaultdict(set)  # functions by object
+        self.known = collections.defaultdict(list)  # by function: the objects that have it
         self.data = set()
 
     def add(self, library):
@@ -57,7 +59,7 @@ class Code:
                 section = match[1]
             elif match := FUNCTION.match(line):
                 function = (member, match[2])
-                self.known[match[2]].add(member)
+                self.known[match[2]].append(member)
                 starts[section].append((int(match[1], 16), function))
             elif match := RELOCATION.match(line):
                 if match[1].startswith(".text"):
@@ -83,7 +85,7 @@ class Code:
             function = todo.pop()
             for called in self.calls[function]:
                 # A local function of the same object comes first.
-                objects = [function[0]] if function[0] in self.known[called] else sorted(self.known[called])
+                objects = [function[0]] if function[0] in self.known[called] else self.known[called][:1]
                 if not objects and called not in self.data:
                     ways.setdefault(called, function)
                 for member in objects:
@@ -101,11 +103,12 @@ def way_to(function, came):
     return names[::-1]
 
 
-def check(listing, libraries):
+def check(listing, system, libraries):
     rows = [line.split(None, 1) for line in pathlib.Path(listing).read_text().splitlines()
             if line.strip() and not line.startswith("#")]
     patterns = {kind: [row[1].split("  ")[0].strip() for row in rows if row[0] == kind]
-                for kind in ("root", "service", "leaf")}
+                for kind in ("root", "service", "leaf", f"service/{system}")}
+    patterns["service"] += patterns[f"service/{system}"]
     code = Code()
     for library in libraries:
         code.add(library)
@@ -135,4 +138,4 @@ if __name__ == "__main__":
     if subprocess.run(["uname", "-m"], capture_output=True, text=True, check=True).stdout.strip() != "x86_64":
         print("skipped: reads the machine code of x86-64")
         sys.exit(SKIPPED)
-    common.report(check(sys.argv[1], sys.argv[2:]))
+    common.report(check(sys.argv[1], sys.argv[2], sys.argv[3:]))

@@ -120,6 +120,16 @@ class Text(Sample):
         self.put("rt/a.h", HEAD.split("\n", 1)[0] + "\n#pragma once\n")
         self.found(self.check("spdx"), "rt/a.h:2")
 
+    def test_semaphore_outside_of_its_room(self):
+        self.put("rt/a.h", HEAD + "#include <semaphore.h>\nsem_t word;\n")
+        self.assertEqual(list(self.check("border")), [])
+        self.put("vars/a.h", HEAD + "  pthread_mutex_t lock;\n")
+        self.found(self.check("border"), "vars/a.h:4", "pthread_mutex_t")
+        self.put("vars/a.h", HEAD + "  ::sem_post(&word);\n")
+        self.found(self.check("border"), "vars/a.h:4", "sem_post")
+        self.put("vars/a.h", HEAD + 'constexpr auto kWords = "flock sem_t pthread_mutex_t";\n')
+        self.assertEqual(list(self.check("border")), [])
+
     def test_todo_without_issue(self):
         self.put("rt/a.cpp", HEAD + "// TODO" + ": later\n")
         self.found(self.check("todo"), "rt/a.cpp:4")
@@ -285,7 +295,7 @@ class Tick(Sample):
         subprocess.run(["g++", "-O2", "-c", "-o", str(self.root / "a.o"), str(self.root / "a.cpp")], check=True)
         subprocess.run(["ar", "rc", library, str(self.root / "a.o")], check=True)
         self.put("list.txt", listed)
-        return check_tick.check(str(self.root / "list.txt"), [library])
+        return check_tick.check(str(self.root / "list.txt"), "this", [library])
 
     def test_complete_list(self):
         self.assertEqual(self.check("# head\nroot tick\nleaf rare\nservice given  a reason\n"), [])
@@ -295,6 +305,10 @@ class Tick(Sample):
 
     def test_service_nobody_uses(self):
         self.found(self.check("root tick\nleaf rare\nservice given\nservice other\n"), "nothing on the tick path uses other")
+
+    def test_service_of_a_system(self):
+        self.assertEqual(self.check("root tick\nleaf rare\nservice/this given\nservice/that other\n"), [])
+        self.found(self.check("root tick\nleaf rare\nservice/that given\n"), "given is not in")
 
     def test_root_that_is_gone(self):
         self.found(self.check("root tick\nroot tock\nleaf rare\nservice given\n"), "no function is called tock")

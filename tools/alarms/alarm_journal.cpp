@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <cstring>
 
 #include "base/read_file.h"
+#include "rt/file_lock.h"
 #include "vars/retain.h"
 
 namespace indurop::tools {
@@ -88,7 +88,7 @@ std::string AlarmJournal::change(const std::function<std::vector<AlarmEntry>(con
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   const base::Descriptor lock(::open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode));
-  if (!lock.is_open() || ::flock(lock.get(), LOCK_EX) != 0) {
+  if (!lock.is_open() || !rt::lock_file_when_free(lock.get(), rt::FileLock::Exclusive)) {
     return fmt::format("{}: {}", folder_.string(), problem());
   }
   refresh();
@@ -154,7 +154,7 @@ bool AlarmJournal::become_watcher() {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   base::Descriptor fd(::open((folder_ / "watcher").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode));
-  if (!fd.is_open() || ::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) {
+  if (!fd.is_open() || !rt::lock_file(fd.get(), rt::FileLock::Exclusive)) {
     return false;
   }
   watching_ = std::move(fd);
@@ -166,7 +166,8 @@ bool AlarmJournal::watched() const {
     return true;
   }
   const base::Descriptor fd(::open((folder_ / "watcher").c_str(), O_RDONLY | O_CLOEXEC));
-  return fd.is_open() && ::flock(fd.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const Status free = fd.is_open() ? rt::lock_file(fd.get(), rt::FileLock::Shared) : Status();
+  return !free && free.error().code == Errc::Busy;
 }
 
 }  // namespace indurop::tools

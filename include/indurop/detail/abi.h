@@ -4,7 +4,7 @@
 
 #pragma once
 
-#include <pthread.h>
+#include <indurop/detail/shared_mutex.h>
 
 #include <atomic>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace indurop::abi {
 
-inline constexpr std::uint32_t kVersion = 4;
+inline constexpr std::uint32_t kVersion = 5;
 
 enum class Kind : std::uint32_t {
   Scalar = 0,  // one value of 1, 2, 4 or 8 bytes, an atomic at the entry's first byte
@@ -33,7 +33,7 @@ struct alignas(8) DirtyRange {
 // slot (seq + 1) % kSlots, then stores seq + 1. A writer that dies leaves a slot nobody was told about.
 struct RingHeader {
   std::atomic<std::uint64_t> seq;
-  pthread_mutex_t lock;                    // robust, priority inheriting, process shared
+  SharedMutex lock;
   std::atomic<std::uint64_t> lost_writes;  // writes given up because the lock was not free in time
   std::uint64_t begun;                     // version last begun; not yet seq: that slot is half changed
   DirtyRange dirty[kSlots];                // what the commit that made this slot's version changed
@@ -43,11 +43,8 @@ struct RingHeader {
   std::atomic<std::int64_t> update_offset;  // see update_offset_of()
   std::atomic<std::uint64_t> update_word;   // see update_word_of()
   std::atomic<std::int64_t> forces_offset;  // see forces_offset_of()
-  std::uint64_t reserved[12 - sizeof(pthread_mutex_t) / 8];
+  std::uint64_t reserved[3];
 };
-// 40 bytes on x86-64, 48 on ARM64 (glibc).
-static_assert(sizeof(pthread_mutex_t) <= 48 && sizeof(pthread_mutex_t) % 8 == 0,
-              "the store has no room for this mutex");
 static_assert(sizeof(RingHeader) == 192 && std::is_standard_layout_v<RingHeader>);
 
 constexpr std::size_t slot_stride(std::size_t value_size) noexcept {

@@ -6,7 +6,7 @@
 
 #include <indurop/detail/abi.h>
 
-#define INDUROP_ABI_VERSION 4
+#define INDUROP_ABI_VERSION 5
 static_assert(INDUROP_ABI_VERSION == indurop::abi::kVersion, "change both together");
 
 #define INDUROP_STRINGIZE_(text) #text

@@ -78,7 +78,7 @@ TEST(Json, Everything_written_comes_back) {
 }
 
 TEST(Json, Begins_with_the_versions) {
-  EXPECT_EQ(to_json({}), R"({"schema":1,"abi":4})");
+  EXPECT_EQ(to_json({}), R"({"schema":1,"abi":5})");
   EXPECT_EQ(abi_of_json(to_json(sample())), abi::kVersion);
   EXPECT_EQ(abi_of_json("{\"schema\":1}"), 0U);
   EXPECT_EQ(abi_of_json(""), 0U);

@@ -146,11 +146,11 @@ TEST(Ring, Write_of_a_thread_that_ended_inside_is_dropped_without_traces) {
 
 TEST(Ring, Release_frees_only_what_the_caller_holds) {
   Ring sut(24);
-  release_if_mine(*sut, ::gettid());
+  release_if_mine(*sut, rt::this_thread());
   ASSERT_NE(begin_edit(*sut), nullptr);
-  std::thread([&] { release_if_mine(*sut, ::gettid()); }).join();
+  std::thread([&] { release_if_mine(*sut, rt::this_thread()); }).join();
   std::thread([&] { EXPECT_EQ(begin_edit(*sut), nullptr); }).join();
-  release_if_mine(*sut, ::gettid());
+  release_if_mine(*sut, rt::this_thread());
   std::thread([&] {
     EXPECT_NE(begin_edit(*sut), nullptr);
     commit(*sut);

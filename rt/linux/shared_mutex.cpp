@@ -1,31 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
+// The C library's robust mutex with priority inheritance: the kernel tells the next one that a holder has died.
 
 #include "rt/shared_mutex.h"
 
+#include <pthread.h>
 #include <sched.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
+#include <new>
 
 #include "rt/clock.h"
 
 namespace indurop::rt {
 
+const std::uint64_t kLockKind = sizeof(pthread_mutex_t);
+
 namespace {
+
+static_assert(sizeof(pthread_mutex_t) <= sizeof(SharedMutex) && alignof(pthread_mutex_t) <= alignof(SharedMutex));
+
+pthread_mutex_t& in(SharedMutex& mutex) noexcept {
+  return *reinterpret_cast<pthread_mutex_t*>(mutex.bytes);
+}
 
 // The kernel's part of a robust priority-inheriting mutex is its first word: bits 0..29 are the owner's thread id.
 constexpr std::uint32_t kOwnerMask = 0x3FFFFFFF;
 constexpr std::uint32_t kOwnerDiedBit = 0x40000000;
 
-std::uint32_t lock_word(const pthread_mutex_t& mutex) noexcept {
-  static_assert(sizeof(pthread_mutex_t) >= sizeof(std::uint32_t));
-  return __atomic_load_n(reinterpret_cast<const std::uint32_t*>(&mutex), __ATOMIC_ACQUIRE);
+std::uint32_t lock_word(const SharedMutex& mutex) noexcept {
+  return __atomic_load_n(reinterpret_cast<const std::uint32_t*>(mutex.bytes), __ATOMIC_ACQUIRE);
 }
 
 // True if the word names a thread that does not exist. The C library aborts the process when the kernel tells it so.
-bool has_impossible_owner(const pthread_mutex_t& mutex) noexcept {
+bool has_impossible_owner(const SharedMutex& mutex) noexcept {
   const std::uint32_t before = lock_word(mutex);
   const std::uint32_t owner = before & kOwnerMask;
   if (owner == 0 || (before & kOwnerDiedBit) != 0) {
@@ -68,39 +78,53 @@ int lock_until(pthread_mutex_t& mutex, std::int64_t deadline_ns) noexcept {
 #endif
 }
 
-LockResult wait_for(pthread_mutex_t& mutex, std::chrono::nanoseconds limit) noexcept {
-  if (has_impossible_owner(mutex)) {
-    return LockResult::Broken;
-  }
-  return translate(mutex, lock_until(mutex, now_ns() + limit.count()));
-}
-
 }  // namespace
 
-bool init_shared_mutex(pthread_mutex_t& mutex) noexcept {
+ThreadId this_thread() noexcept {
+  return ThreadId{static_cast<std::uint32_t>(::gettid())};
+}
+
+bool init_shared_mutex(SharedMutex& mutex) noexcept {
   pthread_mutexattr_t attributes;
   if (::pthread_mutexattr_init(&attributes) != 0) {
     return false;
   }
-  const bool made = ::pthread_mutexattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED) == 0 &&
+  auto* const made = new (mutex.bytes) pthread_mutex_t;
+  const bool good = ::pthread_mutexattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED) == 0 &&
                     ::pthread_mutexattr_setrobust(&attributes, PTHREAD_MUTEX_ROBUST) == 0 &&
                     ::pthread_mutexattr_setprotocol(&attributes, PTHREAD_PRIO_INHERIT) == 0 &&
                     ::pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK) == 0 &&
-                    ::pthread_mutex_init(&mutex, &attributes) == 0;
+                    ::pthread_mutex_init(made, &attributes) == 0;
   ::pthread_mutexattr_destroy(&attributes);
-  return made;
+  return good;
 }
 
-bool held_by(const pthread_mutex_t& mutex, pid_t thread) noexcept {
-  return (lock_word(mutex) & kOwnerMask) == static_cast<std::uint32_t>(thread);
+void inherit_shared_mutex(SharedMutex& /*mutex*/) noexcept {}  // the kernel makes no difference between processes
+
+bool held_by(const SharedMutex& mutex, ThreadId thread) noexcept {
+  return (lock_word(mutex) & kOwnerMask) == static_cast<std::uint64_t>(thread);
 }
 
-LockResult try_lock(pthread_mutex_t& mutex) noexcept {
-  return translate(mutex, ::pthread_mutex_trylock(&mutex));
+int take_free(SharedMutex& mutex) noexcept {
+  return ::pthread_mutex_trylock(&in(mutex));
 }
 
-LockResult lock_refused(pthread_mutex_t& mutex, int error, std::chrono::nanoseconds limit) noexcept {
-  return error == EBUSY ? wait_for(mutex, limit) : translate(mutex, error);
+LockResult try_lock(SharedMutex& mutex) noexcept {
+  return translate(in(mutex), take_free(mutex));
+}
+
+LockResult lock_refused(SharedMutex& mutex, int error, std::chrono::nanoseconds limit) noexcept {
+  if (error != EBUSY) {
+    return translate(in(mutex), error);
+  }
+  if (has_impossible_owner(mutex)) {
+    return LockResult::Broken;
+  }
+  return translate(in(mutex), lock_until(in(mutex), now_ns() + limit.count()));
+}
+
+int let_go(SharedMutex& mutex) noexcept {
+  return ::pthread_mutex_unlock(&in(mutex));
 }
 
 }  // namespace indurop::rt

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lock of an open file: held until the last copy of its descriptor is closed, by whatever end of the process.
+
+#pragma once
+
+#include <indurop/result.h>
+
+namespace indurop::rt {
+
+enum class FileLock { Shared, Exclusive };  // Shared: the file is open for reading; Exclusive: for writing
+
+// Errors: Busy (somebody else has it), System. A call that may wait waits until it is free. Not real-time safe.
+Status lock_file(int file, FileLock kind) noexcept;
+Status lock_file_when_free(int file, FileLock kind) noexcept;
+
+}  // namespace indurop::rt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Semaphores have the clock of the wall only. Where it is put forward the wait is taken up again; where it is put back
+// while somebody waits, a wait that nobody wakes ends that much later.
+#include "rt/signal_word.h"
+
+#include <semaphore.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace indurop::rt {
+
+bool SignalWord::wait_until(MonoTime deadline) noexcept {
+  for (;;) {
+    const std::int64_t left = std::max<std::int64_t>(to_ns(deadline) - now_ns(), 0);
+    const timespec until = to_timespec(wall_ns() + left);
+    if (::sem_timedwait(reinterpret_cast<sem_t*>(bytes_), &until) == 0) {
+      return true;
+    }
+    if (errno != EINTR && left == 0) {
+      return false;
+    }
+  }
+}
+
+}  // namespace indurop::rt
