@@ -106,8 +106,11 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
     return nullptr;
   }
   if (callee.kind != Expression::Kind::Name) {
-    context_.error(call.at,
-                   "a function block gives its results in its outputs: call it first, then use instance.output");
+    if (callee.kind == Expression::Kind::Member && expressions_.typed(callee.operands[0], nullptr) == nullptr &&
+        callee.operands[0].resolved->meaning != Resolved::Meaning::Namespace) {
+      return nullptr;  // of an instance whose declaration has an error
+    }
+    context_.error(call.at, "a function block gives its results in its outputs: call it first, use instance.output");
     return nullptr;
   }
   if (!take_enable(call, whole_side)) {

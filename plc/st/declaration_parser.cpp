@@ -208,6 +208,9 @@ void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
 
 bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
   ast::TypeDeclaration out;
+  if (access_word(in_.peek(), in_.peek(1))) {
+    in_.take();  // of TwinCAT: which libraries see it
+  }
   const int before = in_.previous().line;
   const Token& first = in_.peek();
   out.at = in_.here();

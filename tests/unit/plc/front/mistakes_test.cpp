@@ -59,6 +59,21 @@ TEST(PlcMistakes, Globals_with_a_mistake_are_no_further_ones_where_they_are_used
   }
 }
 
+TEST(PlcMistakes, Instances_of_an_unknown_block_are_no_further_ones_where_they_are_used) {
+  const Compiled sut = compiled(
+      "PROGRAM Main VAR f : Unknown; i : INT; END_VAR f(a := 1); i := f.Go(x := 1) + f.out; IF f.Go() THEN f.x := i; "
+      "END_IF; END_PROGRAM");
+  EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("there is no type and no function block 'Unknown'"));
+}
+
+TEST(PlcMistakes, A_type_may_say_who_sees_it) {
+  EXPECT_EQ(
+      wrong("TYPE INTERNAL Light : (Red, Green); END_TYPE TYPE internal : INT; END_TYPE PROGRAM Main VAR l : Light; "
+            "k : internal; END_VAR l := Green; k := 1; END_PROGRAM"),
+      "");
+}
+
 TEST(PlcMistakes, Places_of_an_array_are_no_variables_of_their_own) {
   const std::string rest = " list[2] := x; END_PROGRAM";
   EXPECT_THAT(wrong("PROGRAM Main VAR list AT %MW10 : ARRAY[0..9] OF INT; x AT %MW12 : INT; END_VAR" + rest),
