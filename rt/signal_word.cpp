@@ -9,7 +9,7 @@
 
 namespace indurop::rt {
 
-static_assert(sizeof(sem_t) <= sizeof(SignalWord) && alignof(sem_t) <= alignof(SignalWord));
+static_assert(sizeof(sem_t) <= sizeof(SignalWord));
 
 void SignalWord::init(bool process_shared) noexcept {
   ::sem_init(new (bytes_) sem_t, process_shared ? 1 : 0, 0);

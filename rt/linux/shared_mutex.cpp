@@ -20,10 +20,10 @@ const std::uint64_t kLockKind = sizeof(pthread_mutex_t);
 
 namespace {
 
-static_assert(sizeof(pthread_mutex_t) <= sizeof(SharedMutex) && alignof(pthread_mutex_t) <= alignof(SharedMutex));
+static_assert(sizeof(pthread_mutex_t) <= sizeof(SharedMutex));
 
 pthread_mutex_t& in(SharedMutex& mutex) noexcept {
-  return *reinterpret_cast<pthread_mutex_t*>(mutex.bytes);
+  return *reinterpret_cast<pthread_mutex_t*>(mutex.bytes);  // NOLINT(misc-non-copyable-objects): never copied
 }
 
 // The kernel's part of a robust priority-inheriting mutex is its first word: bits 0..29 are the owner's thread id.

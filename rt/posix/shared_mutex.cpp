@@ -30,7 +30,7 @@ struct Lock {
   std::atomic<std::uint64_t> home;  // a process
   pthread_mutex_t queue;            // for its threads
 };
-static_assert(sizeof(Lock) <= sizeof(SharedMutex) && alignof(Lock) <= alignof(SharedMutex));
+static_assert(sizeof(Lock) <= sizeof(SharedMutex));
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
 // The word: the holder's process (32 bits), its thread in that process (24), flags (4), a mark (4).
@@ -83,9 +83,8 @@ void leave(void* /*unused*/) noexcept {
 // Made when the program starts at the latest: the first lock of a real-time thread is no time for it.
 class EndOfThreads {
  public:
-  EndOfThreads() noexcept {
-    good_ = ::pthread_key_create(&key_, leave) == 0 && ::pthread_atfork(nullptr, nullptr, forked) == 0;
-  }
+  EndOfThreads() noexcept
+      : good_(::pthread_key_create(&key_, leave) == 0 && ::pthread_atfork(nullptr, nullptr, forked) == 0) {}
   [[nodiscard]] bool good() const noexcept { return good_; }
   void watch_this() const noexcept { ::pthread_setspecific(key_, this); }
 
@@ -96,11 +95,11 @@ class EndOfThreads {
     t_held = nullptr;
   }
   pthread_key_t key_{};
-  bool good_ = false;
+  bool good_;
 };
 const EndOfThreads& end_of_threads() noexcept {
-  static const EndOfThreads made;  // some variables have locks before other objects of the program are made
-  return made;
+  static const EndOfThreads kEnd;  // some variables have locks before other objects of the program are made
+  return kEnd;
 }
 const bool kMade = end_of_threads().good();
 
