@@ -112,17 +112,21 @@ class State:
 
     def scan(self, f):
         active = lambda step: f.values[step]["X"]
+        self.measure(f, active)  # transitions see the time that it is now
         if self.running:
             self.evolve(f, active)
+        self.measure(f, active)
+        for one in self.controls:
+            one.scan(f, active, self.before)
+        self.before = {step: active(step) for step in self.chart.steps}
+        self.running = True
+
+    def measure(self, f, active):
         for step in self.chart.steps:
             if not active(step):
                 self.since.pop(step, None)
             else:
                 f.values[step]["T"] = f.now - self.since.setdefault(step, f.now)
-        for one in self.controls:
-            one.scan(f, active, self.before)
-        self.before = {step: active(step) for step in self.chart.steps}
-        self.running = True
 
     def evolve(self, f, active):
         """All transitions see the same steps; of those that leave one step the first in the order of priority wins."""
