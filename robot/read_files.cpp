@@ -175,31 +175,36 @@ std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& tar
   return "";
 }
 
-// How an arm without a closed form is held at poses takes a search, which is made here, before anything moves.
-// Which tool is held at a point is known when the job runs. What no tool reaches is an error here.
+// Which tool is held at a point is known when the job runs; what no tool reaches is told here. How an arm without a
+// closed form is held at poses takes a search, which is made here, before anything moves: there it is an error.
 Diagnostics solve_points(JobBook& book, const Arm& arm) {
   Diagnostics errors;
   const ToolSet tools(arm, book.tips());
   for (Point& point : book.points) {
-    Target& target = point.target;
-    if (!target.is_pose || (tools.inverse(0).closed_form() && target.held == 0)) {
+    const Target& target = point.target;
+    if (!target.is_pose) {
       continue;
     }
+    const bool closed = tools.inverse(0).closed_form() && target.held == 0;
     Search how;
     how.held = target.held;
     std::string wrong;
     bool possible = false;
     for (int i = 0; i < tools.count(); ++i) {
       const Inverse& inverse = tools.inverse(i);
-      const auto found = std::make_shared<const Solutions>(inverse.search(target.pose, target.joints, how));
+      const auto found = std::make_shared<const Solutions>(closed ? inverse.all(target.pose, target.joints)
+                                                                  : inverse.search(target.pose, target.joints, how));
       const std::string text = wrong_pose(tools.arm(i), inverse, target, *found);
       wrong = i == 0 ? text : wrong;
       possible = possible || text.empty();
-      book.known.push_back(found);
-      point.known.push_back(found.get());
+      if (!closed) {
+        book.known.push_back(found);
+        point.known.push_back(found.get());
+      }
     }
     if (!possible) {
       errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
+      errors.back().severity = closed ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
     }
   }
   return errors;
@@ -220,6 +225,12 @@ Diagnostics check_offsets(const JobBook& book, const Inverse& inverse) {
   return errors;
 }
 
+void sort_out(Diagnostics said, ReadFiles& read) {
+  for (base::Diagnostic& one : said) {
+    (one.severity == base::Diagnostic::Severity::Error ? read.errors : read.notes).push_back(std::move(one));
+  }
+}
+
 }  // namespace
 
 ReadFiles read_files(const FileNames& names) {
@@ -237,15 +248,12 @@ ReadFiles read_files(const FileNames& names) {
   if (read.model) {
     const Inverse inverse(read.model->arm);
     if (read.errors.empty()) {
-      for (base::Diagnostic& one : place_tools(read.book, read.model->arm)) {
-        const bool note = one.severity == base::Diagnostic::Severity::Note;
-        (note ? read.notes : read.errors).push_back(std::move(one));
-      }
+      sort_out(place_tools(read.book, read.model->arm), read);
       take_over(place_frames(read.book, read.model->arm), read.errors);
     }
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
-    take_over(solve_points(read.book, read.model->arm), read.errors);
+    sort_out(solve_points(read.book, read.model->arm), read);
     take_over(check_workspace(names, read.book, read.model->arm), read.errors);
     if (read.book.tools.size() == 1) {
       take_over(check_splines(read.book, inverse), read.errors);
