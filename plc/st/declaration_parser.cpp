@@ -208,7 +208,7 @@ void DeclarationParser::types(std::vector<ast::TypeDeclaration>& to) {
 
 bool DeclarationParser::one_type(std::vector<ast::TypeDeclaration>& to) {
   ast::TypeDeclaration out;
-  if (access_word(in_.peek(), in_.peek(1))) {
+  if (in_.peek(1).kind == TokenKind::Word && access_word(in_.peek())) {
     in_.take();  // of TwinCAT: which libraries see it
   }
   const int before = in_.previous().line;
