@@ -39,7 +39,9 @@ Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::s
       continue;
     }
     if (place.kind != recorder::ChannelKind::Value) {
-      (place.kind == recorder::ChannelKind::Run ? runs_channel_ : clock_channel_) = id;
+      (place.kind == recorder::ChannelKind::Run     ? runs_channel_
+       : place.kind == recorder::ChannelKind::Clock ? clock_channel_
+                                                    : told_channel_) = id;
       continue;
     }
     const auto* entry = store.find(abi::fnv1a64(place.name.data(), place.name.size()));
@@ -87,6 +89,13 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
         return Problem{"a time of the recording is damaged"};
       }
       return std::optional<Item>(RecordedClock{recorder::from_sequence(one.sequence).module, *clock});
+    }
+    if (one.channel == told_channel_ && told_channel_ != 0) {
+      auto told = recorder::told_from_cdr(one.data.view);
+      if (!told) {
+        return Problem{"what a run of the recording was told is damaged"};
+      }
+      return std::optional<Item>(RecordedTold{recorder::from_sequence(one.sequence).module, *told});
     }
     if (const auto known = variables_.find(one.channel); known != variables_.end()) {
       return std::optional<Item>(RecordedValue{recorder::from_sequence(one.sequence), known->second, one.data.view});

@@ -35,6 +35,11 @@ struct RecordedClock {
   std::int64_t now_ns = 0;
 };
 
+struct RecordedTold {
+  std::uint32_t module = 0;
+  recorder::ToldWords words;
+};
+
 class RecordedRuns {
  public:
   // `board`: whose runs, of a file that was joined; else empty. The store is borrowed. Errors: no recording of runs, or
@@ -44,11 +49,13 @@ class RecordedRuns {
 
   // The next one; nullopt behind the last. What it points to is valid until the next call.
   // Errors: a part of the file is damaged; the next call goes on behind it.
-  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock>;
+  using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold>;
   Result<std::optional<Item>, base::Problem> next();
 
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
   [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
+  // It says what runs were told by functions and channels; recordings of earlier releases do not.
+  [[nodiscard]] bool tells_answers() const noexcept { return told_channel_ != 0; }
   [[nodiscard]] bool complete() const noexcept { return reader_.contents().has_summary; }
 
  private:
@@ -61,6 +68,7 @@ class RecordedRuns {
   std::vector<std::string> unknown_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
+  std::uint16_t told_channel_ = 0;
 };
 
 }  // namespace indurop::node

@@ -115,7 +115,7 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
     module.runs = module.why_not.empty();
     any = any || module.runs;
     if (module.runs) {
-      warn_of_what_is_not_recorded(configured[i].name, checked_.check.facts[i].file.imports);
+      warn_of_what_is_not_recorded(configured[i], checked_.check.facts[i].file.imports, recorded.tells_answers());
     }
     if (!module.runs) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
@@ -205,11 +205,19 @@ bool Replay::run_again(const recorder::RunWords& run) {
     }
   } else {
     scheduler::TaskState* state = &module.state;
+    std::vector<runtime::ToldAnswer> answers;
+    for (std::size_t i = 0; i < module.codes.size(); ++i) {
+      answers.push_back({module.codes[i], module.answers[i]});
+    }
     runtime::set_clock_readings(module.clock);
+    runtime::set_answers(answers);
     runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));
     runtime::set_clock_readings({});
+    runtime::set_answers({});
   }
   module.clock.clear();
+  module.codes.clear();
+  module.answers.clear();
   ++runs_;
   take_what_was_left(module);
   compare(module, index, run);
@@ -264,6 +272,11 @@ bool Replay::replay(RecordedRuns& recorded) {
     if (const auto* clock = std::get_if<RecordedClock>(&**item); clock != nullptr) {
       if (const std::uint32_t index = configured(clock->module); index != kNoSuchModule) {
         modules_[index]->clock.push_back(clock->now_ns);
+      }
+    } else if (const auto* told = std::get_if<RecordedTold>(&**item); told != nullptr) {
+      if (const std::uint32_t index = configured(told->module); index != kNoSuchModule) {
+        modules_[index]->codes.push_back(told->words.code);
+        modules_[index]->answers.emplace_back(told->words.bytes.begin(), told->words.bytes.end());
       }
     } else if (value != nullptr) {
       if (!started && value->words.kind != tape::EntryKind::Run) {

@@ -68,8 +68,10 @@ class Replay {
     bool runs = false;
     std::string why_not;  // it does not run; empty: it is not in this configuration
     std::vector<Known> known;
-    std::vector<Left> left;                      // of the run that is being read
-    std::vector<std::int64_t> clock;             // what it was told then
+    std::vector<Left> left;           // of the run that is being read
+    std::vector<std::int64_t> clock;  // what it was told then
+    std::vector<std::int64_t> codes;  // by functions and channels, likewise
+    std::vector<std::vector<std::uint8_t>> answers;
     std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
     scheduler::TaskState state;
     std::uint64_t count = 0;
@@ -81,7 +83,8 @@ class Replay {
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
-  void warn_of_what_is_not_recorded(const std::string& module, const std::vector<std::string>& imports);
+  void warn_of_what_is_not_recorded(const config::Module& module, const std::vector<std::string>& imports,
+                                    bool tells_answers);
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();

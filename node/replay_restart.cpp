@@ -14,7 +14,12 @@ constexpr std::chrono::milliseconds kPause{1};
 
 }  // namespace
 
-void Replay::warn_of_what_is_not_recorded(const std::string& module, const std::vector<std::string>& imports) {
+// What functions and channels gave to a thread module is in the recording.
+void Replay::warn_of_what_is_not_recorded(const config::Module& module, const std::vector<std::string>& imports,
+                                          bool tells_answers) {
+  if (module.type == scheduler::ModuleType::Thread && tells_answers) {
+    return;
+  }
   bool calls = false;
   bool channels = false;
   for (const std::string& symbol : imports) {
@@ -23,12 +28,14 @@ void Replay::warn_of_what_is_not_recorded(const std::string& module, const std::
   }
   if (calls) {
     console_.warning(
-        "module {} calls shared functions: they are called again here, what they returned is not in the recording and "
-        "may differ",
-        module);
+        "module {} calls shared functions: they are called again here, and what they return is not given to it from "
+        "the recording and may differ",
+        module.name);
   }
   if (channels) {
-    console_.warning("module {} has channels: what it reads from them is not in the recording and may differ", module);
+    console_.warning(
+        "module {} has channels: what it reads from them is not given to it from the recording and may differ",
+        module.name);
   }
 }
 

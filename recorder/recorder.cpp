@@ -124,7 +124,7 @@ Result<void, Problem> Recorder::begin_file() {
                             {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)}});
 }
 
-// Those of runs and of the clock.
+// Those of runs, of the clock and of what they were told.
 Result<void, Problem> Recorder::add_own_channels() {
   recording::TextMap modules;
   for (std::size_t i = 0; i < about_.modules.size(); ++i) {
@@ -144,7 +144,8 @@ Result<void, Problem> Recorder::add_own_channels() {
     return {};
   };
   auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
-  return runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
+  auto clock = runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
+  return clock ? add(kToldSchema, kToldIdl, kToldTopic, told_channel_) : clock;
 }
 
 Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
@@ -247,6 +248,14 @@ Result<void, Problem> Recorder::write_run(const tape::Run& run) {
     to_cdr(clock, cdr_);
     if (auto written = writer_->write(clock_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
                                       to_sequence({module, tape::EntryKind::Clock}), cdr_);
+        !written) {
+      return written;
+    }
+  }
+  for (const tape::Told& told : run.told) {
+    to_cdr(ToldWords{told.code, told.bytes}, cdr_);
+    if (auto written = writer_->write(told_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
+                                      to_sequence({module, tape::EntryKind::Told}), cdr_);
         !written) {
       return written;
     }

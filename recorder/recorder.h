@@ -118,6 +118,7 @@ class Recorder {
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
+  std::uint16_t told_channel_ = 0;
   bool remembers_ = false;
   bool first_told_ = false;
   std::vector<Known> known_;       // by track

@@ -41,6 +41,14 @@ const std::string_view kClockIdl =
     "  };\n"
     "};\n";
 
+const std::string_view kToldIdl =
+    "module indurop {\n"
+    "  struct Told {\n"
+    "    long long code;\n"
+    "    sequence<octet> bytes;\n"
+    "  };\n"
+    "};\n";
+
 void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr) {
   cdr.assign(kLittleEndian.begin(), kLittleEndian.end());
   const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof clock_ns>>(clock_ns);
@@ -55,6 +63,30 @@ Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr) {
   }
   std::copy_n(cdr.begin() + kLittleEndian.size(), bytes.size(), bytes.begin());
   return std::bit_cast<std::int64_t>(bytes);
+}
+
+void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr) {
+  to_cdr(told.code, cdr);
+  const auto length =
+      std::bit_cast<std::array<std::uint8_t, sizeof(std::uint32_t)>>(static_cast<std::uint32_t>(told.bytes.size()));
+  cdr.insert(cdr.end(), length.begin(), length.end());
+  cdr.insert(cdr.end(), told.bytes.begin(), told.bytes.end());
+}
+
+Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr) {
+  constexpr std::size_t kCodeEnd = kLittleEndian.size() + sizeof(std::int64_t);
+  std::array<std::uint8_t, sizeof(std::uint32_t)> length{};
+  const Error damaged{Errc::Corrupt, 0, "what a run of a recording was told"};
+  if (cdr.size() < kCodeEnd + length.size()) {
+    return damaged;
+  }
+  const auto code = clock_from_cdr(cdr.first(kCodeEnd));
+  std::copy_n(cdr.begin() + kCodeEnd, length.size(), length.begin());
+  const auto bytes = cdr.subspan(kCodeEnd + length.size());
+  if (!code || bytes.size() != std::bit_cast<std::uint32_t>(length)) {
+    return damaged;
+  }
+  return ToldWords{*code, bytes};
 }
 
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr) {

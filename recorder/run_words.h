@@ -34,6 +34,18 @@ void to_cdr(std::int64_t clock_ns, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.
 Result<std::int64_t> clock_from_cdr(std::span<const std::uint8_t> cdr);
 
+// What calls of shared functions and channels gave to runs: messages of the channel indurop/told, likewise.
+inline constexpr std::string_view kToldTopic = "indurop/told";
+inline constexpr std::string_view kToldSchema = "indurop::Told";
+extern const std::string_view kToldIdl;
+struct ToldWords {
+  std::int64_t code = 0;  // see tape::Told
+  std::span<const std::uint8_t> bytes;
+};
+void to_cdr(const ToldWords& told, std::vector<std::uint8_t>& cdr);
+// Points into `cdr`. Errors: Corrupt.
+Result<ToldWords> told_from_cdr(std::span<const std::uint8_t> cdr);
+
 void to_cdr(const RunWords& run, std::vector<std::uint8_t>& cdr);
 // Errors: Corrupt.
 Result<RunWords> run_from_cdr(std::span<const std::uint8_t> cdr);

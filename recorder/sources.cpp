@@ -40,6 +40,7 @@ ChannelPlace place_of(const Source& source, std::size_t number, const std::strin
   const std::string name = topic.substr(source.prefix.size());
   const ChannelKind kind = name == kRunsTopic    ? ChannelKind::Run
                            : name == kClockTopic ? ChannelKind::Clock
+                           : name == kToldTopic  ? ChannelKind::Told
                                                  : ChannelKind::Value;
   return {number, kind, name};
 }

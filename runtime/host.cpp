@@ -16,6 +16,8 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local tape::Track* t_track = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_reading = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_readings_end = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const ToldAnswer* t_answer = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const ToldAnswer* t_answers_end = nullptr;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 }  // namespace
@@ -38,6 +40,21 @@ std::int64_t read_clock() noexcept {
     t_track->clock(now);
   }
   return now;
+}
+
+void set_answers(std::span<const ToldAnswer> answers) noexcept {
+  t_answer = answers.data();
+  t_answers_end = answers.data() + answers.size();
+}
+
+const ToldAnswer* next_answer() noexcept {
+  return t_answer != t_answers_end ? t_answer++ : nullptr;
+}
+
+void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept {
+  if (t_track != nullptr) {
+    t_track->told(code, {static_cast<const std::uint8_t*>(bytes), size});
+  }
 }
 
 void set_current_module(std::uint32_t index) noexcept {

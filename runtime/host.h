@@ -34,6 +34,17 @@ void set_current_track(tape::Track* track) noexcept;
 void set_clock_readings(std::span<const std::int64_t> readings) noexcept;
 std::int64_t read_clock() noexcept;
 
+// Likewise what calls of shared functions and channels give it. As long as there are `answers`, they are what it gets;
+// functions are called nevertheless, for what they do.
+struct ToldAnswer {
+  std::int64_t code = 0;
+  std::span<const std::uint8_t> bytes;
+};
+void set_answers(std::span<const ToldAnswer> answers) noexcept;
+// Null: what really comes counts, and is told by note_answer().
+const ToldAnswer* next_answer() noexcept;
+void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept;
+
 // Binds every registered Ref of this process to `store` (borrowed) and remembers it for modules loaded later;
 // `run` (borrowed) carries messages and properties. Not real-time safe.
 // Returns one line per variable whose type in the store differs, or that the store lacks.

@@ -88,10 +88,23 @@ bool Follower::copy(const Place& place, std::uint64_t from, std::uint64_t count,
   return place.shared->claimed.load(kRelaxed) - from <= place.mask + 1;
 }
 
+// The words of a run stay where they are from now on.
+void Follower::point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const {
+  for (const auto& [entry, place] : found) {
+    const auto* const at = reinterpret_cast<const std::uint8_t*>(run.words.data() + place);
+    if (entry.kind == EntryKind::Told) {
+      run.told.push_back({static_cast<std::int64_t>(run.words[place]), {at + sizeof(std::uint64_t), entry.which}});
+    } else {
+      run.values.push_back({entry.kind, entry.which, {at, variables_[entry.which].size}});
+    }
+  }
+}
+
 Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const {
   run.words.clear();
   run.values.clear();
   run.clock.clear();
+  run.told.clear();
   run.module = place.module;
   std::vector<std::pair<EntryHead, std::size_t>> found;
   for (std::uint64_t at = place.at; at < head;) {
@@ -101,11 +114,14 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
     }
     const EntryHead entry = head_of(run.words[begin]);
     const bool is_run = entry.kind == EntryKind::Run;
-    const bool is_clock = entry.kind == EntryKind::Clock;
-    if (!is_run && !is_clock && entry.which >= variables_.size()) {
+    const bool is_value = !is_run && entry.kind != EntryKind::Clock && entry.kind != EntryKind::Told;
+    if (is_value && entry.which >= variables_.size()) {
       return Reading::Corrupt;
     }
-    const std::uint64_t words = is_run ? kRunWords : is_clock ? 1 : words_of(variables_[entry.which].size);
+    const std::uint64_t words = is_run                          ? kRunWords
+                                : is_value                      ? words_of(variables_[entry.which].size)
+                                : entry.kind == EntryKind::Told ? 1 + words_of(entry.which)
+                                                                : 1;
     if (at + 1 + words > head || words > place.mask) {
       return Reading::Corrupt;
     }
@@ -119,15 +135,10 @@ Follower::Reading Follower::read_run(const Place& place, std::uint64_t head, Run
       std::copy_n(run.words.begin() + static_cast<std::ptrdiff_t>(begin) + 1, kRunWords, tail.begin());
       run.tail = std::bit_cast<RunTail>(tail);
       length = at - place.at;
-      for (const auto& [value, place_of] : found) {
-        run.values.push_back(
-            {value.kind,
-             value.which,
-             {reinterpret_cast<const std::uint8_t*>(&run.words[place_of]), variables_[value.which].size}});
-      }
+      point_to(found, run);
       return Reading::Whole;
     }
-    if (is_clock) {
+    if (entry.kind == EntryKind::Clock) {
       run.clock.push_back(static_cast<std::int64_t>(run.words[begin + 1]));
     } else {
       found.emplace_back(entry, begin + 1);

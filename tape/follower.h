@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tape/layout.h"
@@ -22,12 +23,19 @@ struct Value {
   std::span<const std::uint8_t> bytes;
 };
 
+// What a call or a channel gave it.
+struct Told {
+  std::int64_t code = 0;  // kTooLongToTell: and nothing else is known
+  std::span<const std::uint8_t> bytes;
+};
+
 struct Run {
   std::uint32_t module = 0;  // index in the run block, or kOthers
   std::uint32_t flags = 0;
   RunTail tail;
   std::vector<Value> values;         // in the order of the track
   std::vector<std::int64_t> clock;   // what irp::now_ns() said to it
+  std::vector<Told> told;            // in the order of its calls
   std::vector<std::uint64_t> words;  // what the values point into
 };
 
@@ -71,6 +79,7 @@ class Follower {
 
   explicit Follower(vars::ShmFile&& file) : file_(std::move(file)) {}
   void find_tracks();
+  void point_to(const std::vector<std::pair<EntryHead, std::size_t>>& found, Run& run) const;
   Reading read_run(const Place& place, std::uint64_t head, Run& run, std::uint64_t& length) const;
   [[nodiscard]] static std::uint64_t oldest(const Place& place, std::uint64_t head) noexcept;
   // False: the words are not those of this place in the track any more.

@@ -16,7 +16,7 @@
 namespace indurop::tape {
 
 inline constexpr std::uint64_t kTapeMagic = 0x3145504154444e49ULL;  // "INDTAPE1"
-inline constexpr std::uint32_t kTapeAbi = 2;
+inline constexpr std::uint32_t kTapeAbi = 3;
 
 enum class EntryKind : std::uint32_t {
   Before = 1,  // value a run begins with
@@ -25,12 +25,13 @@ enum class EntryKind : std::uint32_t {
   Again,       // unchanged value, so that a reader who comes late learns all of them in time
   Run,         // the end of a run; kRunWords words
   Clock,       // what irp::now_ns() said to it; one word
+  Told,  // what a call of a shared function or the reading of a channel gave it: a word with the code, then the bytes
 };
 
 // First word of an entry. Behind it: the value's bytes, in whole words, or what Run says.
 struct EntryHead {
   EntryKind kind{};
-  std::uint32_t which = 0;  // index of a variable; of Run: RunFlags
+  std::uint32_t which = 0;  // index of a variable; of Run: RunFlags; of Told: how many bytes
 };
 static_assert(sizeof(EntryHead) == sizeof(std::uint64_t) && std::is_trivially_copyable_v<EntryHead>);
 
@@ -41,6 +42,10 @@ enum RunFlags : std::uint32_t {
 
 // More of one run are not told: it waits for something, or measures.
 inline constexpr int kMostReadings = 64;
+// Likewise, of what it was told. What is longer than the track can hold beside runs is there without its bytes.
+inline constexpr int kMostTold = 64;
+inline constexpr std::uint64_t kToldShare = 16;            // of a track's words, one run may use for that
+inline constexpr std::int64_t kTooLongToTell = INT64_MIN;  // as code
 
 // The words behind the head of Run.
 struct RunTail {

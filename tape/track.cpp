@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 #include "vars/ring.h"
@@ -110,6 +111,8 @@ void Track::begin() noexcept {
   all_ = all_ || open_;
   open_ = true;
   clock_left_ = kMostReadings;
+  told_left_ = kMostTold;
+  told_words_left_ = shared_.words / kToldShare;
   order_ = orders_.fetch_add(1, kRelaxed);
   for (std::size_t i = 0; i < reads_end_; ++i) {
     tell_changed(items_[i], EntryKind::Before, all_);
@@ -122,6 +125,24 @@ void Track::clock(std::int64_t ns) noexcept {
     claim(2);
     put_head(EntryKind::Clock, 0);
     put(static_cast<std::uint64_t>(ns));
+  }
+}
+
+void Track::told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept {
+  if (!open_ || told_left_ == 0) {
+    return;
+  }
+  --told_left_;
+  const std::uint64_t length = words_of(bytes.size());
+  const bool fits = 2 + length <= told_words_left_;
+  told_words_left_ -= fits ? 2 + length : 0;
+  claim(2 + (fits ? length : 0));
+  put_head(EntryKind::Told, fits ? static_cast<std::uint32_t>(bytes.size()) : 0);
+  put(static_cast<std::uint64_t>(fits ? code : kTooLongToTell));
+  for (std::size_t from = 0; fits && from < bytes.size(); from += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + from, std::min(sizeof word, bytes.size() - from));
+    put(word);
   }
 }
 

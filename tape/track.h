@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tape/layout.h"
@@ -24,6 +25,8 @@ class Track {
   void begin() noexcept;
   // The run was told this time. Real-time safe.
   void clock(std::int64_t ns) noexcept;
+  // A call or a channel gave it this. Real-time safe.
+  void told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
   // What it left; from then on readers see the run. Real-time safe.
   void end(const RunTail& times, std::uint32_t flags) noexcept;
   // A run that is only a look: nothing is written if nothing changed. Real-time safe.
@@ -60,7 +63,9 @@ class Track {
   std::uint64_t number_ = 0;
   std::uint64_t order_ = 0;
   std::size_t again_ = 0;
-  int clock_left_ = 0;               // readings of this run that may still be told
+  int clock_left_ = 0;  // readings of this run that may still be told
+  int told_left_ = 0;   // likewise
+  std::uint64_t told_words_left_ = 0;
   std::atomic<std::uint32_t> anew_;  // kAnew or 0
   bool all_ = true;                  // nothing was told yet, or what was told is not published
   bool open_ = false;                // a run has begun and not ended

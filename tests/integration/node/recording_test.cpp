@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
+#include "tests/support/wait_until.h"
+#include "vars/store.h"
 
 namespace indurop::test {
 namespace {
@@ -89,14 +91,39 @@ TEST_F(Recording, Tells_which_modules_were_started_anew) {
 
 TEST_F(Recording, Says_before_what_it_does_not_know) {
   ASSERT_EQ(run_to_end({{.file = "counter.so", .name = "counter"},
-                        {.file = "caller.so", .name = "caller"},
+                        {.file = "asker_process.exe", .name = "asker", .type = "process"},
                         {.file = "server.so", .name = "server"}},
                        {"--sim", "--until", "50ms", "--record", file()})
                 .code,
             0);
   const Outcome again = replay();
-  EXPECT_CONTAINS(again.err, "warning: module caller calls shared functions");
+  EXPECT_CONTAINS(again.err, "warning: module asker calls shared functions");
+  EXPECT_CONTAINS(again.err, "warning: module asker has channels");
   EXPECT_FALSE(contains(again.err, "module counter calls")) << again.err;
+}
+
+TEST_F(Recording, Gives_runs_what_functions_and_channels_gave_them) {
+  Program& sut = start_and_wait({{.file = "asker.so", .name = "asker"}, {.file = "dice.so", .name = "dice"}},
+                                {"--record", file()});
+  auto store = vars::Store::attach(node(), vars::Mode::ReadWrite);
+  ASSERT_TRUE(store.ok());
+  const auto* entry = store->find(abi::fnv1a64("nt::looks", 9));
+  ASSERT_NE(entry, nullptr);
+  // Nobody of the schedule writes it, and at any time.
+  std::uint64_t looks = 0;
+  ASSERT_TRUE(wait_until([&] {
+    for (int i = 0; i < 100; ++i) {
+      ++looks;
+      EXPECT_TRUE(store->write(*entry, 0, {reinterpret_cast<const std::uint8_t*>(&looks), sizeof looks}).ok());
+    }
+    return module("asker").runs.load() >= 500;
+  }));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_FALSE(contains(again.err, "warning: module asker")) << again.err;
 }
 
 TEST_F(Recording, Is_readable_when_the_node_was_killed) {

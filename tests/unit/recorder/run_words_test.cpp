@@ -28,11 +28,20 @@ TEST(RunWords, Come_back_as_they_were) {
   EXPECT_FALSE(run_from_cdr(cdr).ok());
   cdr.pop_back();
   EXPECT_FALSE(clock_from_cdr(cdr).ok());
+  const std::vector<std::uint8_t> bytes{1, 2, 3};
+  to_cdr(ToldWords{-7, bytes}, cdr);
+  const auto told = told_from_cdr(cdr);
+  ASSERT_TRUE(told.ok());
+  EXPECT_EQ(told->code, -7);
+  EXPECT_TRUE(std::equal(told->bytes.begin(), told->bytes.end(), bytes.begin(), bytes.end()));
+  cdr.pop_back();
+  EXPECT_FALSE(told_from_cdr(cdr).ok());
 }
 
 TEST(RunWords, A_sequence_number_says_whose_value_it_is_and_as_what) {
   for (const std::uint32_t module : {0U, 5U, kOthers}) {
-    for (const tape::EntryKind kind : {tape::EntryKind::Before, tape::EntryKind::Again, tape::EntryKind::Clock}) {
+    for (const tape::EntryKind kind :
+         {tape::EntryKind::Before, tape::EntryKind::Again, tape::EntryKind::Clock, tape::EntryKind::Told}) {
       const ValueWords back = from_sequence(to_sequence({module, kind}));
       EXPECT_EQ(back.module, module);
       EXPECT_EQ(back.kind, kind);

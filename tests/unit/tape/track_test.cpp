@@ -39,6 +39,8 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   plant.put<double>("c", 1.5);
   plant.put<std::uint8_t>("a", 4);  // somebody else does
   sut.clock(12345);
+  sut.told(-3, {});
+  sut.told(5, std::vector<std::uint8_t>{9, 8, 7, 6, 5, 4, 3, 2, 1});
   EXPECT_FALSE(reader.next(0, run)) << "it has not ended";
   sut.end(Plant::at(17), kFaulted);
   ASSERT_TRUE(reader.next(0, run));
@@ -48,6 +50,12 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   EXPECT_EQ(run.tail.number, 0U);
   EXPECT_EQ(run.tail.end_ns, 17'000'009);
   EXPECT_THAT(run.clock, testing::ElementsAre(12345));
+  ASSERT_EQ(run.told.size(), 2U);
+  EXPECT_EQ(run.told[0].code, -3);
+  EXPECT_TRUE(run.told[0].bytes.empty());
+  EXPECT_EQ(run.told[1].code, 5);
+  EXPECT_THAT(std::vector<std::uint8_t>(run.told[1].bytes.begin(), run.told[1].bytes.end()),
+              testing::ElementsAre(9, 8, 7, 6, 5, 4, 3, 2, 1));
   std::vector<std::tuple<EntryKind, std::uint32_t, std::vector<std::uint8_t>>> told;
   for (const Value& value : run.values) {
     told.emplace_back(value.kind, value.variable, std::vector<std::uint8_t>(value.bytes.begin(), value.bytes.end()));
@@ -64,6 +72,26 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   EXPECT_GT(run.tail.order, 0U);
   ASSERT_EQ(run.values.size(), 1U);
   EXPECT_EQ(run.values[0].kind, EntryKind::Again);
+}
+
+TEST(Track, What_a_run_is_told_is_bounded_and_what_is_too_long_is_named) {
+  Plant plant("toldmuch", {{"a", ""}});
+  Track& sut = plant.track(0);
+  Follower reader = plant.follow();
+  const std::vector<std::uint8_t> large(1U << 20U, 7);
+  sut.told(0, large);  // no run
+  sut.begin();
+  sut.told(1, large);
+  for (int i = 0; i < 2 * kMostTold; ++i) {
+    sut.told(i, {});
+  }
+  sut.end(Plant::at(1), 0);
+  tape::Run run;
+  ASSERT_TRUE(reader.next(0, run));
+  ASSERT_EQ(run.told.size(), static_cast<std::size_t>(kMostTold));
+  EXPECT_EQ(run.told[0].code, kTooLongToTell);
+  EXPECT_TRUE(run.told[0].bytes.empty());
+  EXPECT_EQ(run.told[1].code, 0);
 }
 
 TEST(Track, A_run_that_never_ended_is_told_whole_by_the_next) {
