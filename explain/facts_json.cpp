@@ -118,6 +118,7 @@ Json list_of(const std::vector<Fact>& facts, Fields fields) {
 
 template <class Fact, class Fields>
 void read_list(const Json& list, std::vector<Fact>& to, Fields fields) {
+  to.clear();  // a recording has two such texts, of its begin and of its end: the later one counts
   for (const Json& one : list.values()) {
     Fact fact;
     fields(Reader(one), fact);
@@ -143,7 +144,6 @@ bool read_facts(std::string_view text, Facts& facts) {
     return false;
   }
   kOwn(Reader(*json), facts);
-  facts.modules.clear();
   read_list((*json)["modules"], facts.modules, kModule);
   read_list((*json)["orders"], facts.orders, kOrder);
   read_list((*json)["kernel"], facts.kernel, kKernel);

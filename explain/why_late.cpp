@@ -271,9 +271,10 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
     }
   }
   std::sort(ran.begin(), ran.end());
-  // The tick that has just begun may be under way.
+  // The tick that has just begun may be under way, and a run that still has time be to come.
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > facts.first_tick;) {
-    if (due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
+    const bool over = facts.release_of(tick) + limit <= facts.now_ns;
+    if (over && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
       return last == kNone ? tick : std::max(last, tick);
     }
   }

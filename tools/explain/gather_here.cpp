@@ -67,6 +67,9 @@ void add_tape(const std::string& node, const vars::Store& store, const std::stri
 
 Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std::int64_t now_ns) {
   Facts facts = explain::facts_of(run.block(), with_runs);
+  if (facts.stop_reason.empty() && !run.node_alive()) {
+    facts.stop_reason = "its process died in the middle of its work";
+  }
   add_mirror(node, facts);
   facts.orders = explain::read_orders(node, run.block().started_wall_ns);
   facts.now_ns = now_ns;

@@ -21,6 +21,7 @@
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
 #include "tools/explain/gather.h"
+#include "tools/values/mirror_view.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
@@ -52,6 +53,9 @@ recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
   about.node = chosen.node;
   about.config = fixed_text(run.config_file);
   about.deployment = fixed_text(run.deployment);
+  if (const auto mirror = view_mirror(chosen.node)) {
+    about.board = mirror->board;
+  }
   about.basic_period_ns = run.basic_period_ns;
   about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
   for (std::uint32_t i = 0; i < chosen.run.module_count(); ++i) {

@@ -68,6 +68,8 @@ bool is_right(const Answer& answer, const Injection& injection) {
       return answer.cause == Cause::Stopped && answer.culprit == injection.by;
     case What::MachineStands:
       return answer.cause == Cause::Machine;
+    case What::PageFault:
+      return answer.cause == Cause::Machine && answer.culprit == "page fault";
     case What::Nothing:
       return answer.cause == Cause::AllIsWell;
   }
@@ -139,6 +141,7 @@ TEST(ExplainFaults, The_injected_culprit_is_named_and_never_another_one) {
       {"an event", What::Event, false, 500, 3000},
       {"a fault", What::Throws, true, 0, 0},
       {"stopped by somebody", What::Stopped, true, 0, 0},
+      {"a page that came from the disk", What::PageFault, true, 700, 5000},
       {"the machine stands still for a moment", What::MachineStands, false, 700, 1500},
       {"the machine stands still for long", What::MachineStands, false, 3000, 20'000},
   };

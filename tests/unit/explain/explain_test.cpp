@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "explain/facts_json.h"
+
 namespace indurop::explain {
 namespace {
 
@@ -51,6 +53,31 @@ TEST(Explain, A_module_that_is_not_due_is_told_when_it_is) {
   const Answer sut = why_late(facts, "slow", 42);
   EXPECT_EQ(sut.cause, Cause::NotDue);
   EXPECT_THAT(sut.text, HasSubstr("next in tick 50"));
+}
+
+TEST(Explain, What_is_said_at_the_end_of_a_recording_counts_not_what_was_at_its_begin) {
+  Facts read;
+  ASSERT_TRUE(read_facts(facts_text(reader("alive", 1000 * kMs)), read));
+  ASSERT_TRUE(read_facts(facts_text(reader("silent", 2000 * kMs)), read));
+  ASSERT_EQ(read.boards.size(), 1U);
+  EXPECT_EQ(read.boards[0].state, "silent");
+  EXPECT_EQ(read.modules.size(), 1U);
+}
+
+TEST(Explain, A_run_that_still_has_time_is_no_trouble) {
+  Facts facts = board("here", 1000);
+  facts.alive = true;
+  facts.modules.push_back(periodic("slow", 20 * kMs));
+  for (std::uint64_t tick = 0; tick <= 960; tick += 20) {
+    const auto release = static_cast<std::int64_t>(tick) * kMs;
+    facts.runs.push_back({1, tick, release, release, release + 1000, false});
+  }
+  facts.tick = 999;
+  facts.now_ns = 999 * kMs;
+  EXPECT_EQ(last_trouble(facts, "slow"), kNone) << "that of tick 980 may come until 1000";
+  facts.tick = 1001;
+  facts.now_ns = 1001 * kMs;
+  EXPECT_EQ(last_trouble(facts, "slow"), 980U);
 }
 
 TEST(Explain, What_is_not_known_is_said_with_its_reason) {

@@ -23,6 +23,7 @@ struct World {
   std::uint32_t running = 0;
   std::int64_t due_ns = 0;  // of the injection
   bool done = false;
+  std::int64_t done_ns = 0;  // when a page came from the disk
 };
 World* g_world = nullptr;
 
@@ -35,8 +36,9 @@ void run_module() {
   if (world.running != world.injection->module || !is_time()) {
     return;
   }
-  if (world.injection->what == What::Longer) {
+  if (world.injection->what == What::Longer || world.injection->what == What::PageFault) {
     world.done = true;
+    world.done_ns = rt::to_ns(world.kernel->now());
     world.kernel->work(world.injection->for_ns);
   } else if (world.injection->what == What::Throws) {
     world.done = true;
@@ -58,7 +60,7 @@ void connect(std::vector<Task>& tasks) {
 }
 
 // As the node's own looks at the kernel's counters would have it: every 20 ms, by core.
-void add_kernel(Facts& facts, const Injection& injection, std::int64_t due_ns) {
+void add_kernel(Facts& facts, const Injection& injection, std::int32_t its_core, std::int64_t due_ns) {
   constexpr std::int64_t kLook = 20 * kBasic;
   const Span stood{due_ns - 1000, due_ns - 1000 + (injection.what == What::MachineStands ? injection.for_ns : 0)};
   facts.kernel_from_ns = facts.epoch_ns - kLook / 3;
@@ -72,7 +74,9 @@ void add_kernel(Facts& facts, const Injection& injection, std::int64_t due_ns) {
       fact.thread = "irp-tick-0";
       fact.waited_ns =
           core == 0 ? Span{std::max(from, stood.from_ns), std::min(from + kLook, stood.to_ns)}.length() : 0;
-      if (fact.waited_ns > 0) {
+      const std::int64_t paged = g_world->done_ns;
+      fact.major_faults = injection.what == What::PageFault && core == its_core && from <= paged && paged < fact.to_ns;
+      if (fact.waited_ns > 0 || fact.major_faults > 0) {
         facts.kernel.push_back(fact);
       }
     }
@@ -84,7 +88,7 @@ Facts facts_after(const scheduler::RunBlock& block, const std::vector<Task>& tas
   Facts facts = facts_of(block, true);
   facts.is_virtual = false;
   facts.realtime = true;
-  add_kernel(facts, injection, due_ns);
+  add_kernel(facts, injection, tasks[injection.module].core, due_ns);
   facts.board = "here";
   facts.now_ns = rt::to_ns(g_world->kernel->now());
   for (std::size_t i = 0; i < tasks.size(); ++i) {

@@ -20,7 +20,7 @@ inline constexpr std::uint64_t kTicks = 120;
 
 // What is wrong.
 struct Injection {
-  enum class What { Nothing, Longer, Throws, Event, MachineStands, Stopped };
+  enum class What { Nothing, Longer, Throws, Event, MachineStands, Stopped, PageFault };
   What what = What::Nothing;
   std::uint32_t module = 0;
   std::uint64_t tick = 0;   // its first run from here on
