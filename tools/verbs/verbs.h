@@ -7,6 +7,7 @@
 
 namespace indurop::tools {
 
+extern const Verb kAgeVerb;
 extern const Verb kAlarmsVerb;
 extern const Verb kBlackboxVerb;
 extern const Verb kBoardsVerb;
