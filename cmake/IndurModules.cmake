@@ -104,15 +104,15 @@ function(indurop_add_module name)
 endfunction()
 
 # indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] [NAMESPACE <name>] [DIALECT iec|codesys]
-#   [REAL_DIVISION fault|infinity] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])
+#   [REAL_DIVISION fault|infinity] [TASKS <task> ...] [SHOW_LOCALS] [WATCH] [COVERAGE])
 # A PLC program (IEC 61131-3) as thread module <name>.so. A program with several tasks names them: each becomes a module
 # <name>_<task>.so. GLB: the indurop_add_glb target whose variables the program uses. Other modules get those and the
 # program's own variables from the target <name>_variables.
 function(indurop_add_plc name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH" "GLB;NAMESPACE;DIALECT;REAL_DIVISION" "SOURCES;TASKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHOW_LOCALS;WATCH;COVERAGE" "GLB;NAMESPACE;DIALECT;REAL_DIVISION" "SOURCES;TASKS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_SOURCES)
     message(FATAL_ERROR "indurop_add_plc(${name}): usage: indurop_add_plc(<name> SOURCES prog.st ... [GLB <target>] "
-      "[NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...] [SHOW_LOCALS] [WATCH])")
+      "[NAMESPACE <name>] [DIALECT iec|codesys] [TASKS <task> ...] [SHOW_LOCALS] [WATCH] [COVERAGE])")
   endif()
   if(arg_GLB AND NOT TARGET ${arg_GLB})
     message(FATAL_ERROR "indurop_add_plc(${name}): '${arg_GLB}' is no target; call indurop_add_glb(${arg_GLB} FILES ...) first")
@@ -133,6 +133,9 @@ function(indurop_add_plc name)
   endif()
   if(arg_WATCH)
     list(APPEND options --watch)
+  endif()
+  if(arg_COVERAGE)
+    list(APPEND options --coverage)
   endif()
   set(glb_files "")
   if(arg_GLB)

@@ -37,27 +37,15 @@ class ModuleEmitter {
     if (program_.types.has_aliases()) {
       out_.line("#pragma GCC optimize(\"no-strict-aliasing\")  // pointers lead to values of other types");
     }
-    out_.line("#include <indurop/indurop.h>");
-    out_.line("#include <indurop/plc/library.h>");
-    out_.line("#include <indurop/plc/program.h>");
-    if (options_.watch) {
-      out_.line("#include <indurop/plc/watch.h>");
-    }
-    if (options_.debug != nullptr) {
-      out_.line("#include <indurop/plc/debug.h>");
-    }
-    out_.line("#define INDUROP_LEAF ::indurop::iec::SharedNumber");
-    out_.line("#include <indurop/generated.h>");
-    out_.line();
-    out_.line("#include <array>");
-    out_.line("#include <cstdint>");
-    out_.line("#include <limits>");
-    out_.line();
+    includes();
     out_.line("namespace {");
     out_.line("namespace iec = indurop::iec;");
     out_.line();
     types();
     image();
+    if (options_.probes.coverage != nullptr) {
+      out_.line("extern iec::Coverage plc_coverage;");
+    }
     out_.line("namespace plc {");
     private_globals(Global::Kind::Fixed);
     for (const Pou* pou : use_.pous) {
@@ -67,14 +55,14 @@ class ModuleEmitter {
     if (std::any_of(use_.pous.begin(), use_.pous.end(), [](const Pou* one) { return one->called_unseen; })) {
       out_.line("int calls_inside = 0;  // of methods, where a call may lead to itself");
     }
-    if (options_.watch || options_.debug != nullptr) {
+    if (options_.watch || options_.probes.debug != nullptr) {
       emit_watched(use_.pous, out_);
     }
-    if (options_.debug != nullptr) {
+    if (options_.probes.debug != nullptr) {
       out_.line("extern iec::Debugger debugger;");
     }
     for (const Pou* pou : use_.pous) {
-      define_pou(*pou, out_, options_.debug);
+      define_pou(*pou, out_, options_.probes);
     }
     out_.line("}  // namespace plc");
     out_.line();
@@ -83,6 +71,7 @@ class ModuleEmitter {
       emit_watch(task_, program_.space, out_);
     }
     debugger();
+    coverage();
     emit_exchange(use_, globals_, out_);
     define_start();
     out_.line("}  // namespace");
@@ -92,6 +81,28 @@ class ModuleEmitter {
   }
 
  private:
+  void includes() {
+    out_.line("#include <indurop/indurop.h>");
+    out_.line("#include <indurop/plc/library.h>");
+    out_.line("#include <indurop/plc/program.h>");
+    if (options_.watch) {
+      out_.line("#include <indurop/plc/watch.h>");
+    }
+    if (options_.probes.debug != nullptr) {
+      out_.line("#include <indurop/plc/debug.h>");
+    }
+    if (options_.probes.coverage != nullptr) {
+      out_.line("#include <indurop/plc/coverage.h>");
+    }
+    out_.line("#define INDUROP_LEAF ::indurop::iec::SharedNumber");
+    out_.line("#include <indurop/generated.h>");
+    out_.line();
+    out_.line("#include <array>");
+    out_.line("#include <cstdint>");
+    out_.line("#include <limits>");
+    out_.line();
+  }
+
   // What pointers lead to may come later.
   void announce() {
     for (const Type* type : program_.named_types) {
@@ -196,10 +207,10 @@ class ModuleEmitter {
   }
 
   void debugger() {
-    if (options_.debug == nullptr) {
+    if (options_.probes.debug == nullptr) {
       return;
     }
-    DebugTable& table = *options_.debug;
+    DebugTable& table = *options_.probes.debug;
     emit_globals(globals_, table, out_);
     std::string text;
     for (const DebugTable::Line& one : table.lines) {
@@ -212,6 +223,24 @@ class ModuleEmitter {
     }
     table.mark = abi::fnv1a64(text.data(), text.size());
     out_.line(fmt::format("iec::Debugger plc::debugger{{{}, {}U}};", quoted(options_.name), table.mark));
+    out_.line();
+  }
+
+  void coverage() {
+    if (options_.probes.coverage == nullptr) {
+      return;
+    }
+    const CoverageTable& table = *options_.probes.coverage;
+    const std::string text = to_text(table);
+    out_.line("constexpr char coverage_text[] =");
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t end = text.find('\n', from) + 1;
+      out_.line("    " + quoted(text.substr(from, end - from)));
+      from = end;
+    }
+    out_.line(
+        fmt::format("    \"\";\niec::Coverage plc_coverage{{{}, {}, {{coverage_text, sizeof coverage_text - 1}}}};",
+                    quoted(options_.name), table.counters));
     out_.line();
   }
 
@@ -255,7 +284,7 @@ class ModuleEmitter {
   }
 
   void run_programs() {
-    const bool debug = options_.debug != nullptr;
+    const bool debug = options_.probes.debug != nullptr;
     if (debug) {
       out_.open("try");
     }
@@ -289,8 +318,9 @@ class ModuleEmitter {
     if (!use_.restored.empty()) {
       out_.line("restore(scan);");
     }
-    if (options_.debug != nullptr) {
-      out_.line(fmt::format("plc::debugger.begin(scan.time_ns, {}, &debug_globals);", options_.debug->globals.bytes));
+    if (options_.probes.debug != nullptr) {
+      out_.line(
+          fmt::format("plc::debugger.begin(scan.time_ns, {}, &debug_globals);", options_.probes.debug->globals.bytes));
     }
     if (!start_.empty()) {
       out_.line("start();");

@@ -6,16 +6,16 @@
 #include <string>
 
 #include "plc/check/program.h"
-#include "plc/emit/debug_table.h"
+#include "plc/emit/probes.h"
 
 namespace indurop::plc {
 
 struct ModuleOptions {
-  std::string name;             // of the module
-  std::string sources;          // "prog.st, more.st", for the comment
-  bool show_locals = false;     // variables of programs are shared variables too
-  bool watch = false;           // tells a running view about all variables
-  DebugTable* debug = nullptr;  // tells a debugger where it is; what its numbers mean goes in here
+  std::string name;          // of the module
+  std::string sources;       // "prog.st, more.st", for the comment
+  bool show_locals = false;  // variables of programs are shared variables too
+  bool watch = false;        // tells a running view about all variables
+  Probes probes;             // what its bodies tell a debugger, or count
 };
 
 [[nodiscard]] std::string emit_module(const Program& program, const TaskPlan& task, const ModuleOptions& options);

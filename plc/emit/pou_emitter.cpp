@@ -90,11 +90,11 @@ void declare_block(const Pou& pou, TextWriter& out) {
 }
 
 // Statements, from the place on where all variables are known.
-void code(const Pou& pou, const BodyParts& parts, TextWriter& out, DebugTable* debug) {
-  if (debug != nullptr) {
-    emit_frame(pou, *debug, out);
+void code(const Pou& pou, const BodyParts& parts, TextWriter& out, const Probes& probes) {
+  if (probes.debug != nullptr) {
+    emit_frame(pou, *probes.debug, out);
   }
-  StatementEmitter statements(pou, out, debug);
+  StatementEmitter statements(pou, out, probes);
   for (const BodyParts::Part& part : parts.parts()) {
     if (part.alone) {
       out.open("[&]() __attribute__((noinline))");
@@ -109,11 +109,11 @@ void code(const Pou& pou, const BodyParts& parts, TextWriter& out, DebugTable* d
   }
 }
 
-void define_block(const Pou& pou, TextWriter& out, DebugTable* debug) {
-  const BodyParts parts(pou, debug == nullptr);
+void define_block(const Pou& pou, TextWriter& out, const Probes& probes) {
+  const BodyParts parts(pou, probes.debug == nullptr);
   out.open(fmt::format("inline void {}::operator()([[maybe_unused]] const iec::Scan& scan)", cpp_name_of(pou)));
   locals(pou, parts, out);
-  code(pou, parts, out, debug);
+  code(pou, parts, out, probes);
   out.close();
 }
 
@@ -124,7 +124,7 @@ std::string head(const Pou& pou) {
 }
 
 // Functions and methods: their variables are those of the call.
-void define_callable(const Pou& pou, TextWriter& out, DebugTable* debug) {
+void define_callable(const Pou& pou, TextWriter& out, const Probes& probes) {
   out.open((pou.owner != nullptr ? "inline " : "") + head(pou));
   if (pou.called_unseen) {
     out.line(fmt::format("const iec::Call guard_call(calls_inside, {});", cpp_place(pou.tree->at, pou.title())));
@@ -148,7 +148,7 @@ void define_callable(const Pou& pou, TextWriter& out, DebugTable* debug) {
     }
   }
   code(pou, BodyParts(pou, false), out,
-       pou.name.starts_with('@') ? nullptr : debug);  // it stands in no line of the user
+       pou.name.starts_with('@') ? Probes{} : probes);  // it stands in no line of the user
   if (pou.result != nullptr) {
     out.line(fmt::format("return {};", ExpressionEmitter::result_name(pou)));
   }
@@ -167,17 +167,17 @@ void declare_pou(const Pou& pou, TextWriter& out) {
   }
 }
 
-void define_pou(const Pou& pou, TextWriter& out, DebugTable* debug) {
+void define_pou(const Pou& pou, TextWriter& out, const Probes& probes) {
   const bool inside = pou.owner != nullptr && pou.owner->tree->kind == ast::Pou::Kind::Interface;
   const bool has_body = !pou.tree->is_abstract && !inside;
   if (pou.is_callable()) {
     if (has_body) {
       out.line();
-      define_callable(pou, out, debug);
+      define_callable(pou, out, probes);
     }
   } else if (pou.tree->kind != ast::Pou::Kind::Interface && pou.tree->kind != ast::Pou::Kind::Class) {
     out.line();
-    define_block(pou, out, debug);
+    define_block(pou, out, probes);
   }
 }
 

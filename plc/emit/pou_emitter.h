@@ -5,13 +5,12 @@
 #pragma once
 
 #include "plc/check/program.h"
-#include "plc/emit/debug_table.h"
+#include "plc/emit/probes.h"
 #include "plc/emit/text_writer.h"
 
 namespace indurop::plc {
 
 void declare_pou(const Pou& pou, TextWriter& out);
-// `debug`: its statements tell a debugger where they are; the table gets their numbers.
-void define_pou(const Pou& pou, TextWriter& out, DebugTable* debug = nullptr);
+void define_pou(const Pou& pou, TextWriter& out, const Probes& probes);
 
 }  // namespace indurop::plc

@@ -34,6 +34,10 @@ std::optional<std::uint64_t> flow_point(const Statement& one) {
                                             : std::nullopt;
 }
 
+bool is_coil(const Place& at) {
+  return at.within && at.within->find(", coil ") != std::string::npos;
+}
+
 Type without_range(const Type& type) {
   Type plain = type;
   plain.range.reset();
@@ -73,10 +77,24 @@ std::size_t StatementEmitter::flow(std::span<const Statement> body) {
 }
 
 void StatementEmitter::tell_line(const Statement& one) {
-  if (debug_ != nullptr && one.kind != Statement::Kind::Empty && one.kind != Statement::Kind::Label) {
-    out_.line(fmt::format("debugger.line({});", debug_->lines.size()));
-    debug_->lines.push_back({one.at, &pou_});
+  if (one.kind == Statement::Kind::Empty || one.kind == Statement::Kind::Label) {
+    return;
   }
+  if (probes_.debug != nullptr) {
+    out_.line(fmt::format("debugger.line({});", probes_.debug->lines.size()));
+    probes_.debug->lines.push_back({one.at, &pou_});
+  }
+  if (probes_.coverage != nullptr && one.at.file) {
+    out_.line(fmt::format("::plc_coverage.hit({});",
+                          probes_.coverage->add(CoverageTable::Kind::Statement, one.at, pou_.title())));
+  }
+}
+
+std::string StatementEmitter::counted(CoverageTable::Kind kind, const Place& at, std::string condition) const {
+  if (probes_.coverage == nullptr || !at.file) {
+    return condition;
+  }
+  return fmt::format("::plc_coverage.outcome({}, {})", probes_.coverage->add(kind, at, pou_.title()), condition);
 }
 
 void StatementEmitter::comment(const std::string& text) {
@@ -182,7 +200,14 @@ void StatementEmitter::assign(const Statement& one) {
                           expressions_.variable(*one.value)));
     return;
   }
-  const auto store = [&] { out_.line(expressions_.assign(*one.target, expressions_.value(*one.value, to)) + ";"); };
+  const auto store = [&] {
+    const std::string value = expressions_.value(*one.value, to);
+    const bool coil = is_coil(one.target->at) && one.value->kind != Expression::Kind::Literal &&
+                      to.kind == Type::Kind::Elementary && to.elementary == Elementary::Bool;
+    out_.line(
+        expressions_.assign(*one.target, coil ? counted(CoverageTable::Kind::Coil, one.target->at, value) : value) +
+        ";");
+  };
   if (one.value->kind == Expression::Kind::Call) {
     enabled(*one.value, store);
   } else {
@@ -230,14 +255,26 @@ void StatementEmitter::block_call(const Expression& call) {
 
 void StatementEmitter::if_statement(const Statement& one) {
   bool first = true;
+  // A coil that sets or resets; what it does is counted with its power.
+  const bool coil = one.branches.size() == 1 && one.branches[0].body.size() == 1 &&
+                    one.branches[0].body[0].kind == Statement::Kind::Assign &&
+                    is_coil(one.branches[0].body[0].target->at);
   for (const ast::Branch& branch : one.branches) {
+    const Place& at = coil ? branch.body[0].target->at : branch.at;
+    const std::string test = branch.condition ? counted(coil ? CoverageTable::Kind::Coil : CoverageTable::Kind::Branch,
+                                                        at, condition(*branch.condition))
+                                              : std::string();
     if (first) {
-      out_.open(fmt::format("if ({})", condition(*branch.condition)));
+      out_.open(fmt::format("if ({})", test));
     } else {
-      out_.reopen(branch.condition ? fmt::format("else if ({})", condition(*branch.condition)) : "else");
+      out_.reopen(branch.condition ? fmt::format("else if ({})", test) : "else");
     }
     first = false;
-    list(branch.body);
+    if (coil) {
+      statement(branch.body[0]);
+    } else {
+      list(branch.body);
+    }
   }
   out_.close();
 }
@@ -279,7 +316,7 @@ void StatementEmitter::for_statement(const Statement& one) {
   const bool narrow = bits_of(one.target->type->elementary) < 64;
   const bool plain = resolved.meaning == Resolved::Meaning::Variable && !one.target->type->range &&
                      resolved.variable->section != ast::Section::InOut;
-  if (debug_ == nullptr && step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
+  if (probes_.debug == nullptr && step != 0 && narrow && plain && only_reads(one.body, *resolved.variable)) {
     counted_loop(one, step);
   } else {
     general_loop(one);

@@ -6,22 +6,24 @@
 #include <span>
 #include <string>
 
-#include "plc/emit/debug_table.h"
 #include "plc/emit/expression_emitter.h"
+#include "plc/emit/probes.h"
 #include "plc/emit/text_writer.h"
 
 namespace indurop::plc {
 
 class StatementEmitter {
  public:
-  StatementEmitter(const Pou& pou, TextWriter& out, DebugTable* debug)
-      : pou_(pou), out_(out), debug_(debug), expressions_(pou) {}
+  StatementEmitter(const Pou& pou, TextWriter& out, const Probes& probes)
+      : pou_(pou), out_(out), probes_(probes), expressions_(pou) {}
 
   void list(std::span<const ast::Statement> body);
 
  private:
   std::size_t flow(std::span<const ast::Statement> body);
   void tell_line(const ast::Statement& one);
+  // `condition`, whose outcome is counted.
+  [[nodiscard]] std::string counted(CoverageTable::Kind kind, const Place& at, std::string condition) const;
   void statement(const ast::Statement& one);
   void assign(const ast::Statement& one);
   void call(const ast::Expression& call);
@@ -40,7 +42,7 @@ class StatementEmitter {
 
   const Pou& pou_;
   TextWriter& out_;
-  DebugTable* debug_;
+  Probes probes_;
   ExpressionEmitter expressions_;
   int loops_ = 0;  // numbers their helpers
 };

@@ -73,9 +73,9 @@ class Compiler {
       const bool only = program->tasks.size() == 1;
       ModuleText module;
       module.name = only ? out_.name : out_.name + "_" + (task.name.empty() ? "default" : task.name);
-      module.cpp = emit_module(
-          *program, task,
-          {module.name, sources, options_.show_locals, options_.watch, options_.debug ? &module.debug : nullptr});
+      CoverageTable coverage;
+      const Probes probes{options_.debug ? &module.debug : nullptr, options_.coverage ? &coverage : nullptr};
+      module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals, options_.watch, probes});
       module.period_ns = task.periodic ? task.interval_ns : 0;
       module.priority = task.priority;
       out_.modules.push_back(std::move(module));

@@ -27,6 +27,7 @@ struct CompileOptions {
   bool infinite_division = false;  // a REAL divided by zero is infinite or NaN, else a fault
   bool watch = false;              // modules tell `indurop plc watch` about their variables
   bool debug = false;              // modules can be stopped by `indurop plc debug`
+  bool coverage = false;           // modules count how often their statements run
 };
 
 struct ModuleText {

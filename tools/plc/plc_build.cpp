@@ -240,6 +240,9 @@ void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
               "Let `indurop plc watch` see its variables and the power in its networks");
   build->flag("--debug", request->compile.debug,
               "Let `indurop plc debug` stop it at any line; only for simulations, it is slow");
+  build->flag("--coverage", request->compile.coverage,
+              "Count how often its statements run, for `indurop plc coverage`; the counters go to the folder that "
+              "INDUROP_PLC_COVERAGE names");
   build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
   verb("check", "Say what is wrong with a program", &check_plc);
   base::Options* lib = verb("lib", "Make a library (.plclib) of files without a PROGRAM, for --lib", &build_library);

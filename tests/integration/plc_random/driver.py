@@ -143,14 +143,15 @@ def check_export(build, folder):
         raise Failed("exported and read again it is other code:\n" + "\n".join(list(difflib.unified_diff(before, after, n=0))[:20]))
 
 
-def compile_batch(build, folder, programs, optimize):
-    """The path of a program that runs all of them."""
+def compile_batch(build, folder, programs, optimize, coverage=False):
+    """The path of a program that runs all of them, and counts what of them if that is wanted."""
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, "batch.st"), "w", encoding="latin-1") as file:
         for program in programs:
             file.write("\n".join(program.text()) + "\n")
-    checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet"], folder)
-    if not any(program.starts for program in programs):
+    counting = ["--coverage"] if coverage else []
+    checked_call([os.path.join(build, "bin/indurop"), "plc", "build", "batch.st", "--only-sources", "--quiet", *counting], folder)
+    if not coverage and not any(program.starts for program in programs):
         check_export(build, folder)
     checked_call([os.path.join(build, "bin/glb2idl"), "--out-dir", ".", "batch.glb"], folder)
     with open(os.path.join(folder, "driver.cpp"), "w", encoding="utf-8") as file:
@@ -165,7 +166,7 @@ def compile_batch(build, folder, programs, optimize):
 
 def results(path, folder):
     """By program: [(fault, [values])] of its scans."""
-    environment = dict(os.environ, INDUROP_NODE="plcrandom-none")
+    environment = dict(os.environ, INDUROP_NODE="plcrandom-none", INDUROP_PLC_COVERAGE=folder)
     done = subprocess.run([path], cwd=folder, capture_output=True, text=True, env=environment, timeout=300)
     if done.returncode != 0:
         raise Failed(f"the programs ended with {done.returncode}: {done.stderr[:2000]}")
@@ -174,3 +175,11 @@ def results(path, folder):
         name, fault, *values = line.split("\t")
         out.setdefault(name, []).append((fault, values))
     return out
+
+
+def counted_lines(build, folder):
+    """By line of the text: how often it ran, as `indurop plc coverage` says."""
+    checked_call([os.path.join(build, "bin/indurop"), "plc", "coverage", ".", "--lcov", "batch.info", "--quiet"], folder)
+    with open(os.path.join(folder, "batch.info"), encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    return {int(line): int(count) for line, count in (one[3:].split(",") for one in lines if one.startswith("DA:"))}

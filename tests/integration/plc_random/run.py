@@ -8,10 +8,12 @@ where that is set. A difference is printed with its program; --only SEED makes t
 import argparse
 import concurrent.futures
 import os
+import re
 import sys
 import tempfile
 
-from driver import Failed, compile_batch, observed, results, shown
+import tree
+from driver import Failed, compile_batch, counted_lines, observed, results, shown
 from program import Program
 
 
@@ -47,6 +49,33 @@ def check_batch(build, folder, seeds, optimize):
     return [one for one in all_found if one[2]]
 
 
+def check_counts(build, folder, seeds, optimize):
+    """Lines that ran more or less often than they did in the interpreter. What a fault ends is left out."""
+    programs = [Program(seed, number) for number, seed in enumerate(seeds)]
+    results(compile_batch(build, folder, programs, optimize, coverage=True), folder)
+    counted = counted_lines(build, folder)
+    bad, compared, line = [], 0, 0
+    for one in programs:
+        before = list(tree.counts)
+        faults = [fault for fault, _ in one.scans()]
+        found = []
+        for text in one.text():
+            line += 1
+            mark = re.search(r"\(\*#(\d+)\*\)", text)
+            if mark is None or any(faults):
+                continue
+            number = int(mark.group(1))
+            expected = tree.counts[number] - before[number]
+            compared += 1
+            if counted.get(line, 0) != expected:  # what nobody calls is not in the module
+                found.append(f"line {line} ran {counted.get(line)} times, expected {expected}: {text.strip()}")
+        if found:
+            bad.append((one.seed, one.text(), found))
+    if not compared:
+        bad.append((0, [], ["nothing was compared"]))
+    return bad
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--build", required=True)
@@ -56,13 +85,14 @@ def main():
     parser.add_argument("--only", type=int)
     parser.add_argument("--optimize", default=os.environ.get("INDUROP_PLC_OPTIMIZE", "-O0"))
     parser.add_argument("--keep", default="")
+    parser.add_argument("--coverage", action="store_true", help="compare how often lines run, instead of values")
     options = parser.parse_args()
     seeds = [options.only] if options.only is not None else list(range(options.seed, options.seed + options.count))
     build = os.path.abspath(options.build)
     bad = []
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         folder = os.path.abspath(options.keep) if options.keep else scratch
-        jobs = [pool.submit(check_batch, build, os.path.join(folder, str(i)), seeds[i:i + options.batch], options.optimize)
+        jobs = [pool.submit(check_counts if options.coverage else check_batch, build, os.path.join(folder, str(i)), seeds[i:i + options.batch], options.optimize)
                 for i in range(0, len(seeds), options.batch)]
         for job in jobs:
             bad += job.result()

@@ -55,11 +55,28 @@ class Expr:
         return f"({self.text})" if loose else self.text
 
 
+# How often each statement ran; in the text it is marked by its number.
+counts = []
+
+
 @dataclasses.dataclass
 class Stmt:
     lines: list
     run: object  # frame -> None
     label: str = ""
+
+    def __post_init__(self):
+        if self.label:
+            return
+        number, run = len(counts), self.run
+        counts.append(0)
+
+        def counted(frame):
+            counts[number] += 1
+            run(frame)
+
+        self.lines = [f"{self.lines[0]} (*#{number}*)", *self.lines[1:]]
+        self.run = counted
 
 
 def indent(lines):

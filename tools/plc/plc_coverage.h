@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop plc coverage: which lines, branches and coils of PLC programs were tried, from the counters of modules that
+// were built with --coverage.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/problem.h"
+#include "tools/command/verb.h"
+
+namespace indurop::tools {
+
+// Of one file of a program, over all modules and runs.
+struct FileCoverage {
+  struct Line {
+    std::uint64_t runs = 0;
+    std::string pou;
+    std::string drawn;  // "rung 3"; empty: a line of text
+  };
+  // A condition, or a coil.
+  struct Outcome {
+    std::string what;  // "coil Motor"; empty: a condition
+    std::string pou;
+    std::string drawn;
+    std::uint64_t yes = 0;
+    std::uint64_t no = 0;
+  };
+  std::map<int, Line> lines;
+  std::map<std::pair<int, std::string>, Outcome> outcomes;  // by line and what
+};
+using Coverage = std::map<std::string, FileCoverage>;  // by file
+
+// Adds what a file of counters says. Errors: it is none, or is damaged.
+Result<void, base::Problem> add_counters(const std::filesystem::path& file, Coverage& coverage);
+// As lcov, genhtml and others read it. What is in a file of this machine is named by its whole path.
+std::string lcov_text(const Coverage& coverage);
+
+// Adds the subcommand; once it was parsed, `chosen` is what to do.
+void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
+
+}  // namespace indurop::tools
