@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "node_fixture.h"
@@ -96,6 +99,60 @@ TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
   EXPECT_EQ(whole, 4U);
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0) << "the node did not notice";
+}
+
+// As one whose disk does not answer.
+TEST_F(RecordingParts, A_recorder_that_stands_still_says_what_it_lost_and_disturbs_nobody) {
+  Program& sut = start_and_wait(kCounter, {"--tape", "1"});
+  ASSERT_TRUE(runs_reach("counter", 20));
+  const std::string file = (folder() / "slow.mcap").string();
+  Program recorder(command({"-o", file}), environment());
+  ASSERT_TRUE(wait_until([&] {
+    std::error_code ignored;
+    return fs::exists(file, ignored) && fs::file_size(file, ignored) > 10'000;
+  }));
+  recorder.signal(SIGSTOP);
+  const std::uint64_t runs = module("counter").runs.load();
+  ASSERT_TRUE(runs_reach("counter", runs + 5000)) << "the node waits for nobody";
+  recorder.signal(SIGCONT);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome slow = recorder.finish();
+  EXPECT_EQ(slow.code, 1) << slow.err;
+  EXPECT_CONTAINS(slow.err, " runs of counter are not in the recording: they were overwritten before they were read");
+  const auto told = nlohmann::json::parse(indurop({"recording", "info", file, "-o", "json"}).out);
+  const auto lost = told["modules"][0]["lost_runs"].get<std::uint64_t>();
+  EXPECT_GT(lost, 0U);
+  EXPECT_CONTAINS(slow.err, std::to_string(lost) + " runs of counter") << "the numbers of the runs in the file say so";
+}
+
+TEST_F(RecordingParts, Two_recorders_have_the_same) {
+  Program& sut = start_and_wait(kCounter);
+  const std::string first = (folder() / "first.mcap").string();
+  const std::string second = (folder() / "second.mcap").string();
+  Program one(command({"-o", first, "--past"}), environment());
+  Program two(command({"-o", second, "--past"}), environment());
+  ASSERT_TRUE(wait_until([&] { return fs::exists(first) && fs::exists(second); }));
+  ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 500));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_EQ(one.wait(), 0) << one.err();
+  EXPECT_EQ(two.wait(), 0) << two.err();
+  // They began at two moments: the end is the same.
+  const auto last_values = [&](const std::string& file) {
+    const std::string csv = file + ".csv";
+    EXPECT_EQ(indurop({"recording", "export", file, "nt::counted", "--csv", csv}).code, 0);
+    std::ifstream in(csv);
+    std::vector<std::string> values;
+    for (std::string line; std::getline(in, line);) {
+      values.push_back(line.substr(line.rfind(',') + 1));
+    }
+    values.erase(values.begin(), values.end() - std::min<std::ptrdiff_t>(400, std::ssize(values)));
+    return values;
+  };
+  const std::vector<std::string> values = last_values(first);
+  EXPECT_EQ(values.size(), 400U);
+  EXPECT_EQ(values, last_values(second));
 }
 
 TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
