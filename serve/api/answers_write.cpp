@@ -106,15 +106,10 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   if (auto refused = write.begin()) {
     return *refused;
   }
-  if (hold) {
-    if (const int code = tools::hold_values(write.context(), *store, *values, wish->for_ns); code != kOk) {
-      return write.failed_with(code);
-    }
-  }
-  for (const auto& [item, bytes] : hold ? std::vector<tools::Assignment>() : *values) {
-    if (const auto set = write.context().values->set(*store, item.name, *item.entry, item.place, bytes); !set) {
-      return write.failed(status::kNoAnswer, set.error().text);
-    }
+  const int code = hold ? tools::hold_values(write.context(), *store, *values, wish->for_ns)
+                        : tools::set_values(write.context(), *store, *values);
+  if (code != kOk) {
+    return write.failed_with(code);
   }
   base::Json body = about(**found);
   body[hold ? "forced" : "written"] = names_of(*values);

@@ -15,6 +15,8 @@ Write::Write(Api& api, const Call& call, std::string action) : api_(&api) {
   entry_.from = call.request->from;
   entry_.board = call.part.find("board")->second;
   entry_.action = std::move(action);
+  context_.who = entry_.who;
+  context_.from = entry_.from;
   context_.out.divert(&messages_);
 }
 

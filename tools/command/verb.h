@@ -37,6 +37,8 @@ struct Context {
   std::string node;  // as given by --node, else empty
   FarOptions far;
   std::shared_ptr<ValueSource> values;  // once open_store() has opened them
+  std::string who;                      // gives the order, else the user of this process
+  std::string from;                     // likewise, an address
 };
 
 using Action = std::function<int(Context&)>;

@@ -64,10 +64,12 @@ int conclude(Context& context, ModuleCommand command, const scheduler::ModuleRec
   return kFailed;
 }
 
-void note(const std::string& node, const RunView& run, ModuleCommand command, const std::string& module) {
+void note(const Context& context, const std::string& node, const RunView& run, ModuleCommand command,
+          const std::string& module) {
   const std::int64_t simulated = run.block().virtual_ns.load();
   const char* action = command == ModuleCommand::Stop ? "stop" : command == ModuleCommand::Start ? "start" : "restart";
-  explain::note_order(node, {simulated != 0 ? simulated : rt::now_ns(), 0, {}, {}, action, module, {}});
+  explain::note_order(node,
+                      {simulated != 0 ? simulated : rt::now_ns(), 0, context.who, context.from, action, module, {}});
 }
 
 }  // namespace
@@ -99,7 +101,7 @@ Commanded command_here(Context& context, ModuleCommand command, const std::strin
     } else if (const auto result = scheduler::result_of(*record, *ticket); result != CommandResult::None) {
       const std::int64_t took = rt::now_ns() - begin;
       if (result == CommandResult::Done || result == CommandResult::OldCode) {
-        note(*node, run.value(), command, module);
+        note(context, *node, run.value(), command, module);
       }
       return {conclude(context, command, *record, result, took), result, took};
     }

@@ -91,12 +91,7 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
   }
   tick.reset();
   if (!context.values->absence(&store).empty()) {
-    for (const auto& [item, bytes] : *assignments) {
-      if (const auto done = context.values->set(store, item.name, *item.entry, item.place, bytes); !done) {
-        return report(context.out, done.error());
-      }
-    }
-    return kOk;
+    return set_values(context, store, *assignments);
   }
   std::vector<vars::Change> changes;
   for (const auto& [item, bytes] : *assignments) {
@@ -109,6 +104,9 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
     return done.error().code == Errc::InvalidArgument ? kFailed : kUnreachable;
   }
   tick = *done;
+  for (const Assignment& one : *assignments) {
+    note_order(context, store, "set", one);
+  }
   return kOk;
 }
 

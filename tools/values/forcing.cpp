@@ -7,7 +7,9 @@
 #include <bit>
 #include <span>
 
+#include "explain/orders.h"
 #include "rt/clock.h"
+#include "tools/values/value_source.h"
 
 namespace indurop::tools {
 namespace {
@@ -53,6 +55,13 @@ Status force_text(vars::Store& store, const Assignment& one, rt::MonoTime until)
   return {};
 }
 
+void note_order(const Context& context, const vars::Store& store, const char* action, const std::string& name,
+                const std::string& value) {
+  if (context.values->here()) {
+    explain::note_order(context.node, {rt::to_ns(store.now()), 0, context.who, context.from, action, name, value});
+  }
+}
+
 template <class Wanted>
 int let_go_if(Context& context, vars::Store& store, std::vector<std::string>& gone, Wanted wanted) {
   for (const vars::Force& one : store.forces()) {
@@ -65,12 +74,28 @@ int let_go_if(Context& context, vars::Store& store, std::vector<std::string>& go
       context.out.error(what_failed(status.error()));
       return kUnreachable;
     }
+    note_order(context, store, "unforce", name, {});
     gone.push_back(name);
   }
   return kOk;
 }
 
 }  // namespace
+
+int set_values(Context& context, vars::Store& store, const std::vector<Assignment>& assignments) {
+  for (const Assignment& one : assignments) {
+    const Item& item = one.item;
+    if (const auto done = context.values->set(store, item.name, *item.entry, item.place, one.bytes); !done) {
+      return report(context.out, done.error());
+    }
+    note_order(context, store, "set", one);
+  }
+  return kOk;
+}
+
+void note_order(const Context& context, const vars::Store& store, const char* action, const Assignment& one) {
+  note_order(context, store, action, one.item.name, schema::format_value(one.item.place.type, one.bytes));
+}
 
 int hold_values(Context& context, vars::Store& store, const std::vector<Assignment>& assignments, std::int64_t for_ns) {
   int code = kOk;
@@ -94,6 +119,7 @@ int hold_values(Context& context, vars::Store& store, const std::vector<Assignme
       context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
       return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
     }
+    note_order(context, store, "force", one);
   }
   return kOk;
 }

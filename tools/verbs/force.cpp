@@ -2,8 +2,6 @@
 // indurop force, unforce, forces: values that hold whoever writes them.
 #include <fmt/format.h>
 
-#include "explain/orders.h"
-#include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
@@ -44,17 +42,7 @@ int force(Context& context, ForceOptions& options) {
   if (!assignments) {
     return report(context.out, assignments.error());
   }
-  const int code = hold_values(context, *store, *assignments, options.for_ns);
-  for (const Assignment& one : code == kOk ? *assignments : std::vector<Assignment>()) {
-    explain::note_order(context.node, {rt::to_ns(store->now()),
-                                       0,
-                                       {},
-                                       {},
-                                       "force",
-                                       one.item.name,
-                                       schema::format_value(one.item.place.type, one.bytes)});
-  }
-  return code;
+  return hold_values(context, *store, *assignments, options.for_ns);
 }
 
 struct UnforceOptions {
@@ -81,9 +69,6 @@ int unforce(Context& context, UnforceOptions& options) {
   }
   std::vector<std::string> gone;
   const int code = options.all ? let_all_go(context, *store, gone) : let_values_go(context, *store, items, gone);
-  for (const std::string& name : gone) {
-    explain::note_order(context.node, {rt::to_ns(store->now()), 0, {}, {}, "unforce", name, {}});
-  }
   if (code == kOk && gone.empty()) {
     context.out.note("none of these is forced");
   }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop set: writes values once, after all of them were found good.
-#include "explain/orders.h"
-#include "rt/clock.h"
 #include "tools/values/assignment.h"
 #include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
@@ -27,15 +25,8 @@ int set(Context& context, const std::vector<std::string>& words) {
   if (any_forced(context, *store, *assignments)) {
     return kFailed;
   }
-  for (const auto& [item, bytes] : *assignments) {
-    if (const auto done = context.values->set(*store, item.name, *item.entry, item.place, bytes); !done) {
-      return report(context.out, done.error());
-    }
-    if (context.values->here()) {
-      explain::note_order(
-          context.node,
-          {rt::to_ns(store->now()), 0, {}, {}, "set", item.name, schema::format_value(item.place.type, bytes)});
-    }
+  if (const int code = set_values(context, *store, *assignments); code != kOk) {
+    return code;
   }
   if (const std::string absence = context.values->absence(&*store); !absence.empty() && context.values->here()) {
     context.out.note(context.values->gone(absence) + ": the values wait for its next start");

@@ -91,6 +91,12 @@ def test_writes_for_those_who_may(setting):
     done = [one for one in audit if one["outcome"] == "done"]
     assert [one["action"] for one in done] == ["set", "force", "release", "set"], audit
     assert done[0]["who"] == "ana" and done[0]["from"] == "127.0.0.1" and done[0]["reason"] == "try"
+    noted = next(pathlib.Path(setting.environment["INDUROP_STATE_DIR"]).glob("*/orders.jsonl")).read_text()
+    orders = [json.loads(line) for line in noted.splitlines()]
+    assert [(one["action"], one["what"], one["value"]) for one in orders] == [
+        ("set", "knu::Robot::gain", "2.5"), ("set", "knu::Robot::mode", "AUTO"), ("set", "station::name", '"A 1"'),
+        ("force", "knu::Robot::gain", "4"), ("unforce", "knu::Robot::gain", ""), ("set", "knu::Robot::gain", "1")], orders
+    assert {(one["who"], one["from"]) for one in orders} == {("ana", "127.0.0.1")}, orders
     shown = subprocess.run([setting.programs / "indurop", "log", "--audit", "-o", "json"], env=setting.environment,
                            capture_output=True, text=True, check=True).stdout
     assert len(json.loads(shown)["audit"]) == len(audit)

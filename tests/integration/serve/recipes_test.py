@@ -34,6 +34,10 @@ class Press:
         assert done.returncode == code, (words, done)
         return done
 
+    def who_changed(self, name):
+        answers = json.loads(self.run("explain", name, "-o", "json").stdout)["answers"]
+        return next(one["text"] for one in answers if "last" in one["question"])
+
     def get(self, name):
         return self.run("get", name).stdout.strip()
 
@@ -53,6 +57,7 @@ def test_are_saved_compared_and_loaded_in_one_tick(setting):
     done = press.server.post(f"{press.base}/stopped/load", {"reason": "cleaning"})
     assert done.status == 200 and done.json()["tick"] > 0, done.body
     assert press.get("conveyor::stop") == "true"
+    assert "ana" in press.who_changed("conveyor::stop"), press.who_changed("conveyor::stop")
     audit = press.server.get(API + "/audit").json()["audit"]
     assert [(one["action"], one["what"], one["outcome"]) for one in audit] == [
         ("save recipe", "stopped", "begun"), ("save recipe", "stopped", "done"),
