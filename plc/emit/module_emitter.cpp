@@ -74,6 +74,7 @@ class ModuleEmitter {
     coverage();
     emit_exchange(use_, globals_, out_);
     define_start();
+    scan();
     out_.line("}  // namespace");
     out_.line();
     entry();
@@ -310,9 +311,10 @@ class ModuleEmitter {
     }
   }
 
-  void entry() {
+  // Where no namespace of shared variables is taken for plc, which may have that name.
+  void scan() {
     out_.line("// One scan: all variables it sees are from its beginning, what it changed is there at its end.");
-    out_.open("void POU_PROGRAM()");
+    out_.open("void one_scan()");
     out_.line("const iec::Scan scan{irp::release_ns()};");
     out_.line("read_shared();");
     if (!use_.restored.empty()) {
@@ -331,7 +333,10 @@ class ModuleEmitter {
       out_.line("watch();");
     }
     out_.close();
-    out_.line();
+  }
+
+  void entry() {
+    out_.line("void POU_PROGRAM() { one_scan(); }");
     out_.line("void run() { POU_PROGRAM(); }");
     out_.line();
     if (!task_.periodic) {

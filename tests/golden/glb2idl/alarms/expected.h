@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_ea669b8cc93cbc39,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"press::door_open\",\"type\":\"bool\",\"kind\":\"scalar\",\"alarms\":["
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_cd607970ad9343e0,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"press::door_open\",\"type\":\"bool\",\"kind\":\"scalar\",\"alarms\":["
 .ascii "{\"text\":\"the door is open\",\"priority\":\"high\",\"when\":[\"==\",1.0],\"delay_ns\":500000000}],\"source\":\"in.g"
 .ascii "lb:4\"},{\"name\":\"press::air\",\"type\":\"bool\",\"kind\":\"scalar\",\"alarms\":[{\"text\":\"no compressed air\",\"pri"
 .ascii "ority\":\"critical\",\"when\":[\"==\",0.0]}],\"source\":\"in.glb:5\"},{\"name\":\"press::fault\",\"type\":{\"base\":\"bo"
@@ -52,7 +52,7 @@ constexpr void indurop_fields(const tank_t& v, indurop_visitor f) {
 }
 }  // namespace press
 
-namespace indurop_generated_ea669b8cc93cbc39 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_cd607970ad9343e0 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xbd2edc26c04171b1, 0xcd2fd49bc6b014bd, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "press::door_open"},
     {0xf86e559a0c751244, 0xcd2fd49bc6b014bd, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "press::air"},
@@ -134,15 +134,15 @@ union ref_press_tank_t {
   INDUROP_UNION_SHAPE(ref_press_tank_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_ea669b8cc93cbc39
+}  // namespace indurop_generated_cd607970ad9343e0
 
 namespace press {
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_door_open, bool, 0> door_open{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_air, bool, 0> air{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_ea669b8cc93cbc39::var_press_fault, bool, 0>, 3> fault{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_temperature, double, 0> temperature{::indurop::Place{0}, ::indurop::detail::Make{}};  // [degC]
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_state, ::press::State, 0> state{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_lost, ::std::uint32_t, 0> lost{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_ea669b8cc93cbc39::var_press_broken, ::std::uint32_t, 0> broken{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_ea669b8cc93cbc39::ref_press_tank_t<::indurop_generated_ea669b8cc93cbc39::var_press_tank, 0>, 2> tank{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_door_open, bool, 0> door_open{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_air, bool, 0> air{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_cd607970ad9343e0::var_press_fault, bool, 0>, 3> fault{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_temperature, double, 0> temperature{::indurop::Place{0}, ::indurop::detail::Make{}};  // [degC]
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_state, ::press::State, 0> state{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_lost, ::std::uint32_t, 0> lost{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_cd607970ad9343e0::var_press_broken, ::std::uint32_t, 0> broken{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_cd607970ad9343e0::ref_press_tank_t<::indurop_generated_cd607970ad9343e0::var_press_tank, 0>, 2> tank{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace press

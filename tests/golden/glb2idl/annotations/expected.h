@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_441233a52c1b788c,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_6d87455b80d750a7,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
 .ascii "\"description\":\"angle of the arm\",\"range\":[0.0,180.0],\"retain\":true,\"maxage_ns\":10000000,\"initial\":\"0"
 .ascii "000000000804640\",\"fallback\":\"0000000000a05640\",\"source\":\"in.glb:2\"},{\"name\":\"demo::pos\",\"type\":\"doub"
 .ascii "le\",\"kind\":\"scalar\",\"unit\":\"mm\",\"description\":\"where the tool is\",\"source\":\"in.glb:3\"},{\"name\":\"demo"
@@ -52,7 +52,7 @@ constexpr void indurop_fields(const Axis& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_441233a52c1b788c __attribute__((visibility("hidden"))) {
+namespace indurop_generated_6d87455b80d750a7 __attribute__((visibility("hidden"))) {
 inline constexpr double initial_demo_angle{45.0};
 inline constexpr ::indurop::string<32> initial_demo_note{"fine"};
 inline constinit ::indurop::abi::Ref refs[] = {
@@ -140,15 +140,15 @@ union ref_demo_Axis {
   INDUROP_UNION_SHAPE(ref_demo_Axis)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_441233a52c1b788c
+}  // namespace indurop_generated_6d87455b80d750a7
 
 namespace demo {
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_441233a52c1b788c::ref_demo_Axis<::indurop_generated_441233a52c1b788c::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
-inline constexpr ::indurop::Text<::indurop_generated_441233a52c1b788c::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_441233a52c1b788c::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_6d87455b80d750a7::ref_demo_Axis<::indurop_generated_6d87455b80d750a7::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
+inline constexpr ::indurop::Text<::indurop_generated_6d87455b80d750a7::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_6d87455b80d750a7::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
 }  // namespace demo

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_78c2b1c027e33e2c,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"PLC_ROBOT::I0\",\"type\":\"int16\",\"kind\":\"scalar\",\"description"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_a279fd697389e543,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"PLC_ROBOT::I0\",\"type\":\"int16\",\"kind\":\"scalar\",\"description"
 .ascii "\":\"PLC input point 0\",\"source\":\"in.glb:2\"},{\"name\":\"PLC_ROBOT::I1\",\"type\":\"int16\",\"kind\":\"scalar\",\"d"
 .ascii "escription\":\"PLC input point 1\",\"source\":\"in.glb:3\"},{\"name\":\"PLC_ROBOT::O0\",\"type\":\"int16\",\"kind\":\""
 .ascii "scalar\",\"description\":\"PLC output point 0\",\"source\":\"in.glb:4\"},{\"name\":\"PLC_ROBOT::ROBOT_MODULE_STA"
@@ -140,7 +140,7 @@ constexpr void indurop_fields(const AXIS1_IN_t& v, indurop_visitor f) {
 }
 }  // namespace PLC_ROBOT
 
-namespace indurop_generated_78c2b1c027e33e2c __attribute__((visibility("hidden"))) {
+namespace indurop_generated_a279fd697389e543 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xa2e56741e5d74570, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I0"},
     {0xa2e56841e5d74723, 0x2aebbf192b3b86fb, nullptr, nullptr, 2, ::indurop::abi::Kind::Scalar, "PLC_ROBOT::I1"},
@@ -250,13 +250,13 @@ union ref_PLC_ROBOT_AXIS1_IN_t {
   INDUROP_UNION_SHAPE(ref_PLC_ROBOT_AXIS1_IN_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_78c2b1c027e33e2c
+}  // namespace indurop_generated_a279fd697389e543
 
 namespace PLC_ROBOT {
-inline constexpr INDUROP_LEAF<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
-inline constexpr INDUROP_LEAF<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
-inline constexpr INDUROP_LEAF<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
-inline constexpr ::indurop_generated_78c2b1c027e33e2c::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
-inline constexpr ::indurop_generated_78c2b1c027e33e2c::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
-inline constexpr ::indurop_generated_78c2b1c027e33e2c::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_78c2b1c027e33e2c::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_I0, ::std::int16_t, 0> I0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 0
+inline constexpr INDUROP_LEAF<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_I1, ::std::int16_t, 0> I1{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC input point 1
+inline constexpr INDUROP_LEAF<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_O0, ::std::int16_t, 0> O0{::indurop::Place{0}, ::indurop::detail::Make{}};  // PLC output point 0
+inline constexpr ::indurop_generated_a279fd697389e543::ref_PLC_ROBOT_ROBOT_MODULE_STATE_t<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_ROBOT_MODULE_STATE, 0> ROBOT_MODULE_STATE{::indurop::Place{0}, ::indurop::detail::Make{}};  // External Information
+inline constexpr ::indurop_generated_a279fd697389e543::ref_PLC_ROBOT_ROBOT_MODULE_SERVICE_t<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_ROBOT_MODULE_SERVICE, 0> ROBOT_MODULE_SERVICE{::indurop::Place{0}, ::indurop::detail::Make{}};  // To ROBOT MODULE
+inline constexpr ::indurop_generated_a279fd697389e543::ref_PLC_ROBOT_AXIS1_IN_t<::indurop_generated_a279fd697389e543::var_PLC_ROBOT_AXIS1_IN, 0> AXIS1_IN{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace PLC_ROBOT

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_e9ac5b78501a005b,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"knu::Robot::tick\",\"type\":\"uint32\",\"kind\":\"scalar\",\"source\""
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_87455c64b2b427de,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"knu::Robot::tick\",\"type\":\"uint32\",\"kind\":\"scalar\",\"source\""
 .ascii ":\"in.glb:3\"},{\"name\":\"knu::Robot::joints\",\"type\":{\"base\":\"struct\",\"name\":\"knu::Robot::joints_t\",\"siz"
 .ascii "e\":24,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offse"
 .ascii "t\":8},{\"name\":\"z\",\"type\":\"double\",\"offset\":16}],\"dims\":[10]},\"kind\":\"ring\",\"source\":\"in.glb:6\"}]}"
@@ -39,7 +39,7 @@ constexpr void indurop_fields(const joints_t& v, indurop_visitor f) {
 }
 }  // namespace knu::Robot
 
-namespace indurop_generated_e9ac5b78501a005b __attribute__((visibility("hidden"))) {
+namespace indurop_generated_87455c64b2b427de __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xf1dc60870b76ee98, 0x4d2bdf193e8526d1, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "knu::Robot::tick"},
     {0x1050cb5f44a9d9d0, 0xfcf46c306778d7e4, nullptr, nullptr, 240, ::indurop::abi::Kind::Ring, "knu::Robot::joints"},
@@ -80,9 +80,9 @@ union ref_knu_Robot_joints_t {
   INDUROP_UNION_SHAPE(ref_knu_Robot_joints_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_e9ac5b78501a005b
+}  // namespace indurop_generated_87455c64b2b427de
 
 namespace knu::Robot {
-inline constexpr INDUROP_LEAF<::indurop_generated_e9ac5b78501a005b::var_knu_Robot_tick, ::std::uint32_t, 0> tick{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_e9ac5b78501a005b::ref_knu_Robot_joints_t<::indurop_generated_e9ac5b78501a005b::var_knu_Robot_joints, 0>, 10> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_87455c64b2b427de::var_knu_Robot_tick, ::std::uint32_t, 0> tick{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_87455c64b2b427de::ref_knu_Robot_joints_t<::indurop_generated_87455c64b2b427de::var_knu_Robot_joints, 0>, 10> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace knu::Robot

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_6de4b9e4e48303e0,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_26150496fa69e099,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"above\",\"type\":\"int32\",\"kind\":\"scalar\",\"description\":\"A des"
 .ascii "cription needs no marks: stars and blanks are cut.\",\"source\":\"in.glb:2\"},{\"name\":\"behind\",\"type\":\"in"
 .ascii "t32\",\"kind\":\"scalar\",\"description\":\"behind wins over above\",\"source\":\"in.glb:3\"},{\"name\":\"none\",\"typ"
 .ascii "e\":\"int32\",\"kind\":\"scalar\",\"source\":\"in.glb:6\"},{\"name\":\"two\",\"type\":\"int32\",\"kind\":\"scalar\",\"descri"
@@ -42,7 +42,7 @@ constexpr void indurop_fields(const S& v, indurop_visitor f) {
   f("y", v.y);
 }
 
-namespace indurop_generated_6de4b9e4e48303e0 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_26150496fa69e099 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_in{4};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x3f71052d617f9b2a, 0x2af2b3192b419145, nullptr, nullptr, 4, ::indurop::abi::Kind::Scalar, "above"},
@@ -146,15 +146,15 @@ union ref_S {
   INDUROP_UNION_SHAPE(ref_S)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_6de4b9e4e48303e0
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
-inline constexpr ::indurop_generated_6de4b9e4e48303e0::ref_S<::indurop_generated_6de4b9e4e48303e0::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_6de4b9e4e48303e0::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_26150496fa69e099
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_above, ::std::int32_t, 0> above{::indurop::Place{0}, ::indurop::detail::Make{}};  // A description needs no marks: stars and blanks are cut.
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_behind, ::std::int32_t, 0> behind{::indurop::Place{0}, ::indurop::detail::Make{}};  // behind wins over above
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_none, ::std::int32_t, 0> none{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_two, ::std::int32_t, 0> two{::indurop::Place{0}, ::indurop::detail::Make{}};  // two lines of text
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_one, ::std::int32_t, 0> one{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_both, ::std::int32_t, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};  // for both
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_b, ::std::int32_t, 0> b{::indurop::Place{0}, ::indurop::detail::Make{}};  // only b
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_ruler, ::std::int32_t, 0> ruler{::indurop::Place{0}, ::indurop::detail::Make{}};  // banner
+inline constexpr ::indurop_generated_26150496fa69e099::ref_S<::indurop_generated_26150496fa69e099::var_s, 0> s{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_26150496fa69e099::var_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};

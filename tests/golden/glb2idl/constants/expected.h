@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_444fc0b97c43fa2a,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::joints\",\"type\":{\"base\":\"double\",\"dims\":[6]},\"kind\":\""
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_3b09e1c1e8ad17b1,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::joints\",\"type\":{\"base\":\"double\",\"dims\":[6]},\"kind\":\""
 .ascii "ring\",\"source\":\"in.glb:21\"},{\"name\":\"demo::grid\",\"type\":{\"base\":\"double\",\"dims\":[3,6]},\"kind\":\"ring\""
 .ascii ",\"source\":\"in.glb:22\"},{\"name\":\"demo::from_global\",\"type\":{\"base\":\"int32\",\"dims\":[100]},\"kind\":\"ring"
 .ascii "\",\"initial\":\"faffffff0a00000041000000000000000000000000000000000000000000000000000000000000000000000"
@@ -52,7 +52,7 @@ inline constexpr bool READY{true};
 inline constexpr char NAME[] = "arm";
 }  // namespace demo
 
-namespace indurop_generated_444fc0b97c43fa2a __attribute__((visibility("hidden"))) {
+namespace indurop_generated_3b09e1c1e8ad17b1 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::array<::std::int32_t, 100> initial_demo_from_global{{-6, 10, 65}};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x41822839aa46ec9f, 0x9e44f8fe2e115efd, nullptr, nullptr, 48, ::indurop::abi::Kind::Ring, "demo::joints"},
@@ -109,16 +109,16 @@ struct var_other_part_qualified2 {
   static constexpr ::std::size_t kSize = 800;
   INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[5]; }
 };
-}  // namespace indurop_generated_444fc0b97c43fa2a
+}  // namespace indurop_generated_3b09e1c1e8ad17b1
 
 namespace demo {
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_demo_joints, double, 0>, 6> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_demo_grid, double, 0>, 6>, 3> grid{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_demo_from_global, ::std::int32_t, 0>, 100> from_global{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_demo_joints, double, 0>, 6> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_demo_grid, double, 0>, 6>, 3> grid{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_demo_from_global, ::std::int32_t, 0>, 100> from_global{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo
 
 namespace other::part {
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_other_part_define_is_known_everywhere, ::std::int32_t, 0>, 6> define_is_known_everywhere{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_other_part_qualified, ::std::int32_t, 0>, 200> qualified{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_444fc0b97c43fa2a::var_other_part_qualified2, ::std::int32_t, 0>, 200> qualified2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_other_part_define_is_known_everywhere, ::std::int32_t, 0>, 6> define_is_known_everywhere{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_other_part_qualified, ::std::int32_t, 0>, 200> qualified{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_3b09e1c1e8ad17b1::var_other_part_qualified2, ::std::int32_t, 0>, 200> qualified2{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace other::part

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_15f713e65ad51e9e,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_dccfadf6c0dc187f,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::speed\",\"type\":{\"base\":\"enum\",\"name\":\"demo::speed_t\","
 .ascii "\"values\":[[\"SLOW\",0],[\"FAST\",1]]},\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:5\"},{\"name\":"
 .ascii "\"demo::mode\",\"type\":{\"base\":\"enum\",\"name\":\"demo::Mode\",\"values\":[[\"OFF\",0],[\"AUTO\",1],[\"MANUAL\",2]]}"
 .ascii ",\"kind\":\"scalar\",\"initial\":\"01000000\",\"source\":\"in.glb:6\"},{\"name\":\"demo::gears\",\"type\":{\"base\":\"enu"
@@ -50,7 +50,7 @@ inline constexpr ::demo::Mode DEFAULT_MODE{static_cast<::demo::Mode>(1)};
 inline constexpr ::demo::Mode START_MODE{static_cast<::demo::Mode>(0)};
 }  // namespace demo
 
-namespace indurop_generated_15f713e65ad51e9e __attribute__((visibility("hidden"))) {
+namespace indurop_generated_dccfadf6c0dc187f __attribute__((visibility("hidden"))) {
 inline constexpr ::demo::speed_t initial_demo_speed{::demo::FAST};
 inline constexpr ::demo::Mode initial_demo_mode{::demo::AUTO};
 inline constexpr ::std::array<::demo::Gear, 2> initial_demo_gears{{::demo::DRIVE}};
@@ -115,12 +115,12 @@ union ref_demo_Motor {
   INDUROP_UNION_SHAPE(ref_demo_Motor)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_15f713e65ad51e9e
+}  // namespace indurop_generated_dccfadf6c0dc187f
 
 namespace demo {
-inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_15f713e65ad51e9e::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_15f713e65ad51e9e::ref_demo_Motor<::indurop_generated_15f713e65ad51e9e::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_15f713e65ad51e9e::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_dccfadf6c0dc187f::var_demo_speed, ::demo::speed_t, 0> speed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_dccfadf6c0dc187f::var_demo_mode, ::demo::Mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_dccfadf6c0dc187f::var_demo_gears, ::demo::Gear, 0>, 2> gears{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_dccfadf6c0dc187f::ref_demo_Motor<::indurop_generated_dccfadf6c0dc187f::var_demo_motor, 0> motor{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_dccfadf6c0dc187f::var_demo_other, ::demo::Mode, 0> other{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

@@ -13,8 +13,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_045865ccc2bec56b,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"functions\":[{\"name\":\"demo::add\",\"arguments\":{\"base\":\"struct\",\"name\":\"demo::add_"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_5e95f91691edae84,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"functions\":[{\"name\":\"demo::add\",\"arguments\":{\"base\":\"struct\",\"name\":\"demo::add_"
 .ascii "args\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"a\",\"type\":\"double\",\"offset\":0},{\"name\":\"b\",\"type\":\"doub"
 .ascii "le\",\"offset\":8}]},\"result\":\"double\",\"deadline_ns\":5000000,\"description\":\"adds two numbers\",\"source\":"
 .ascii "\"in.glb:4\"},{\"name\":\"demo::reset\",\"arguments\":{\"base\":\"struct\",\"name\":\"demo::reset_args\",\"size\":0,\"a"
@@ -84,7 +84,7 @@ struct no_variables_needed_args {
 };
 }  // namespace demo
 
-namespace indurop_generated_045865ccc2bec56b __attribute__((visibility("hidden"))) {
+namespace indurop_generated_5e95f91691edae84 __attribute__((visibility("hidden"))) {
 template <class indurop_tag, ::std::uint32_t indurop_offset, class = ::indurop::Adl>
 union ref_demo_P {
   using value_type = ::demo::P;
@@ -169,13 +169,13 @@ struct fn_demo_no_variables_needed {
     return f();
   }
 };
-}  // namespace indurop_generated_045865ccc2bec56b
+}  // namespace indurop_generated_5e95f91691edae84
 
 namespace demo {
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_add, double(double, double)> add{};  // adds two numbers
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_reset, void()> reset{};
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_stop_now, void()> stop_now{};  // stops the axis
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_unnamed, ::std::int32_t(::std::int32_t, bool)> unnamed{};
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_move, ::demo::P(::demo::P, ::demo::Mode, ::indurop::string<8>, ::std::array<double, 3>)> move{};
-inline constexpr ::indurop::Function<::indurop_generated_045865ccc2bec56b::fn_demo_no_variables_needed, float()> no_variables_needed{};
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_add, double(double, double)> add{};  // adds two numbers
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_reset, void()> reset{};
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_stop_now, void()> stop_now{};  // stops the axis
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_unnamed, ::std::int32_t(::std::int32_t, bool)> unnamed{};
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_move, ::demo::P(::demo::P, ::demo::Mode, ::indurop::string<8>, ::std::array<double, 3>)> move{};
+inline constexpr ::indurop::Function<::indurop_generated_5e95f91691edae84::fn_demo_no_variables_needed, float()> no_variables_needed{};
 }  // namespace demo

@@ -16,8 +16,8 @@
 
 #include "base.glb.h"
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_daed4047bcdf8613,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::home\",\"type\":{\"base\":\"struct\",\"name\":\"Point\",\"size\":"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_596cc97f5b73dfa1,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"cell::home\",\"type\":{\"base\":\"struct\",\"name\":\"Point\",\"size\":"
 .ascii "16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":"
 .ascii "8}]},\"kind\":\"ring\",\"initial\":\"00000000000010400000000000000040\",\"source\":\"in.glb:6\"},{\"name\":\"cell::"
 .ascii "joints\",\"type\":{\"base\":\"struct\",\"name\":\"arm::Joint\",\"size\":24,\"align\":8,\"fields\":[{\"name\":\"p\",\"type\""
@@ -27,7 +27,7 @@ asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_daed4047
 .ascii "\n"
 .popsection)indurop");
 
-namespace indurop_generated_daed4047bcdf8613 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_596cc97f5b73dfa1 __attribute__((visibility("hidden"))) {
 inline constexpr ::Point initial_cell_home{4.0, 2.0};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0xbbbaf10108cc49ee, 0x4b12722cf7960421, nullptr, &initial_cell_home, 16, ::indurop::abi::Kind::Ring, "cell::home"},
@@ -56,9 +56,9 @@ struct var_cell_joints {
   static constexpr ::std::size_t kSize = 96;
   INDUROP_ALWAYS_INLINE static constexpr const ::indurop::abi::Ref& ref() noexcept { return refs[1]; }
 };
-}  // namespace indurop_generated_daed4047bcdf8613
+}  // namespace indurop_generated_596cc97f5b73dfa1
 
 namespace cell {
-inline constexpr ::indurop_generated_24db67ac5b85fb92::ref_Point<::indurop_generated_daed4047bcdf8613::var_cell_home, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_0c72d808a481c692::ref_arm_Joint<::indurop_generated_daed4047bcdf8613::var_cell_joints, 0>, 4> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_19f57a3b786c1d69::ref_Point<::indurop_generated_596cc97f5b73dfa1::var_cell_home, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_60bc378070ac8221::ref_arm_Joint<::indurop_generated_596cc97f5b73dfa1::var_cell_joints, 0>, 4> joints{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell

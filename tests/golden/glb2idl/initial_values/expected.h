@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4fd096ce7f7fc7b8,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"0500000"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4e3c987a9dfecd45,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::a\",\"type\":\"int32\",\"kind\":\"scalar\",\"initial\":\"0500000"
 .ascii "0\",\"source\":\"in.glb:3\"},{\"name\":\"demo::zero\",\"type\":\"int32\",\"kind\":\"scalar\",\"given\":true,\"source\":\"i"
 .ascii "n.glb:4\"},{\"name\":\"demo::least8\",\"type\":\"int8\",\"kind\":\"scalar\",\"initial\":\"80\",\"source\":\"in.glb:5\"},{"
 .ascii "\"name\":\"demo::least64\",\"type\":\"int64\",\"kind\":\"scalar\",\"initial\":\"0000000000000080\",\"source\":\"in.glb:"
@@ -81,7 +81,7 @@ constexpr void indurop_fields(const nested_t& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_4fd096ce7f7fc7b8 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_4e3c987a9dfecd45 __attribute__((visibility("hidden"))) {
 inline constexpr ::std::int32_t initial_demo_a{5};
 inline constexpr ::std::int8_t initial_demo_least8{-128};
 inline constexpr ::std::int64_t initial_demo_least64{INT64_MIN};
@@ -296,36 +296,36 @@ union ref_demo_nested_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_4fd096ce7f7fc7b8::ref_demo_P<indurop_tag, indurop_offset + 0> p;
+  ::indurop_generated_4e3c987a9dfecd45::ref_demo_P<indurop_tag, indurop_offset + 0> p;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16>, 2> n;
   ::indurop::Leaf<indurop_tag, bool, indurop_offset + 24> on;
   INDUROP_UNION_SHAPE(ref_demo_nested_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_4fd096ce7f7fc7b8
+}  // namespace indurop_generated_4e3c987a9dfecd45
 
 namespace demo {
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_4fd096ce7f7fc7b8::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_4fd096ce7f7fc7b8::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4fd096ce7f7fc7b8::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4fd096ce7f7fc7b8::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4fd096ce7f7fc7b8::ref_demo_P<::indurop_generated_4fd096ce7f7fc7b8::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_4fd096ce7f7fc7b8::ref_demo_P<::indurop_generated_4fd096ce7f7fc7b8::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_4fd096ce7f7fc7b8::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4fd096ce7f7fc7b8::ref_demo_nested_t<::indurop_generated_4fd096ce7f7fc7b8::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4fd096ce7f7fc7b8::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_a, ::std::int32_t, 0> a{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_zero, ::std::int32_t, 0> zero{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_least8, ::std::int8_t, 0> least8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_least64, ::std::int64_t, 0> least64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_most64, ::std::uint64_t, 0> most64{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_hex, ::std::uint32_t, 0> hex{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_f, float, 0> f{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_g, float, 0> g{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_h, float, 0> h{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_d, double, 0> d{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_whole, double, 0> whole{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_yes, bool, 0> yes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_no, bool, 0> no{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_letter, char, 0> letter{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_4e3c987a9dfecd45::var_demo_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_4e3c987a9dfecd45::var_demo_sized, 7, 0> sized{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4e3c987a9dfecd45::var_demo_numbers, ::std::int32_t, 0>, 3> numbers{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4e3c987a9dfecd45::var_demo_table, ::std::int32_t, 0>, 2>, 3> table{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4e3c987a9dfecd45::ref_demo_P<::indurop_generated_4e3c987a9dfecd45::var_demo_p, 0> p{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_4e3c987a9dfecd45::ref_demo_P<::indurop_generated_4e3c987a9dfecd45::var_demo_ps, 0>, 4> ps{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Text<::indurop_generated_4e3c987a9dfecd45::var_demo_names, 8, 0>, 3> names{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_4e3c987a9dfecd45::ref_demo_nested_t<::indurop_generated_4e3c987a9dfecd45::var_demo_nested, 0> nested{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_4e3c987a9dfecd45::var_demo_braces, ::std::int32_t, 0> braces{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_049f4157cbcf84b1,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::Names::all\",\"type\":{\"base\":\"struct\",\"name\":\"demo::Na"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_181bee281ae1e2c4,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::Names::all\",\"type\":{\"base\":\"struct\",\"name\":\"demo::Na"
 .ascii "mes::All\",\"size\":72,\"align\":8,\"fields\":[{\"name\":\"pos\",\"type\":{\"base\":\"struct\",\"name\":\"demo::Names::P"
 .ascii "os\",\"size\":8,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0}]},\"offset\":0},{\"name\":\"home"
 .ascii "\",\"type\":\"int32\",\"offset\":8},{\"name\":\"map\",\"type\":\"int32\",\"offset\":12},{\"name\":\"port\",\"type\":\"int32\""
@@ -131,7 +131,7 @@ namespace Other {
 inline constexpr ::std::int32_t string{5};
 }  // namespace Other
 
-namespace indurop_generated_049f4157cbcf84b1 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_181bee281ae1e2c4 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x4013d69b34e500c1, 0x17cd84581c16d174, nullptr, nullptr, 72, ::indurop::abi::Kind::Ring, "demo::Names::all"},
     {0xac7dfe9ae1356470, 0x38c7f02e5218eb61, nullptr, nullptr, 8, ::indurop::abi::Kind::Ring, "demo::Names::pos"},
@@ -247,7 +247,7 @@ union ref_demo_Names_All {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_049f4157cbcf84b1::ref_demo_Names_Pos<indurop_tag, indurop_offset + 0> pos;
+  ::indurop_generated_181bee281ae1e2c4::ref_demo_Names_Pos<indurop_tag, indurop_offset + 0> pos;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 8> home;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 12> map;
   ::indurop::Leaf<indurop_tag, ::std::int32_t, indurop_offset + 16> port;
@@ -272,25 +272,25 @@ union ref_demo_Names_All {
   INDUROP_UNION_SHAPE(ref_demo_Names_All)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_049f4157cbcf84b1
+}  // namespace indurop_generated_181bee281ae1e2c4
 
 namespace demo::Names {
-inline constexpr ::indurop_generated_049f4157cbcf84b1::ref_demo_Names_All<::indurop_generated_049f4157cbcf84b1::var_demo_Names_all, 0> all{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_049f4157cbcf84b1::ref_demo_Names_Pos<::indurop_generated_049f4157cbcf84b1::var_demo_Names_pos, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_port, ::std::int32_t, 0> port{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_home, ::std::int32_t, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_status, ::std::int32_t, 0> status{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_error, ::std::int32_t, 0> error{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names_position, ::std::int32_t, 0> position{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_181bee281ae1e2c4::ref_demo_Names_All<::indurop_generated_181bee281ae1e2c4::var_demo_Names_all, 0> all{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_181bee281ae1e2c4::ref_demo_Names_Pos<::indurop_generated_181bee281ae1e2c4::var_demo_Names_pos, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_port, ::std::int32_t, 0> port{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_home, ::std::int32_t, 0> home{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_in, ::std::int32_t, 0> in{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_status, ::std::int32_t, 0> status{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_error, ::std::int32_t, 0> error{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names_position, ::std::int32_t, 0> position{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo::Names
 
 namespace demo {
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_Names2, ::std::int32_t, 0> Names2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_049f4157cbcf84b1::var_demo_time, ::std::int32_t, 0> time{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_Names2, ::std::int32_t, 0> Names2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_181bee281ae1e2c4::var_demo_time, ::std::int32_t, 0> time{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo
 
 namespace Other {
-inline constexpr ::indurop_generated_049f4157cbcf84b1::ref_demo_Names_Pos<::indurop_generated_049f4157cbcf84b1::var_Other_place, 0> place{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_049f4157cbcf84b1::var_Other_lines, ::std::int32_t, 0>, 5> lines{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_181bee281ae1e2c4::ref_demo_Names_Pos<::indurop_generated_181bee281ae1e2c4::var_Other_place, 0> place{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_181bee281ae1e2c4::var_Other_lines, ::std::int32_t, 0>, 5> lines{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace Other

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_37fcdf05b0278826,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::Arm::state\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Ar"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_22395bf62343e1ab,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"cell::Arm::state\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Ar"
 .ascii "m::state_t\",\"size\":144,\"align\":8,\"fields\":[{\"name\":\"dCurJoint\",\"type\":{\"base\":\"float\",\"dims\":[6]},\"o"
 .ascii "ffset\":0,\"description\":\"of the six axes\"},{\"name\":\"pose\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Arm::"
 .ascii "TcpPose\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0,\"unit\":\"mm\",\"range\":[-"
@@ -80,7 +80,7 @@ constexpr void indurop_fields(const state_t& v, indurop_visitor f) {
 }
 }  // namespace cell::Arm
 
-namespace indurop_generated_37fcdf05b0278826 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_22395bf62343e1ab __attribute__((visibility("hidden"))) {
 inline constexpr double initial_cell_Arm_target{100.0};
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x791e23e227f9b276, 0x31e5c9b2aef03a83, nullptr, nullptr, 144, ::indurop::abi::Kind::Ring, "cell::Arm::state"},
@@ -136,8 +136,8 @@ union ref_cell_Arm_state_t {
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
   ::indurop::ArrayRef<::indurop::Leaf<indurop_tag, float, indurop_offset + 0>, 6> dCurJoint;
-  ::indurop_generated_37fcdf05b0278826::ref_cell_Arm_TcpPose<indurop_tag, indurop_offset + 24> pose;
-  ::indurop::ArrayRef<::indurop_generated_37fcdf05b0278826::ref_cell_Arm_TcpPose<indurop_tag, indurop_offset + 40>, 4> path;
+  ::indurop_generated_22395bf62343e1ab::ref_cell_Arm_TcpPose<indurop_tag, indurop_offset + 24> pose;
+  ::indurop::ArrayRef<::indurop_generated_22395bf62343e1ab::ref_cell_Arm_TcpPose<indurop_tag, indurop_offset + 40>, 4> path;
   ::indurop::Leaf<indurop_tag, ::cell::Arm::Mode, indurop_offset + 104> mode;
   ::indurop::Text<indurop_tag, 16, indurop_offset + 108> program;
   ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<indurop_tag, ::std::int16_t, indurop_offset + 124>, 3>, 2> grid;
@@ -146,13 +146,13 @@ union ref_cell_Arm_state_t {
   INDUROP_UNION_SHAPE(ref_cell_Arm_state_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_37fcdf05b0278826
+}  // namespace indurop_generated_22395bf62343e1ab
 
 namespace cell::Arm {
-inline constexpr ::indurop_generated_37fcdf05b0278826::ref_cell_Arm_state_t<::indurop_generated_37fcdf05b0278826::var_cell_Arm_state, 0> state{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_37fcdf05b0278826::var_cell_Arm_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};  // where to go [mm]
+inline constexpr ::indurop_generated_22395bf62343e1ab::ref_cell_Arm_state_t<::indurop_generated_22395bf62343e1ab::var_cell_Arm_state, 0> state{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_22395bf62343e1ab::var_cell_Arm_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};  // where to go [mm]
 }  // namespace cell::Arm
 
 namespace cell::Hand {
-inline constexpr ::indurop::ArrayRef<::indurop_generated_37fcdf05b0278826::ref_cell_Arm_TcpPose<::indurop_generated_37fcdf05b0278826::var_cell_Hand_grip_poses, 0>, 2> grip_poses{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_22395bf62343e1ab::ref_cell_Arm_TcpPose<::indurop_generated_22395bf62343e1ab::var_cell_Hand_grip_poses, 0>, 2> grip_poses{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell::Hand

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_7dc8e170fa23c119,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"cell::both\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Both\",\"s"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_52c3d8fc012f3d8a,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"cell::both\",\"type\":{\"base\":\"struct\",\"name\":\"cell::Both\",\"s"
 .ascii "ize\":8,\"align\":4,\"fields\":[{\"name\":\"dCur\",\"type\":\"int32\",\"offset\":0},{\"name\":\"d_cur\",\"type\":\"int32\","
 .ascii "\"offset\":4}]},\"kind\":\"ring\",\"source\":\"in.glb:6\"},{\"name\":\"cell::target\",\"type\":\"double\",\"kind\":\"scal"
 .ascii "ar\",\"source\":\"in.glb:8\"}]}"
@@ -46,7 +46,7 @@ constexpr void indurop_fields(const Target& v, indurop_visitor f) {
 }
 }  // namespace cell
 
-namespace indurop_generated_7dc8e170fa23c119 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_52c3d8fc012f3d8a __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x48a5cbd050f86922, 0xe76636a1a2cf9472, nullptr, nullptr, 8, ::indurop::abi::Kind::Ring, "cell::both"},
     {0x415cb53400bc0468, 0xdd744c18ff7ea1ab, nullptr, nullptr, 8, ::indurop::abi::Kind::Scalar, "cell::target"},
@@ -97,9 +97,9 @@ union ref_cell_Target {
   INDUROP_UNION_SHAPE(ref_cell_Target)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_7dc8e170fa23c119
+}  // namespace indurop_generated_52c3d8fc012f3d8a
 
 namespace cell {
-inline constexpr ::indurop_generated_7dc8e170fa23c119::ref_cell_Both<::indurop_generated_7dc8e170fa23c119::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_7dc8e170fa23c119::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_52c3d8fc012f3d8a::ref_cell_Both<::indurop_generated_52c3d8fc012f3d8a::var_cell_both, 0> both{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52c3d8fc012f3d8a::var_cell_target, double, 0> target{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace cell

@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_4ffd2deb1c7e41a3,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"pair_of_points\",\"type\":{\"base\":\"struct\",\"name\":\"Pair\",\"siz"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_1ec35b10281a18d8,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"pair_of_points\",\"type\":{\"base\":\"struct\",\"name\":\"Pair\",\"siz"
 .ascii "e\":64,\"align\":8,\"fields\":[{\"name\":\"a\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields"
 .ascii "\":[{\"name\":\"x\",\"type\":\"double\",\"offset\":0},{\"name\":\"y\",\"type\":\"double\",\"offset\":8}]},\"offset\":0},{\"n"
 .ascii "ame\":\"b\",\"type\":{\"base\":\"struct\",\"name\":\"P\",\"size\":16,\"align\":8,\"fields\":[{\"name\":\"x\",\"type\":\"double"
@@ -182,7 +182,7 @@ constexpr void indurop_fields(const Late& v, indurop_visitor f) {
   f("a", v.a);
 }
 
-namespace indurop_generated_4ffd2deb1c7e41a3 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_1ec35b10281a18d8 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x7909104d230843e3, 0xcb8fd003c8f57539, nullptr, nullptr, 64, ::indurop::abi::Kind::Ring, "pair_of_points"},
     {0x004d2e191349e4f2, 0xfc489beff4b7e77f, nullptr, nullptr, 20, ::indurop::abi::Kind::Ring, "box"},
@@ -285,9 +285,9 @@ union ref_Pair {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_4ffd2deb1c7e41a3::ref_P<indurop_tag, indurop_offset + 0> a;
-  ::indurop_generated_4ffd2deb1c7e41a3::ref_P<indurop_tag, indurop_offset + 16> b;
-  ::indurop::ArrayRef<::indurop_generated_4ffd2deb1c7e41a3::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
+  ::indurop_generated_1ec35b10281a18d8::ref_P<indurop_tag, indurop_offset + 0> a;
+  ::indurop_generated_1ec35b10281a18d8::ref_P<indurop_tag, indurop_offset + 16> b;
+  ::indurop::ArrayRef<::indurop_generated_1ec35b10281a18d8::ref_P<indurop_tag, indurop_offset + 32>, 2> both;
   INDUROP_UNION_SHAPE(ref_Pair)
   INDUROP_FRESHNESS(indurop_tag)
 };
@@ -321,8 +321,8 @@ union ref_box_t {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop::ArrayRef<::indurop_generated_4ffd2deb1c7e41a3::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
-  ::indurop_generated_4ffd2deb1c7e41a3::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
+  ::indurop::ArrayRef<::indurop_generated_1ec35b10281a18d8::ref_box_inner_t<indurop_tag, indurop_offset + 0>, 2> inner;
+  ::indurop_generated_1ec35b10281a18d8::ref_box_tail_t<indurop_tag, indurop_offset + 16> tail;
   INDUROP_UNION_SHAPE(ref_box_t)
   INDUROP_FRESHNESS(indurop_tag)
 };
@@ -345,7 +345,7 @@ union ref_Frame {
   using tag_type = indurop_tag;
   static constexpr ::std::uint32_t kOffset = indurop_offset;
   ::indurop::Place indurop_place;
-  ::indurop_generated_4ffd2deb1c7e41a3::ref_Size<indurop_tag, indurop_offset + 0> size;
+  ::indurop_generated_1ec35b10281a18d8::ref_Size<indurop_tag, indurop_offset + 0> size;
   INDUROP_UNION_SHAPE(ref_Frame)
   INDUROP_FRESHNESS(indurop_tag)
 };
@@ -395,14 +395,14 @@ union ref_Late {
   INDUROP_UNION_SHAPE(ref_Late)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_4ffd2deb1c7e41a3
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_Pair<::indurop_generated_4ffd2deb1c7e41a3::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_box_t<::indurop_generated_4ffd2deb1c7e41a3::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_4ffd2deb1c7e41a3::ref_Body<::indurop_generated_4ffd2deb1c7e41a3::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_P<::indurop_generated_4ffd2deb1c7e41a3::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_Frame<::indurop_generated_4ffd2deb1c7e41a3::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_4ffd2deb1c7e41a3::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_mode_type<::indurop_generated_4ffd2deb1c7e41a3::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop_generated_4ffd2deb1c7e41a3::ref_states_t<::indurop_generated_4ffd2deb1c7e41a3::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_4ffd2deb1c7e41a3::ref_states_t<::indurop_generated_4ffd2deb1c7e41a3::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_4ffd2deb1c7e41a3::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};
+}  // namespace indurop_generated_1ec35b10281a18d8
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_Pair<::indurop_generated_1ec35b10281a18d8::var_pair_of_points, 0> pair_of_points{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_box_t<::indurop_generated_1ec35b10281a18d8::var_box, 0> box{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_1ec35b10281a18d8::ref_Body<::indurop_generated_1ec35b10281a18d8::var_bodies, 0>, 3> bodies{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_P<::indurop_generated_1ec35b10281a18d8::var_origin, 0> origin{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_Frame<::indurop_generated_1ec35b10281a18d8::var_window, 0> window{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_1ec35b10281a18d8::var_turn, double, 0>, 3>, 3> turn{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_mode_type<::indurop_generated_1ec35b10281a18d8::var_mode, 0> mode{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop_generated_1ec35b10281a18d8::ref_states_t<::indurop_generated_1ec35b10281a18d8::var_states, 0>, 2> states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_1ec35b10281a18d8::ref_states_t<::indurop_generated_1ec35b10281a18d8::var_more_states, 0> more_states{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_1ec35b10281a18d8::var_behind_a_struct_without_semicolon, ::std::int32_t, 0> behind_a_struct_without_semicolon{::indurop::Place{0}, ::indurop::detail::Make{}};

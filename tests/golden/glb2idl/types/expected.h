@@ -12,8 +12,8 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_66fc9aad94090170,comdat
-.ascii "{\"schema\":1,\"abi\":4,\"variables\":[{\"name\":\"demo::types::a1\",\"type\":\"int8\",\"kind\":\"scalar\",\"source\":\"i"
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_52243594835acbe9,comdat
+.ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::types::a1\",\"type\":\"int8\",\"kind\":\"scalar\",\"source\":\"i"
 .ascii "n.glb:2\"},{\"name\":\"demo::types::a2\",\"type\":\"uint8\",\"kind\":\"scalar\",\"source\":\"in.glb:2\"},{\"name\":\"dem"
 .ascii "o::types::a3\",\"type\":\"int16\",\"kind\":\"scalar\",\"source\":\"in.glb:2\"},{\"name\":\"demo::types::a4\",\"type\":\""
 .ascii "uint16\",\"kind\":\"scalar\",\"source\":\"in.glb:2\"},{\"name\":\"demo::types::a5\",\"type\":\"int32\",\"kind\":\"scalar"
@@ -91,7 +91,7 @@ constexpr void indurop_fields(const Mixed& v, indurop_visitor f) {
 }
 }  // namespace demo::types
 
-namespace indurop_generated_66fc9aad94090170 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_52243594835acbe9 __attribute__((visibility("hidden"))) {
 inline constinit ::indurop::abi::Ref refs[] = {
     {0x76bb90032f9411ed, 0x08b70a07b55bfd94, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "demo::types::a1"},
     {0x76bb8d032f940cd4, 0x08c48207b56753d8, nullptr, nullptr, 1, ::indurop::abi::Kind::Scalar, "demo::types::a2"},
@@ -430,51 +430,51 @@ union ref_demo_types_Mixed {
   INDUROP_UNION_SHAPE(ref_demo_types_Mixed)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_66fc9aad94090170
+}  // namespace indurop_generated_52243594835acbe9
 
 namespace demo::types {
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a1, ::std::int8_t, 0> a1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a2, ::std::uint8_t, 0> a2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a3, ::std::int16_t, 0> a3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a4, ::std::uint16_t, 0> a4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a5, ::std::int32_t, 0> a5{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a6, ::std::uint32_t, 0> a6{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a7, ::std::int64_t, 0> a7{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_a8, ::std::uint64_t, 0> a8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b1, ::std::int8_t, 0> b1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b2, ::std::uint8_t, 0> b2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b3, ::std::int16_t, 0> b3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b4, ::std::uint16_t, 0> b4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b5, ::std::int32_t, 0> b5{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b6, ::std::uint32_t, 0> b6{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b7, ::std::int64_t, 0> b7{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_b8, ::std::uint64_t, 0> b8{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_c1, char, 0> c1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_c2, ::std::int8_t, 0> c2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_c3, ::std::uint8_t, 0> c3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_c4, ::std::uint8_t, 0> c4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_d1, ::std::int16_t, 0> d1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_d2, ::std::int16_t, 0> d2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_d3, ::std::uint16_t, 0> d3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_d4, ::std::int16_t, 0> d4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_e1, ::std::int32_t, 0> e1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_e2, ::std::uint32_t, 0> e2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_e3, ::std::int32_t, 0> e3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_e4, ::std::uint32_t, 0> e4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_f1, ::std::int64_t, 0> f1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_f2, ::std::uint64_t, 0> f2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_f3, ::std::int64_t, 0> f3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_f4, ::std::uint64_t, 0> f4{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_g1, ::std::int64_t, 0> g1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_g2, ::std::uint64_t, 0> g2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_g3, ::std::uint64_t, 0> g3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_h1, float, 0> h1{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_h2, double, 0> h2{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_66fc9aad94090170::var_demo_types_h3, bool, 0> h3{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::Text<::indurop_generated_66fc9aad94090170::var_demo_types_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Text<::indurop_generated_66fc9aad94090170::var_demo_types_texts, 8, 0>, 3>, 2> texts{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_66fc9aad94090170::var_demo_types_matrix, double, 0>, 4>, 4> matrix{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_66fc9aad94090170::var_demo_types_flags, bool, 0>, 3> flags{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_66fc9aad94090170::ref_demo_types_Mixed<::indurop_generated_66fc9aad94090170::var_demo_types_mixed, 0> mixed{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop_generated_66fc9aad94090170::ref_demo_types_Mixed<::indurop_generated_66fc9aad94090170::var_demo_types_mixes, 0>, 2>, 2> mixes{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a1, ::std::int8_t, 0> a1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a2, ::std::uint8_t, 0> a2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a3, ::std::int16_t, 0> a3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a4, ::std::uint16_t, 0> a4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a5, ::std::int32_t, 0> a5{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a6, ::std::uint32_t, 0> a6{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a7, ::std::int64_t, 0> a7{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_a8, ::std::uint64_t, 0> a8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b1, ::std::int8_t, 0> b1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b2, ::std::uint8_t, 0> b2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b3, ::std::int16_t, 0> b3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b4, ::std::uint16_t, 0> b4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b5, ::std::int32_t, 0> b5{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b6, ::std::uint32_t, 0> b6{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b7, ::std::int64_t, 0> b7{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_b8, ::std::uint64_t, 0> b8{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_c1, char, 0> c1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_c2, ::std::int8_t, 0> c2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_c3, ::std::uint8_t, 0> c3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_c4, ::std::uint8_t, 0> c4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_d1, ::std::int16_t, 0> d1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_d2, ::std::int16_t, 0> d2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_d3, ::std::uint16_t, 0> d3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_d4, ::std::int16_t, 0> d4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_e1, ::std::int32_t, 0> e1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_e2, ::std::uint32_t, 0> e2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_e3, ::std::int32_t, 0> e3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_e4, ::std::uint32_t, 0> e4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_f1, ::std::int64_t, 0> f1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_f2, ::std::uint64_t, 0> f2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_f3, ::std::int64_t, 0> f3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_f4, ::std::uint64_t, 0> f4{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_g1, ::std::int64_t, 0> g1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_g2, ::std::uint64_t, 0> g2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_g3, ::std::uint64_t, 0> g3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_h1, float, 0> h1{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_h2, double, 0> h2{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_52243594835acbe9::var_demo_types_h3, bool, 0> h3{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::Text<::indurop_generated_52243594835acbe9::var_demo_types_text, 16, 0> text{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Text<::indurop_generated_52243594835acbe9::var_demo_types_texts, 8, 0>, 3>, 2> texts{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_52243594835acbe9::var_demo_types_matrix, double, 0>, 4>, 4> matrix{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::Leaf<::indurop_generated_52243594835acbe9::var_demo_types_flags, bool, 0>, 3> flags{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_52243594835acbe9::ref_demo_types_Mixed<::indurop_generated_52243594835acbe9::var_demo_types_mixed, 0> mixed{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop::ArrayRef<::indurop::ArrayRef<::indurop_generated_52243594835acbe9::ref_demo_types_Mixed<::indurop_generated_52243594835acbe9::var_demo_types_mixes, 0>, 2>, 2> mixes{::indurop::Place{0}, ::indurop::detail::Make{}};
 }  // namespace demo::types

@@ -145,16 +145,16 @@ void write_shared() {
   iec::write_changed(::golden::list, shared.list, before.list);
   iec::write_changed(::golden::mode, shared.mode, before.mode);
 }
-}  // namespace
-
 // One scan: all variables it sees are from its beginning, what it changed is there at its end.
-void POU_PROGRAM() {
+void one_scan() {
   const iec::Scan scan{irp::release_ns()};
   read_shared();
   instance_MAIN(scan);
   write_shared();
 }
+}  // namespace
 
+void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
 
 INDUROP_MODULE(run = &::run, name = "golden")

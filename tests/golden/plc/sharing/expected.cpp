@@ -75,16 +75,16 @@ void write_shared() {
   iec::write_changed(::PLC_ROBOT::O0, shared.O0, before.O0);
   iec::write_changed(::PLC_ROBOT::ROBOT_MODULE_SERVICE.eOpCode, shared.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode, before.PLC_ROBOT_ROBOT_MODULE_SERVICE.eOpCode);
 }
-}  // namespace
-
 // One scan: all variables it sees are from its beginning, what it changed is there at its end.
-void POU_PROGRAM() {
+void one_scan() {
   const iec::Scan scan{irp::release_ns()};
   read_shared();
   instance_first(scan);
   write_shared();
 }
+}  // namespace
 
+void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
 
 INDUROP_MODULE(run = &::run, name = "golden_fast")
@@ -152,16 +152,16 @@ void write_shared() {
   words_4.write();
   iec::write_changed(::PLC_ROBOT::speed, shared.speed, before.speed);
 }
-}  // namespace
-
 // One scan: all variables it sees are from its beginning, what it changed is there at its end.
-void POU_PROGRAM() {
+void one_scan() {
   const iec::Scan scan{irp::release_ns()};
   read_shared();
   instance_second(scan);
   write_shared();
 }
+}  // namespace
 
+void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
 
 INDUROP_MODULE(run = &::run, name = "golden_slow")

@@ -184,17 +184,17 @@ void read_shared() {
 
 void write_shared() {
 }
-}  // namespace
-
 // One scan: all variables it sees are from its beginning, what it changed is there at its end.
-void POU_PROGRAM() {
+void one_scan() {
   const iec::Scan scan{irp::release_ns()};
   read_shared();
   instance_press(scan);
   instance_list(scan);
   write_shared();
 }
+}  // namespace
 
+void POU_PROGRAM() { one_scan(); }
 void run() { POU_PROGRAM(); }
 
 INDUROP_MODULE(run = &::run, name = "golden")
