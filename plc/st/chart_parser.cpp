@@ -221,13 +221,18 @@ network::Body ChartParser::code_until(std::string_view end, Body::Language langu
   body.language = language;
   body.at = in_.here();
   body.text_at = body.at;
-  const char* first = in_.peek().text.data();
-  const char* last = first;
+  const char* first = nullptr;
+  const char* last = nullptr;
   while (!in_.at_end() && !in_.peek().is(end) && (other.empty() || !in_.peek().is(other))) {
-    const std::string_view text = in_.take().text;
-    last = text.data() + text.size();
+    const Token& one = in_.take();
+    if (!one.follows_error) {  // else it is not of the file's text
+      first = first == nullptr ? one.text.data() : first;
+      last = one.text.data() + one.text.size();
+    }
   }
-  body.text.assign(first, static_cast<std::size_t>(last - first));
+  if (first != nullptr) {
+    body.text.assign(first, static_cast<std::size_t>(last - first));
+  }
   return body;
 }
 

@@ -185,7 +185,10 @@ WrittenBody ProjectParser::text_behind(const Token& before) const {
   body.at = in_.place(before);
   body.text_at = body.at;
   body.text_at.column += static_cast<int>(before.text.size());
-  body.text.assign(begin, static_cast<std::size_t>(in_.peek().text.data() - begin));
+  // What stands for something that could not be read is not of the file's text.
+  const Token& here = in_.peek();
+  const bool in_text = !here.follows_error || here.kind == TokenKind::End;
+  body.text.assign(begin, in_text ? static_cast<std::size_t>(here.text.data() - begin) : 0);
   return made;
 }
 
