@@ -46,7 +46,8 @@ class Many : public ::testing::Test {
     tape::Track& track = *tape_->of(0);
     track.begin();
     for (std::uint32_t i = 0; i < kMany; ++i) {
-      const std::uint64_t value[2] = {tick, store_.directory()[i].schema_index};
+      const std::string& name = store_.schema().variables[store_.directory()[i].schema_index].name;
+      const std::uint64_t value[2] = {tick, std::stoul(name.substr(1))};
       (void)store_.write(store_.directory()[i], 0, {reinterpret_cast<const std::uint8_t*>(value), sizeof value});
     }
     const auto ns = static_cast<std::int64_t>(tick) * 1'000'000;
