@@ -38,8 +38,7 @@ void Follower::try_blend() noexcept {
 Profile Follower::into_blend() const noexcept {
   constexpr int kHalvings = 8;
   LineLimits limits = piece_limits();
-  const double rise = std::max(state_.acceleration, 0.0);
-  limits.velocity = std::min(limits.velocity, state_.velocity + rise * rise / (2 * limits.jerk));
+  limits.velocity = std::min(limits.velocity, std::max(state_.velocity, unloaded(state_, limits)));
   const auto to = [&](double speed) { return Profile::to_position(state_, piece_end(), speed, limits); };
   double fast = blend_.limits.velocity;
   double slow = 0;

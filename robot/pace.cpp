@@ -11,11 +11,6 @@ namespace {
 constexpr int kStages = 8;
 constexpr double kRounding = 1e-9;
 
-// The pace at which its change is taken back.
-double unloaded(const LineState& now, const LineLimits& limits) noexcept {
-  return now.velocity + now.acceleration * std::abs(now.acceleration) / (2 * limits.jerk);
-}
-
 bool can_level_off(const LineState& now, double top, const PaceLimits& limits) noexcept {
   const LineLimits there = limits.at(top);
   return unloaded(now, there) <= top + kRounding && now.acceleration <= there.acceleration * (1 + kRounding);

@@ -8,16 +8,16 @@ namespace indurop::robot {
 
 namespace {
 
-// A uniform B-spline piece of this degree and its first three derivatives, by de Boor's triangle.
-template <std::size_t Degree>
+// A uniform B-spline piece of degree 5 and its first three derivatives, by de Boor's triangle.
 PathTiming::Value spline(const double* coefficients, double part) noexcept {
+  constexpr std::size_t kDegree = 5;
   // Differences give the derivatives; what is left of the degree is evaluated.
-  std::array<double, Degree + 1> c{};
-  std::copy_n(coefficients, Degree + 1, c.begin());
+  std::array<double, kDegree + 1> c{};
+  std::copy_n(coefficients, kDegree + 1, c.begin());
   std::array<double, 4> result{};
   for (std::size_t order = 0; order <= 3; ++order) {
-    const std::size_t degree = Degree - order;
-    std::array<double, Degree + 1> d = c;
+    const std::size_t degree = kDegree - order;
+    std::array<double, kDegree + 1> d = c;
     for (std::size_t level = 1; level <= degree; ++level) {
       for (std::size_t i = degree; i >= level; --i) {
         const double weight = (part + static_cast<double>(degree - i)) / static_cast<double>(degree - level + 1);
@@ -40,17 +40,15 @@ struct Cubic {
         c((z[0] - 2 * z[1] + z[2]) / 2),
         d((z[3] - 3 * z[2] + 3 * z[1] - z[0]) / 6) {}
   [[nodiscard]] double at(double x) const noexcept { return a + x * (b + x * (c + x * d)); }
+  [[nodiscard]] double slope(double x) const noexcept { return b + x * (2 * c + x * 3 * d); }
+  [[nodiscard]] double bend(double x) const noexcept { return 2 * c + x * 6 * d; }
   double a, b, c, d;
 };
 
 }  // namespace
 
 PathTiming::Value PathTiming::place(int piece, double part) const noexcept {
-  return spline<5>(shape_.data() + piece, part);
-}
-
-PathTiming::Value PathTiming::square(int piece, double part) const noexcept {
-  return spline<3>(squares_.data() + piece, part);
+  return spline(shape_.data() + piece, part);
 }
 
 // From the beginning of the piece.
@@ -113,10 +111,11 @@ Timed PathTiming::at(double time) const noexcept {
   }
   part = std::clamp(part, 0.0, 1.0);
   const Value s = place(piece, part);
-  const Value w = square(piece, part);
-  const double u = std::sqrt(w.value);
-  return {s.value, s.first * u, s.second * w.value + s.first * w.first / 2,
-          u * (s.third * w.value + 1.5 * s.second * w.first + s.first * w.second / 2)};
+  const double square = squared.at(part);
+  const double slope = squared.slope(part);
+  const double u = std::sqrt(square);
+  return {s.value, s.first * u, s.second * square + s.first * slope / 2,
+          u * (s.third * square + 1.5 * s.second * slope + s.first * squared.bend(part) / 2)};
 }
 
 }  // namespace indurop::robot

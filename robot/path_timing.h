@@ -37,7 +37,6 @@ class PathTiming {
 
  private:
   [[nodiscard]] Value place(int piece, double part) const noexcept;
-  [[nodiscard]] Value square(int piece, double part) const noexcept;
   [[nodiscard]] double seconds(int piece, double part) const noexcept;
 
   int count_ = 0;

@@ -21,11 +21,6 @@ double sum_of_phases(const Ramp& ramp, const LineState& from) noexcept {
   return state.position;
 }
 
-// Speed once the acceleration has been taken back to zero.
-double velocity_unloaded(const LineState& from, const LineLimits& limits) noexcept {
-  return from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * limits.jerk);
-}
-
 LineState after(const Ramp& ramp, const LineState& from, double time) noexcept {
   LineState state = from;
   for (const auto& phase : ramp.phases) {
@@ -80,13 +75,17 @@ double root(double most, double slack, const Excess& excess) noexcept {
 
 }  // namespace
 
+double unloaded(const LineState& from, const LineLimits& limits) noexcept {
+  return from.velocity + from.acceleration * std::abs(from.acceleration) / (2 * limits.jerk);
+}
+
 double Ramp::duration() const noexcept {
   return phases[0].duration + phases[1].duration + phases[2].duration;
 }
 
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept {
   // Upwards; a ramp down is one up in the mirror.
-  const double sign = velocity >= velocity_unloaded(from, limits) ? 1 : -1;
+  const double sign = velocity >= unloaded(from, limits) ? 1 : -1;
   const double a0 = sign * from.acceleration;
   const double gain = sign * (velocity - from.velocity);
   const double jerk = limits.jerk;
@@ -173,8 +172,8 @@ Profile Profile::to_position(const LineState& from, double position, double arri
     profile.append_way(length, last, limits, braking);
   } else {
     // Too short to come to the wanted velocity: as near to it as possible, but when slowing down not above `arrival`.
-    const double unloaded = velocity_unloaded(from, limits);
-    double nearest = last < unloaded ? std::min(unloaded, arrival) : std::max(unloaded, 0.0);
+    const double at_least = unloaded(from, limits);
+    double nearest = last < at_least ? std::min(at_least, arrival) : std::max(at_least, 0.0);
     nearest = straight(nearest) <= length ? nearest : 0;
     profile.overshoots_ = straight(nearest) > length * (1 + 1e-9) + 1e-12;
     last = straight(nearest) > length ? 0 : just_fitting(nearest, last, length, straight);

@@ -31,6 +31,9 @@ struct Ramp {
   [[nodiscard]] double duration() const noexcept;
 };
 
+// Speed once the acceleration has been taken back to zero, as fast as the jerk allows. Real-time safe.
+double unloaded(const LineState& from, const LineLimits& limits) noexcept;
+
 // The fastest ramp. `from.position` does not count. Only acceleration and jerk of the limits do. Real-time safe, as
 // everything here.
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept;
