@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <string_view>
 
 #include "recorder/run_words.h"
@@ -46,6 +47,18 @@ ChannelPlace place_of(const Source& source, std::size_t number, const std::strin
 }
 
 }  // namespace
+
+std::string Source::text(const std::string& key) const {
+  const auto found = about.find(key);
+  return found == about.end() ? std::string() : found->second;
+}
+
+std::int64_t Source::number(const std::string& key) const {
+  const std::string digits = text(key);
+  std::int64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
 
 Sources find_sources(const recording::McapReader& reader) {
   Sources sources;

@@ -26,6 +26,9 @@ struct Source {
   recording::TextMap about;          // what recorder.h says of the node
   std::vector<std::string> modules;  // names, by index
 
+  // What it says of the node; empty and 0: nothing.
+  [[nodiscard]] std::string text(const std::string& key) const;
+  [[nodiscard]] std::int64_t number(const std::string& key) const;
   [[nodiscard]] std::string name() const { return prefix.empty() ? "" : prefix.substr(0, prefix.size() - 1); }
 };
 

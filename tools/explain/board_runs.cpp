@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "recorder/run_words.h"
@@ -13,13 +12,8 @@
 #include "recording/mcap_reader.h"
 
 namespace indurop::tools {
-namespace {
 
 using base::Problem;
-
-constexpr int kMostDamages = 1000;
-
-}  // namespace
 
 BoardRuns::BoardRuns(std::string board, std::vector<std::string> modules, std::vector<std::string> wanted)
     : board_(std::move(board)), wanted_(std::move(wanted)) {
@@ -167,8 +161,8 @@ Result<std::string, Problem> recorded_config(const std::filesystem::path& file) 
     return reader.error();
   }
   for (const recorder::Source& source : recorder::find_sources(*reader).all) {
-    if (const auto config = source.about.find("config"); config != source.about.end()) {
-      return config->second;
+    if (std::string config = source.text("config"); !config.empty()) {
+      return config;
     }
   }
   return Problem{fmt::format("{} is no recording of a node", file.string())};
@@ -187,42 +181,28 @@ Result<std::vector<BoardRuns>, Problem> recorded_runs(const std::filesystem::pat
   std::vector<BoardRuns> boards;
   std::vector<std::int64_t> shifts;
   for (const recorder::Source& source : sources.all) {
-    const auto text = [&](const char* key) {
-      const auto found = source.about.find(key);
-      return found == source.about.end() ? std::string() : found->second;
-    };
-    const std::string shift = text("real_minus_node_ns");
-    shifts.push_back(0);
-    std::from_chars(shift.data(), shift.data() + shift.size(), shifts.back());
-    boards.emplace_back(text("board"), source.modules, wanted);
+    shifts.push_back(source.number("real_minus_node_ns"));
+    boards.emplace_back(source.text("board"), source.modules, wanted);
   }
-  for (int damages = 0; damages < kMostDamages;) {
-    const auto message = reader->next();
-    if (!message) {
-      ++damages;
-      continue;
-    }
-    if (!*message) {
-      break;
-    }
-    const auto channel = sources.channels.find((*message)->channel);
+  (void)reader->each([&](const recording::McapMessage& message) {
+    const auto channel = sources.channels.find(message.channel);
     if (channel == sources.channels.end()) {
-      continue;
+      return;
     }
     const recorder::ChannelPlace& place = channel->second;
     if (place.kind == recorder::ChannelKind::Run) {
-      if (const auto run = recorder::run_from_cdr((*message)->data.view)) {
+      if (const auto run = recorder::run_from_cdr(message.data.view)) {
         boards[place.source].end(run->module, run->tail, shifts[place.source]);
       }
     } else if (place.kind == recorder::ChannelKind::Value) {
       const auto variable = std::find(wanted.begin(), wanted.end(), place.name);
-      const auto words = recorder::from_sequence((*message)->sequence);
+      const auto words = recorder::from_sequence(message.sequence);
       if (variable != wanted.end()) {
         boards[place.source].tell(words.module, static_cast<std::size_t>(variable - wanted.begin()), words.kind,
-                                  value_number((*message)->data.view));
+                                  value_number(message.data.view));
       }
     }
-  }
+  });
   return boards;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include "explain/facts_json.h"
@@ -17,19 +16,6 @@ namespace {
 
 using base::Problem;
 using explain::Facts;
-
-std::int64_t number_of(const recording::TextMap& map, const std::string& key) {
-  std::int64_t number = 0;
-  if (const auto found = map.find(key); found != map.end()) {
-    std::from_chars(found->second.data(), found->second.data() + found->second.size(), number);
-  }
-  return number;
-}
-
-std::string text_of(const recording::TextMap& map, const std::string& key) {
-  const auto found = map.find(key);
-  return found == map.end() ? std::string() : found->second;
-}
 
 class Recorded {
  public:
@@ -55,12 +41,12 @@ class Recorded {
     if (sources_.all.size() != 1 || !sources_.all.front().prefix.empty()) {
       return false;
     }
-    const recording::TextMap& about = sources_.all.front().about;
-    facts_.node = text_of(about, "node");
-    facts_.board = text_of(about, "board");
-    facts_.basic_period_ns = number_of(about, "basic_period_ns");
-    facts_.wall_minus_node_ns = number_of(about, "real_minus_node_ns");
-    config_ = text_of(about, "config");
+    const recorder::Source& about = sources_.all.front();
+    facts_.node = about.text("node");
+    facts_.board = about.text("board");
+    facts_.basic_period_ns = about.number("basic_period_ns");
+    facts_.wall_minus_node_ns = about.number("real_minus_node_ns");
+    config_ = about.text("config");
     return facts_.basic_period_ns > 0;
   }
 

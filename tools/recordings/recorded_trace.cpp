@@ -20,8 +20,8 @@ using base::Problem;
 void name_tracks(const recorder::Sources& sources, std::string& out) {
   for (std::size_t i = 0; i < sources.all.size(); ++i) {
     const recorder::Source& source = sources.all[i];
-    const auto node = source.about.find("node");
-    const std::string name = node == source.about.end() ? source.prefix : "node " + node->second;
+    const std::string node = source.text("node");
+    const std::string name = node.empty() ? source.prefix : "node " + node;
     out += (i == 0 ? "" : ",\n") +
            JsonValue{{"ph", "M"}, {"name", "process_name"}, {"pid", i + 1}, {"args", {{"name", name}}}}.dump();
     for (std::size_t module = 0; module < source.modules.size(); ++module) {

@@ -79,9 +79,8 @@ void print_head(Context& context, const std::filesystem::path& file, const Surve
   for (const recorder::Source& source : survey.sources.all) {
     std::string line;
     for (const char* name : {"node", "board", "config", "deployment", "reason"}) {
-      const auto found = source.about.find(name);
-      if (found != source.about.end() && !found->second.empty()) {
-        line += fmt::format("{}{} {}", line.empty() ? "" : ", ", name, printable(found->second));
+      if (const std::string text = source.text(name); !text.empty()) {
+        line += fmt::format("{}{} {}", line.empty() ? "" : ", ", name, printable(text));
       }
     }
     context.out.line(line);
