@@ -2,6 +2,7 @@
 #include "tools/plc/plc_coverage.h"
 
 #include <fmt/format.h>
+#include <indurop/plc/coverage.h>
 
 #include <algorithm>
 #include <charconv>
@@ -19,10 +20,12 @@ namespace {
 
 using base::Problem;
 
-// As include/indurop/plc/coverage.h writes them.
-constexpr std::uint64_t kMagic = 0x31564f43434c5049ULL;
-constexpr std::size_t kHeadWords = 3;
+constexpr std::uint64_t kMagic = iec::Coverage::kMagic;
+constexpr std::size_t kHeadWords = iec::Coverage::kHeadWords;
 constexpr std::size_t kFields = 6;
+
+// How often lines ran, by file and number. Several statements of a line: it ran as often as the one that ran most.
+using Runs = std::map<std::pair<std::string, int>, std::uint64_t>;
 
 std::vector<std::string_view> split(std::string_view text, char by) {
   std::vector<std::string_view> out;
@@ -53,7 +56,7 @@ std::pair<std::string, std::string> drawn_of(std::string_view within) {
 }
 
 // One line of the text of a file of counters. False if it makes no sense.
-bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Coverage& coverage) {
+bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Coverage& coverage, Runs& runs) {
   const auto fields = split(line, '\t');
   std::size_t counter = 0;
   int number = 0;
@@ -61,7 +64,7 @@ bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Cov
     return false;
   }
   const bool statement = fields[0] == "statement";
-  if (counter + (statement ? 1 : 2) > counts.size()) {
+  if (counter >= counts.size() || counts.size() - counter < (statement ? 1 : 2)) {
     return false;
   }
   FileCoverage& file = coverage[std::string(fields[2])];
@@ -70,6 +73,8 @@ bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Cov
     FileCoverage::Line& one = file.lines[number];
     one.pou = std::string(fields[5]);
     one.drawn = drawn;
+    std::uint64_t& most = runs[{std::string(fields[2]), number}];
+    most = std::max(most, counts[counter]);
     return true;
   }
   const bool coil = fields[0] == "coil";
@@ -80,24 +85,6 @@ bool add_point(std::string_view line, std::span<const std::uint64_t> counts, Cov
   one.yes += counts[counter];
   one.no += counts[counter + 1];
   return true;
-}
-
-// Several statements of a line: it ran as often as the one that ran most.
-void add_runs(std::string_view text, std::span<const std::uint64_t> counts, Coverage& coverage) {
-  std::map<std::pair<std::string, int>, std::uint64_t> runs;
-  for (const std::string_view line : split(text, '\n')) {
-    const auto fields = split(line, '\t');
-    std::size_t counter = 0;
-    int number = 0;
-    if (fields.size() == kFields && fields[0] == "statement" && read_number(fields[1], counter) &&
-        read_number(fields[3], number)) {
-      std::uint64_t& most = runs[{std::string(fields[2]), number}];
-      most = std::max(most, counts[counter]);
-    }
-  }
-  for (const auto& [place, count] : runs) {
-    coverage[place.first].lines[place.second].runs += count;
-  }
 }
 
 }  // namespace
@@ -120,12 +107,15 @@ Result<void, Problem> add_counters(const std::filesystem::path& path, Coverage& 
   const auto counts = std::span(words).subspan(kHeadWords, words[1]);
   const std::string_view text = std::string_view(*bytes).substr(head);
   Coverage added = coverage;
+  Runs runs;
   for (const std::string_view line : split(text, '\n')) {
-    if (!line.empty() && !add_point(line, counts, added)) {
+    if (!line.empty() && !add_point(line, counts, added, runs)) {
       return damaged;
     }
   }
-  add_runs(text, counts, added);
+  for (const auto& [place, count] : runs) {
+    added[place.first].lines[place.second].runs += count;
+  }
   coverage = std::move(added);
   return {};
 }
