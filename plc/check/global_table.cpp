@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "plc/check/expression_checker.h"
@@ -13,6 +12,7 @@
 #include "plc/check/places.h"
 #include "plc/check/shared_names.h"
 #include "plc/check/type_builder.h"
+#include "plc/st/literal.h"
 
 namespace indurop::plc {
 namespace {
@@ -182,15 +182,14 @@ const Global* overlapping(const Program& program, const ast::DirectAddress& addr
   if (type.kind != Type::Kind::Array || !lies_at(*type.element, address)) {
     return nullptr;
   }
-  const auto stem = [](const std::string& text) { return text.find_last_of("%IQMXBWDL.") + 1; };
-  const std::string begin = ast::to_string(address);
-  const std::size_t same = stem(begin);
   const auto inside = [&](const Global& one) {
-    if (one.address.size() <= same || stem(one.address) != same || one.address.compare(0, same, begin, 0, same) != 0) {
+    auto begin = st::address_literal(one.address);
+    if (!begin || begin->numbers.empty()) {
       return false;
     }
-    const long long offset = std::atoll(one.address.c_str() + same) - address.numbers.back();
-    return offset > 0 && static_cast<std::uint64_t>(offset) < parts_of(type);
+    const int offset = std::exchange(begin->numbers.back(), address.numbers.back()) - address.numbers.back();
+    return offset > 0 && static_cast<std::uint64_t>(offset) < parts_of(type) &&
+           ast::to_string(*begin) == ast::to_string(address);
   };
   const auto found = std::find_if(program.globals.begin(), program.globals.end(), inside);
   return found == program.globals.end() ? nullptr : &*found;

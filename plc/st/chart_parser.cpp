@@ -225,10 +225,8 @@ network::Body ChartParser::code_until(std::string_view end, Body::Language langu
   const char* last = nullptr;
   while (!in_.at_end() && !in_.peek().is(end) && (other.empty() || !in_.peek().is(other))) {
     const Token& one = in_.take();
-    if (!one.follows_error) {  // else it is not of the file's text
-      first = first == nullptr ? one.text.data() : first;
-      last = one.text.data() + one.text.size();
-    }
+    first = first == nullptr ? one.written.data() : first;
+    last = one.written.data() + one.written.size();
   }
   if (first != nullptr) {
     body.text.assign(first, static_cast<std::size_t>(last - first));

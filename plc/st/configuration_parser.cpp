@@ -31,6 +31,38 @@ void ConfigurationParser::recover() {
   }
 }
 
+// Nothing, or ( item , item ).
+template <class Item>
+bool ConfigurationParser::in_brackets(Item item, std::string_view behind) {
+  if (!in_.accept("(")) {
+    return true;
+  }
+  do {
+    if (!item()) {
+      return false;
+    }
+  } while (in_.accept(","));
+  return in_.expect(")", behind);
+}
+
+// The items of the section whose word was taken.
+template <class Item>
+void ConfigurationParser::up_to_end_var(std::string_view section, Item item) {
+  const int line = in_.previous().line;
+  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
+    const std::size_t from = in_.position();
+    if (!item()) {
+      recover();
+    }
+    if (in_.position() == from) {
+      break;
+    }
+  }
+  if (in_.expect("END_VAR", fmt::format("to close the {} of line {}", section, line))) {
+    in_.accept(";");
+  }
+}
+
 void ConfigurationParser::configuration(Project& to) {
   Configuration out;
   const int line = in_.previous().line;
@@ -105,15 +137,8 @@ bool ConfigurationParser::task(Resource& out) {
   if (!name(one.name, "the task")) {
     return false;
   }
-  if (in_.accept("(")) {
-    do {
-      if (!task_property(one)) {
-        return false;
-      }
-    } while (in_.accept(","));
-    if (!in_.expect(")", "behind the task's properties")) {
-      return false;
-    }
+  if (!in_brackets([&] { return task_property(one); }, "behind the task's properties")) {
+    return false;
   }
   out.tasks.push_back(std::move(one));
   return in_.expect(";", "behind the task");
@@ -161,15 +186,8 @@ bool ConfigurationParser::program(Resource& out) {
   if (!in_.expect(":", "before the program's type") || !name(one.type, "the program")) {
     return false;
   }
-  if (in_.accept("(")) {
-    do {
-      if (!connection(one)) {
-        return false;
-      }
-    } while (in_.accept(","));
-    if (!in_.expect(")", "behind the connections of the program")) {
-      return false;
-    }
+  if (!in_brackets([&] { return connection(one); }, "behind the connections of the program")) {
+    return false;
   }
   out.programs.push_back(std::move(one));
   return in_.expect(";", "behind the program");
@@ -210,23 +228,16 @@ std::optional<ast::Expression> ConfigurationParser::path() {
 }
 
 void ConfigurationParser::accesses(const std::string& program, std::vector<Access>& to) {
-  const int line = in_.take().line;
-  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
-    const std::size_t from = in_.position();
+  in_.take();
+  up_to_end_var("VAR_ACCESS", [&] {
     Access one;
     one.program = program;
-    if (access(one)) {
-      to.push_back(std::move(one));
-    } else {
-      recover();
+    if (!access(one)) {
+      return false;
     }
-    if (in_.position() == from) {
-      break;
-    }
-  }
-  if (in_.expect("END_VAR", fmt::format("to close the VAR_ACCESS of line {}", line))) {
-    in_.accept(";");
-  }
+    to.push_back(std::move(one));
+    return true;
+  });
 }
 
 // pressure : plc.main.tank.pressure : REAL READ_WRITE;
@@ -253,22 +264,14 @@ bool ConfigurationParser::access(Access& out) {
 }
 
 void ConfigurationParser::configured(std::vector<Configured>& to) {
-  const int line = in_.previous().line;
-  while (!in_.at_end() && !in_.peek().is("END_VAR")) {
-    const std::size_t from = in_.position();
+  up_to_end_var("VAR_CONFIG", [&] {
     Configured one;
-    if (configured(one)) {
-      to.push_back(std::move(one));
-    } else {
-      recover();
+    if (!configured(one)) {
+      return false;
     }
-    if (in_.position() == from) {
-      break;
-    }
-  }
-  if (in_.expect("END_VAR", fmt::format("to close the VAR_CONFIG of line {}", line))) {
-    in_.accept(";");
-  }
+    to.push_back(std::move(one));
+    return true;
+  });
 }
 
 // plc.main.motor.running AT %QX1.0 : BOOL := TRUE;

@@ -35,6 +35,10 @@ class ConfigurationParser {
   // What is named from outside, resource.program.instance.variable: what leads to an address is left out.
   [[nodiscard]] std::optional<ast::Expression> path();
   [[nodiscard]] bool name(std::string& to, std::string_view what);
+  template <class Item>
+  [[nodiscard]] bool in_brackets(Item item, std::string_view behind);
+  template <class Item>
+  void up_to_end_var(std::string_view section, Item item);
   // Behind the next ';', or before a word that begins with END_.
   void recover();
 

@@ -100,7 +100,8 @@ class Lexer {
     from_column_ = column_;
   }
   void push(TokenKind kind) {
-    out_.push_back({kind, text_.substr(from_, at_ - from_), from_line_, from_column_, comment_, comment_line_});
+    const std::string_view written = text_.substr(from_, at_ - from_);
+    out_.push_back({kind, written, written, from_line_, from_column_, comment_, comment_line_});
     comment_ = {};
     comment_line_ = 0;
   }

@@ -24,7 +24,8 @@ enum class TokenKind : std::uint8_t {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  std::string_view text;  // spelling
+  std::string_view text;     // spelling
+  std::string_view written;  // the place of it in the file; of what stands for something else, the place of that
   int line = 1;
   int column = 1;
   std::string_view comment;    // the last one between this token and the one before; without its marks

@@ -178,17 +178,14 @@ std::optional<WrittenBody> ProjectParser::statements(ast::Pou& out, std::string_
 
 // From behind the token to here, comments included.
 WrittenBody ProjectParser::text_behind(const Token& before) const {
-  const char* begin = before.text.data() + before.text.size();
+  const char* begin = before.written.data() + before.written.size();
   WrittenBody made;
   network::Body& body = made.code.body;
   body.language = network::Body::Language::St;
   body.at = in_.place(before);
   body.text_at = body.at;
-  body.text_at.column += static_cast<int>(before.text.size());
-  // What stands for something that could not be read is not of the file's text.
-  const Token& here = in_.peek();
-  const bool in_text = !here.follows_error || here.kind == TokenKind::End;
-  body.text.assign(begin, in_text ? static_cast<std::size_t>(here.text.data() - begin) : 0);
+  body.text_at.column += static_cast<int>(before.written.size());
+  body.text.assign(begin, static_cast<std::size_t>(in_.peek().written.data() - begin));
   return made;
 }
 

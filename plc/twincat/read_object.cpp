@@ -43,7 +43,7 @@ class Words {
   }
   // What the file does not write, as END_METHOD.
   void word(std::string_view text, TokenKind kind = TokenKind::Word) {
-    list_.push_back({kind, text, last_.line, last_.column, {}, 0});
+    list_.push_back({kind, text, text, last_.line, last_.column, {}, 0});
   }
   [[nodiscard]] std::vector<Token> take() {
     word({}, TokenKind::End);
