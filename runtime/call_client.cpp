@@ -169,21 +169,9 @@ Errc call_now(const detail::CallRequest& request) noexcept {
 
 // A run that is repeated gets what it got then.
 Errc call(const detail::CallRequest& request) noexcept {
-  const ToldAnswer* const answer = next_answer();
-  const Errc code = call_now(request);
-  if (answer == nullptr) {
-    note_answer(static_cast<std::int64_t>(code), request.result, code == Errc::Ok ? request.result_size : 0);
-    return code;
-  }
-  const bool known =
-      answer->code != tape::kTooLongToTell && (answer->code != 0 || answer->bytes.size() == request.result_size);
-  if (!known) {
-    return code;
-  }
-  if (answer->code == 0 && request.result_size > 0) {
-    std::memcpy(request.result, answer->bytes.data(), request.result_size);
-  }
-  return static_cast<Errc>(answer->code);
+  const auto is_good = [](std::int64_t code) { return code == static_cast<std::int64_t>(Errc::Ok); };
+  return static_cast<Errc>(answer(request.result, request.result_size, is_good,
+                                  [&] { return static_cast<std::int64_t>(call_now(request)); }));
 }
 
 }  // namespace

@@ -213,21 +213,10 @@ std::ptrdiff_t access_now(Handle::Impl& impl, std::string_view name, std::size_t
 // A run that is repeated reads what it read then.
 std::ptrdiff_t detail::access(Handle& handle, std::string_view name, std::size_t size, void* value, Basic basic,
                               bool is_write) {
-  const runtime::ToldAnswer* const answer = runtime::next_answer();
-  const std::ptrdiff_t result = access_now(handle.impl(), name, size, value, basic, is_write);
-  if (answer == nullptr) {
-    runtime::note_answer(result, value, is_write || result < 0 ? 0 : size);
-    return result;
-  }
-  const bool known =
-      answer->code != indurop::tape::kTooLongToTell && (is_write || answer->code < 0 || answer->bytes.size() == size);
-  if (!known) {
-    return result;
-  }
-  if (!is_write && answer->code >= 0) {
-    std::memcpy(value, answer->bytes.data(), size);
-  }
-  return static_cast<std::ptrdiff_t>(answer->code);
+  const auto is_read = [is_write](std::int64_t code) { return !is_write && code >= 0; };
+  return static_cast<std::ptrdiff_t>(runtime::answer(value, size, is_read, [&]() -> std::int64_t {
+    return access_now(handle.impl(), name, size, value, basic, is_write);
+  }));
 }
 
 }  // namespace channel

@@ -2,6 +2,10 @@
 
 #include "runtime/host.h"
 
+#include <indurop/detail/abi.h>
+
+#include <limits>
+
 #include "runtime/process.h"
 
 namespace indurop::runtime {
@@ -55,6 +59,15 @@ void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcep
   if (t_track != nullptr) {
     t_track->told(code, {static_cast<const std::uint8_t*>(bytes), size});
   }
+}
+
+std::int64_t see_confirmed(std::int64_t confirmed) noexcept {
+  // As a code, the lowest number means something else.
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  const auto brings_bytes = [](std::int64_t) { return false; };
+  const std::int64_t code =
+      answer(nullptr, 0, brings_bytes, [confirmed] { return confirmed == abi::kNeverConfirmed ? kNever : confirmed; });
+  return code == kNever ? abi::kNeverConfirmed : code;
 }
 
 void set_current_module(std::uint32_t index) noexcept {

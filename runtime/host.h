@@ -9,7 +9,9 @@
 
 #include <indurop/result.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +19,7 @@
 
 #include "runtime/message_ring.h"
 #include "scheduler/run_block.h"
+#include "tape/layout.h"
 #include "tape/track.h"
 #include "vars/store.h"
 
@@ -34,8 +37,8 @@ void set_current_track(tape::Track* track) noexcept;
 void set_clock_readings(std::span<const std::int64_t> readings) noexcept;
 std::int64_t read_clock() noexcept;
 
-// Likewise what calls of shared functions and channels give it. As long as there are `answers`, they are what it gets;
-// functions are called nevertheless, for what they do.
+// Likewise what calls of shared functions and channels give it, and how fresh values of other boards are. As long as
+// there are `answers`, they are what it gets; functions are called nevertheless, for what they do.
 struct ToldAnswer {
   std::int64_t code = 0;
   std::span<const std::uint8_t> bytes;
@@ -44,6 +47,27 @@ void set_answers(std::span<const ToldAnswer> answers) noexcept;
 // Null: what really comes counts, and is told by note_answer().
 const ToldAnswer* next_answer() noexcept;
 void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept;
+// The same around one of them: `ask` fills `bytes` and returns its code; `fills` says of a code whether `size` bytes
+// come with it. Returns the code that the run gets. Real-time safe if `ask` is.
+template <class Fills, class Ask>
+std::int64_t answer(void* bytes, std::size_t size, Fills fills, Ask ask) {
+  const ToldAnswer* const then = next_answer();
+  const std::int64_t now = ask();
+  if (then == nullptr) {
+    note_answer(now, bytes, fills(now) ? size : 0);
+    return now;
+  }
+  if (then->code == tape::kTooLongToTell || (fills(then->code) && then->bytes.size() != size)) {
+    return now;
+  }
+  if (fills(then->code) && size > 0) {
+    std::memcpy(bytes, then->bytes.data(), size);
+  }
+  return then->code;
+}
+
+// Likewise around indurop_see_confirmed(). Real-time safe.
+std::int64_t see_confirmed(std::int64_t confirmed) noexcept;
 
 // Binds every registered Ref of this process to `store` (borrowed) and remembers it for modules loaded later;
 // `run` (borrowed) carries messages and properties. Not real-time safe.

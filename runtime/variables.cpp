@@ -2,6 +2,7 @@
 // What the inline code of generated headers calls for its variables.
 
 #include <indurop/detail/abi.h>
+#include <indurop/detail/freshness.h>
 #include <indurop/lock.h>
 #include <indurop/plc/program.h>
 
@@ -9,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "runtime/host.h"
 #include "runtime/process.h"
 #include "runtime/ref_tables.h"
 #include "vars/forces.h"
@@ -54,6 +56,10 @@ void indurop_commit_write(indurop::abi::RingHeader* ring) noexcept {
 }
 void indurop_abort_write(indurop::abi::RingHeader* ring) noexcept {
   indurop::vars::discard(*ring);
+}
+
+std::int64_t indurop_see_confirmed(std::int64_t confirmed) noexcept {
+  return indurop::runtime::see_confirmed(confirmed);
 }
 
 bool indurop_hold_scalar(void* entry) noexcept {

@@ -25,7 +25,8 @@ enum class EntryKind : std::uint32_t {
   Again,       // unchanged value, so that a reader who comes late learns all of them in time
   Run,         // the end of a run; kRunWords words
   Clock,       // what irp::now_ns() said to it; one word
-  Told,  // what a call of a shared function or the reading of a channel gave it: a word with the code, then the bytes
+  Told,  // what a call of a shared function, the reading of a channel or the age of a value gave it: a code, then the
+         // bytes
 };
 
 // First word of an entry. Behind it: the value's bytes, in whole words, or what Run says.
@@ -43,7 +44,7 @@ enum RunFlags : std::uint32_t {
 // More of one run are not told: it waits for something, or measures.
 inline constexpr int kMostReadings = 64;
 // Likewise, of what it was told. What is longer than the track can hold beside runs is there without its bytes.
-inline constexpr int kMostTold = 64;
+inline constexpr int kMostTold = 1024;
 inline constexpr std::uint64_t kToldShare = 16;            // of a track's words, one run may use for that
 inline constexpr std::int64_t kTooLongToTell = INT64_MIN;  // as code
 

@@ -129,13 +129,13 @@ void Track::clock(std::int64_t ns) noexcept {
 }
 
 void Track::told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept {
-  if (!open_ || told_left_ == 0) {
+  if (!open_ || told_left_ == 0 || told_words_left_ < 2) {
     return;
   }
   --told_left_;
   const std::uint64_t length = words_of(bytes.size());
   const bool fits = 2 + length <= told_words_left_;
-  told_words_left_ -= fits ? 2 + length : 0;
+  told_words_left_ -= 2 + (fits ? length : 0);
   claim(2 + (fits ? length : 0));
   put_head(EntryKind::Told, fits ? static_cast<std::uint32_t>(bytes.size()) : 0);
   put(static_cast<std::uint64_t>(fits ? code : kTooLongToTell));

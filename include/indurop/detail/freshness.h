@@ -13,6 +13,10 @@ namespace irp {
 std::int64_t now_ns() noexcept;  // <indurop/irp.h>
 }
 
+// What the run is to see of what abi::confirmed_of() says now: that, which its track is told, or what it saw then if
+// the run is repeated. Real-time safe.
+extern "C" std::int64_t indurop_see_confirmed(std::int64_t confirmed) noexcept;
+
 namespace indurop::detail {
 
 template <class Tag>
@@ -46,7 +50,7 @@ bool is_valid(std::int64_t confirmed, std::int64_t max_age, Now now_ns) noexcept
 
 template <class Tag>
 std::int64_t confirmed() noexcept {
-  return abi::confirmed_of(Tag::ref().entry, Tag::kKind).load(std::memory_order_acquire);
+  return indurop_see_confirmed(abi::confirmed_of(Tag::ref().entry, Tag::kKind).load(std::memory_order_acquire));
 }
 
 template <class Tag>

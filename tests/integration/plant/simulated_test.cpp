@@ -83,6 +83,17 @@ TEST_F(SimulatedPlant, What_a_board_without_power_sent_is_too_old_soon) {
   EXPECT_EQ(at_end("sensor", "cell::torque"), 0) << "the declared fallback";
 }
 
+// The controller asks whether its encoder is fresh, and how long.
+TEST_F(SimulatedPlant, A_board_that_lost_another_is_replayed_as_it_was) {
+  (void)record({"--until", "1s", "--network", "loss=0.05", "--script",
+                script("200ms kill " + board("sensor") + "\n400ms return " + board("sensor") + "\n700ms cut " +
+                       board("sensor") + "\n850ms return " + board("sensor") + "\n")});
+  const Outcome again =
+      indurop({"replay", path("r." + board("control") + ".mcap"), "--node", board("replay")}).finish();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_THAT(again.out, HasSubstr("1000 ticks, 1000 runs, "));
+}
+
 TEST_F(SimulatedPlant, Stands_after_each_tick_and_goes_on_as_standard_input_says) {
   Program& sut = run({"--step"});
   ASSERT_TRUE(sut.prints("tick 0, "));
