@@ -127,6 +127,19 @@ double Arm::volume(const Joints& q) const noexcept {
   return std::sqrt(std::max(0.0, normal.determinant()));
 }
 
+int Arm::goes_beyond(const Joints& from, const Joints& to, double slack) const noexcept {
+  for (int i = 0; i < count_; ++i) {
+    const Axis& a = axis(i);
+    const bool inside =
+        a.endless ? std::isfinite(to[i])
+                  : to[i] >= std::min(a.lower, from[i]) - slack && to[i] <= std::max(a.upper, from[i]) + slack;
+    if (!inside) {
+      return i;
+    }
+  }
+  return -1;
+}
+
 int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
   for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);

@@ -72,6 +72,8 @@ class Arm {
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   // First axis beyond its limits by more than `slack`, from 0; -1 if none. Values that are no number are beyond.
   [[nodiscard]] int beyond_limits(const Joints& q, double slack = 1e-9) const noexcept;
+  // Likewise, further than at `from`: what stands beyond its limits may come back.
+  [[nodiscard]] int goes_beyond(const Joints& from, const Joints& to, double slack) const noexcept;
   // Places that are evenly spread between the limits, one of each number.
   [[nodiscard]] Joints spread(int number) const noexcept;
 

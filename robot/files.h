@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with the files of a robot, for whoever looks at them before anything runs.
+// What is wrong with the files and properties of a robot module, for whoever looks at them before anything runs.
 
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "robot/settings.h"
 
 namespace indurop::robot {
 
@@ -16,7 +17,11 @@ struct FileNames {
   std::vector<double> workspace;  // as Settings has it; NaN: what is no number
 };
 
-// All errors of all of them, and a note of what the arm can do.
-std::vector<base::Diagnostic> check_files(const FileNames& names);
+struct Findings {
+  std::vector<base::Diagnostic> files;  // with a note of what the arm can do
+  std::vector<WrongSetting> properties;
+};
+// All of both. The workspace is taken from the properties.
+Findings check_module(FileNames names, const PropertyText& property);
 
 }  // namespace indurop::robot

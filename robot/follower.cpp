@@ -282,7 +282,7 @@ void Follower::go(double distance) noexcept {
 
 Fault Follower::allowed(const Joints& from, const Joints& to, double seconds) const noexcept {
   constexpr double kSlack = 1.05;  // planned limits are exact for joint motions, sampled for the others
-  if (const int beyond = places_.arm().beyond_limits(to, 1e-6); beyond >= 0) {
+  if (const int beyond = places_.arm().goes_beyond(from, to, 1e-6); beyond >= 0) {
     return {ErrorCode::JointLimit, beyond + 1};
   }
   for (int i = 0; i < kAxes; ++i) {

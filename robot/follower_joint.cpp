@@ -65,7 +65,7 @@ bool Follower::can_begin(const JointState& now, double pace) const noexcept {
       return false;
     }
   }
-  return places_.arm().beyond_limits(JointTiming::stopping(now, limits)) < 0;
+  return places_.arm().goes_beyond(now.position, JointTiming::stopping(now, limits), 1e-9) < 0;
 }
 
 // It is made for the pace that is wanted, as far as what the joints do now can be part of it at that pace.
@@ -75,7 +75,8 @@ Fault Follower::redirect(const Segment& target) noexcept {
   if (motion(now) != Reach::Ok) {
     return {ErrorCode::Singular};
   }
-  if (const int beyond = places_.arm().beyond_limits(JointTiming::stopping(now, most_), 1e-6); beyond >= 0) {
+  if (const int beyond = places_.arm().goes_beyond(now.position, JointTiming::stopping(now, most_), 1e-6);
+      beyond >= 0) {
     return {ErrorCode::JointLimit, beyond + 1};
   }
   const double least = std::max(now.velocity.cwiseAbs().cwiseQuotient(most_.velocity).maxCoeff(),

@@ -65,8 +65,9 @@ void Group::jog_shorter() noexcept {
 MoveCommand Group::jog_axis(int axis, double part) const noexcept {
   const Axis& a = parts_.arm.axis(axis);
   Joints to = commanded();
-  const double end = jog_speed_ > 0 ? a.upper : a.lower;
-  to[axis] += part * (a.endless ? std::copysign(kEndless, jog_speed_) : end - to[axis]);
+  // One that stands beyond its end comes back the other way only.
+  const double left = jog_speed_ > 0 ? std::max(a.upper - to[axis], 0.0) : std::min(a.lower - to[axis], 0.0);
+  to[axis] += part * (a.endless ? std::copysign(kEndless, jog_speed_) : left);
   // How far the tip goes in a unit of the axis does not change while only this one moves, unless the axis slides.
   const double arm = places_.arm().jacobian(commanded()).block<3, 1>(0, axis).norm();
   MoveCommand command;

@@ -9,6 +9,7 @@
 #include "base/diagnostic.h"
 #include "robot/group.h"
 #include "robot/read_files.h"
+#include "robot/settings.h"
 
 namespace indurop::robot {
 
@@ -24,48 +25,10 @@ void take_over(Diagnostics&& from, Diagnostics& to) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-Diagnostics check_settings(const Settings& s) {
-  Diagnostics errors;
-  const auto positive = [&](const char* name, double value) {
-    if (!(std::isfinite(value) && value > 0)) {
-      errors.push_back(error(std::string("property ") + name, {}, "it has to be above 0"));
-    }
-  };
-  positive("counts_per_turn", s.counts_per_turn);
-  positive("gear", std::abs(s.gear));
-  positive("time_to_speed", s.time_to_speed);
-  positive("time_to_acceleration", s.time_to_acceleration);
-  positive("tool_speed", s.tool_speed);
-  positive("tool_turn_speed", s.tool_turn_speed);
-  positive("emergency_factor", s.emergency_factor);
-  positive("following_limit", s.following_limit);
-  positive("regain_distance", s.regain_distance);
-  positive("plan_time", s.plan_time);
-  positive("counts_per_mm", s.counts_per_mm);
-  if (s.emergency_category != StopCategory::Category0 && s.emergency_category != StopCategory::Category1) {
-    errors.push_back(
-        error("property emergency_category", {}, "it has to be 0 or 1, an emergency stop takes power away"));
+void take_over(const std::vector<WrongSetting>& from, Diagnostics& to) {
+  for (const WrongSetting& one : from) {
+    to.push_back(error("property " + one.property, {}, one.text));
   }
-  if (s.period <= std::chrono::nanoseconds::zero()) {
-    errors.push_back(error("module", {}, "the robot task is periodic, give it a <period>"));
-  }
-  return errors;
-}
-
-// Numbers of which each axis has one.
-Diagnostics check_axes(const Settings& s, const Arm& arm) {
-  Diagnostics errors;
-  const auto each = [&](const char* name, const std::vector<double>& values) {
-    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
-    const auto count = static_cast<std::size_t>(arm.count());
-    if (!values.empty() && (values.size() != count || !sane)) {
-      errors.push_back(error(std::string("property ") + name, {},
-                             "it has to be " + std::to_string(count) + " numbers above 0, one of each axis"));
-    }
-  };
-  each("acceleration", s.acceleration);
-  each("jerk", s.jerk);
-  return errors;
 }
 
 // Of each axis, from deg or mm.
@@ -95,8 +58,19 @@ GroupParts parts_of(const Settings& settings, ReadFiles files) {
 
 }  // namespace
 
+void take_properties(const std::function<std::string(const char*)>& property, Settings& settings,
+                     std::vector<std::string>& errors) {
+  for (const WrongSetting& one : take_properties(property, settings)) {
+    errors.push_back(base::to_string(error("property " + one.property, {}, one.text)));
+  }
+}
+
 std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vector<std::string>& errors) {
-  Diagnostics wrong = check_settings(settings);
+  Diagnostics wrong;
+  take_over(check_settings(settings), wrong);
+  if (settings.period <= std::chrono::nanoseconds::zero()) {
+    wrong.push_back(error("module", {}, "the robot task is periodic, give it a <period>"));
+  }
   ReadFiles files = read_files({settings.urdf, settings.jobs, settings.workspace});
   take_over(std::move(files.errors), wrong);
   if (files.model) {

@@ -263,13 +263,25 @@ ReadFiles read_files(const FileNames& names) {
   return read;
 }
 
-Diagnostics check_files(const FileNames& names) {
+Findings check_module(FileNames names, const PropertyText& property) {
+  Settings settings;
+  Findings found;
+  const auto add = [&](std::vector<WrongSetting>&& wrong) {
+    std::move(wrong.begin(), wrong.end(), std::back_inserter(found.properties));
+  };
+  add(take_properties(property, settings));
+  add(check_settings(settings));
+  names.workspace = settings.workspace;
   ReadFiles read = read_files(names);
+  if (read.model) {
+    add(check_axes(settings, read.model->arm));
+  }
   take_over(std::move(read.notes), read.errors);
   if (!read.kind.empty()) {
     read.errors.push_back({base::Diagnostic::Severity::Note, names.urdf, {1, 1}, "the arm: " + read.kind});
   }
-  return std::move(read.errors);
+  found.files = std::move(read.errors);
+  return found;
 }
 
 }  // namespace indurop::robot

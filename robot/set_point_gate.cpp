@@ -71,10 +71,13 @@ void SetPointGate::brake(double hardness) noexcept {
   state_ = braked(state_, harder(hardness));
 }
 
+// An axis that stands beyond an end may stay there and come back, not go further.
+bool SetPointGate::may_be(double position) const noexcept {
+  return position >= std::min(range_.lower - kEdge, state_.position) &&
+         position <= std::max(range_.upper + kEdge, state_.position);
+}
+
 bool SetPointGate::can_rest(LineState state, const LineLimits& limits) const noexcept {
-  const auto inside = [this](double position) {
-    return position >= range_.lower - kEdge && position <= range_.upper + kEdge;
-  };
   // Far from the ends an estimate that is too long does.
   const double speed = std::abs(state.velocity) + period_ * std::abs(state.acceleration);
   const double unload = limits.acceleration / limits.jerk + period_;
@@ -84,12 +87,12 @@ bool SetPointGate::can_rest(LineState state, const LineLimits& limits) const noe
     return true;
   }
   while (state.velocity != 0 || state.acceleration != 0) {
-    if (!inside(state.position)) {
+    if (!may_be(state.position)) {
       return false;
     }
     state = braked(state, limits);
   }
-  return inside(state.position);
+  return may_be(state.position);
 }
 
 ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
@@ -99,7 +102,7 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   const LineLimits limits = harder(hardness);
   const LineState next = after(position);
   const double margin = 1 + kRounding;
-  if (!range_.endless && !(position >= range_.lower - kEdge && position <= range_.upper + kEdge)) {
+  if (!range_.endless && !may_be(position)) {
     return ErrorCode::JointLimit;
   }
   if (std::abs(next.velocity) > limits.velocity * margin) {

@@ -23,8 +23,8 @@ class SetPointGate {
   // The axis stands here: its drive has no power, or has just found its place. Real-time safe, as all here.
   void stand(double position) noexcept;
   // Whether the drive may get this set point next: within position, speed, acceleration and jerk, and such that the
-  // axis can still come to rest before its end. `hardness` multiplies the acceleration. Changes nothing. Errors: Value
-  // (no number), JointLimit, Speed, Acceleration, Jerk.
+  // axis can still come to rest before its end. An axis that stands beyond its end may come back. `hardness` multiplies
+  // the acceleration. Changes nothing. Errors: Value (no number), JointLimit, Speed, Acceleration, Jerk.
   [[nodiscard]] ErrorCode check(double position, double hardness) const noexcept;
   // It gets it.
   void pass(double position) noexcept;
@@ -39,6 +39,7 @@ class SetPointGate {
   [[nodiscard]] LineState after(double position) const noexcept;
   [[nodiscard]] LineLimits harder(double hardness) const noexcept;
   [[nodiscard]] LineState braked(LineState state, const LineLimits& limits) const noexcept;
+  [[nodiscard]] bool may_be(double position) const noexcept;
   [[nodiscard]] bool can_rest(LineState state, const LineLimits& limits) const noexcept;
 
   Range range_;

@@ -22,6 +22,7 @@ using base::Nanos;
 struct Property {
   std::string name;
   std::string value;
+  base::SourcePlace place{};  // of its <value>
 };
 
 // How a process module comes back after it died. max restarts within window, then escalation.

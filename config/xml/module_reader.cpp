@@ -296,7 +296,7 @@ class ModuleReader {
       if (twice) {
         report_.error(child.place, "a second property " + base::in_quotes(name->value) + " in this module; remove one");
       } else {
-        module_.properties.push_back({name->value, child.text});
+        module_.properties.push_back({name->value, child.text, child.place});
       }
     }
   }

@@ -8,8 +8,6 @@
 #include <indurop/robot/controller.h>
 
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -232,18 +230,6 @@ void write_axis_states() {
   }
 }
 
-// What is no number is refused by the controller.
-std::vector<double> numbers(const std::string& text) {
-  std::istringstream words(text);
-  std::vector<double> all;
-  for (std::string word; words >> word;) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    all.push_back(*end == '\0' ? value : std::nan(""));
-  }
-  return all;
-}
-
 }  // namespace
 
 void start() {
@@ -251,30 +237,14 @@ void start() {
   settings.urdf = irp::file_beside_config(irp::property("urdf", "robot.urdf"));
   settings.jobs = files(irp::property("jobs", ""));
   settings.period = irp::period();
-  settings.counts_per_mm = irp::property("counts_per_mm", settings.counts_per_mm);
-  settings.gear = irp::property("gear", settings.gear);
-  settings.absolute = irp::property("absolute", settings.absolute);
-  settings.time_to_speed = irp::property("time_to_speed", settings.time_to_speed);
-  settings.time_to_acceleration = irp::property("time_to_acceleration", settings.time_to_acceleration);
-  settings.acceleration = numbers(irp::property("acceleration", ""));
-  settings.jerk = numbers(irp::property("jerk", ""));
-  settings.workspace = numbers(irp::property("workspace", ""));
-  settings.tool_speed = irp::property("tool_speed", settings.tool_speed);
-  settings.tool_turn_speed = irp::property("tool_turn_speed", settings.tool_turn_speed);
-  settings.emergency_factor = irp::property("emergency_factor", settings.emergency_factor);
-  settings.emergency_category = static_cast<robot::StopCategory>(
-      irp::property("emergency_category", static_cast<int>(settings.emergency_category)));
-  settings.plan_time = irp::property("plan_time", settings.plan_time);
-  settings.plan_in_tick = irp::property("plan_in_tick", time_stands());
-  settings.regain_distance = irp::property("regain_distance", settings.regain_distance);
-  settings.following_limit = irp::property("following_limit", settings.following_limit);
-
+  settings.plan_in_tick = time_stands();
   std::vector<std::string> errors;
+  robot::take_properties([](const char* name) { return irp::property(name, ""); }, settings, errors);
   plcRobot = robot::Controller::load(settings, errors);
   for (const std::string& error : errors) {
     irp::printf("%s\n", error.c_str());
   }
-  if (!plcRobot) {
+  if (!errors.empty()) {
     throw std::runtime_error("the robot cannot be started, see the messages above");
   }
   irp::printf("the arm: %s\n", plcRobot->kind().c_str());

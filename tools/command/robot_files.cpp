@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/command/robot_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "robot/files.h"
+#include "tools/command/suggest.h"
 
 namespace indurop::tools {
 namespace {
 
-const std::string* property(const config::Module& module, const char* name) {
+const config::Property* property(const config::Module& module, std::string_view name) {
   const auto found = std::find_if(module.properties.begin(), module.properties.end(),
                                   [name](const config::Property& one) { return one.name == name; });
-  return found == module.properties.end() ? nullptr : &found->value;
+  return found == module.properties.end() ? nullptr : &*found;
 }
 
 // Modules that link libindurop-robot.a take what reads URDF from elsewhere.
@@ -25,14 +27,31 @@ bool reads_urdf(const schema::ModuleFile& file) {
   return file.imports.empty() || (found != file.imports.end() && found->rfind(name, 0) == 0);
 }
 
-double number(const std::string& word) {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  return *end == '\0' ? value : std::nan("");
-}
-
 std::string beside(const config::Config& config, const std::string& name) {
   return (config.file.parent_path() / name).lexically_normal().string();
+}
+
+robot::FileNames files_of(const config::Config& config, const config::Module& module) {
+  const config::Property* const urdf = property(module, "urdf");
+  const config::Property* const jobs = property(module, "jobs");
+  robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : urdf->value), {}, {}};
+  std::istringstream words(jobs == nullptr ? "" : jobs->value);
+  for (std::string word; words >> word;) {
+    names.jobs.push_back(beside(config, word));
+  }
+  return names;
+}
+
+// A name that the robot task does not know is the module's own, unless it is nearly one of those it knows.
+void warn_of_names(const config::Config& config, const config::Module& module, std::vector<base::Diagnostic>& all) {
+  for (const config::Property& one : module.properties) {
+    const auto& known = robot::setting_names();
+    const bool is_known = std::find(known.begin(), known.end(), one.name) != known.end();
+    if (const std::string meant = is_known ? "" : did_you_mean(one.name, known); !meant.empty()) {
+      all.push_back({base::Diagnostic::Severity::Warning, config.file.string(), one.place,
+                     fmt::format("the robot has no property '{}'.{}", one.name, meant)});
+    }
+  }
 }
 
 }  // namespace
@@ -40,24 +59,25 @@ std::string beside(const config::Config& config, const std::string& name) {
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check) {
   std::vector<base::Diagnostic> all;
   for (std::size_t i = 0; i < config.modules.size(); ++i) {
-    const std::string* urdf = property(config.modules[i], "urdf");
-    const std::string* jobs = property(config.modules[i], "jobs");
+    const config::Module& module = config.modules[i];
+    const bool named = property(module, "urdf") != nullptr || property(module, "jobs") != nullptr;
     const bool built = i < check.facts.size();
-    if ((urdf == nullptr && jobs == nullptr) || (built && !reads_urdf(check.facts[i].file))) {
+    if (!named || (built && !reads_urdf(check.facts[i].file))) {
       continue;
     }
-    const std::string* workspace = property(config.modules[i], "workspace");
-    robot::FileNames names{beside(config, urdf == nullptr ? "robot.urdf" : *urdf), {}, {}};
-    std::istringstream words(jobs == nullptr ? "" : *jobs);
-    for (std::string word; words >> word;) {
-      names.jobs.push_back(beside(config, word));
+    const auto text_of = [&](const char* name) {
+      const config::Property* const found = property(module, name);
+      return found == nullptr ? std::string() : found->value;
+    };
+    const robot::Findings found = robot::check_module(files_of(config, module), text_of);
+    for (const robot::WrongSetting& one : found.properties) {
+      const config::Property* const wrong = property(module, one.property);
+      all.push_back({base::Diagnostic::Severity::Error, config.file.string(),
+                     wrong == nullptr ? module.place : wrong->place,
+                     fmt::format("property {}: {}", one.property, one.text)});
     }
-    std::istringstream corners(workspace == nullptr ? "" : *workspace);
-    for (std::string word; corners >> word;) {
-      names.workspace.push_back(number(word));
-    }
-    const std::vector<base::Diagnostic> found = robot::check_files(names);
-    all.insert(all.end(), found.begin(), found.end());
+    warn_of_names(config, module, all);
+    all.insert(all.end(), found.files.begin(), found.files.end());
   }
   return all;
 }

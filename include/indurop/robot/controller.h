@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <string>
@@ -228,6 +229,11 @@ struct Settings {
   // Of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };
+
+// Fills in what a module's properties say, by the names of the members, urdf and jobs excepted: `property` gives the
+// text of one, or an empty one. What is wrong keeps its value and is added to `errors`: do not run a robot then.
+[[gnu::visibility("default")]] void take_properties(const std::function<std::string(const char*)>& property,
+                                                    Settings& settings, std::vector<std::string>& errors);
 
 // One robot of up to eight axes: planner, jobs, state machines of PLCopen Motion Control parts 1 and 4, drives of CiA
 // 402. Degrees are millimetres where an axis slides. Used by one thread at a time.

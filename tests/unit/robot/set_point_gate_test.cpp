@@ -50,6 +50,19 @@ TEST(Set_point_gate, Names_the_limit_that_is_broken) {
   EXPECT_EQ(sut.check(0, 1), ErrorCode::Ok);
 }
 
+TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
+  SetPointGate sut({-2, 2, false}, kLimits, 0.001);
+  sut.stand(2.5);
+  EXPECT_EQ(sut.check(2.5, 1), ErrorCode::Ok);
+  EXPECT_EQ(sut.check(2.5 + 1e-9, 1), ErrorCode::JointLimit);
+  for (const double point : move(2.5, 1.5, 0.001, kLimits)) {
+    ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << point;
+    sut.pass(point);
+  }
+  sut.stand(1.9);
+  EXPECT_EQ(sut.check(2.1, 1), ErrorCode::JointLimit) << "it is inside again";
+}
+
 TEST(Set_point_gate, A_harder_stop_has_harder_limits) {
   SetPointGate sut({-2, 2, false}, kLimits, 0.01);
   sut.stand(0);

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+namespace indurop::robot {
+
+namespace {
+
+using Wrong = std::vector<WrongSetting>;
+
+struct Number {
+  const char* name;
+  double Settings::*member;
+};
+// All of them have to be above 0.
+constexpr Number kNumbers[] = {
+    {"counts_per_turn", &Settings::counts_per_turn},
+    {"counts_per_mm", &Settings::counts_per_mm},
+    {"time_to_speed", &Settings::time_to_speed},
+    {"time_to_acceleration", &Settings::time_to_acceleration},
+    {"tool_speed", &Settings::tool_speed},
+    {"tool_turn_speed", &Settings::tool_turn_speed},
+    {"following_limit", &Settings::following_limit},
+    {"regain_distance", &Settings::regain_distance},
+    {"plan_time", &Settings::plan_time},
+};
+// These not.
+constexpr Number kOtherNumbers[] = {
+    {"gear", &Settings::gear},
+    {"emergency_factor", &Settings::emergency_factor},
+};
+struct Flag {
+  const char* name;
+  bool Settings::*member;
+};
+constexpr Flag kFlags[] = {{"absolute", &Settings::absolute}, {"plan_in_tick", &Settings::plan_in_tick}};
+struct List {
+  const char* name;
+  std::vector<double> Settings::*member;
+};
+constexpr List kLists[] = {
+    {"acceleration", &Settings::acceleration}, {"jerk", &Settings::jerk}, {"workspace", &Settings::workspace}};
+constexpr const char* kCategory = "emergency_category";
+
+std::optional<double> number_in(std::string_view text) {
+  text.remove_prefix(text.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+std::optional<bool> flag_in(std::string_view text) {
+  for (const std::string_view yes : {"true", "1", "on", "yes"}) {
+    if (text == yes) {
+      return true;
+    }
+  }
+  for (const std::string_view no : {"false", "0", "off", "no"}) {
+    if (text == no) {
+      return false;
+    }
+  }
+  return std::nullopt;
+}
+
+// This library stands alone: base/text.h is not in it.
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpaces = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpaces);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+std::string quoted(const std::string& text) {
+  return "'" + text + "'";
+}
+
+// As take_properties() has them: trimmed.
+void take_number(const PropertyText& property, const Number& number, Settings& settings, Wrong& wrong) {
+  const std::string text = property(number.name);
+  if (text.empty()) {
+    return;
+  }
+  if (const auto value = number_in(text)) {
+    settings.*number.member = *value;
+  } else {
+    wrong.push_back({number.name, quoted(text) + " is no number, write one such as 0.25"});
+  }
+}
+
+void take_list(const PropertyText& property, const List& list, Settings& settings, Wrong& wrong) {
+  std::istringstream words(property(list.name));
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    const auto value = number_in(word);
+    if (!value) {
+      wrong.push_back({list.name, quoted(word) + " is no number, write numbers with spaces between them"});
+      return;
+    }
+    values.push_back(*value);
+  }
+  if (!values.empty()) {
+    settings.*list.member = std::move(values);
+  }
+}
+
+}  // namespace
+
+std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& settings) {
+  const auto property = [&given](const char* name) { return trimmed(given(name)); };
+  Wrong wrong;
+  for (const Number& number : kNumbers) {
+    take_number(property, number, settings, wrong);
+  }
+  for (const Number& number : kOtherNumbers) {
+    take_number(property, number, settings, wrong);
+  }
+  for (const Flag& flag : kFlags) {
+    const std::string text = property(flag.name);
+    const auto value = flag_in(text);
+    settings.*flag.member = value.value_or(settings.*flag.member);
+    if (!value && !text.empty()) {
+      wrong.push_back({flag.name, quoted(text) + " is neither true nor false"});
+    }
+  }
+  for (const List& list : kLists) {
+    take_list(property, list, settings, wrong);
+  }
+  if (const std::string text = property(kCategory); !text.empty()) {
+    if (text == "0" || text == "1") {
+      settings.emergency_category = text == "0" ? StopCategory::Category0 : StopCategory::Category1;
+    } else {
+      wrong.push_back({kCategory, "it has to be 0 or 1, an emergency stop takes power away"});
+    }
+  }
+  return wrong;
+}
+
+std::vector<WrongSetting> check_settings(const Settings& settings) {
+  Wrong wrong;
+  for (const Number& number : kNumbers) {
+    const double value = settings.*number.member;
+    if (!(std::isfinite(value) && value > 0)) {
+      wrong.push_back({number.name, "it has to be above 0"});
+    }
+  }
+  if (!(std::isfinite(settings.gear) && settings.gear != 0)) {
+    wrong.push_back({"gear", "it cannot be 0"});
+  }
+  if (!(std::isfinite(settings.emergency_factor) && settings.emergency_factor >= 1)) {
+    wrong.push_back({"emergency_factor", "it has to be 1 or more: an emergency stop brakes at least like any other"});
+  }
+  if (settings.emergency_category != StopCategory::Category0 &&
+      settings.emergency_category != StopCategory::Category1) {
+    wrong.push_back({kCategory, "it has to be 0 or 1, an emergency stop takes power away"});
+  }
+  return wrong;
+}
+
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm) {
+  Wrong wrong;
+  const auto count = static_cast<std::size_t>(arm.count());
+  for (const char* name : {"acceleration", "jerk"}) {
+    const std::vector<double>& values = name == std::string_view("jerk") ? settings.jerk : settings.acceleration;
+    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
+    if (!values.empty() && (values.size() != count || !sane)) {
+      wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers above 0, one of each axis"});
+    }
+  }
+  return wrong;
+}
+
+const std::vector<std::string>& setting_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names{"urdf", "jobs", kCategory};
+    const auto add = [&](const auto& table) {
+      for (const auto& one : table) {
+        names.emplace_back(one.name);
+      }
+    };
+    add(kNumbers);
+    add(kOtherNumbers);
+    add(kFlags);
+    add(kLists);
+    return names;
+  }();
+  return kNames;
+}
+
+}  // namespace indurop::robot

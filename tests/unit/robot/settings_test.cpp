@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/settings.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "robot_fixture.h"
+
+namespace indurop::robot {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class Robot_settings : public testing::Test {
+ protected:
+  // Names of what is wrong if the property has this text.
+  std::vector<std::string> wrong(const std::string& name, const std::string& text) {
+    Settings settings;
+    std::vector<WrongSetting> found =
+        take_properties([&](const char* asked) { return asked == name ? text : std::string(); }, settings);
+    for (const auto& more : {check_settings(settings), check_axes(settings, cell_arm())}) {
+      found.insert(found.end(), more.begin(), more.end());
+    }
+    std::vector<std::string> names;
+    for (const WrongSetting& one : found) {
+      names.push_back(one.property);
+    }
+    return names;
+  }
+};
+
+TEST_F(Robot_settings, The_defaults_are_sane) {
+  EXPECT_THAT(wrong("", ""), IsEmpty());
+}
+
+TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
+  for (const std::string& name : setting_names()) {
+    if (name == "urdf" || name == "jobs") {
+      continue;
+    }
+    EXPECT_THAT(wrong(name, "abc"), ElementsAre(name));
+    EXPECT_THAT(wrong(name, "nan"), ElementsAre(name));
+    if (name != "absolute" && name != "plan_in_tick" && name != "workspace" && name != "gear") {
+      EXPECT_THAT(wrong(name, "-5"), ElementsAre(name));
+    }
+  }
+  for (const char* name : {"time_to_speed", "tool_speed", "gear", "counts_per_mm", "plan_time", "emergency_factor"}) {
+    EXPECT_THAT(wrong(name, "0"), ElementsAre(name));
+  }
+  EXPECT_THAT(wrong("emergency_factor", "0.5"), ElementsAre("emergency_factor"));
+  EXPECT_THAT(wrong("emergency_category", "2"), ElementsAre("emergency_category"));
+  EXPECT_THAT(wrong("acceleration", "1 2 3"), ElementsAre("acceleration"));
+  EXPECT_THAT(wrong("jerk", "1 2 3 4 5 -1"), ElementsAre("jerk"));
+}
+
+TEST_F(Robot_settings, All_of_them_are_taken) {
+  const std::map<std::string, std::string> texts = {{"counts_per_turn", "10"},
+                                                    {"counts_per_mm", "11"},
+                                                    {"gear", "-2"},
+                                                    {"time_to_speed", " 0.5\n"},
+                                                    {"time_to_acceleration", "+1"},
+                                                    {"tool_speed", "1e3"},
+                                                    {"tool_turn_speed", "90"},
+                                                    {"emergency_factor", "2"},
+                                                    {"emergency_category", "0"},
+                                                    {"following_limit", "3"},
+                                                    {"regain_distance", "4"},
+                                                    {"plan_time", "0.1"},
+                                                    {"plan_in_tick", "yes"},
+                                                    {"absolute", "off"},
+                                                    {"acceleration", "1 2 3 4 5 6"},
+                                                    {"jerk", "6 5 4 3 2 1"},
+                                                    {"workspace", "0 0 0 1 1 1"}};
+  Settings settings;
+  EXPECT_THAT(take_properties([&](const char* name) { return texts.at(name); }, settings), IsEmpty());
+  EXPECT_EQ(settings.counts_per_turn, 10);
+  EXPECT_EQ(settings.counts_per_mm, 11);
+  EXPECT_EQ(settings.gear, -2);
+  EXPECT_EQ(settings.time_to_speed, 0.5);
+  EXPECT_EQ(settings.time_to_acceleration, 1);
+  EXPECT_EQ(settings.tool_speed, 1000);
+  EXPECT_EQ(settings.tool_turn_speed, 90);
+  EXPECT_EQ(settings.emergency_factor, 2);
+  EXPECT_EQ(settings.emergency_category, StopCategory::Category0);
+  EXPECT_EQ(settings.following_limit, 3);
+  EXPECT_EQ(settings.regain_distance, 4);
+  EXPECT_EQ(settings.plan_time, 0.1);
+  EXPECT_TRUE(settings.plan_in_tick);
+  EXPECT_FALSE(settings.absolute);
+  EXPECT_THAT(settings.acceleration, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(settings.jerk, ElementsAre(6, 5, 4, 3, 2, 1));
+  EXPECT_THAT(settings.workspace, ElementsAre(0, 0, 0, 1, 1, 1));
+}
+
+}  // namespace
+}  // namespace indurop::robot
