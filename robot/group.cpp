@@ -98,19 +98,28 @@ void Group::watch(const Inputs& in) noexcept {
       trip(fault ? ErrorCode::Drive : ErrorCode::Power, i + 1, 1);
       return;
     }
-    const double behind = std::abs(axes_[at(i)].commanded().position - axes_[at(i)].measured());
-    if (state_ != GroupState::Homing && axes_[at(i)].state() != AxisState::Homing &&
-        behind > axes_[at(i)].unit() * parts_.settings.following_limit) {
-      trip(ErrorCode::Following, i + 1, 1);
-      return;
+  }
+  if (const int behind = state_ == GroupState::Homing ? -1 : axis_behind(); behind >= 0) {
+    trip(ErrorCode::Following, behind + 1, 1);
+  }
+}
+
+// The first axis that is too far from its set point; -1: none.
+int Group::axis_behind() const noexcept {
+  for (int i = 0; i < count(); ++i) {
+    const AxisControl& a = axes_[at(i)];
+    const double behind = std::abs(a.commanded().position - a.measured());
+    if (a.state() != AxisState::Homing && behind > a.unit() * parts_.settings.following_limit) {
+      return i;
     }
   }
+  return -1;
 }
 
 // Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
 void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   set_job_aside();
-  job_.fail({code, axis}, to_string(code), 0);
+  job_.fail({code, axis}, to_string(code), std::max(follower_.source(), 0));
   finish_service(code, axis);
   error_ = code;
   error_axis_ = axis;

@@ -104,6 +104,7 @@ class Group final : public Controller, private MotionPort {
   void sense(const Inputs& in) noexcept;
   void set_pace(const Inputs& in) noexcept;  // group_commands.cpp
   void watch(const Inputs& in) noexcept;
+  [[nodiscard]] int axis_behind() const noexcept;
   void trip(ErrorCode code, int axis, double hardness) noexcept;
   void leave_path(ErrorCode code, double hardness) noexcept;
   void pass_gates() noexcept;  // group_gates.cpp

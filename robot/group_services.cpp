@@ -15,6 +15,12 @@ bool is_move(Service service) noexcept {
          service == Service::DirectAbsolute || service == Service::LinearAbsolute;
 }
 
+// All of it if nothing is said.
+double part_of_speed(const ServiceRequest& request, bool direct) noexcept {
+  const double percent = direct && request.velocity != 0 ? request.velocity : request.speed;
+  return percent == 0 ? 1 : percent / 100;
+}
+
 }  // namespace
 
 void Group::serve(const ServiceRequest& request, bool edit) noexcept {
@@ -186,6 +192,13 @@ ErrorCode Group::reset() noexcept {
       return ErrorCode::Ok;
     }
   }
+  // An axis that is still on its way to its set point would trip again.
+  if (const int behind = axis_behind(); behind >= 0) {
+    if (waited_ > kTime) {
+      finish_service(ErrorCode::Following, behind + 1);
+    }
+    return ErrorCode::Ok;
+  }
   // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
   const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
   quick_stop_ = false;
@@ -239,14 +252,13 @@ ErrorCode Group::move(Service service, const ServiceRequest& request) noexcept {
   command.move = service == Service::MoveCircle           ? Move::Circle
                  : service == Service::MoveLine || linear ? Move::Line
                                                           : Move::Joint;
-  command.speed = request.speed == 0 ? 1 : request.speed / 100;
+  command.speed = part_of_speed(request, direct);
   command.zone = request.level / 100.0;
   const Eigen::Map<const Joints, Eigen::Unaligned> numbers(request.target.data());
   if (direct) {
     for (int i = 0; i < count(); ++i) {
       command.target.joints[i] = numbers[i] * axes_[static_cast<std::size_t>(i)].unit();
     }
-    command.speed = request.velocity == 0 ? command.speed : request.velocity / 100;
   } else if (linear) {
     command.target.is_pose = true;
     command.target.pose.position = numbers.head<3>() / 1000;
@@ -276,7 +288,7 @@ ErrorCode Group::redirect(const ServiceRequest& request) noexcept {
     const auto k = static_cast<std::size_t>(i);
     to[i] = request.target[k] * axes_[k].unit();
   }
-  const double speed = request.velocity == 0 ? 1 : request.velocity / 100;
+  const double speed = part_of_speed(request, true);
   if (!to.allFinite() || !(speed > 0 && speed <= 1)) {
     return ErrorCode::Value;
   }

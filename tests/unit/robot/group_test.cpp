@@ -212,6 +212,44 @@ TEST(Group, An_axis_that_does_not_follow_stops_the_group) {
   EXPECT_EQ(cell.out.error_axis, 1U);
 }
 
+// It would be an error again in the next period.
+TEST(Group, An_axis_that_is_behind_is_not_reset) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.target = {100, 0, 0, 0, 0, 0};
+  cell.ask(Service::DirectAbsolute);
+  cell.stuck = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.state == GroupState::ErrorStop; }));
+  EXPECT_FALSE(cell.serve(Service::GroupReset)) << "it does not come";
+  EXPECT_EQ(cell.out.error, ErrorCode::Following);
+  EXPECT_EQ(cell.out.error_axis, 1U);
+  EXPECT_EQ(cell.out.state, GroupState::ErrorStop);
+  cell.ask(Service::GroupReset);
+  for (int i = 0; i < 20; ++i) {
+    cell.step();
+    ASSERT_EQ(cell.out.state, GroupState::ErrorStop) << "it waits";
+  }
+  cell.stuck = false;
+  ASSERT_TRUE(cell.until([&] { return cell.out.done == cell.in.service.number; }));
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(cell.out.error, ErrorCode::Ok);
+    EXPECT_EQ(cell.out.state, GroupState::Standby);
+    cell.step();
+  }
+}
+
+TEST(Group, What_trips_names_the_line_that_moves) {
+  Cell cell("POINT A = JOINT 100 0 0 0 60 0\nPOINT B = JOINT 0 0 0 0 60 0\nMOVJ A\nMOVJ B\nMOVJ A\n", 1);
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.job = 1;
+  cell.ask(Service::JobStart);
+  ASSERT_TRUE(cell.until([&] { return cell.out.job.line == 7 && cell.out.path_speed > 99; }));
+  cell.in.emergency = true;
+  cell.step();
+  EXPECT_EQ(cell.out.job.line, 7U);
+  EXPECT_NE(std::string(cell.out.job.message).find(":7: emergency stop"), std::string::npos) << cell.out.job.message;
+}
+
 TEST(Group, Hold_and_override_from_outside) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));

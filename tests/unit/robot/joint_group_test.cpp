@@ -105,6 +105,27 @@ TEST(Joint_group, A_new_target_takes_over_from_a_line_and_from_one_that_is_being
   EXPECT_EQ(cell.out.state, GroupState::Standby);
 }
 
+// As fast as the service says, like any other joint motion.
+TEST(Joint_group, A_new_target_is_taken_at_the_speed_that_is_asked_for) {
+  for (const Service service : {Service::DirectAbsolute, Service::DirectAborting}) {
+    for (const double velocity : {0.0, 40.0}) {
+      Cell cell("", 1);
+      ASSERT_TRUE(cell.serve(Service::GroupEnable));
+      cell.in.service.target = {100, 0, 0, 0, 0, 0};
+      cell.in.service.speed = 20;
+      cell.in.service.velocity = velocity;
+      cell.ask(service);
+      double fastest = 0;
+      ASSERT_TRUE(cell.until([&] {
+        fastest = std::max(fastest, cell.out.speed[0]);
+        return cell.out.done == cell.in.service.number;
+      }));
+      const double part = velocity > 0 ? velocity : 20;
+      EXPECT_NEAR(fastest, degrees(cell_limits().velocity[0]) * part / 100, 0.1);
+    }
+  }
+}
+
 TEST(Joint_group, A_new_target_that_cannot_be_changes_nothing) {
   Cell cell("", 1);
   EXPECT_FALSE(cell.serve(Service::DirectAborting));
