@@ -12,6 +12,7 @@
 #include "explain/run_facts.h"
 #include "node/facts_part.h"
 #include "node/record_part.h"
+#include "recorder/boxes.h"
 #include "recorder/recorder.h"
 #include "vars/box_wish.h"
 #include "vars/retain.h"
@@ -25,10 +26,6 @@ constexpr std::chrono::minutes kBetween{1};
 constexpr std::chrono::seconds kBetweenWishes{10};
 constexpr std::chrono::milliseconds kLookForWish{100};
 constexpr std::uint64_t kManyOverruns = 10;  // within a second
-
-std::filesystem::path folder_of(const std::string& node) {
-  return vars::state_directory(node) / "boxes";
-}
 
 // The oldest ones go, so that there is room for one more. Their names rise with time.
 void make_room(const std::filesystem::path& folder) {
@@ -52,7 +49,7 @@ Result<std::filesystem::path, base::Problem> write_box(recorder::About about, co
   if (!follower) {
     return base::Problem{follower.error().where};
   }
-  const auto folder = folder_of(about.node);
+  const auto folder = recorder::box_folder(about.node);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {

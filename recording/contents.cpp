@@ -177,6 +177,16 @@ bool add_to(std::map<std::uint16_t, Record>& map, Record record) {
 
 }  // namespace
 
+std::pair<std::int64_t, std::int64_t> Contents::span_ns() const {
+  std::uint64_t begin = UINT64_MAX;
+  std::uint64_t end = 0;
+  for (const Segment& segment : segments) {
+    begin = std::min(begin, segment.start_ns);
+    end = std::max(end, segment.end_ns);
+  }
+  return {begin == UINT64_MAX ? 0 : static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end)};
+}
+
 bool Contents::add(McapSchema schema) {
   return schema.id == 0 || add_to(schemas, std::move(schema));  // the format says: 0 is to be passed over
 }

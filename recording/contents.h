@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/problem.h"
@@ -26,6 +27,8 @@ struct Contents {
   bool has_summary = false;            // one that names all; what was not closed has none
   std::vector<base::Problem> damages;  // what was passed over, each with its place
 
+  // Log times of the first and the last message; 0 and 0: there is none.
+  [[nodiscard]] std::pair<std::int64_t, std::int64_t> span_ns() const;
   // The first schema or channel of a number counts. False if this is another one.
   bool add(McapSchema schema);
   bool add(McapChannel channel);

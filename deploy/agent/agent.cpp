@@ -16,8 +16,7 @@
 #include "deploy/agent/box_watch.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
-#include "deploy/agent/mirror_text.h"
-#include "deploy/agent/run_image.h"
+#include "deploy/agent/offer.h"
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
@@ -77,7 +76,7 @@ class Agent {
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
         board_commands_(options.board, self_, keys_, process_, log),
-        server_(self_, [this](const std::string& name) { return find(name); }),
+        server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_); }),
         net_(link_settings(options, self_), keys_, log) {
     host_ = host_name();
   }
@@ -125,19 +124,6 @@ class Agent {
     } else {
       log_.error("the committed deployment cannot be resumed: {}", installed.error().text);
     }
-  }
-
-  std::optional<BlobServer::Blob> find(const std::string& name) const {
-    if (name == kHistoryBlob) {
-      return BlobServer::Blob{{}, state_.history_text()};
-    }
-    if (name == kMirrorBlob) {
-      return BlobServer::Blob{{}, mirror_text(options_.board)};
-    }
-    if (name == kRunBlob) {
-      return BlobServer::Blob{{}, run_image(options_.board)};
-    }
-    return state_.has(name) ? std::optional(BlobServer::Blob{state_.file(name), {}}) : std::nullopt;
   }
 
   void connect(rt::MonoTime now) {

@@ -9,6 +9,7 @@
 #include "deploy/agent/board_forces.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
+#include "vars/box_wish.h"
 
 namespace indurop::deploy {
 namespace {
@@ -38,6 +39,8 @@ const char* word_of(Action action) {
       return "force";
     case Action::Unforce:
       return "unforce";
+    case Action::KeepBox:
+      return "keep the black box:";
     case Action::RestartModule:
     case Action::RestartNode:
       break;
@@ -158,9 +161,10 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
-  CommandReply answer = is_force(command.action) ? force(command)
-                        : command.target.empty() ? begin_node(command)
-                                                 : begin_module(command);
+  CommandReply answer = is_force(command.action)            ? force(command)
+                        : command.action == Action::KeepBox ? keep_box(command)
+                        : command.target.empty()            ? begin_node(command)
+                                                            : begin_module(command);
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
   } else {
@@ -202,6 +206,18 @@ CommandReply BoardCommands::force(const Command& command) const {
     note_forces(board_, command);
   }
   return done ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, done.error().text);
+}
+
+// The node writes it in a moment: only it knows all of what belongs to its runs.
+CommandReply BoardCommands::keep_box(const Command& command) const {
+  if (process_.condition() != NodeCondition::Running) {
+    return reply(command, Outcome::Refused, "its node does not run");
+  }
+  const std::string why = one_line(command.target);
+  const Status wished = vars::wish_box(board_, why);
+  log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), why,
+            wished ? "done" : wished.error().where);
+  return wished ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, wished.error().where);
 }
 
 CommandReply BoardCommands::begin_module(const Command& command) {

@@ -39,6 +39,7 @@ class BoardCommands {
   CommandReply begin_module(const Command& command);
   CommandReply begin_node(const Command& command);
   [[nodiscard]] CommandReply force(const Command& command) const;
+  [[nodiscard]] CommandReply keep_box(const Command& command) const;
   // Empty while it goes on.
   std::optional<deploy::CommandReply> look(rt::MonoTime now);
   std::optional<deploy::CommandReply> look_at_module();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands to one board outside of deployments: stop, start or restart its node or one of its modules, hold values of
-// its variables. The agent
-// answers the first word with a number that counts once, so that a recorded command cannot be played again. No network
-// here.
+// its variables, have its black box kept. The agent answers the first word with a number that counts once, so that a
+// recorded command cannot be played again. No network here.
 
 #pragma once
 
@@ -20,6 +19,7 @@ enum class Action : std::uint8_t {
   RestartNode,
   Force,    // target: nanoseconds (0: until released), then NAME=VALUE in a line each
   Unforce,  // target: a NAME in a line each, or "*" for all
+  KeepBox,  // target: why
 };
 
 struct Command {
@@ -29,7 +29,7 @@ struct Command {
   std::uint64_t agent = 0;  // of the board that is meant
   std::string plant;        // what the board runs
   Action action = Action::StopModule;
-  std::string target;       // the module; of forces, see there; empty: the node
+  std::string target;       // the module; empty: the node; of forces and black boxes, see there
   std::uint64_t nonce = 0;  // as the agent gave it; 0: asks for one
   std::string signature;    // of command_text(); empty: unsigned
 };

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace indurop::deploy {
@@ -140,5 +141,8 @@ inline constexpr const char* kHistoryBlob = "history";
 inline constexpr const char* kMirrorBlob = "mirror";
 // Likewise: the run block of the board's node as it is at this moment (deploy/agent/run_image.h), for tools elsewhere.
 inline constexpr const char* kRunBlob = "run";
+// Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
+inline constexpr const char* kBoxesBlob = "boxes";
+inline constexpr std::string_view kBoxBlob = "box/";
 
 }  // namespace indurop::deploy

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <utility>
 
+#include "recorder/boxes.h"
 #include "recording/idl_layout.h"
 #include "recording/mcap_reader.h"
-#include "vars/retain.h"
 
 namespace indurop::tools {
 namespace {
@@ -23,42 +23,21 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kOwn = "indurop/";  // channels that are no variables
 
-std::string reason_of(const fs::path& file) {
-  const auto reader = recording::McapReader::open(file);
-  if (!reader) {
-    return {};
-  }
-  for (const auto& index : reader->contents().metadata) {
-    if (const auto about = reader->metadata(index); about && about->values.contains("reason")) {
-      return about->values.at("reason");
-    }
-  }
-  return {};
-}
-
-std::int64_t written_ns(const fs::directory_entry& entry) {
+std::int64_t written_ns(const fs::path& file) {
   std::error_code ignored;
-  const auto time = std::chrono::file_clock::to_sys(entry.last_write_time(ignored));
+  const auto time = std::chrono::file_clock::to_sys(fs::last_write_time(file, ignored));
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-void look(const fs::path& folder, const std::string& node, std::vector<RecordingFile>& to) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() != ".mcap" || !entry.is_regular_file(ignored)) {
-      continue;
-    }
-    RecordingFile one;
-    const std::string file = entry.path().filename().string();
-    one.name = node.empty() ? file : node + "~" + file;
-    one.path = entry.path();
-    one.node = node;
-    one.reason = reason_of(entry.path());
-    one.black_box = !node.empty();
-    one.bytes = entry.file_size(ignored);
-    one.wall_ns = written_ns(entry);
-    to.push_back(std::move(one));
-  }
+RecordingFile file_of(const recorder::Box& box, bool black_box) {
+  const std::string file = box.file.filename().string();
+  return {black_box ? box.node + "~" + file : file,
+          box.file,
+          box.node,
+          box.reason,
+          black_box,
+          box.bytes,
+          written_ns(box.file)};
 }
 
 // Channels with numbers, by their number in the file.
@@ -76,16 +55,6 @@ Layouts layouts_of(const recording::Contents& contents) {
     }
   }
   return layouts;
-}
-
-std::pair<std::int64_t, std::int64_t> span_of(const recording::Contents& contents) {
-  std::uint64_t begin = UINT64_MAX;
-  std::uint64_t end = 0;
-  for (const recording::Segment& segment : contents.segments) {
-    begin = std::min(begin, segment.start_ns);
-    end = std::max(end, segment.end_ns);
-  }
-  return {begin == UINT64_MAX ? 0 : static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end)};
 }
 
 // By channel: which of its leaves is which line.
@@ -146,12 +115,14 @@ class Grid {
 
 std::vector<RecordingFile> list_recordings(const fs::path& folder) {
   std::vector<RecordingFile> all;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(vars::state_directory("x").parent_path(), ignored)) {
-    look(entry.path() / "boxes", entry.path().filename().string(), all);
+  for (const recorder::Box& box : recorder::boxes_here()) {
+    all.push_back(file_of(box, true));
   }
-  if (!folder.empty()) {
-    look(folder, "", all);
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".mcap" && entry.is_regular_file(ignored)) {
+      all.push_back(file_of(recorder::read_box(entry.path(), ""), false));
+    }
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const RecordingFile& a, const RecordingFile& b) { return a.wall_ns > b.wall_ns; });
@@ -164,7 +135,7 @@ Result<RecordedContents, Problem> read_contents_of(const fs::path& path) {
     return reader.error();
   }
   RecordedContents out;
-  std::tie(out.begin_ns, out.end_ns) = span_of(reader->contents());
+  std::tie(out.begin_ns, out.end_ns) = reader->contents().span_ns();
   out.complete = reader->contents().has_summary;
   for (const auto& [id, layout] : layouts_of(reader->contents())) {
     const recording::McapChannel& channel = reader->contents().channels.at(id);
@@ -194,7 +165,7 @@ Result<RecordedValues, Problem> read_values_of(const fs::path& path, const Recor
   if (!wanted) {
     return std::move(wanted).error();
   }
-  Grid grid(span_of(reader->contents()), wish);
+  Grid grid(reader->contents().span_ns(), wish);
   std::vector<double> values;
   constexpr int kMostDamages = 1000;
   for (int damages = 0; damages < kMostDamages;) {

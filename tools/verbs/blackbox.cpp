@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop blackbox: what nodes of this host kept when something went wrong.
+// indurop blackbox: what nodes of this host, or boards in the network, kept when something went wrong.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
 
-#include "recording/mcap_reader.h"
+#include "recorder/boxes.h"
+#include "recorder/join.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/table.h"
 #include "tools/command/units.h"
+#include "tools/plant/board_boxes.h"
+#include "tools/plant/board_commander.h"
+#include "tools/plant/board_roster.h"
 #include "tools/values/node_choice.h"
 #include "tools/values/variables.h"
 #include "tools/verbs/verbs.h"
@@ -18,63 +29,203 @@
 namespace indurop::tools {
 namespace {
 
-struct Box {
-  std::filesystem::path file;
-  std::string node;
-  std::string reason;
-  std::uint64_t bytes = 0;
+struct Options {
+  std::string action;
+  std::string what;  // why, or a file
+  std::string when;
+  std::string at;  // name of a box; empty: the newest
+  bool remote = false;
+  std::string board;  // empty: all
+  deploy::LinkSettings link;
+  [[nodiscard]] bool far() const noexcept { return remote || !board.empty(); }
 };
 
-// What the file says of itself; a damaged one says nothing.
-std::string reason_of(const std::filesystem::path& file) {
-  const auto reader = recording::McapReader::open(file);
-  if (!reader) {
-    return reader.error().text;
+// Boards that were heard, and what speaks to them.
+struct Boards {
+  std::unique_ptr<deploy::DeployLink> link;
+  std::vector<deploy::BoardReport> reports;
+};
+
+Result<Boards, Failure> hear(Context& context, Options& options) {
+  constexpr std::int64_t kHearNs = 3'000'000'000;  // agents speak twice a second
+  if (!context.node.empty()) {
+    return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
-  for (const auto& index : reader->contents().metadata) {
-    if (const auto about = reader->metadata(index); about && about->values.contains("reason")) {
-      return about->values.at("reason");
+  Boards boards{open_link(context, options.link), {}};
+  if (boards.link == nullptr) {
+    return Failure{kUnreachable, {}};
+  }
+  BoardRoster roster;
+  roster.gather(*boards.link, kHearNs,
+                [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
+  if (interrupted()) {
+    return Failure{interrupt_code(), {}};
+  }
+  for (const auto& [key, entry] : roster.all()) {
+    if (options.board.empty() || key.first == options.board) {
+      boards.reports.push_back(entry.report);
     }
   }
-  return "not complete";
+  if (boards.reports.empty()) {
+    return with_keys_hint(
+        {kUnreachable, options.board.empty() ? "no board was heard" : "board " + options.board + " was not heard"},
+        options.link);
+  }
+  return boards;
 }
 
-std::vector<Box> find_boxes(const std::string& node) {
-  std::vector<Box> boxes;
-  std::error_code ignored;
-  const auto look = [&](const std::filesystem::path& folder) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "boxes", ignored)) {
-      if (entry.path().extension() == ".mcap") {
-        boxes.push_back({entry.path(), folder.filename().string(), reason_of(entry.path()), entry.file_size(ignored)});
-      }
+// Those of this host, as if their nodes were boards.
+std::vector<BoardBox> boxes_here(const std::string& node) {
+  std::vector<BoardBox> all;
+  for (const recorder::Box& box : node.empty() ? recorder::boxes_here() : recorder::boxes_of(node)) {
+    all.push_back({box.node, 0, box.file.filename().string(), box.reason, box.bytes, box.end_ns});
+  }
+  return all;
+}
+
+std::filesystem::path file_here(const BoardBox& box) {
+  return recorder::box_folder(box.board) / box.name;
+}
+
+int list(Context& context, Options& options) {
+  std::vector<BoardBox> boxes;
+  if (options.far()) {
+    const auto boards = hear(context, options);
+    if (!boards) {
+      return report(context.out, boards.error());
     }
-  };
-  if (!node.empty()) {
-    look(vars::state_directory(node));
+    boxes = fetch_box_lists(*boards->link, options.link.self, boards->reports);
   } else {
-    for (const auto& entry : std::filesystem::directory_iterator(vars::state_directory("x").parent_path(), ignored)) {
-      look(entry.path());
-    }
+    boxes = boxes_here(context.node);
   }
-  std::sort(boxes.begin(), boxes.end(),
-            [](const Box& a, const Box& b) { return a.file.filename() > b.file.filename(); });
-  return boxes;
-}
-
-int blackbox(Context& context) {
-  const auto boxes = find_boxes(context.node);
-  Table table({{"NODE", "node"}, {"WHY", "reason"}, {"SIZE", "bytes", Align::Right}, {"FILE", "file"}});
-  for (const Box& box : boxes) {
-    table.add({Cell(box.node, Style::Bold),
+  Table table({{options.far() ? "BOARD" : "NODE", "node"},
+               {"WHY", "reason"},
+               {"SIZE", "bytes", Align::Right},
+               {"FILE", "file"}});
+  for (const BoardBox& box : boxes) {
+    table.add({Cell(printable(box.board), Style::Bold),
                Cell(printable(box.reason)),
                {human_bytes(box.bytes), box.bytes},
-               Cell(box.file.string())});
+               Cell(options.far() ? printable(box.name) : file_here(box).string())});
   }
   print_table(context, table, {}, "boxes");
   if (boxes.empty() && context.format == Format::Table) {
     context.out.line("no black box: no module faulted and no node crashed, as far as is remembered");
   }
   return kOk;
+}
+
+// The newest, or the one that is named; null after an error message.
+const BoardBox* choose(Context& context, const Options& options, const std::vector<BoardBox>& boxes) {
+  const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const BoardBox& box) {
+    return options.at.empty() || box.name == std::filesystem::path(options.at).filename();
+  });
+  if (found == boxes.end()) {
+    context.out.error(boxes.empty() ? "there is no black box" : "there is no black box " + printable(options.at));
+    return nullptr;
+  }
+  return &*found;
+}
+
+int join_to(Context& context, const std::vector<std::filesystem::path>& files, const std::string& to) {
+  const auto joined = recorder::join(files, to);
+  if (!joined) {
+    context.out.error(joined.error().text);
+    return kFailed;
+  }
+  context.out.note(fmt::format("{}: {} messages of {}", to, joined->messages, fmt::join(joined->names, ", ")));
+  return kOk;
+}
+
+int fetch_here(Context& context, const Options& options) {
+  const auto boxes = boxes_here(context.node);
+  const BoardBox* const first = choose(context, options, boxes);
+  if (first == nullptr) {
+    return kFailed;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const BoardBox& box : boxes_of_moment(boxes, first->end_ns)) {
+    files.push_back(file_here(box));
+  }
+  return join_to(context, files, options.what);
+}
+
+// Boards of the plant whose boxes are not among these.
+std::vector<std::string> missing(const Boards& boards, const BoardBox& first, const std::vector<BoardBox>& chosen) {
+  const auto of = std::find_if(boards.reports.begin(), boards.reports.end(),
+                               [&](const deploy::BoardReport& report) { return report.agent == first.agent; });
+  std::vector<std::string> names = of->members;
+  std::erase_if(names, [&](const std::string& name) {
+    return std::any_of(chosen.begin(), chosen.end(), [&](const BoardBox& box) { return box.board == name; });
+  });
+  return names;
+}
+
+// A folder that goes with this.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "indurop.XXXXXX").string();
+    path_ = ::mkdtemp(name.data()) != nullptr ? name : std::string();
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+int fetch_far(Context& context, Options& options) {
+  const auto boards = hear(context, options);
+  if (!boards) {
+    return report(context.out, boards.error());
+  }
+  auto boxes = fetch_box_lists(*boards->link, options.link.self, boards->reports);
+  const BoardBox* const found = choose(context, options, boxes);
+  if (found == nullptr) {
+    return kFailed;
+  }
+  const BoardBox first = *found;
+  const auto plant_of = [&](std::uint64_t agent) {
+    return std::find_if(boards->reports.begin(), boards->reports.end(),
+                        [&](const deploy::BoardReport& report) { return report.agent == agent; })
+        ->plant;
+  };
+  std::erase_if(boxes, [&](const BoardBox& box) { return plant_of(box.agent) != plant_of(first.agent); });
+  const auto chosen = boxes_of_moment(boxes, first.end_ns);
+  const Folder folder;
+  if (folder.path().empty()) {
+    context.out.error("no temporary folder can be made; is TMPDIR writable?");
+    return kFailed;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const BoardBox& box : chosen) {
+    files.push_back(folder.path() / (std::to_string(files.size()) + ".mcap"));
+    if (const auto fetched = fetch_box(*boards->link, options.link.self, box, files.back()); !fetched) {
+      return report(context.out, fetched.error());
+    }
+  }
+  int code = join_to(context, files, options.what);
+  if (options.board.empty()) {
+    for (const std::string& name : missing(*boards, first, chosen)) {
+      context.out.error(fmt::format("of board {} there is no black box of that moment", printable(name)));
+      code = kFailed;
+    }
+  }
+  return code;
+}
+
+int fetch(Context& context, Options& options) {
+  if (options.what.empty()) {
+    context.out.error("say into which file: indurop blackbox fetch moment.mcap");
+    return kUsage;
+  }
+  return options.far() ? fetch_far(context, options) : fetch_here(context, options);
 }
 
 // Until a variable is not 0 any more. Returns the exit code.
@@ -123,51 +274,91 @@ int keep(Context& context, const std::string& why) {
   return kOk;
 }
 
-struct Options {
-  std::string action;
-  std::string why;
-  std::string when;
-};
+// Of all boards that are heard, at about the same time.
+int keep_far(Context& context, Options& options) {
+  constexpr std::int64_t kTimeoutNs = 5'000'000'000;
+  auto commander = BoardCommander::make(context, options.link.keys);
+  if (!commander) {
+    return report(context.out, commander.error());
+  }
+  const auto boards = hear(context, options);
+  if (!boards) {
+    return report(context.out, boards.error());
+  }
+  int code = kOk;
+  for (const deploy::BoardReport& board : boards->reports) {
+    const auto answered =
+        commander->give(*boards->link, options.link.self, board, deploy::Action::KeepBox,
+                        options.what.empty() ? "wanted by a user of " + deploy::host_name() : options.what, kTimeoutNs);
+    if (!answered) {
+      context.out.error(fmt::format("board {}: {}", printable(board.board), answered.error().text));
+      code = answered.error().code;
+    } else if (answered->reply.outcome != deploy::Outcome::Done) {
+      context.out.error(fmt::format("board {}: {}", printable(board.board), printable(answered->reply.text)));
+      code = kFailed;
+    } else {
+      context.out.note(fmt::format("board {} keeps its black box", printable(board.board)));
+    }
+  }
+  return code;
+}
 
-int list_or_keep(Context& context, const Options& options) {
+int act(Context& context, Options& options) {
   if (options.action.empty() || options.action == "list") {
-    return blackbox(context);
+    return list(context, options);
+  }
+  if (options.action == "fetch") {
+    return fetch(context, options);
   }
   if (options.action != "keep") {
-    context.out.error(fmt::format("blackbox cannot '{}'; it lists what there is, or keeps a box: blackbox keep [WHY]",
-                                  printable(options.action)));
+    context.out.error(fmt::format("blackbox cannot '{}'; it can list, keep or fetch", printable(options.action)));
     return kUsage;
+  }
+  if (options.far() && !options.when.empty()) {
+    context.out.error("--when looks at a variable of a node of this machine; leave --remote and --board out");
+    return kUsage;
+  }
+  if (options.far()) {
+    return keep_far(context, options);
   }
   if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
     return code;
   }
-  return keep(context, options.why.empty() && !options.when.empty() ? options.when : options.why);
+  return keep(context, options.what.empty() && !options.when.empty() ? options.when : options.what);
 }
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("action", "list|keep", options->action, "What to do (default: list)");
-  app.add("why", "TEXT", options->why, "With keep: why, for whoever lists it");
+  app.add("action", "list|keep|fetch", options->action, "What to do (default: list)");
+  app.add("what", "TEXT", options->what, "With keep: why, for whoever lists it; with fetch: the file to write");
   app.add("--when", "NAME", options->when, "With keep: wait until this variable is not 0 any more")
       .completes(base::Completion::Variable);
+  app.add("--at", "BOX", options->at, "With fetch: the moment of this box, as listed (default: the newest)");
+  app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
+  app.add("--board", "NAME", options->board, "Only this one of them; implies --remote");
+  deploy::add_link_options(app, options->link);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
-  return [options](Context& c) { return list_or_keep(c, *options); };
+  return [options](Context& c) { return act(c, *options); };
 }
 
 }  // namespace
 
 const Verb kBlackboxVerb{
-    "blackbox", "Timing", "List what nodes kept when something went wrong, or keep it now",
+    "blackbox", "Timing", "List what nodes kept when something went wrong, keep it now, or fetch it from all boards",
     "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
     "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
     "ten\n"
     "of each node stay. The newest is listed first. They are read by `indurop explain --from`, `replay`, `recording`,\n"
-    "Foxglove and PlotJuggler. blackbox keep keeps what there is now.\n"
+    "Foxglove and PlotJuggler. blackbox keep keeps what there is now. blackbox fetch writes what the boards kept\n"
+    "within ten seconds of one moment into one file on common time; exit code 1 if a board of the plant has none.\n"
     "Examples:\n"
     "  indurop blackbox\n"
     "  indurop blackbox keep 'the drill broke'\n"
     "  indurop blackbox keep --when PLC_ROBOT::alarm\n"
+    "  indurop blackbox --remote\n"
+    "  indurop blackbox keep 'the drill broke' --remote\n"
+    "  indurop blackbox fetch moment.mcap --remote\n"
     "  indurop blackbox --node cell -o json\n",
     &declare};
 

@@ -67,5 +67,52 @@ TEST_F(Boxes, A_user_may_want_one) {
   EXPECT_TRUE(wait_until([&] { return !box("a", "the drill broke").is_null(); }));
 }
 
+// The same list and the same messages as in the boards' own files.
+TEST_F(Boxes, Those_of_all_boards_come_into_one_file) {
+  run_plant("late_fault");
+  ASSERT_TRUE(wait_until([&] { return !box("a", "fault of module").is_null() && !box("b", "faulted near").is_null(); }))
+      << indurop_here({"blackbox"}).out;
+  Json messages;
+  for (const char* name : {"a", "b"}) {
+    const Json far = indurop({"blackbox", "--board", board(name), "-o", "json"}).json()["boxes"];
+    const Json near = indurop_here({"blackbox", "--node", board(name), "-o", "json"}).json()["boxes"];
+    ASSERT_EQ(far.size(), near.size());
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      EXPECT_EQ(far[i]["reason"], near[i]["reason"]);
+      EXPECT_EQ(far[i]["bytes"], near[i]["bytes"]);
+      EXPECT_EQ(far[i]["file"], std::filesystem::path(near[i]["file"].get<std::string>()).filename().string());
+    }
+    const Json info = indurop_here({"recording", "info", near[0]["file"], "-o", "json"}).json();
+    for (const Json& channel : info["channels"]) {
+      messages[board(name) + "/" + channel["channel"].get<std::string>()] = channel["messages"];
+    }
+  }
+  const Outcome fetched = indurop({"blackbox", "fetch", path("moment.mcap"), "--remote"});
+  ASSERT_EQ(fetched.code, 0) << fetched.err;
+  const Json joined = indurop_here({"recording", "info", path("moment.mcap"), "-o", "json"}).json();
+  for (const Json& channel : joined["channels"]) {
+    EXPECT_EQ(channel["messages"], messages[channel["channel"].get<std::string>()]) << channel["channel"];
+  }
+  EXPECT_EQ(joined["channels"].size(), messages.size());
+  EXPECT_EQ(indurop_here({"blackbox", "fetch", path("here.mcap")}).code, 0) << "the nodes are of this host";
+  const Json here = indurop_here({"recording", "info", path("here.mcap"), "-o", "json"}).json();
+  EXPECT_EQ(here["channels"].size(), messages.size());
+  EXPECT_EQ(indurop({"blackbox", "fetch", path("moment.mcap"), "--remote"}).code, 1) << "it is there already";
+  EXPECT_EQ(indurop({"blackbox", "fetch", path("x.mcap"), "--remote", "--at", "../nothing.mcap"}).code, 1);
+}
+
+TEST_F(Boxes, A_user_may_want_one_of_all_boards) {
+  run_plant("steady");
+  const Outcome kept = indurop({"blackbox", "keep", "the drill broke", "--remote"});
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_TRUE(
+      wait_until([&] { return !box("a", "the drill broke").is_null() && !box("b", "the drill broke").is_null(); }));
+  stop_agent("b", SIGTERM);
+  EXPECT_TRUE(wait_until([&] { return report("b").is_null(); }));
+  const Outcome part = indurop({"blackbox", "fetch", path("part.mcap"), "--remote"});
+  EXPECT_EQ(part.code, 1);
+  EXPECT_THAT(part.err, HasSubstr("of board " + board("b") + " there is no black box of that moment"));
+}
+
 }  // namespace
 }  // namespace indurop::test

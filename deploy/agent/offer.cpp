@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/offer.h"
+
+#include "deploy/agent/boxes_text.h"
+#include "deploy/agent/mirror_text.h"
+#include "deploy/agent/run_image.h"
+#include "deploy/words/deployment_words.h"
+
+namespace indurop::deploy {
+
+std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state) {
+  const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
+  if (name == kHistoryBlob) {
+    return text(state.history_text());
+  }
+  if (name == kMirrorBlob) {
+    return text(mirror_text(board));
+  }
+  if (name == kRunBlob) {
+    return text(run_image(board));
+  }
+  if (name == kBoxesBlob) {
+    return text(boxes_text(board));
+  }
+  if (name.starts_with(kBoxBlob)) {
+    const auto file = box_file(board, name.substr(kBoxBlob.size()));
+    return file ? std::optional(BlobServer::Blob{*file, {}}) : std::nullopt;
+  }
+  return state.has(name) ? std::optional(BlobServer::Blob{state.file(name), {}}) : std::nullopt;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an agent gives to whoever asks for it by name: its deployments' files, and texts about the board.
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "deploy/agent/agent_state.h"
+#include "deploy/link/blob_server.h"
+
+namespace indurop::deploy {
+
+// Nothing: it has none of that name.
+std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state);
+
+}  // namespace indurop::deploy
