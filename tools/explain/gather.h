@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/problem.h"
 #include "explain/facts.h"
@@ -19,8 +20,9 @@ explain::Facts facts_here(const ChosenRun& chosen, const std::string& variable);
 // What the node says beside its runs and values, as a text for its recording.
 std::string facts_text_here(const std::string& node, const RunView& run);
 
-// Errors: no recording of a node.
-Result<explain::Facts, base::Problem> facts_recorded(const std::filesystem::path& file, const std::string& variable);
+// Of each node that the recording tells of. Errors: no recording of a node.
+Result<std::vector<explain::Facts>, base::Problem> facts_recorded(const std::filesystem::path& file,
+                                                                  const std::string& variable);
 
 // Adds what module.xml or plant.xml says: who writes what, who waits for whom. Nothing if it cannot be read.
 void add_config(const std::string& config, explain::Facts& facts);

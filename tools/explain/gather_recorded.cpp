@@ -17,14 +17,21 @@ namespace {
 using base::Problem;
 using explain::Facts;
 
+// Of one of the nodes that a recording tells of.
 class Recorded {
  public:
-  Recorded(recording::McapReader reader, std::string variable)
-      : reader_(std::move(reader)), sources_(recorder::find_sources(reader_)), variable_(std::move(variable)) {}
+  Recorded(recording::McapReader reader, std::size_t source, std::string variable)
+      : reader_(std::move(reader)),
+        sources_(recorder::find_sources(reader_)),
+        own_(source),
+        about_(sources_.all[source]),
+        variable_(std::move(variable)) {}
+  Recorded(const Recorded&) = delete;
+  Recorded& operator=(const Recorded&) = delete;
 
   Result<Facts, Problem> facts(const std::string& file) {
     if (!about_the_node()) {
-      return Problem{fmt::format("{} is no recording of a node; give the recordings of the boards one by one", file)};
+      return Problem{fmt::format("{} does not say of which node it is", file)};
     }
     about_its_end();
     name_modules();
@@ -38,22 +45,19 @@ class Recorded {
 
  private:
   bool about_the_node() {
-    if (sources_.all.size() != 1 || !sources_.all.front().prefix.empty()) {
-      return false;
-    }
-    const recorder::Source& about = sources_.all.front();
-    facts_.node = about.text("node");
-    facts_.board = about.text("board");
-    facts_.basic_period_ns = about.number("basic_period_ns");
-    facts_.wall_minus_node_ns = about.number("real_minus_node_ns");
-    config_ = about.text("config");
+    facts_.node = about_.text("node");
+    facts_.board = about_.text("board");
+    facts_.basic_period_ns = about_.number("basic_period_ns");
+    facts_.wall_minus_node_ns = about_.number("real_minus_node_ns");
+    config_ = about_.text("config");
     return facts_.basic_period_ns > 0;
   }
 
   // Written when the recording was closed; one that was not has none.
   void about_its_end() {
     for (const auto& index : reader_.contents().attachments) {
-      const auto bytes = index.name == explain::kFactsFile ? reader_.attachment(index) : Problem{};
+      const bool own = index.name == about_.prefix + std::string(explain::kFactsFile);
+      const auto bytes = own ? reader_.attachment(index) : Problem{};
       if (bytes) {
         complete_ =
             explain::read_facts({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, facts_) || complete_;
@@ -62,7 +66,7 @@ class Recorded {
   }
 
   void name_modules() {
-    const std::vector<std::string>& names = sources_.all.front().modules;
+    const std::vector<std::string>& names = about_.modules;
     facts_.modules.resize(std::max(facts_.modules.size(), names.size()));
     for (std::size_t i = 0; i < names.size(); ++i) {
       facts_.modules[i].name = names[i];
@@ -71,7 +75,7 @@ class Recorded {
 
   void take(const recording::McapMessage& message) {
     const auto place = sources_.channels.find(message.channel);
-    if (place == sources_.channels.end()) {
+    if (place == sources_.channels.end() || place->second.source != own_) {
       return;
     }
     if (place->second.kind == recorder::ChannelKind::Run) {
@@ -126,6 +130,8 @@ class Recorded {
 
   recording::McapReader reader_;
   recorder::Sources sources_;
+  std::size_t own_;
+  const recorder::Source& about_;
   std::string variable_;
   std::string config_;
   Facts facts_;
@@ -136,12 +142,24 @@ class Recorded {
 
 }  // namespace
 
-Result<Facts, Problem> facts_recorded(const std::filesystem::path& file, const std::string& variable) {
-  auto reader = recording::McapReader::open(file);
-  if (!reader) {
-    return std::move(reader).error();
+Result<std::vector<Facts>, Problem> facts_recorded(const std::filesystem::path& file, const std::string& variable) {
+  std::vector<Facts> all;
+  for (std::size_t sources = 1; all.size() < sources;) {
+    auto reader = recording::McapReader::open(file);
+    if (!reader) {
+      return std::move(reader).error();
+    }
+    sources = recorder::find_sources(*reader).all.size();
+    if (sources == 0) {
+      return Problem{fmt::format("{} is no recording of a node", file.string())};
+    }
+    auto facts = Recorded(std::move(reader).value(), all.size(), variable).facts(file.string());
+    if (!facts) {
+      return std::move(facts).error();
+    }
+    all.push_back(std::move(facts).value());
   }
-  return Recorded(std::move(reader).value(), variable).facts(file.string());
+  return all;
 }
 
 }  // namespace indurop::tools

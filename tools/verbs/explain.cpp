@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "explain/facts_json.h"
@@ -49,7 +50,7 @@ Result<std::vector<Facts>, Failure> gather(const Context& context, const Options
     if (!facts) {
       return Failure{kFailed, facts.error().text};
     }
-    plant.push_back(std::move(facts).value());
+    std::move(facts->begin(), facts->end(), std::back_inserter(plant));
   }
   if (plant.empty()) {
     const auto chosen = open_run(context.node);
@@ -93,6 +94,19 @@ std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t ask
            explain::who_changed(its, name, at + facts.wall_minus_node_ns - its.wall_minus_node_ns)}};
 }
 
+// The first of the nodes that gets it from another board, else the first that knows it.
+std::optional<std::size_t> where_it_is_old(const std::vector<Facts>& plant, const std::string& name) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < plant.size(); ++i) {
+    const explain::VariableFact* const variable = plant[i].find_variable(name);
+    if (variable != nullptr && !variable->owner.empty() && variable->owner != plant[i].board) {
+      return i;
+    }
+    found = variable != nullptr && !found ? i : found;
+  }
+  return found;
+}
+
 // The first of the nodes that knows what was asked about; a board is asked for at another one.
 Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const Options& options,
                                         const std::string& variable) {
@@ -105,11 +119,11 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
       names.push_back(module.name);
     }
   }
-  for (std::size_t i = 0; i < plant.size(); ++i) {
-    if (plant[i].find_variable(variable) != nullptr) {
-      return ask_variable(plant, i, variable, options);
-    }
-    for (const explain::VariableFact& one : plant[i].variables) {
+  if (const auto asked = where_it_is_old(plant, variable)) {
+    return ask_variable(plant, *asked, variable, options);
+  }
+  for (const Facts& facts : plant) {
+    for (const explain::VariableFact& one : facts.variables) {
       names.push_back(one.name);
     }
   }
@@ -174,7 +188,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("what", "NAME", options->what, "A module, a variable or a board").required();
   app.add("--tick", "N", options->tick, "Ask about this tick (default: the last one in which something was wrong)");
   app.add("--from", "FILE.mcap", options->files,
-          "Ask a recording or a black box instead of a node; of a plant, give one of each board")
+          "Ask a recording or a black box instead of a node; of a plant, give one of each board, or one of all")
       .completes(base::Completion::File);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});

@@ -66,6 +66,9 @@ TEST_F(ExplainPlant, Tells_a_board_without_power_from_a_pulled_cable) {
     words[0] = variable;
     EXPECT_EQ(explain(words), right);
     EXPECT_EQ(explain({board(name), "--from", recording(other)}).first, "not-known") << "it may be either";
+    const std::string joined = (folder() / ("joined." + std::to_string(i) + ".mcap")).string();
+    ASSERT_EQ(indurop({"recording", "join", recording(other), recording(name), "-o", joined}).wait(), 0);
+    EXPECT_EQ(explain({variable, "--from", joined}), right) << "in one file";
   }
 }
 
