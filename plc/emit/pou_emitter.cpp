@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 
 #include "plc/emit/body_parts.h"
@@ -89,10 +90,20 @@ void declare_block(const Pou& pou, TextWriter& out) {
   out.close(";");
 }
 
+bool has_lines(const ast::Body& body) {
+  return std::any_of(body.begin(), body.end(),
+                     [](const ast::Statement& one) { return StatementEmitter::is_line(one); });
+}
+
 // Statements, from the place on where all variables are known.
 void code(const Pou& pou, const BodyParts& parts, TextWriter& out, const Probes& probes) {
   if (probes.debug != nullptr) {
     emit_frame(pou, *probes.debug, out);
+    if (pou.tree->kind == ast::Pou::Kind::Program && !has_lines(pou.tree->body)) {
+      // An empty program can be stood in, too: a debugger that finds no line in a scan would wait for ever.
+      out.line(fmt::format("debugger.line({});", probes.debug->lines.size()));
+      probes.debug->lines.push_back({pou.tree->at, &pou});
+    }
   }
   StatementEmitter statements(pou, out, probes);
   for (const BodyParts::Part& part : parts.parts()) {

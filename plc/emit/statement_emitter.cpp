@@ -76,8 +76,12 @@ std::size_t StatementEmitter::flow(std::span<const Statement> body) {
   return points;
 }
 
+bool StatementEmitter::is_line(const Statement& one) noexcept {
+  return one.kind != Statement::Kind::Empty && one.kind != Statement::Kind::Label;
+}
+
 void StatementEmitter::tell_line(const Statement& one) {
-  if (one.kind == Statement::Kind::Empty || one.kind == Statement::Kind::Label) {
+  if (!is_line(one)) {
     return;
   }
   if (probes_.debug != nullptr) {

@@ -19,6 +19,9 @@ class StatementEmitter {
 
   void list(std::span<const ast::Statement> body);
 
+  // Whether a debugger can stand there.
+  static bool is_line(const ast::Statement& one) noexcept;
+
  private:
   std::size_t flow(std::span<const ast::Statement> body);
   void tell_line(const ast::Statement& one);

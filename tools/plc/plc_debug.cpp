@@ -114,6 +114,7 @@ int debug(Context& context, Request& request) {
   }
   launch.fresh_signals = true;
   launch.group = base::Launch::Group::Own;
+  launch.ends_with_us = SIGTERM;  // however we end: nobody else knows of this node
   const auto started = base::spawn(launch);
   if (!started) {
     context.out.error(fmt::format("cannot start {}", launch.program.string()));

@@ -102,6 +102,25 @@ TEST_F(PlcDebug, Without_a_configuration_the_program_runs_alone) {
   EXPECT_THAT(debug("scan\nq\n", {}).out, HasSubstr("T#10ms  d.st:21 in main"));
 }
 
+TEST_F(PlcDebug, An_empty_program_can_be_stood_in) {
+  put(file("empty.st"), "PROGRAM main\nVAR x : INT; END_VAR\nEND_PROGRAM\n");
+  Program sut(indurop_command({"plc", "debug", file("empty.st")}), background());
+  sut.input("p x\nscan 2\nq\n");
+  const Outcome ended = sut.finish();
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("T#0s  empty.st:1 in main  PROGRAM main\nx = 0\nT#20ms  empty.st:1 in main"));
+}
+
+TEST_F(PlcDebug, Its_node_ends_with_it_even_if_it_is_killed) {
+  Program sut(indurop_command({"plc", "debug", file("d.st"), "--run", config()}), background());
+  ASSERT_TRUE(sut.prints("d.st:21 in main")) << sut.err();
+  const std::string node = "debug" + std::to_string(sut.pid());
+  const auto runs = [&] { return indurop({"status", "--node", node}).code == 0; };
+  ASSERT_TRUE(runs());
+  sut.kill();
+  EXPECT_TRUE(wait_until([&] { return !runs(); }));
+}
+
 TEST_F(PlcDebug, A_configuration_needs_a_module_built_from_these_files) {
   put(file("d.st"), std::string("\n") + kProgram);
   EXPECT_THAT(debug("scan\nq\n").out, HasSubstr("is not of these files"));
