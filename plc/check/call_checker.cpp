@@ -221,7 +221,7 @@ void CallChecker::statement(Expression& call) {
     }
   }
   if (type->pou != nullptr && type->pou->tree->kind == ast::Pou::Kind::Class) {
-    context_.error(call.at, fmt::format("{} is a CLASS and has no body, call one of its methods", type->name));
+    context_.error(call.at, fmt::format("{} has no body, call a method or a function block in it", type->name));
     return;
   }
   if (type->block != nullptr) {

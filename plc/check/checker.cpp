@@ -9,6 +9,7 @@
 #include "plc/check/enable.h"
 #include "plc/check/global_table.h"
 #include "plc/check/identifier_checker.h"
+#include "plc/check/instance_structs.h"
 #include "plc/check/namespaces.h"
 #include "plc/check/object_checker.h"
 #include "plc/check/pou_checker.h"
@@ -51,6 +52,7 @@ std::unique_ptr<Program> check(Project project, CheckOptions options, Diagnostic
   program->infinite_division = options.infinite_division;
   Context context{*program, diagnostics};
   resolve_namespaces(program->project, diagnostics);
+  make_instance_structs(program->project, diagnostics);
   declare_enable_outputs(program->project);
   check_identifiers(context);
   declare_pous(context);

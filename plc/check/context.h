@@ -14,6 +14,13 @@
 
 namespace indurop::plc {
 
+// Of a variable of `pou`, null: a global.
+struct OpenInitial {
+  ast::Initial* initial = nullptr;
+  const Type* type = nullptr;
+  Pou* pou = nullptr;
+};
+
 struct Context {
   Program& program;
   Diagnostics& diagnostics;
@@ -22,6 +29,8 @@ struct Context {
   std::vector<std::pair<const void*, Place>> loop_variables{};
   // Names whose declaration has an error, or that a POU uses and nobody declares: said once. Globals: of no POU.
   std::set<std::pair<const Pou*, std::string>> known_errors{};
+  // Initial values of instances, wherever their function blocks stand: looked at when all variables are known.
+  std::vector<OpenInitial> open_initials{};
 
   void error(const Place& at, std::string text) { diagnostics.error(at, located(std::move(text))); }
   void warning(const Place& at, std::string text) { diagnostics.warning(at, located(std::move(text))); }

@@ -85,7 +85,10 @@ const Type* ExpressionChecker::value(Expression& expression, const Type* wanted)
     return nullptr;
   }
   if (type->kind == Type::Kind::Block) {
-    context_.error(expression.at, fmt::format("{} is not a value, name one of its outputs", with_article(*type)));
+    const bool is_struct = type->pou != nullptr && type->pou->tree->is_struct;
+    context_.error(expression.at, fmt::format("{} is not a value{}, name one of its {}", with_article(*type),
+                                              is_struct ? " because it contains function blocks" : "",
+                                              is_struct ? "fields" : "outputs"));
     return nullptr;
   }
   return type;

@@ -85,7 +85,10 @@ bool ExpressionChecker::struct_initial(ast::Initial& initial, const Type& type) 
       }
     } else if (type.kind == Type::Kind::Block) {
       const Variable* input = type.pou->find(upper(element.field));
-      if (input != nullptr && (input->section == ast::Section::Input || input->section == ast::Section::Output)) {
+      const bool is_public =
+          input != nullptr && input->section == ast::Section::Local && input->declared->access == ast::Access::Public;
+      if (is_public ||
+          (input != nullptr && (input->section == ast::Section::Input || input->section == ast::Section::Output))) {
         field_type = input->type;
         element.field = input->name;
       }

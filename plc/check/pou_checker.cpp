@@ -50,7 +50,7 @@ class VariableDeclarer {
       return;
     }
     const std::size_t before = context_.diagnostics.errors();
-    set_late_value(declared, *type, pou_);
+    set_late_value(context_, declared, *type, pou_);
     check_kind(declared, *type);
     Variable* made = remember(declared, type);
     if (made == nullptr || context_.diagnostics.errors() != before) {
@@ -62,6 +62,8 @@ class VariableDeclarer {
       made->global = declare_placeless(context_, declared, *type);
     } else if (declared.address && !declared.address->numbers.empty()) {
       made->global = &declare_located(context_, declared, *type);
+    } else if (declared.initial && holds_instances(*type)) {
+      context_.open_initials.push_back({&*declared.initial, type, &pou_});
     } else if (declared.initial && expressions_.initial(*declared.initial, *type) && declared.constant &&
                declared.section == Section::Local) {  // VAR_INPUT CONSTANT is given by the caller
       remember_constant(*made, declared);
@@ -299,12 +301,14 @@ void declare_variables(Context& context) {
   for (Pou& pou : context.program.pous) {
     declare_variables_of(context, pou);
   }
+  check_open_initials(context);
 }
 
 Pou& declare_further(Context& context, ast::Pou& tree) {
   Pou& pou = add(context, tree);
   context.program.pou_names.emplace(upper(tree.name), &pou);
   declare_variables_of(context, pou);
+  check_open_initials(context);
   return pou;
 }
 
@@ -314,6 +318,7 @@ void declare_method(Context& context, Pou& owner, ast::Pou& tree) {
   owner.methods.push_back(&method);
   owner.uses.insert(&method);
   declare_variables_of(context, method);
+  check_open_initials(context);
 }
 
 namespace {

@@ -250,10 +250,6 @@ class TypeBuilder {
       if (one == nullptr) {
         continue;
       }
-      if (one->kind == Type::Kind::Block) {
-        context_.error(field.at, "a STRUCT cannot contain function blocks, use a FUNCTION_BLOCK instead of the STRUCT");
-        fine = false;
-      }
       if (one->open) {
         context_.error(field.at, kOpenArray);
         fine = false;

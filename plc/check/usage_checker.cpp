@@ -10,11 +10,16 @@ namespace {
 
 using ast::Section;
 
+// That does something when it is called.
 bool is_instance(const Type& type) noexcept {
-  return type.kind == Type::Kind::Block || (type.kind == Type::Kind::Array && is_instance(*type.element));
+  const bool has_body = type.pou == nullptr || type.pou->tree->kind != ast::Pou::Kind::Class;
+  return (type.kind == Type::Kind::Block && has_body) || (type.kind == Type::Kind::Array && is_instance(*type.element));
 }
 
 void warn_about(Context& context, const Pou& pou, const Variable& variable) {
+  if (variable.declared->access == ast::Access::Public) {  // others use it
+    return;
+  }
   const bool own =
       variable.section == Section::Local || variable.section == Section::Temp || variable.section == Section::External;
   const Place& at = variable.declared->at;
@@ -38,8 +43,8 @@ void warn_about_usage(Context& context, const Pou& pou) {
   }
   const bool empty = std::all_of(pou.tree->body.begin(), pou.tree->body.end(),
                                  [](const ast::Statement& one) { return one.kind == ast::Statement::Kind::Empty; });
-  if (empty && pou.result == nullptr && !pou.is_object && pou.owner == nullptr &&
-      context.diagnostics.errors() == 0) {  // after an error it may only seem so
+  if (empty && pou.tree->kind != ast::Pou::Kind::Class && pou.result == nullptr && !pou.is_object &&
+      pou.owner == nullptr && context.diagnostics.errors() == 0) {  // after an error it may only seem so
     context.warning(pou.tree->at, "the body is empty");
   }
 }

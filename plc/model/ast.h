@@ -280,6 +280,7 @@ struct Pou {
   bool is_abstract = false;
   bool is_final = false;
   bool overrides = false;  // METHOD OVERRIDE
+  bool is_struct = false;  // Class: a STRUCT that contains function blocks
   bool is_action = false;  // Method: an ACTION that others call
   Access access = Access::Public;
   Accessor accessor = Accessor::None;

@@ -213,7 +213,43 @@ TEST(PlcInstances, The_end_of_a_POU_may_miss_in_CODESYS) {
   const Compiled sut = codesys(text);
   EXPECT_TRUE(sut.ok) << messages(sut);
   EXPECT_THAT(messages(sut), HasSubstr("warning: Main has no END_PROGRAM"));
-  EXPECT_THAT(wrong(text), HasSubstr("expected 'END_PROGRAM'"));
+  EXPECT_THAT(wrong(text), HasSubstr("the PROGRAM of line 1 has no END_PROGRAM"));
+}
+
+TEST(PlcInstances, Initial_values_wherever_the_function_block_stands) {
+  const std::string text =
+      "VAR_GLOBAL g : ARRAY[1..2] OF Motor := [(speed := 5), (speed := 6)]; END_VAR "
+      "PROGRAM Main VAR m : Motor := (speed := 7); END_VAR m(); g[1](); g[2](); END_PROGRAM "
+      "FUNCTION_BLOCK Motor VAR_INPUT speed : INT; END_VAR VAR_OUTPUT o : INT; END_VAR o := speed; END_FUNCTION_BLOCK ";
+  const Compiled sut = compiled(text);
+  EXPECT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(wrong("VAR_GLOBAL h : Motor := (sped := 5); END_VAR " + text), HasSubstr("Motor has no field 'sped'"));
+}
+
+// What is silently wrong elsewhere: timers and edges in it would be those of another one.
+TEST(PlcInstances, A_STRUCT_with_function_blocks_is_no_value_and_is_not_shared) {
+  const std::string head =
+      "TYPE Axis : STRUCT t : ARRAY[1..2] OF TON; n : INT; END_STRUCT; END_TYPE\n"
+      "VAR_GLOBAL g : Axis; END_VAR\n"
+      "PROGRAM Main VAR a, b : Axis; END_VAR\n"
+      "a.t[1](IN := TRUE, PT := T#1s); b.t[2](IN := TRUE, PT := T#1s); g.t[1](IN := a.t[1].Q);\n";
+  const Compiled sut = compiled(head + "g.n := a.n; END_PROGRAM");
+  EXPECT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(written(sut), Not(HasSubstr("Axis g;")));
+  EXPECT_THAT(wrong(head + "a := b; END_PROGRAM"),
+              HasSubstr("an Axis is not a value because it contains function blocks, name one of its fields"));
+  EXPECT_THAT(wrong(head + "a(); END_PROGRAM"), HasSubstr("Axis has no body, call a method or a function block in it"));
+  EXPECT_THAT(wrong("TYPE Axis : STRUCT t : TON; END_STRUCT := (m := 3); END_TYPE PROGRAM Main VAR a : Axis; END_VAR "
+                    "a.t(); END_PROGRAM"),
+              HasSubstr("Axis has no field 'm' to begin with"));
+}
+
+TEST(PlcInstances, Values_of_variables_begin_others_in_the_dialect_of_CODESYS_only) {
+  const std::string text =
+      "FUNCTION_BLOCK F VAR_INPUT a : INT; END_VAR VAR b : INT := a; END_VAR VAR_OUTPUT c : INT; END_VAR c := b; "
+      "END_FUNCTION_BLOCK PROGRAM Main VAR f : F; i : INT; END_VAR f(); i := f.c; END_PROGRAM";
+  EXPECT_TRUE(codesys(text).ok) << messages(codesys(text));
+  EXPECT_THAT(wrong(text), HasSubstr("an initial value must be known now"));
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ TEST(PlcObjects, What_extends_and_implements) {
                    main,
                "recursion is not possible: A.Go -> A.Back -> A.Go"},
            Row{"CLASS C METHOD Go END_METHOD END_CLASS FUNCTION_BLOCK A VAR c : C; END_VAR c();" + main,
-               "C is a CLASS and has no body"},
+               "C has no body, call a method"},
            Row{"FUNCTION_BLOCK ABSTRACT B END_FUNCTION_BLOCK FUNCTION_BLOCK A VAR list : ARRAY[1..2] OF B; END_VAR" +
                    main,
                "B is ABSTRACT and has no instances"},
