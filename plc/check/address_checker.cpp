@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plc/check/call_checker.h"
+#include "plc/model/make.h"
 
 namespace indurop::plc {
 namespace {
@@ -102,6 +103,12 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
     type = size_of(call, of);
   } else {
     const Type* found = expressions_.reference_itself(of);
+    const Variable* variable = of.kind == Expression::Kind::Name && of.resolved ? of.resolved->variable : nullptr;
+    if (found != nullptr && variable != nullptr && variable->section == ast::Section::InOut) {
+      call = make::truth(call.at, true);  // given in each call
+      type = expressions_.value(call);
+      return true;
+    }
     if (found != nullptr && found->kind != Type::Kind::Pointer) {
       context_.error(of.at, fmt::format("{} is no reference", with_article(*found)));
       return true;

@@ -190,7 +190,7 @@ bool ExpressionChecker::write_property(ast::Statement& statement) {
   if (target.kind == Expression::Kind::Name) {
     const Pou* self = context_.pou->self();
     const bool known = self == nullptr || context_.pou->find(upper(target.name)) != nullptr ||
-                       (context_.pou->result != nullptr && same_name(context_.pou->name, target.name));
+                       (context_.pou->tree->result && same_name(context_.pou->name, target.name));
     found = known ? nullptr : accessor(*self, target, ast::Accessor::Set);
   } else if (target.kind == Expression::Kind::Member) {
     const Type* type = object(target.operands[0]);

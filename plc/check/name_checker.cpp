@@ -52,7 +52,7 @@ const Type* ExpressionChecker::name(Expression& expression, const Type* wanted) 
     out.constant = variable->constant;
     return variable->type;
   }
-  if (context_.pou != nullptr && context_.pou->result != nullptr && same_name(context_.pou->name, expression.name)) {
+  if (context_.pou != nullptr && context_.pou->tree->result && same_name(context_.pou->name, expression.name)) {
     out.meaning = Meaning::FunctionResult;
     return context_.pou->result;
   }

@@ -56,8 +56,14 @@ class Names {
       }
       name = std::move(own);
     });
+    for (const ast::TypeDeclaration& one : project.types) {
+      if (one.type.kind == ast::TypeSpec::Kind::Enum) {
+        enums_.insert(upper(one.name));
+      }
+    }
   }
 
+  [[nodiscard]] bool is_enumeration(const std::string& own_name) const { return enums_.contains(upper(own_name)); }
   [[nodiscard]] bool is_space(const std::string& path) const { return spaces_.contains(upper(path)); }
 
   // What a path means where it stands; null: nothing of the project.
@@ -97,6 +103,7 @@ class Names {
   std::map<std::string, std::string> known_;   // "SPACE.F" to its name of its own
   std::map<std::string, std::string> inside_;  // "F" to "Space.F"
   std::set<std::string> spaces_;
+  std::set<std::string> enums_;
   std::set<std::string> taken_;
 };
 
@@ -196,11 +203,19 @@ class Resolver {
       name(one.operands[0].name, one.operands[0].at);
       return;
     }
-    const std::string path = path_of(one);
+    if (is_enumeration(one)) {
+      return;
+    }
+    const std::string path = ast::path_of(one);
     if (path.empty() || variables_.contains(upper(path.substr(0, path.find('.'))))) {
       return;
     }
     if (const std::string* found = names_.find(path, *scope_)) {
+      if (variables_.contains(upper(*found))) {
+        diagnostics_.error(one.at, fmt::format("'{}' and the variable '{}' cannot be told apart here, rename the "
+                                               "variable",
+                                               path, *found));
+      }
       Expression made;
       made.kind = Expression::Kind::Name;
       made.at = one.at;
@@ -209,13 +224,23 @@ class Resolver {
     }
   }
 
-  // "A.B.c" of names behind each other, "" of anything else.
-  static std::string path_of(const Expression& one) {
-    if (one.kind == Expression::Kind::Name) {
-      return one.value_enum.empty() ? one.name : "";
+  // Space.Color.Red becomes Color#Red, which no variable called Color hides.
+  bool is_enumeration(Expression& one) const {
+    const std::string path = one.kind == Expression::Kind::Member ? ast::path_of(one.operands[0]) : "";
+    if (path.find('.') == std::string::npos || variables_.contains(upper(path.substr(0, path.find('.'))))) {
+      return false;
     }
-    const std::string before = one.kind == Expression::Kind::Member ? path_of(one.operands[0]) : "";
-    return before.empty() ? "" : before + "." + one.name;
+    const std::string* found = names_.find(path, *scope_);
+    if (found == nullptr || !names_.is_enumeration(*found)) {
+      return false;
+    }
+    Expression made;
+    made.kind = Expression::Kind::Name;
+    made.at = one.at;
+    made.value_enum = *found;
+    made.name = std::move(one.name);
+    one = std::move(made);
+    return true;
   }
 
   const Names& names_;

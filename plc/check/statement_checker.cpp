@@ -9,6 +9,24 @@
 #include "plc/model/make.h"
 
 namespace indurop::plc {
+namespace {
+
+// x.Speed; as editors have it: only what the PROPERTY does when it is read. False: an ordinary call.
+bool read_alone(Context& context, ExpressionChecker& expressions, ast::Expression& call) {
+  const bool brackets = call.arguments.size() != 1 || call.arguments[0].value || !call.arguments[0].name.empty();
+  if (brackets) {
+    return false;
+  }
+  ast::Expression read = std::move(call.operands[0]);
+  const Type* type = expressions.value(read);
+  if (type != nullptr && read.kind != ast::Expression::Kind::Call) {
+    context.error(read.at, "a value alone does nothing: assign it with ':=', call it with '()', or remove it");
+  }
+  call = std::move(read);
+  return true;
+}
+
+}  // namespace
 
 using ast::Statement;
 
@@ -55,7 +73,7 @@ void StatementChecker::statement(Statement& one) {
       assign(one);
       break;
     case Statement::Kind::Call:
-      if (!action_with_values(one)) {
+      if (!read_alone(context_, expressions_, *one.value) && !action_with_values(one)) {
         expressions_.call_statement(*one.value);
       }
       break;

@@ -276,6 +276,7 @@ class FileReader {
     auto got = read_(file);
     if (!got.text) {
       diagnostics_.error(place_of(file), fmt::format("cannot read the file: {}", got.why));
+      out_.incomplete = true;
       return std::nullopt;
     }
     return as_utf8(std::move(*got.text));

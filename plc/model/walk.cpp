@@ -51,4 +51,12 @@ void each_expression(Initial& initial, const Visit& visit) {
   }
 }
 
+std::string path_of(const Expression& expression) {
+  if (expression.kind == Expression::Kind::Name) {
+    return expression.value_enum.empty() ? expression.name : "";
+  }
+  const std::string before = expression.kind == Expression::Kind::Member ? path_of(expression.operands[0]) : "";
+  return before.empty() ? "" : before + "." + expression.name;
+}
+
 }  // namespace indurop::plc::ast

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "plc/model/ast.h"
 
@@ -16,5 +17,8 @@ void each_expression(Expression& expression, const Visit& visit);
 void each_expression(Statement& statement, const Visit& visit);
 void each_expression(Body& body, const Visit& visit);
 void each_expression(Initial& initial, const Visit& visit);
+
+// "A.B" of names behind each other, "" of anything else.
+[[nodiscard]] std::string path_of(const Expression& expression);
 
 }  // namespace indurop::plc::ast

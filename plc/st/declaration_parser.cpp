@@ -88,6 +88,9 @@ void DeclarationParser::variables(std::vector<ast::Variable>& to) {
   const Token& first = in_.peek();
   const auto kind = block();
   while (!in_.at_end() && !in_.peek().is("END_VAR")) {
+    if (in_.accept(";")) {
+      continue;  // one too many, which editors let pass
+    }
     const std::size_t from = in_.position();
     if (!kind || !declaration(*kind, to)) {
       recover("END_VAR");

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "plc/model/make.h"
+#include "plc/model/walk.h"
 #include "plc/st/literal.h"
 #include "plc/st/nesting.h"
 
@@ -231,6 +232,12 @@ bool ExpressionParser::member(Expression& base) {
   if (token.kind == TokenKind::Word) {
     base = make::wrapped(Expression::Kind::Member, std::move(base));
     base.name = token.text;
+    return true;
+  }
+  if (const std::string path = token.kind == TokenKind::Typed ? ast::path_of(base) : ""; !path.empty()) {
+    const std::size_t hash = token.text.find('#');  // Lib.Color#Red
+    base = make::name(base.at, std::string(token.text.substr(hash + 1)));
+    base.value_enum = path + "." + std::string(token.text.substr(0, hash));
     return true;
   }
   std::string_view digits = token.text;

@@ -20,6 +20,19 @@ std::string_view word_of(ast::Pou::Kind kind) noexcept {
   return "";
 }
 
+// END_PROGRAM and so on, which editors leave away at the end of the text.
+void take_end(TokenReader& in, const ast::Pou& pou, int line, std::string_view end, bool may_miss) {
+  if (may_miss && in.at_end()) {
+    in.warning(pou.at, fmt::format("{} has no {}, which is taken to stand at the end of the text", pou.name, end));
+  } else if (in.at_end()) {
+    in.error(in.peek(), fmt::format("the {} of line {} has no {}; add it, or if the text comes out of the editor of "
+                                    "CODESYS, which leaves it away, say --dialect codesys",
+                                    word_of(pou.kind), line, end));
+  } else if (in.expect(end, fmt::format("to close the {} of line {}", word_of(pou.kind), line))) {
+    in.accept(";");
+  }
+}
+
 }  // namespace
 
 Project ProjectParser::project() {
@@ -146,11 +159,7 @@ void ProjectParser::pou(ast::Pou::Kind kind, std::vector<ast::Pou>& to) {
     written = statements(out, end);
   }
   methods(out);
-  if (in_editor_ && in_.at_end()) {
-    in_.warning(out.at, fmt::format("{} has no {}, which is taken to stand at the end of the text", out.name, end));
-  } else if (in_.expect(end, fmt::format("to close the {} of line {}", word_of(kind), word.line))) {
-    in_.accept(";");
-  }
+  take_end(in_, out, word.line, end, in_editor_);
   if (written) {
     chart.actions(*written);
     written->pou = to.size();

@@ -184,6 +184,15 @@ bool StatementParser::simple(Statement& out) {
     out.value = expressions_.expression();
     return out.value && in_.expect_end("behind the variable");
   }
+  const bool can_be_property =
+      target->kind == ast::Expression::Kind::Name || target->kind == ast::Expression::Kind::Member;
+  if (can_be_property && in_.accept(";")) {
+    std::vector<ast::Argument> read_alone(1);  // x.Speed; is a call without brackets
+    out.kind = Statement::Kind::Call;
+    const Place at = target->at;
+    out.value = make::call(at, std::move(*target), std::move(read_alone));
+    return true;
+  }
   if (!in_.accept(":=")) {
     in_.missing("expected ':=' or '('");
     return false;

@@ -13,6 +13,7 @@ namespace {
 using testing::compiled;
 using ::testing::HasSubstr;
 using testing::messages;
+using ::testing::Not;
 using testing::wrong;
 
 // One mistake, one message: also where what follows cannot be understood any more.
@@ -125,6 +126,34 @@ TEST(PlcMistakes, What_is_named_from_outside_is_there_and_fits) {
   const Compiled sut = compiled(program("", "", "SINGLE := real"));
   EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
   EXPECT_THAT(messages(sut), HasSubstr("no global variable of this name that is a BOOL"));
+}
+
+TEST(PlcMistakes, A_type_that_is_not_there_is_the_only_message_of_who_returns_it) {
+  const Compiled sut = compiled(
+      "FUNCTION_BLOCK F VAR x : INT; END_VAR PROPERTY P : REFERENCE TO Nothing GET P REF= x; END_GET END_PROPERTY "
+      "METHOD M : Nothing M := x; END_METHOD END_FUNCTION_BLOCK "
+      "PROGRAM Main VAR f : F; END_VAR f(); END_PROGRAM");
+  EXPECT_FALSE(sut.ok);
+  EXPECT_THAT(messages(sut), Not(HasSubstr("recursion")));
+  EXPECT_THAT(messages(sut), Not(HasSubstr("no SET")));
+}
+
+TEST(PlcMistakes, A_text_without_its_end_says_how_it_is_read) {
+  const std::string text = "PROGRAM Main\nVAR i : INT; END_VAR\ni := 1;\n";
+  EXPECT_THAT(wrong(text), HasSubstr("the PROGRAM of line 1 has no END_PROGRAM; add it"));
+  EXPECT_THAT(wrong(text), HasSubstr("--dialect codesys"));
+}
+
+TEST(PlcMistakes, A_file_that_is_not_there_is_the_only_message) {
+  CompileOptions options;
+  options.files = {"in.st", "gone.st"};
+  const Compiled sut = compile(options, [](const std::string& name) {
+    return name == "in.st" ? glb2idl::ReadResult{"PROGRAM Main VAR m : Motor; END_VAR m(); END_PROGRAM", name, ""}
+                           : glb2idl::ReadResult{std::nullopt, name, "there is no such file"};
+  });
+  EXPECT_FALSE(sut.ok);
+  EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
+  EXPECT_THAT(messages(sut), HasSubstr("gone.st: error: cannot read the file: there is no such file"));
 }
 
 }  // namespace

@@ -4,10 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cctype>
 #include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "plc/library/standard.h"
+#include "plc/model/elementary.h"
 #include "tests/unit/plc/front/compiled.h"
 
 namespace indurop::plc {
@@ -20,6 +26,7 @@ struct Row {
   std::string name;
   std::string text;
   std::string answer;
+  std::string run_in;
 };
 
 // "| 13 | sections | `VAR ...` | yes | pous |"
@@ -30,7 +37,9 @@ std::vector<Row> rows_of(const std::string& file) {
     const std::size_t first = line.find("| `", line.find("| ", 2) + 2);
     const std::size_t end = line.rfind("` |");
     if (line.starts_with("| ") && first != std::string::npos && end != std::string::npos && first + 3 < end) {
-      out.push_back({line.substr(0, first), line.substr(first + 3, end - first - 3), line.substr(end + 4, 3)});
+      const std::size_t run = std::min(line.find("| ", end + 3) + 2, line.size());
+      out.push_back({line.substr(0, first), line.substr(first + 3, end - first - 3), line.substr(end + 4, 3),
+                     line.substr(run, std::max(line.rfind(" |"), run) - run)});
     }
   }
   return out;
@@ -62,6 +71,56 @@ TEST(PlcTables, Rows_are_true) {
     const bool yes = row.answer == "yes";
     EXPECT_TRUE(yes || row.answer.starts_with("no")) << row.name;
     EXPECT_EQ(sut.ok, yes) << row.name << row.text << '\n' << messages(sut);
+  }
+}
+
+// Of the programs and tests with these names: "blocks, rows".
+std::string contents_of(const std::string& names) {
+  std::string all;
+  std::istringstream list(names);
+  for (std::string name; std::getline(list >> std::ws, name, ',');) {
+    bool found = false;
+    for (const char* folder :
+         {"unit/plc/conformance/", "unit/plc/drawn/", "unit/plc/front/", "unit/plc/program/", "integration/cli/"}) {
+      for (const char* ending : {".st", ".cpp"}) {
+        std::ifstream in(PLC_TESTS + ("/" + std::string(folder)) + name + ending);
+        found = found || in.good();
+        all += std::string(std::istreambuf_iterator<char>(in), {});
+      }
+    }
+    EXPECT_TRUE(found) << "there is no test '" << name << "'";
+  }
+  return upper(all);
+}
+
+// The functions and blocks of the library that a text names.
+std::set<std::string> library_names(const std::string& text) {
+  std::set<std::string> out;
+  std::string word;
+  for (const char c : upper(text) + ' ') {
+    if ((std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '_') {
+      word += c;
+      continue;
+    }
+    if (word.size() > 1 && (find_block(word) != nullptr || !find_functions(word).empty())) {
+      out.insert(word);
+    }
+    word.clear();
+  }
+  return out;
+}
+
+// That it compiles is not enough: a program runs it and looks at what comes out.
+TEST(PlcTables, What_compiles_is_run_by_the_test_that_the_row_names) {
+  for (const Row& row : rows_of(PLC_CONFORMANCE)) {
+    if (row.answer != "yes") {
+      continue;
+    }
+    EXPECT_FALSE(row.run_in.empty()) << row.name;
+    const std::string contents = contents_of(row.run_in);
+    for (const std::string& name : library_names(row.text)) {
+      EXPECT_NE(contents.find(name), std::string::npos) << row.name << ": no " << name << " in " << row.run_in;
+    }
   }
 }
 
