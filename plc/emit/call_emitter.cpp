@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <vector>
+
 #include "plc/emit/expression_emitter.h"
 #include "plc/emit/object_emitter.h"
+#include "plc/emit/operand_order.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
@@ -19,17 +24,37 @@ std::string default_value(const Type& type, const ast::Initial* initial) {
   return value == "{}" ? cpp_type(type) + value : fmt::format("{}({})", cpp_type(type), value);
 }
 
+// What is given by value, from left to right.
+std::vector<const Resolved::Actual*> inputs_of(const Expression& call) {
+  std::vector<const Resolved::Actual*> inputs;
+  for (const Resolved::Actual& one : call.resolved->actuals) {
+    if (one.parameter->section == ast::Section::Input && one.argument != nullptr && one.argument->value) {
+      inputs.push_back(&one);
+    }
+  }
+  std::sort(inputs.begin(), inputs.end(), [](const auto* a, const auto* b) { return a->argument < b->argument; });
+  return inputs;
+}
+
 }  // namespace
 
 std::string ExpressionEmitter::library_call(const Expression& expression) const {
   const Resolved& resolved = *expression.resolved;
   std::string arguments = resolved.function->faults ? place(expression.at) : "";
-  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
+  const auto input = [&](std::size_t i) -> const Expression& {
     const Resolved::Actual& one = resolved.actuals[i];
-    const Expression& input = one.argument != nullptr ? *one.argument->value : expression.operands[i];
-    arguments += (arguments.empty() ? "" : ", ") + value(input, *one.type, true);
+    return one.argument != nullptr ? *one.argument->value : expression.operands[i];
+  };
+  std::vector<const Expression*> inputs;
+  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
+    inputs.push_back(&input(i));
   }
-  return fmt::format("{}({})", resolved.function->cpp, arguments);
+  OperandOrder order(inputs);
+  for (std::size_t i = 0; i < resolved.actuals.size(); ++i) {
+    arguments +=
+        (arguments.empty() ? "" : ", ") + order.take(input(i), value(input(i), *resolved.actuals[i].type, true));
+  }
+  return order.close(fmt::format("{}({})", resolved.function->cpp, arguments));
 }
 
 // What is called: a function of the user, or a method of an instance.
@@ -73,12 +98,22 @@ std::string ExpressionEmitter::user_call(const Expression& expression) const {
   std::string arguments;
   std::string before;
   std::string after;
+  const std::vector<const Resolved::Actual*> inputs = inputs_of(expression);
+  std::vector<const Expression*> operands;
+  for (const Resolved::Actual* one : inputs) {
+    operands.push_back(&*one->argument->value);
+  }
+  OperandOrder order(operands);
+  std::map<const Resolved::Actual*, std::string> taken;
+  for (const Resolved::Actual* one : inputs) {
+    taken[one] = order.take(*one->argument->value, value(*one->argument->value, *one->type));
+  }
   for (const Resolved::Actual& one : expression.resolved->actuals) {
     const bool given = one.argument != nullptr && one.argument->value;
     std::string text;
     if (one.parameter->section == ast::Section::Input) {
       const auto& initial = one.parameter->declared->initial;
-      text = given ? value(*one.argument->value, *one.type) : default_value(*one.type, initial ? &*initial : nullptr);
+      text = given ? taken[&one] : default_value(*one.type, initial ? &*initial : nullptr);
     } else if (one.parameter->section == ast::Section::InOut && given) {
       text = one.type->open ? slice(*one.argument->value, *one.type) : raw(*one.argument->value);
     } else if (!given) {
@@ -93,12 +128,12 @@ std::string ExpressionEmitter::user_call(const Expression& expression) const {
   }
   const std::string call = fmt::format("{}({})", callee(expression), arguments);
   if (before.empty()) {
-    return call;
+    return order.close(call);
   }
   if (expression.resolved->pou->result == nullptr) {
-    return fmt::format("[&] {{ {}{}; {}}}()", before, call, after);
+    return order.close(fmt::format("[&] {{ {}{}; {}}}()", before, call, after));
   }
-  return fmt::format("[&] {{ {}auto result = {}; {}return result; }}()", before, call, after);
+  return order.close(fmt::format("[&] {{ {}auto result = {}; {}return result; }}()", before, call, after));
 }
 
 }  // namespace indurop::plc

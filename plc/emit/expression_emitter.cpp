@@ -5,6 +5,7 @@
 
 #include "plc/check/expression_checker.h"
 #include "plc/emit/object_emitter.h"
+#include "plc/emit/operand_order.h"
 #include "plc/library/standard.h"
 #include "plc/model/characters.h"
 
@@ -314,34 +315,38 @@ std::string ExpressionEmitter::binary(const Expression& expression) const {
   if (!native || !is_real(expression.type->elementary)) {
     return library_call(expression);
   }
-  return fmt::format("{} {} {}", wrapped(value(expression.operands[0], *expression.type, true)),
-                     symbol_of(expression.op), wrapped(value(expression.operands[1], *expression.type, true)));
+  OperandOrder order({&expression.operands[0], &expression.operands[1]});
+  const std::string a = order.take(expression.operands[0], value(expression.operands[0], *expression.type, true));
+  const std::string b = order.take(expression.operands[1], value(expression.operands[1], *expression.type, true));
+  return order.close(fmt::format("{} {} {}", wrapped(a), symbol_of(expression.op), wrapped(b)));
 }
 
 std::string ExpressionEmitter::comparison(const Expression& expression) const {
   const Type& type = *expression.resolved->operand;
   const bool texts = type.is_text();
-  const std::string a = value(expression.operands[0], type, texts);
-  const std::string b = value(expression.operands[1], type, texts);
-  if (texts) {
-    return fmt::format("iec::{}({}, {})", text_comparison(expression.op), a, b);
-  }
-  return fmt::format("{} {} {}", wrapped(a), symbol_of(expression.op), wrapped(b));
+  OperandOrder order({&expression.operands[0], &expression.operands[1]});
+  const std::string a = order.take(expression.operands[0], value(expression.operands[0], type, texts));
+  const std::string b = order.take(expression.operands[1], value(expression.operands[1], type, texts));
+  return order.close(texts ? fmt::format("iec::{}({}, {})", text_comparison(expression.op), a, b)
+                           : fmt::format("{} {} {}", wrapped(a), symbol_of(expression.op), wrapped(b)));
 }
 
 std::string ExpressionEmitter::logic(const Expression& expression) const {
   const Type& type = *expression.resolved->operand;
-  const std::string a = value(expression.operands[0], type, true);
-  const std::string b = value(expression.operands[1], type, true);
+  const std::string left = value(expression.operands[0], type, true);
+  const std::string right = value(expression.operands[1], type, true);
   const bool flags = type.is(Elementary::Bool);
-  switch (expression.op) {
-    case Operator::And:
-      return flags ? fmt::format("{} && {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_and({}, {})", a, b);
-    case Operator::Or:
-      return flags ? fmt::format("{} || {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_or({}, {})", a, b);
-    default:
-      return flags ? fmt::format("{} != {}", wrapped(a), wrapped(b)) : fmt::format("iec::bit_xor({}, {})", a, b);
+  if (flags && expression.op != Operator::Xor) {  // from left to right in C++, too
+    return fmt::format("{} {} {}", wrapped(left), expression.op == Operator::And ? "&&" : "||", wrapped(right));
   }
+  OperandOrder order({&expression.operands[0], &expression.operands[1]});
+  const std::string a = order.take(expression.operands[0], left);
+  const std::string b = order.take(expression.operands[1], right);
+  if (flags) {
+    return order.close(fmt::format("{} != {}", wrapped(a), wrapped(b)));
+  }
+  const char* name = expression.op == Operator::And ? "and" : expression.op == Operator::Or ? "or" : "xor";
+  return order.close(fmt::format("iec::bit_{}({}, {})", name, a, b));
 }
 
 std::string ExpressionEmitter::assign_output(const ast::Argument& argument, const std::string& text,

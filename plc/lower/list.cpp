@@ -307,12 +307,12 @@ class ListLowering {
 
   bool call(const Token& word, When when) {
     auto callee = designators_.designator();
-    if (!callee) {
-      return false;
-    }
-    auto condition = condition_of(word, when);
+    auto condition = callee ? condition_of(word, when) : std::nullopt;
     if (!condition) {
       return false;
+    }
+    if (accumulator_.loaded() && !in_.next_is({"LD", "LDN"})) {  // it stays what it was before the call
+      static_cast<void>(accumulator_.use(true));
     }
     if (callee->kind != Expression::Kind::Call) {
       const Place at = callee->at;

@@ -322,7 +322,7 @@ class Maker:
 
     def user_call(self, type_, depth):
         function = self.rng.choice([one for one in self.scope.functions if one.result is type_])
-        return function.call(self, depth) if function.pure else None
+        return function.call(self, depth)
 
     def into(self, type_, depth=3):
         """What can be assigned to a variable of the type: text and value as it is stored."""

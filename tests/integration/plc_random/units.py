@@ -151,10 +151,13 @@ class Function(Unit):
         rng = make.rng
         formal = bool(targets) or rng.random() < 0.6
         given = [(one, expr) for one, expr in values if not (formal and one.section == "VAR_INPUT" and rng.random() < 0.15)]
+        shuffled = formal and rng.random() < 0.3
+        if shuffled:
+            rng.shuffle(given)  # what stands on the left is computed first
         texts = [f"{one.name} := {expr.text}" if formal else expr.text for one, expr in given]
         texts += [f"{one.name} => {target.text}" for one, target in targets]
-        if formal and rng.random() < 0.3:
-            rng.shuffle(texts)
+        if shuffled:
+            texts = texts[len(given):] + texts[:len(given)]
 
         def run(f):
             inputs = {one.name: one.first() for one in self.of("VAR_INPUT")}

@@ -70,5 +70,14 @@ TEST(PlcList, What_is_computed_and_not_stored_is_checked) {
   EXPECT_THAT(wrong(list("TON", "BOOL", "LD a\nFOO b\nx: LD b\nST a")), HasSubstr("there is no function 'FOO'"));
 }
 
+TEST(PlcList, A_call_does_not_change_what_was_loaded_before) {
+  const Compiled sut =
+      compiled("PROGRAM Main VAR t : TON; x, y, z : BOOL; END_VAR\nLD t.Q\nCAL t(IN := x)\nAND y\nST z\nEND_PROGRAM");
+  ASSERT_TRUE(sut.ok) << messages(sut);
+  const std::string cpp = testing::written(sut);
+  ASSERT_NE(cpp.find("_il1 = t.q;"), std::string::npos) << cpp;
+  EXPECT_LT(cpp.find("_il1 = t.q;"), cpp.find("t(scan"));
+}
+
 }  // namespace
 }  // namespace indurop::plc
