@@ -23,10 +23,10 @@ bool fits_open(const Type& type, const Type& wanted) noexcept {
          in_range_of(*wanted.element, *type.element);
 }
 
-// What the argument is for, if that has a type such as ANY_NUM. Values without a name count up `position`.
+// What the argument is for, if that has a type such as ANY_NUM. Inputs count up `position`.
 const ast::Variable* generic_parameter(const ast::Pou& tree, const Argument& argument, std::size_t& position) {
   std::size_t at = 0;
-  const std::size_t wanted = argument.name.empty() ? position++ : 0;
+  const std::size_t wanted = argument.output ? position : position++;
   for (const ast::Variable& one : tree.variables) {
     const bool given = one.section == ast::Section::Input || one.section == ast::Section::InOut;
     if (given && (argument.name.empty() ? at++ == wanted : same_name(one.name, argument.name))) {

@@ -204,8 +204,7 @@ void CallChecker::statement(Expression& call) {
     return;
   }
   if (type->kind != Type::Kind::Block) {
-    context_.error(call.at,
-                   fmt::format("{} cannot be called, only functions and function blocks can", with_article(*type)));
+    context_.error(call.at, with_article(*type) + " cannot be called, only functions and function blocks can");
     return;
   }
   expressions_.note_call(callee);
@@ -324,8 +323,9 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
     if (is_enable(argument) || (is_enable_out(argument) && pou.find("ENO") == nullptr)) {
       continue;
     }
-    const Variable* parameter = argument.name.empty() ? (position < inputs.size() ? inputs[position++] : nullptr)
-                                                      : parameter_of(pou, argument.name);
+    const std::size_t at = argument.output ? position : position++;  // one with a name has its place, too
+    const Variable* parameter =
+        argument.name.empty() ? (at < inputs.size() ? inputs[at] : nullptr) : parameter_of(pou, argument.name);
     argument.output =
         argument.output || (argument.name.empty() && parameter != nullptr && is_parameter(*parameter, true));
     if (parameter == nullptr || !is_parameter(*parameter, argument.output)) {

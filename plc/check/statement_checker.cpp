@@ -9,26 +9,33 @@
 #include "plc/model/make.h"
 
 namespace indurop::plc {
+
+using ast::Statement;
+
 namespace {
 
 // x.Speed; as editors have it: only what the PROPERTY does when it is read. False: an ordinary call.
-bool read_alone(Context& context, ExpressionChecker& expressions, ast::Expression& call) {
+bool read_alone(Context& context, ExpressionChecker& expressions, Statement& one) {
+  ast::Expression& call = *one.value;
   const bool brackets = call.arguments.size() != 1 || call.arguments[0].value || !call.arguments[0].name.empty();
   if (brackets) {
     return false;
   }
   ast::Expression read = std::move(call.operands[0]);
   const Type* type = expressions.value(read);
-  if (type != nullptr && read.kind != ast::Expression::Kind::Call) {
-    context.error(read.at, "a value alone does nothing: assign it with ':=', call it with '()', or remove it");
+  const bool nothing = type != nullptr && read.kind != ast::Expression::Kind::Call;
+  const std::string text = "a value alone does nothing: assign it with ':=', call it with '()', or remove it";
+  if (nothing && context.codesys()) {
+    context.warning(read.at, text);
+    one.kind = Statement::Kind::Empty;
+  } else if (nothing) {
+    context.error(read.at, text);
   }
   call = std::move(read);
   return true;
 }
 
 }  // namespace
-
-using ast::Statement;
 
 void StatementChecker::body(ast::Body& body) {
   collect_labels(body, true);
@@ -73,7 +80,7 @@ void StatementChecker::statement(Statement& one) {
       assign(one);
       break;
     case Statement::Kind::Call:
-      if (!read_alone(context_, expressions_, *one.value) && !action_with_values(one)) {
+      if (!read_alone(context_, expressions_, one) && !action_with_values(one)) {
         expressions_.call_statement(*one.value);
       }
       break;

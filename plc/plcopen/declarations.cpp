@@ -141,7 +141,8 @@ void read_interface(const Node& interface, const std::string& what, ast::Pou& po
       pou.result = read_type(node, what, diagnostics);
     } else if (node.name == "accessVars" && pou.kind != ast::Pou::Kind::Program) {
       diagnostics.error(within(node.at, what), "VAR_ACCESS is for programs and configurations, remove it");
-    } else if (node.name != "accessVars" && node.name != "addData" && node.name != "documentation") {
+    } else if (node.name != "accessVars" && node.name != "addData" && node.name != "documentation" &&
+               node.name != "Attributes") {  // what the editor of CODESYS is told about a property
       diagnostics.error(within(node.at, what), fmt::format("<{}> is not a part of an interface; remove it", node.name));
     }
   }

@@ -24,11 +24,14 @@ bool is_name(const Token& token) {
   return token.kind == TokenKind::Word && is_identifier(token.text) && !is_keyword(token.text);
 }
 
-// "[3" or "[1, 2" and so on: elements whose number is in the text.
+// "[3" or "[1, -2" and so on: elements whose number is in the text.
 std::size_t take_index(const std::vector<Token>& tokens, std::size_t at, std::string& path) {
   std::string text = "[";
   std::size_t next = at + 1;
-  while (next < tokens.size() && (tokens[next].kind == TokenKind::Number || tokens[next].is(","))) {
+  const auto minus = [&](std::size_t i) {
+    return tokens[i].is("-") && (tokens[i - 1].is("[") || tokens[i - 1].is(","));
+  };
+  while (next < tokens.size() && (tokens[next].kind == TokenKind::Number || tokens[next].is(",") || minus(next))) {
     text += tokens[next++].text;
   }
   if (next == at + 1 || next >= tokens.size() || !tokens[next].is("]")) {

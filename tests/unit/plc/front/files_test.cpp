@@ -204,7 +204,7 @@ TEST(PlcFiles, Methods_and_properties_of_CODESYS_exports_are_read) {
 <data name="http://www.3s-software.com/plcopenxml/method"><Method name="Go"><interface><returnType><BOOL/></returnType>
 <inputVars><variable name="amount"><type><INT/></type></variable></inputVars></interface><body><ST>
 <xhtml xmlns="http://www.w3.org/1999/xhtml">n := n + amount; Go := n &gt; 3;</xhtml></ST></body></Method></data>
-<data name="http://www.3s-software.com/plcopenxml/property"><Property name="Count"><interface><returnType><INT/>
+<data name="http://www.3s-software.com/plcopenxml/property"><Property name="Count"><interface><Attributes><Attribute Name="monitoring" Value="call"/></Attributes><returnType><INT/>
 </returnType></interface><GetAccessor><interface/><body><ST><xhtml>Count := n;</xhtml></ST></body></GetAccessor>
 <SetAccessor><interface/><body><ST><xhtml>n := Count;</xhtml></ST></body></SetAccessor></Property></data>
 </addData></pou>

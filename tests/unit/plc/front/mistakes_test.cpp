@@ -156,5 +156,13 @@ TEST(PlcMistakes, A_file_that_is_not_there_is_the_only_message) {
   EXPECT_THAT(messages(sut), HasSubstr("gone.st: error: cannot read the file: there is no such file"));
 }
 
+// Whether 2 is meant for a or for c, nobody can tell.
+TEST(PlcMistakes, A_value_in_the_place_of_an_input_that_was_given_by_name) {
+  const std::string text =
+      "FUNCTION F : INT VAR_INPUT a, b, c : INT; END_VAR F := a + b + c; END_FUNCTION "
+      "PROGRAM Main VAR x : INT; END_VAR x := F(b := 1, 2); END_PROGRAM";
+  EXPECT_THAT(wrong(text), HasSubstr("b is given twice, remove one of them"));
+}
+
 }  // namespace
 }  // namespace indurop::plc

@@ -12,6 +12,7 @@ using testing::compiled;
 using ::testing::HasSubstr;
 using testing::messages;
 using ::testing::Not;
+using testing::written;
 using testing::wrong;
 
 constexpr const char* kEvil = "a{}; int b";
@@ -119,6 +120,22 @@ TEST(PlcNames, Two_resources_may_have_a_task_and_an_instance_of_the_same_name) {
   ASSERT_EQ(sut.modules.size(), 2U);
   EXPECT_EQ(sut.modules[0].name, "sut_one_t");
   EXPECT_EQ(sut.modules[1].name, "sut_two_t");
+}
+
+// Else the field of the variable would be taken: silently, where the types are the same.
+TEST(PlcNames, What_is_in_a_namespace_is_not_hidden_by_a_variable_of_the_same_name) {
+  const std::string text =
+      "NAMESPACE Lib.Math TYPE C : (A, B); END_TYPE END_NAMESPACE TYPE S : STRUCT B : INT := 42; END_STRUCT; END_TYPE "
+      "PROGRAM Main VAR C : S; x : INT; y : Lib.Math.C; END_VAR x := C.B; ";
+  for (const char* value : {"Lib.Math.C.B", "Lib.Math.C#B"}) {
+    const Compiled sut = compiled(text + "y := " + value + "; END_PROGRAM");
+    EXPECT_TRUE(sut.ok) << messages(sut);
+    EXPECT_THAT(written(sut), HasSubstr("y = plc::C::B;"));
+    EXPECT_THAT(wrong(text + "x := " + value + "; END_PROGRAM"), HasSubstr("a C is not an INT"));
+  }
+  EXPECT_THAT(wrong("NAMESPACE Lib FUNCTION F : INT F := 1; END_FUNCTION END_NAMESPACE "
+                    "PROGRAM Main VAR F : TON; x : INT; END_VAR F(); x := Lib.F(); END_PROGRAM"),
+              HasSubstr("'Lib.F' and the variable 'F' cannot be told apart here"));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace {
 using testing::compiled;
 using ::testing::HasSubstr;
 using testing::messages;
+using testing::written;
+using testing::wrong;
 
 // Lines 1 to 11.
 constexpr const char* kDrive = R"(INTERFACE IDrive
@@ -202,6 +204,25 @@ TEST(PlcObjects, A_call_that_runs_no_statement_is_a_warning) {
   EXPECT_TRUE(sut.ok) << messages(sut);
   EXPECT_THAT(messages(sut), HasSubstr("Servo has no statements, so this call runs none; to run those of Drive, write "
                                        "SUPER^(); in Servo"));
+}
+
+TEST(PlcObjects, A_property_read_alone_does_what_its_GET_does) {
+  const std::string block =
+      "FUNCTION_BLOCK M VAR_OUTPUT n : INT; END_VAR PROPERTY Next : INT GET n := n + 1; Next := n; END_GET "
+      "END_PROPERTY END_FUNCTION_BLOCK ";
+  const Compiled sut = compiled(block + "PROGRAM Main VAR m : M; END_VAR m(); m.Next; END_PROGRAM");
+  EXPECT_TRUE(sut.ok) << messages(sut);
+  EXPECT_THAT(written(sut), HasSubstr("(m.getter_NEXT());"));
+  const std::string nothing = block + "PROGRAM Main VAR m : M; END_VAR m(); m.n; END_PROGRAM";
+  EXPECT_THAT(wrong(nothing), HasSubstr("a value alone does nothing"));
+  CompileOptions options;
+  options.files = {"in.st"};
+  options.dialect = Dialect::Codesys;
+  const Compiled editor = compile(options, [&](const std::string& name) {
+    return glb2idl::ReadResult{nothing, name, ""};
+  });
+  EXPECT_TRUE(editor.ok) << messages(editor);
+  EXPECT_THAT(messages(editor), HasSubstr("warning: Main: a value alone does nothing"));
 }
 
 }  // namespace

@@ -119,19 +119,22 @@ TEST(PlcWatch, Values_are_written_as_in_a_program) {
 }
 
 TEST(PlcWatch, Values_stand_beside_the_lines_that_name_them) {
-  const auto lines = live_lines("speed := Speed + t.ET; (* n *)\n\nIF a[2].x > 3 THEN m(on := go + a[i + 1]); END_IF;",
-                                [](const std::string& path) {
-                                  return path == "SPEED"    ? "5"
-                                         : path == "T.ET"   ? "T#1s"
-                                         : path == "A[2].X" ? "7"
-                                         : path == "A"      ? "all of it"
-                                         : path == "GO"     ? "TRUE"
-                                                            : "";
-                                });
+  const auto lines = live_lines(
+      "speed := Speed + t.ET; (* n *)\n\nIF a[2].x > 3 THEN m(on := go + a[i + 1]); "
+      "END_IF; b[-1, 2] := b[2 - 1, 0];",
+      [](const std::string& path) {
+        return path == "SPEED"     ? "5"
+               : path == "T.ET"    ? "T#1s"
+               : path == "A[2].X"  ? "7"
+               : path == "A"       ? "all of it"
+               : path == "GO"      ? "TRUE"
+               : path == "B[-1,2]" ? "8"
+                                   : "";
+      });
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0].values, "speed = 5   t.ET = T#1s");
   EXPECT_EQ(lines[1].values, "");
-  EXPECT_EQ(lines[2].values, "a[2].x = 7   go = TRUE");
+  EXPECT_EQ(lines[2].values, "a[2].x = 7   go = TRUE   b[-1,2] = 8");
 }
 
 }  // namespace
