@@ -24,7 +24,7 @@ struct WrongSetting {
 using PropertyText = std::function<std::string(const char* name)>;
 
 // Fills in what properties say, by the names of the members, urdf and jobs excepted. What is wrong keeps its value.
-std::vector<WrongSetting> take_properties(const PropertyText& property, Settings& settings);
+std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& settings);
 // Values that make no sense.
 std::vector<WrongSetting> check_settings(const Settings& settings);
 // Those of which each axis has one.
