@@ -3,7 +3,8 @@
 
 namespace indurop::robot {
 
-Inverse::Inverse(const Arm& arm) : arm_(arm), wrist_(SphericalWrist::of(arm)), postures_(Postures::of(arm)) {
+Inverse::Inverse(const Arm& arm)
+    : arm_(arm), wrist_(SphericalWrist::of(arm)), postures_(Postures::of(arm)), held_(redundant_axes(arm)) {
   if (!wrist_) {
     parallel_ = ParallelAxes::of(arm);
   }
@@ -52,6 +53,15 @@ Solutions Inverse::solve(const Pose& pose, const Joints& near, Gathered::What wh
 
 Solutions Inverse::search(const Pose& pose, const Joints& near, const Search& how) const noexcept {
   return closed_form() ? all(pose, near) : search_numerically(arm_, postures_, pose, near, how);
+}
+
+Joints Inverse::held_as(const Joints& from, Joints near) const noexcept {
+  for (int i = 0; i < arm_.count() && held_ != 0; ++i) {
+    if ((held_ >> static_cast<unsigned>(i) & 1U) != 0) {
+      near[i] = from[i];
+    }
+  }
+  return near;
 }
 
 const char* Inverse::kind() const noexcept {

@@ -31,6 +31,9 @@ class Inverse {
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
   // Whether the arm can be held in different ways that have names.
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
+  // These joints with the axes that a pose leaves open where `from` has them: along a line they stand there, whatever
+  // the place before it was.
+  [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept;
   // "spherical wrist, inverse kinematics in closed form"
   [[nodiscard]] const char* kind() const noexcept;
 
@@ -41,6 +44,7 @@ class Inverse {
   std::optional<SphericalWrist> wrist_;
   std::optional<ParallelAxes> parallel_;
   std::optional<Postures> postures_;
+  Held held_;
 };
 
 }  // namespace indurop::robot

@@ -10,10 +10,11 @@ namespace indurop::robot {
 namespace {
 
 constexpr int kSteps = 100;
-constexpr double kNear = 1e-10;  // metres and radians
-constexpr double kGood = 1e-7;   // the same, of a place on a path
-constexpr double kExact = 1e-9;  // of a solution that was searched
-constexpr double kClose = 1e-3;  // worth more steps
+constexpr double kNear = 1e-14;    // metres and radians: what it goes on for, since jerk shows what is left of it
+constexpr double kEnough = 1e-10;  // the same, where another step leads no nearer
+constexpr double kGood = 1e-7;     // the same, of a place on a path
+constexpr double kExact = 1e-9;    // of a solution that was searched
+constexpr double kClose = 1e-3;    // worth more steps
 
 using Square = Eigen::Matrix<double, kAxes, kAxes>;
 
@@ -70,6 +71,8 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
       error = found;
       twist = left;
       damping = std::max(damping / 5, 1e-12);
+    } else if (error < kEnough * kEnough) {
+      break;
     } else {
       damping *= 4;
     }

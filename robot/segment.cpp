@@ -90,7 +90,7 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
     solution = {segment.joints_at(place), 0};
     return Reach::Ok;
   }
-  const auto found = inverse_->nearest(segment.pose_at(place), near);
+  const auto found = inverse_->nearest(segment.pose_at(place), inverse_->held_as(segment.from, near));
   if (found.reach == Reach::Ok) {
     solution = found.solution;
   }
@@ -98,7 +98,7 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
 }
 
 Reach Places::on_path(const Segment& segment, double along, const Joints& near, Joints& q) const noexcept {
-  const auto found = inverse_->nearest(segment.pose_on_path(along), near);
+  const auto found = inverse_->nearest(segment.pose_on_path(along), inverse_->held_as(segment.from, near));
   if (found.reach == Reach::Ok) {
     q = found.solution.q;
   }
@@ -124,7 +124,7 @@ Reach Places::on(const Segment& first, const Blend& blend, const Segment& second
     const Pose& corner = second.start;
     const Pose pose{a.position + (b.position - corner.position),
                     a.orientation * (corner.orientation.conjugate() * b.orientation)};
-    const auto found = inverse_->nearest(pose, near);
+    const auto found = inverse_->nearest(pose, inverse_->held_as(second.from, near));
     if (found.reach == Reach::Ok) {
       q = found.solution.q;
     }

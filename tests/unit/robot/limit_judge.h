@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at every set point of the cell's drives, as differences between periods, against the limits of the joints.
+// Looks at every set point of an arm's drives, as differences between periods, against the limits of the joints.
 
 #pragma once
 
@@ -19,20 +19,22 @@ inline constexpr double kEmergency = 1.5;  // Settings::emergency_factor
 // Differences between set points of drives that follow them, each against its limit.
 class Judge {
  public:
-  explicit Judge(double period) : period_(period) {}
+  // Of the cell's arm, or of that of another URDF file.
+  explicit Judge(double period, const std::string& urdf = cell_urdf())
+      : period_(period), model_(arm_from_urdf("robot.urdf", urdf).value()), limits_(limits_of(model_, Settings{})) {}
 
   // Empty, or what is broken.
   std::string look(const Cell& cell, double hardness) {
     std::string broken;
-    for (std::size_t i = 0; i < kJoints; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(model_.arm.count()); ++i) {
       Seen& seen = seen_[i];
-      const double p = radians(cell.out.command[i]);
+      const Axis& axis = model_.arm.axis(static_cast<int>(i));
+      const double p = cell.out.command[i] * (axis.slides() ? 0.001 : kPi / 180);
       if (cell.in.drives[i].status != 0x27 || cell.in.drives[i].mode != 8) {
         seen = {p, 0, 0};
         continue;
       }
       const auto k = static_cast<Eigen::Index>(i);
-      const Axis& axis = arm_.axis(static_cast<int>(i));
       const double v = (p - seen.p) / period_;
       const double a = (v - seen.v) / period_;
       const double j = (a - seen.a) / period_;
@@ -58,17 +60,15 @@ class Judge {
     }
   }
 
-  double period_;
-  Arm arm_ = cell_arm();
-  JointLimits limits_ = limits_of(Settings{});
-  std::array<Seen, kJoints> seen_{};
-
-  static JointLimits limits_of(const Settings& settings) {
-    auto cell = cell_limits();
-    cell.acceleration = cell.velocity / settings.time_to_speed;
-    cell.jerk = cell.acceleration / settings.time_to_acceleration;
-    return cell;
+  static JointLimits limits_of(const ArmModel& model, const Settings& settings) {
+    const Joints acceleration = model.velocity / settings.time_to_speed;
+    return {model.velocity, acceleration, acceleration / settings.time_to_acceleration};
   }
+
+  double period_;
+  ArmModel model_;
+  JointLimits limits_;
+  std::array<Seen, kJoints> seen_{};
 };
 
 }  // namespace indurop::robot

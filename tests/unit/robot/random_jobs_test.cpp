@@ -14,78 +14,10 @@
 #include <random>
 
 #include "limit_judge.h"
+#include "random_job.h"
 
 namespace indurop::robot {
 namespace {
-
-struct RandomJob {
-  std::string text;
-  // Of all its points and of where the arm starts.
-  Vec3 low = Vec3::Constant(HUGE_VAL), high = Vec3::Constant(-HUGE_VAL);
-  void reach(const Vec3& place) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-};
-
-RandomJob random_job(std::mt19937& random) {
-  const Arm arm = cell_arm();
-  RandomJob job;
-  job.reach(arm.forward(Joints::Zero()).position);
-  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
-  std::string& text = job.text;
-  Joints place = anywhere(arm, random, 0.1);
-  // One in four has points so near to each other that lines become chains.
-  const bool near = one_of(4) == 0;
-  const double spread = near ? in(0.001, 0.02) : in(0.02, 1);
-  const int points = near ? 20 + one_of(40) : 2 + one_of(5);
-  for (int i = 0; i < points; ++i) {
-    Joints q = place;
-    for (int tries = 0; tries < 50; ++tries) {
-      for (int k = 0; k < arm.count(); ++k) {
-        q[k] = place[k] + in(-spread, spread);
-      }
-      if (arm.beyond_limits(q) < 0) {
-        break;
-      }
-      q = place;
-    }
-    job.reach(arm.forward(q).position);
-    if (one_of(2) == 0) {
-      const Joints d = q * (180 / kPi);
-      text += fmt::format("POINT Q{} = JOINT {} {} {} {} {} {}\n", i, d[0], d[1], d[2], d[3], d[4], d[5]);
-    } else {
-      const Pose pose = arm.forward(q);
-      const Vec3 rpy = to_rpy(pose.orientation) * (180 / kPi);
-      text += fmt::format("POINT Q{} = POSE {} {} {} RPY {} {} {}\n", i, 1000 * pose.position[0],
-                          1000 * pose.position[1], 1000 * pose.position[2], rpy[0], rpy[1], rpy[2]);
-    }
-    place = q;
-  }
-  text += "MOVJ Q0\n";
-  const int steps = near ? 60 : 8;
-  for (int i = 0; i < steps; ++i) {
-    const bool along = near && one_of(10) > 0;
-    switch (along ? 5 : one_of(6)) {
-      case 0:
-        text += fmt::format("SPEED {}%\n", 1 + one_of(100));
-        break;
-      case 1:
-        text += fmt::format("ZONE {} mm\n", one_of(3) * one_of(60));
-        break;
-      case 2:
-        text += fmt::format("MOVJ Q{}\n", one_of(points));
-        break;
-      case 3:
-        text += fmt::format("MOVC Q{} Q{}\n", one_of(points), one_of(points));
-        break;
-      default:
-        text += fmt::format("MOVL Q{}\n", along ? i % points : one_of(points));
-    }
-  }
-  return job;
-}
 
 // How far the tool is outside of its workspace, m.
 double outside(const Workspace& box, const Outputs& out) {
@@ -100,10 +32,11 @@ class Random_jobs : public testing::Test {
   // m, where axes brake by themselves: of a path that ran along a side of the box.
   double most_outside = 0;
 
-  void run(unsigned seed) {
+  void run(unsigned seed) { run(seed, seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10, cell_urdf()); }
+  void run(unsigned seed, double period_ms, const std::string& urdf) {
     std::mt19937 random(seed);
-    const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;
-    const RandomJob made = random_job(random);
+    const Arm arm = arm_from_urdf("arm.urdf", urdf).value().arm;
+    const RandomJob made = random_job(arm, random);
     const std::string& job = made.text;
     Settings settings;
     if (seed % 4 == 1) {
@@ -114,9 +47,9 @@ class Random_jobs : public testing::Test {
     }
     const Workspace box = Workspace::of(settings.workspace);
     std::unique_ptr<Cell> cell;
-    ASSERT_NO_THROW(cell = std::make_unique<Cell>(job, period_ms, 0, true, settings, cell_urdf())) << job;
+    ASSERT_NO_THROW(cell = std::make_unique<Cell>(job, period_ms, 0, true, settings, urdf)) << job;
     ASSERT_TRUE(cell->serve(Service::GroupEnable));
-    Judge judge(period_ms / 1000);
+    Judge judge(period_ms / 1000, urdf);
     cell->in.service.job = 1;
     cell->ask(Service::JobStart);
     std::uniform_real_distribution<double> part(0, 1);
@@ -125,7 +58,7 @@ class Random_jobs : public testing::Test {
     bool failed = false;  // a drive: its axes brake by themselves, whatever error was the first
     for (int i = 0; i < 20000 / period_ms; ++i) {
       if (part(random) < often) {
-        disturb(*cell, random);
+        disturb(*cell, arm.count(), random);
       }
       emergency = emergency || cell->in.emergency;
       failed = failed || std::any_of(cell->in.drives.begin(), cell->in.drives.end(),
@@ -161,7 +94,7 @@ class Random_jobs : public testing::Test {
     constexpr std::array kLimits{ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk};
     return std::find(kLimits.begin(), kLimits.end(), code) != kLimits.end();
   }
-  static void disturb(Cell& cell, std::mt19937& random) {
+  static void disturb(Cell& cell, int axes, std::mt19937& random) {
     switch (std::uniform_int_distribution<int>(0, 15)(random)) {
       case 0:
       case 1:
@@ -179,7 +112,8 @@ class Random_jobs : public testing::Test {
         cell.in.emergency = true;
         break;
       case 7:
-        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, 5)(random)].status = Cell::kFault;
+        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, static_cast<std::size_t>(axes) - 1)(random)]
+            .status = Cell::kFault;
         break;
       case 8:
         cell.ask(Service::GroupDisable);
@@ -211,9 +145,34 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
              1000 * most_outside);
 }
 
+// Arms of every kind, in periods that motions do not end with.
+class Random_jobs_of_arms : public Random_jobs, public testing::WithParamInterface<const char*> {};
+
+TEST_P(Random_jobs_of_arms, Break_no_limit_either) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1);
+  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 50;
+  for (int i = 0; i < jobs; ++i) {
+    constexpr std::array kPeriods{1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 10.0};
+    const auto seed = static_cast<unsigned>(first + i);
+    run(seed, kPeriods[seed % kPeriods.size()], urdf_of(GetParam()));
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  for (const auto& [end, many] : ends) {
+    fmt::print("{:6} {}\n", many, end);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Random_jobs_of_arms,
+                         testing::Values("delta", "five_axis", "gantry", "iiwa14", "offset_wrist", "palletiser", "rail",
+                                         "scara", "ur10", "ur3e", "ur5"),
+                         [](const auto& arm) { return std::string(arm.param); });
+
 // The same for single axes that are asked for one motion after the other.
 TEST_F(Random_jobs, Single_axes_break_no_limit_either) {
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  const auto many = static_cast<unsigned>(setting("INDUROP_ROBOT_JOBS", 1500) / 25);
+  for (unsigned seed = 1; seed <= many; ++seed) {
     std::mt19937 random(seed);
     const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;
     Cell cell("", period_ms);
@@ -229,6 +188,10 @@ TEST_F(Random_jobs, Single_axes_break_no_limit_either) {
         const AxisService service = services[std::uniform_int_distribution<std::size_t>(0, 4)(random)];
         const bool turns = service == AxisService::MoveVelocity;
         cell.ask_axis(axis, service, in(-100, 100), turns ? in(-500, 500) : in(1, 500));
+        // Often less than what it is doing.
+        const auto some = [&](double most) { return in(0, 1) < 0.3 ? 0 : most * std::pow(10, in(-2, 0)); };
+        cell.in.axes[axis].acceleration = some(1000);
+        cell.in.axes[axis].jerk = some(10000);
       }
       if (in(0, 1) < 2 * period_ms / 1000) {
         cell.in.speed_override = in(0, 100);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs of random motions between random points of any arm.
+
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "robot_fixture.h"
+
+namespace indurop::robot {
+
+struct RandomJob {
+  std::string text;
+  // Of all its points and of where the arm starts.
+  Vec3 low = Vec3::Constant(HUGE_VAL), high = Vec3::Constant(-HUGE_VAL);
+  void reach(const Vec3& place) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+};
+
+inline RandomJob random_job(const Arm& arm, std::mt19937& random) {
+  constexpr double kSliding = 0.3;  // m per radian of the others
+  RandomJob job;
+  job.reach(arm.forward(Joints::Zero()).position);
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
+  std::string& text = job.text;
+  Joints place = anywhere(arm, random, 0.1);
+  // One in four has points so near to each other that lines become chains.
+  const bool near = one_of(4) == 0;
+  const double spread = near ? in(0.001, 0.02) : in(0.02, 1);
+  const int points = near ? 20 + one_of(40) : 2 + one_of(5);
+  for (int i = 0; i < points; ++i) {
+    Joints q = place;
+    for (int tries = 0; tries < 50; ++tries) {
+      for (int k = 0; k < arm.count(); ++k) {
+        q[k] = place[k] + (arm.axis(k).slides() ? kSliding : 1) * in(-spread, spread);
+      }
+      if (arm.beyond_limits(q) < 0) {
+        break;
+      }
+      q = place;
+    }
+    job.reach(arm.forward(q).position);
+    if (one_of(2) == 0) {
+      text += fmt::format("POINT Q{} = JOINT", i);
+      for (int k = 0; k < arm.count(); ++k) {
+        text += fmt::format(" {}", q[k] * (arm.axis(k).slides() ? 1000 : 180 / kPi));
+      }
+      text += "\n";
+    } else {
+      const Pose pose = arm.forward(q);
+      const Vec3 rpy = to_rpy(pose.orientation) * (180 / kPi);
+      text += fmt::format("POINT Q{} = POSE {} {} {} RPY {} {} {}\n", i, 1000 * pose.position[0],
+                          1000 * pose.position[1], 1000 * pose.position[2], rpy[0], rpy[1], rpy[2]);
+    }
+    place = q;
+  }
+  text += "MOVJ Q0\n";
+  const int steps = near ? 60 : 8;
+  for (int i = 0; i < steps; ++i) {
+    const bool along = near && one_of(10) > 0;
+    switch (along ? 5 : one_of(6)) {
+      case 0:
+        text += fmt::format("SPEED {}%\n", 1 + one_of(100));
+        break;
+      case 1:
+        text += fmt::format("ZONE {} mm\n", one_of(3) * one_of(60));
+        break;
+      case 2:
+        text += fmt::format("MOVJ Q{}\n", one_of(points));
+        break;
+      case 3:
+        text += fmt::format("MOVC Q{} Q{}\n", one_of(points), one_of(points));
+        break;
+      default:
+        text += fmt::format("MOVL Q{}\n", along ? i % points : one_of(points));
+    }
+  }
+  return job;
+}
+
+}  // namespace indurop::robot
