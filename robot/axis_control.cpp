@@ -25,6 +25,7 @@ void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale
   upper_ = axis.upper;
   endless_ = axis.endless;
   most_ = limits;
+  motion_.set_bounds(limits, endless_ ? -HUGE_VAL : lower_, endless_ ? HUGE_VAL : upper_);
   scale_ = scale;
   homed_ = absolute;
   table_ = table;
@@ -151,14 +152,14 @@ void AxisControl::move_home(double seconds) noexcept {
   end_motion(failed ? ErrorCode::NotHomed : ErrorCode::Ok);
 }
 
-// A motion without target must not run into the end of the axis.
+// A motion without target must not run into the end of the axis: from where it would be next it still has to come to
+// rest before.
 void AxisControl::guard_limits(double seconds) noexcept {
-  const LineState& now = motion_.state();
-  const double rest = now.position + ramp(now, 0, limits(1)).distance;
-  // It will be looked at again one period later.
-  const double margin = radians(0.1) + seconds * (std::abs(now.velocity) + seconds * most_.acceleration);
+  constexpr double kMargin = radians(0.1);
+  const LineState next = motion_.after(seconds);
+  const double rest = next.position + ramp(next, 0, limits(1)).distance;
   const bool ends =
-      !endless_ && ((now.velocity > 0 && rest > upper_ - margin) || (now.velocity < 0 && rest < lower_ + margin));
+      !endless_ && ((next.velocity > 0 && rest > upper_ - kMargin) || (next.velocity < 0 && rest < lower_ + kMargin));
   if (ends) {
     abort_queue();
     finish(motion_owner_, ErrorCode::JointLimit);
@@ -175,6 +176,9 @@ void AxisControl::move(double seconds) noexcept {
   if (state_ == AxisState::Homing) {
     move_home(seconds);
     return;
+  }
+  if (state_ == AxisState::ContinuousMotion) {
+    guard_limits(seconds);
   }
   motion_.step(seconds);
   // What passes its end goes on with the next one, several times if they are short.
@@ -194,7 +198,6 @@ void AxisControl::move(double seconds) noexcept {
   report_.in_velocity = goes_on && motion_.done();
   if (goes_on) {
     note_velocity();
-    guard_limits(seconds);
   } else if (state_ == AxisState::DiscreteMotion && motion_.at_rest()) {
     state_ = AxisState::Standstill;
     end_motion(ErrorCode::Ok);

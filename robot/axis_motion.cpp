@@ -9,14 +9,21 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kStill = 1e-3;  // an override below is a hold
+constexpr double kRounding = 1e-9;
 
 }  // namespace
+
+void AxisMotion::set_bounds(const LineLimits& most, double lower, double upper) noexcept {
+  most_ = most;
+  lower_ = lower;
+  upper_ = upper;
+}
 
 void AxisMotion::reset(const LineState& state) noexcept {
   state_ = state;
   profile_ = Profile::coast(state);
   goal_ = Goal::Rest;
-  passing_ = passed_ = false;
+  passing_ = passed_ = harder_ = false;
   time_ = 0;
 }
 
@@ -66,6 +73,55 @@ bool AxisMotion::held() const noexcept {
 void AxisMotion::plan() noexcept {
   time_ = 0;
   passing_ = passed_ = false;
+  plan_wanted();
+  harder_ = !keeps_bounds();
+  if (harder_) {
+    passing_ = false;
+    profile_ = Profile::to_velocity(state_, 0, hardest());
+  }
+}
+
+LineLimits AxisMotion::hardest() const noexcept {
+  return {most_.velocity, std::max(most_.acceleration, limits_.acceleration), std::max(most_.jerk, limits_.jerk)};
+}
+
+// Whoever stands has nothing to brake.
+bool AxisMotion::keeps_bounds() const noexcept {
+  const double speed = std::abs(state_.velocity);
+  if (speed == 0 && state_.acceleration == 0) {
+    return true;
+  }
+  if (profile_.peak().velocity > std::max(most_.velocity, speed) * (1 + kRounding)) {
+    return false;
+  }
+  if (passing_) {
+    return true;  // straight to a target that is between the ends
+  }
+  const auto [low, high] = profile_.extent();
+  const auto [start, end] = std::minmax(state_.position, profile_.end().position);
+  return low >= std::min(lower_, state_.position) - kRounding &&
+         high <= std::max(upper_, state_.position) + kRounding && (low >= start - kRounding || turns_in_time(-1)) &&
+         (high <= end + kRounding || turns_in_time(1));
+}
+
+// What turns back before an end brakes through, without coming to rest: it could not rest there as well. It always has
+// to be able to rest before the end, or no nearer to it than if it braked now.
+bool AxisMotion::turns_in_time(double side) const noexcept {
+  constexpr int kLooks = 32;
+  constexpr double kMargin = 2e-3;  // rad, between two of them
+  const LineLimits hard = hardest();
+  const auto rest = [&](const LineState& from) { return side * (from.position + ramp(from, 0, hard).distance); };
+  const double most = std::max((side > 0 ? upper_ : -lower_) - kMargin, rest(state_)) + kRounding;
+  for (int i = 1; i <= kLooks; ++i) {
+    const LineState there = profile_.at(profile_.duration() * i / kLooks);
+    if (side * there.velocity > 0 && rest(there) > most) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void AxisMotion::plan_wanted() noexcept {
   if (goal_ == Goal::Rest || held()) {
     profile_ = Profile::to_velocity(state_, 0, limits_);
   } else if (goal_ == Goal::Velocity) {
@@ -124,6 +180,10 @@ void AxisMotion::step(double seconds) noexcept {
     return;
   }
   state_ = on_profile(time_);
+  if (harder_) {
+    plan();
+    return;
+  }
   if (goal_ == Goal::Position && !passing_ && done()) {
     goal_ = Goal::Rest;  // it is there
   }

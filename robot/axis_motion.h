@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motion of a single axis by itself: to a position, also through it with a velocity, on and on with a velocity, to
-// rest; each from whatever it is doing. An override slows it down at any moment, to rest at 0, and it goes on when that
-// ends.
+// rest; each from whatever it is doing. What is asked for in mid-move may leave less acceleration and jerk than the
+// axis needs to keep its speed and its ends: then it brakes harder, as its own limits allow, until they are enough. An
+// override slows it down at any moment, to rest at 0, and it goes on when that ends.
 
 #pragma once
+
+#include <cmath>
 
 #include "robot/profile.h"
 
@@ -11,7 +14,9 @@ namespace indurop::robot {
 
 class AxisMotion {
  public:
-  // Moving on like this, with nothing to do. Real-time safe, as all here.
+  // The axis' own limits and ends; none at first. Real-time safe, as all here.
+  void set_bounds(const LineLimits& most, double lower, double upper) noexcept;
+  // Moving on like this, with nothing to do.
   void reset(const LineState& state) noexcept;
   // As fast as the limits allow, also where the way is too short or backwards.
   void move_to(double position, const LineLimits& limits, const LineLimits& braking) noexcept;
@@ -25,13 +30,15 @@ class AxisMotion {
   void set_override(double part) noexcept;
 
   void step(double seconds) noexcept;
+  // Where that would come to.
+  [[nodiscard]] LineState after(double seconds) const noexcept { return on_profile(time_ + seconds); }
 
   // Position or velocity it goes to, and how fast at most.
   [[nodiscard]] double target() const noexcept { return target_; }
   [[nodiscard]] double speed() const noexcept { return limits_.velocity; }
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
-  [[nodiscard]] bool done() const noexcept { return !held() && time_ >= profile_.duration(); }
+  [[nodiscard]] bool done() const noexcept { return !held() && !harder_ && time_ >= profile_.duration(); }
   [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0 && !passed_; }
   // It is exactly at the position that it passes; `rest_of_step()` seconds of the last step are left.
   [[nodiscard]] bool passed() const noexcept { return passed_; }
@@ -42,9 +49,16 @@ class AxisMotion {
 
   [[nodiscard]] bool held() const noexcept;
   void plan() noexcept;
+  void plan_wanted() noexcept;
   bool plan_pass() noexcept;
+  [[nodiscard]] LineLimits hardest() const noexcept;
+  [[nodiscard]] bool keeps_bounds() const noexcept;
+  [[nodiscard]] bool turns_in_time(double side) const noexcept;
   [[nodiscard]] LineState on_profile(double time) const noexcept;
 
+  LineLimits most_{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  double lower_ = -HUGE_VAL, upper_ = HUGE_VAL;
+  bool harder_ = false;  // brakes until what is asked for keeps these
   Goal goal_ = Goal::Rest;
   double target_ = 0;  // position or velocity
   LineLimits limits_, braking_;

@@ -261,6 +261,25 @@ LineState Profile::peak() const noexcept {
   return peak;
 }
 
+std::pair<double, double> Profile::extent() const noexcept {
+  std::pair<double, double> extent{std::min(start_.position, end_.position), std::max(start_.position, end_.position)};
+  LineState state = start_;
+  for (int i = 0; i < count_; ++i) {
+    const auto& phase = phases_[static_cast<std::size_t>(i)];
+    // Where its velocity becomes 0, up to twice; where it never does these are no numbers.
+    const double root = std::sqrt(state.acceleration * state.acceleration - 2 * phase.jerk * state.velocity);
+    const double before = -state.acceleration - std::copysign(root, state.acceleration);
+    for (const double turn : {before / phase.jerk, 2 * state.velocity / before}) {
+      if (turn > 0 && turn < phase.duration) {
+        const double position = advanced(state, turn, phase.jerk).position;
+        extent = {std::min(extent.first, position), std::max(extent.second, position)};
+      }
+    }
+    state = advanced(state, phase.duration, phase.jerk);
+  }
+  return extent;
+}
+
 LineState Profile::at(double time) const noexcept {
   if (time >= duration_) {
     LineState state = end_;

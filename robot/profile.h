@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -77,6 +78,8 @@ class Profile {
   [[nodiscard]] const LineState& end() const noexcept { return end_; }
   // The greatest speed and acceleration on its way, in either direction; no position.
   [[nodiscard]] LineState peak() const noexcept;
+  // The least and the greatest position on its way.
+  [[nodiscard]] std::pair<double, double> extent() const noexcept;
 
  private:
   void append(const Ramp& ramp) noexcept;

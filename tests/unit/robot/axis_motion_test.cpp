@@ -88,6 +88,49 @@ TEST(AxisMotion, Commands_at_any_instant_keep_the_limits) {
   }
 }
 
+// What is asked for in mid-move may be slower and softer than what the axis is doing.
+TEST(AxisMotion, Any_limits_at_any_instant_keep_the_axis_own_limits_and_ends) {
+  constexpr double kEnd = 3;
+  std::mt19937 random(5);
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  AxisMotion sut;
+  sut.set_bounds(kLimits, -kEnd, kEnd);
+  sut.reset({0, 0, 0});
+  LineState last;
+  const auto step = [&] {
+    sut.step(kPeriod);
+    const LineState now = sut.state();
+    EXPECT_LE(std::abs(now.position), kEnd + 1e-9);
+    EXPECT_LE(std::abs(now.velocity), kLimits.velocity + 1e-9);
+    EXPECT_LE(std::abs(now.acceleration), kLimits.acceleration + 1e-9);
+    EXPECT_LE(std::abs(now.acceleration - last.acceleration), kLimits.jerk * kPeriod + 1e-6);
+    EXPECT_NEAR(now.position - last.position, kPeriod * (now.velocity + last.velocity) / 2, 1e-6);
+    last = now;
+  };
+  for (int i = 0; i < 200000 && !HasFailure(); ++i) {
+    const auto some = [&](double most) { return most * std::pow(10, in(-2, 0)); };
+    if (i % 2000 == 1999) {
+      const double target = in(-kEnd, kEnd);
+      sut.set_override(1);
+      sut.move_to(target, kLimits);
+      for (int k = 0; k < 20000 && !sut.done() && !HasFailure(); ++k) {
+        step();
+      }
+      EXPECT_DOUBLE_EQ(sut.state().position, target);
+    } else if (random() % 150 == 0) {
+      const LineLimits limits{some(kLimits.velocity), some(kLimits.acceleration), some(kLimits.jerk)};
+      if (random() % 4 > 0) {
+        sut.move_to(in(-kEnd, kEnd), limits, {limits.velocity, some(kLimits.acceleration), limits.jerk});
+      } else {
+        sut.stop(limits);
+      }
+    } else if (random() % 300 == 0) {
+      sut.set_override(in(0, 1));
+    }
+    step();
+  }
+}
+
 TEST(AxisMotion, An_override_at_any_instant_keeps_limits_and_target) {
   std::mt19937 random(7);
   for (int round = 0; round < 200; ++round) {

@@ -202,6 +202,10 @@ TEST_F(Random_jobs, Single_axes_break_no_limit_either) {
       cell.step();
       ASSERT_EQ(judge.look(cell, emergency ? kEmergency : 1), "")
           << "seed " << seed << ", period " << i << " of " << period_ms << " ms";
+      if (!emergency) {
+        ASSERT_NE(cell.out.state, GroupState::ErrorStop)
+            << "seed " << seed << ", period " << i << " of " << period_ms << " ms: " << to_string(cell.out.error);
+      }
     }
   }
 }
