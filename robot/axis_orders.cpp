@@ -23,6 +23,11 @@ AxisService service_of(const Command& command) noexcept {
   return static_cast<AxisService>(command.code);
 }
 
+// deg/s, deg/s^2, deg/s^3 or mm: what is asked for, if it is neither 0 (as much as there is) nor something.
+bool nothing(double value) noexcept {
+  return value != 0 && std::abs(value) < 1e-6;
+}
+
 bool sane(double part) noexcept {
   return part > 0 && part <= 1;
 }
@@ -224,7 +229,8 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
   const double speed = to_velocity ? std::abs(command.velocity) : command.velocity;
   const double slowing = command.deceleration == 0 ? command.acceleration : command.deceleration;
   if (!std::isfinite(command.to[0]) || !std::isfinite(command.velocity) ||
-      !(speed >= 0 && command.acceleration >= 0 && command.deceleration >= 0 && command.jerk >= 0) ||
+      !(speed >= 0 && command.acceleration >= 0 && command.deceleration >= 0 && command.jerk >= 0) || nothing(speed) ||
+      nothing(command.acceleration) || nothing(command.deceleration) || nothing(command.jerk) ||
       command.direction < Direction::None || command.direction > Direction::Current) {
     return ErrorCode::Value;
   }

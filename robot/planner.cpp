@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kSpacing = 0.01;      // m between places that are looked at
 constexpr int kFewest = 24;            // places
-constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to turn over
+constexpr double kJump = radians(60);  // between places next to each other: the arm would have to turn over
+constexpr double kSlowest = 1e-9;      // m/s, and parts of full speed: below it is no motion
 
 ErrorCode code_of(Reach reach) noexcept {
   switch (reach) {
@@ -70,6 +71,7 @@ void Planner::begin(const Joints& from) noexcept {
   count_ = 0;
   next_ = 1;
   windows_ = noted_ = rehearsals_ = 0;
+  unseen_ = false;
   stage_ = Stage::Done;
 }
 
@@ -78,7 +80,8 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   segment_.move = command.move;
   segment_.zone = command.zone;
   segment_.source = command.source;
-  const bool sane = command.speed > 0 && command.speed <= 1 && command.tool_speed >= 0 && command.zone >= 0;
+  const bool sane = command.speed >= kSlowest && command.speed <= 1 &&
+                    (command.tool_speed == 0 || command.tool_speed >= kSlowest) && command.zone >= 0;
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
   }
@@ -200,7 +203,7 @@ void Planner::begin_look(double spacing, int most) noexcept {
   volumes_[0] = volume(s.from);
   least_volume_ = std::abs(volumes_[0]);
   stage_ = Stage::Look;
-  wanted_ = s.limits.velocity;
+  wanted_ = Profile::to_position({}, s.length, 0, s.limits).peak().velocity;
 }
 
 Fault Planner::check_next() noexcept {
@@ -210,11 +213,9 @@ Fault Planner::check_next() noexcept {
   Joints& here = samples_[static_cast<std::size_t>(next_)];
   const Joints& before = samples_[static_cast<std::size_t>(next_) - 1];
   const double spacing = segment_.length / count_;
-  Solution found;
-  if (const Reach reach = places_.on(segment_, spacing * next_, before, found); reach != Reach::Ok) {
-    return {code_of(reach)};
+  if (const Fault fault = walk(spacing * (next_ - 1), before, spacing * next_, here); !fault.ok()) {
+    return fault;
   }
-  here = found.q;
   if (places_.box().known() && !way_.next(places_.arm().forward(here).position)) {
     return {ErrorCode::Workspace};
   }
@@ -223,9 +224,39 @@ Fault Planner::check_next() noexcept {
   }
   volumes_[static_cast<std::size_t>(next_)] = volume(here);
   least_volume_ = std::min(least_volume_, std::abs(volume(here)));
-  Eigen::Index axis = 0;
-  if ((here - before).cwiseAbs().maxCoeff(&axis) > kJump) {
-    return {ErrorCode::Singular, static_cast<int>(axis) + 1};
+  return {};
+}
+
+// From one place to another one, by as many others as it takes to stay in the same posture: beside a singular position
+// joints turn far on a short way, and the nearest of what comes behind it is often another one.
+Fault Planner::walk(double from, const Joints& start, double to, Joints& q) const noexcept {
+  constexpr double kSure = radians(30);
+  constexpr double kAtLimit = radians(1);
+  const double finest = 1e-6 * segment_.length;
+  Joints before = start;
+  double side = volume(start);
+  for (double width = to - from; from < to;) {
+    const double place = from + 1.001 * width >= to ? to : from + width;
+    if (const Reach reach = places_.on(segment_, place, before, q); reach != Reach::Ok) {
+      return {code_of(reach)};
+    }
+    Eigen::Index axis = 0;
+    const double jump = (q - before).cwiseAbs().maxCoeff(&axis);
+    const double other = volume(q);
+    if ((jump > kSure || side * other < 0) && width > finest) {
+      width /= 2;
+      continue;
+    }
+    if (jump > kJump) {
+      // What would go on in this posture may be beyond a limit.
+      const int ended = places_.arm().beyond_limits(before, -kAtLimit);
+      return ended >= 0 ? Fault{ErrorCode::JointLimit, ended + 1}
+                        : Fault{ErrorCode::Singular, static_cast<int>(axis) + 1};
+    }
+    before = q;
+    side = other;
+    from = place;
+    width *= 2;
   }
   return {};
 }
@@ -233,87 +264,6 @@ Fault Planner::check_next() noexcept {
 // 0 in singular positions, and with another sign on their other side.
 double Planner::volume(const Joints& q) const noexcept {
   return places_.arm().volume(q);
-}
-
-// What is to be looked at closer: where joints are near a limit, and where their pace grows so fast that it may have a
-// peak between two places.
-void Planner::choose_windows(const Joints* places, const double* volumes, int count, double from, double spacing,
-                             int depth) noexcept {
-  constexpr double kNear = 0.4;  // of a limit
-  double before = pace(rates_at(places, count, 0, spacing), joints_);
-  for (int i = 0; i < count && windows_ < static_cast<int>(window_.size()); ++i) {
-    const Rates rates = rates_at(places, count, i, spacing);
-    const double now = pace(rates, joints_);
-    const double next = pace(rates_at(places, count, std::min(i + 1, count - 1), spacing), joints_);
-    const double most = std::max({before, now, next});
-    const double growth = most / std::max(std::min({before, now, next}), 1e-9);
-    const double v = segment_.limits.velocity;
-    const bool near = velocity_for(rates, joints_, HUGE_VAL) * kNear < v;
-    if (may_be_singular(volumes, count, i) || (growth > (near ? 1.15 : 1.5) && most * v > 0.1)) {
-      window_[static_cast<std::size_t>(windows_++)] = {from + spacing * i, spacing, places[i], places[i + 1], depth};
-    }
-    before = now;
-  }
-}
-
-Fault Planner::look_closer() noexcept {
-  constexpr int kDeepest = 3;
-  const Window window = window_[static_cast<std::size_t>(--windows_)];
-  std::array<Joints, kParts + 1> places;
-  std::array<double, kParts + 1> volumes{};
-  places[0] = window.start;
-  volumes[0] = volume(places[0]);
-  const double spacing = window.length / kParts;
-  for (int i = 1; i <= kParts; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (const Reach reach = places_.on(segment_, window.from + spacing * i, places[k - 1], places[k]);
-        reach != Reach::Ok) {
-      return {code_of(reach)};
-    }
-    volumes[k] = volume(places[k]);
-    least_volume_ = std::min(least_volume_, std::abs(volumes[k]));
-  }
-  Eigen::Index axis = 0;
-  if ((places[kParts] - window.end).cwiseAbs().maxCoeff(&axis) > 1e-6) {
-    return {ErrorCode::Singular, static_cast<int>(axis) + 1};  // a closer look comes out in another posture
-  }
-  Rates most;
-  for (int i = 0; i < kParts; ++i) {
-    const Rates rates = rates_at(places.data(), kParts, i, spacing);
-    most = {most.first.cwiseMax(rates.first), most.second.cwiseMax(rates.second), most.third.cwiseMax(rates.third)};
-    bound(rates, window.from + spacing * i, spacing);
-  }
-  note(most);
-  if (window.depth < kDeepest) {
-    choose_windows(places.data(), volumes.data(), kParts, window.from, spacing, window.depth + 1);
-  }
-  return {};
-}
-
-// Of the speed in a part of the path, and how it may change there.
-void Planner::bound(const Rates& rates, double from, double length) noexcept {
-  constexpr double kChanging = 0.7;  // of a joint's acceleration
-  const double part = segment_.length / PathBounds::kParts;
-  const int first = std::clamp(static_cast<int>(from / part + 0.001), 0, PathBounds::kParts - 1);
-  const int last = std::clamp(static_cast<int>((from + length) / part - 0.001), first, PathBounds::kParts - 1);
-  const double speed = velocity_for(rates, joints_, HUGE_VAL);
-  const double acceleration = kChanging / rates.first.cwiseQuotient(joints_.acceleration).maxCoeff();
-  for (int i = first; i <= last; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    bounds_.speed[k] = std::min(bounds_.speed[k], speed);
-    bounds_.acceleration[k] = std::min(bounds_.acceleration[k], acceleration);
-  }
-}
-
-// More than fit are summed up in the last one, which can only make the path slower.
-void Planner::note(const Rates& rates) noexcept {
-  segment_.limits.velocity = velocity_for(rates, joints_, segment_.limits.velocity);
-  if (noted_ < static_cast<int>(rates_.size())) {
-    rates_[static_cast<std::size_t>(noted_++)] = rates;
-    return;
-  }
-  Rates& last = rates_.back();
-  last = {last.first.cwiseMax(rates.first), last.second.cwiseMax(rates.second), last.third.cwiseMax(rates.third)};
 }
 
 Fault Planner::look(int& places) noexcept {
@@ -350,10 +300,10 @@ Fault Planner::looked() noexcept {
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
-  if (segment_.limits.velocity < std::min(kSlowestPace, wanted_)) {
-    return {ErrorCode::Singular};
+  // What may be blended has one speed for all of it; what would be far too slow then comes to rest at its end.
+  if (segment_.limits.velocity < kSlowestPace * wanted_) {
+    segment_.zone = 0;
   }
-  // What may be blended has one speed for all of it.
   if (segment_.zone <= 0) {
     search_.begin(segment_, bounds_);
     stage_ = Stage::Search;

@@ -54,6 +54,7 @@ class Planner {
   [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
   Fault check_next() noexcept;
+  Fault walk(double from, const Joints& start, double to, Joints& q) const noexcept;
   [[nodiscard]] Fault check_joint_way() const noexcept;
   Fault look_closer() noexcept;
   [[nodiscard]] double volume(const Joints& q) const noexcept;
@@ -80,6 +81,7 @@ class Planner {
   int windows_ = 0;
   int noted_ = 0;
   int rehearsals_ = 0;
+  bool unseen_ = false;  // the last rehearsal did not come to an end
   Stage stage_ = Stage::Done;
   // Stretches that are looked at closer before the path is known.
   struct Window {
@@ -92,7 +94,7 @@ class Planner {
   static constexpr int kParts = 8;  // of a stretch
   std::array<Window, 256> window_{};
   std::array<Rates, std::size_t{3} * kMost> rates_{};
-  double wanted_ = 1;  // part of full speed, before the joints were asked
+  double wanted_ = 1;  // part of full speed that it would come to, before the joints were asked
   PathBounds bounds_;
   TimingSearch search_;
   Rehearsal rehearsal_;

@@ -42,7 +42,7 @@ void Planner::bound_tool(int place) noexcept {
     LineLimits& all = segment_.limits;
     all = {std::min(all.velocity, most.velocity), std::min(all.acceleration, most.acceleration),
            std::min(all.jerk, most.jerk)};
-    wanted_ = all.velocity;
+    wanted_ = std::min(wanted_, all.velocity);
   }
 }
 

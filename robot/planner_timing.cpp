@@ -12,7 +12,8 @@ namespace {
 constexpr double kStep = 0.002;      // s between instants of a motion that are looked at
 constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
-constexpr int kMostRehearsals = 4;
+constexpr int kMostRehearsals = 6;
+constexpr double kNotFound = 1.1;  // after all of them: what happens there is too narrow to be seen
 
 }  // namespace
 
@@ -65,6 +66,7 @@ void Planner::rehearse() noexcept {
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
   const bool sure = slower < kNearlyOne || ++rehearsals_ == kMostRehearsals;
+  unseen_ = sure && slower > kNotFound;
   if (stage_ == Stage::RehearseProfile) {
     LineLimits& limits = segment_.limits;
     const PaceLimits& pace = rehearsal_.pace_limits();
@@ -82,6 +84,10 @@ void Planner::end_rehearsal() noexcept {
     return;
   }
   segment_.timing.slow_down(slower);
+  if (crawls()) {
+    stage_ = Stage::Done;  // what comes of it is refused; going through it once more may take long
+    return;
+  }
   segment_.pace_limits = rehearsal_.pace_limits();
   if (segment_.timing.duration() >= Profile::to_position({}, segment_.length, 0, segment_.limits).duration()) {
     segment_.timing = {};
@@ -94,8 +100,11 @@ void Planner::end_rehearsal() noexcept {
 }
 
 // Whether all of it takes so much longer than it would by the tool's speed that nobody waits for it: what is seen in
-// places only, a singular position that is nearly met, shows in the rehearsal.
+// places only, a singular position that is nearly met, shows in the rehearsal; or does not, however slow it is.
 bool Planner::crawls() const noexcept {
+  if (unseen_) {
+    return true;
+  }
   const Segment& s = segment_;
   const double least =
       s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();

@@ -97,7 +97,8 @@ bool TimingSearch::look(int knot) noexcept {
   const double g1 = (c[4] - c[0] + 10 * (c[3] - c[1])) / 24;
   const double g2 = (c[0] + 2 * c[1] - 6 * c[2] + 2 * c[3] + c[4]) / 6;
   const double g3 = (c[4] - 2 * c[3] + 2 * c[1] - c[0]) / 2;
-  const double e = std::min(2e-4, segment_.length / 64);
+  // Not farther apart than what happens there: beside a singular position that is little of the way.
+  const double e = std::min({2e-4, segment_.length / 64, std::max(4 * g1, 1e-9 * segment_.length)});
   const double middle = std::clamp(place, 2 * e, segment_.length - 2 * e);
   std::array<Joints, 5> q;
   for (int i = 0; i < 5; ++i) {

@@ -58,6 +58,20 @@ TEST(Axis, A_motion_without_target_stops_before_the_limit) {
   EXPECT_LT(cell.out.command[4], degrees(2.094));
 }
 
+TEST(Axis, What_is_asked_for_is_something) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve_axis(0, AxisService::PowerOn));
+  for (double AxisRequest::*part : {&AxisRequest::velocity, &AxisRequest::acceleration, &AxisRequest::jerk}) {
+    for (const double little : {1e-300, 1e-9, -1e-300}) {
+      cell.ask_axis(0, AxisService::MoveAbsolute, 10);
+      cell.in.axes[0].*part = little;
+      cell.step();
+      EXPECT_EQ(cell.out.axes[0].error, ErrorCode::Value);
+      EXPECT_EQ(cell.out.axes[0].aborted, cell.in.axes[0].number);
+    }
+  }
+}
+
 TEST(Axis, Hold_and_override_act_on_it_too) {
   Cell cell;
   ASSERT_TRUE(cell.serve_axis(0, AxisService::PowerOn));

@@ -23,6 +23,21 @@ struct RandomJob {
   }
 };
 
+inline std::string random_point(const Arm& arm, const Joints& q, int number, bool joints) {
+  std::string text = fmt::format("POINT Q{} = ", number);
+  if (joints) {
+    text += "JOINT";
+    for (int k = 0; k < arm.count(); ++k) {
+      text += fmt::format(" {}", q[k] * (arm.axis(k).slides() ? 1000 : 180 / kPi));
+    }
+    return text + "\n";
+  }
+  const Pose pose = arm.forward(q);
+  const Vec3 rpy = to_rpy(pose.orientation) * (180 / kPi);
+  return text + fmt::format("POSE {} {} {} RPY {} {} {}\n", 1000 * pose.position[0], 1000 * pose.position[1],
+                            1000 * pose.position[2], rpy[0], rpy[1], rpy[2]);
+}
+
 inline RandomJob random_job(const Arm& arm, std::mt19937& random) {
   constexpr double kSliding = 0.3;  // m per radian of the others
   RandomJob job;
@@ -47,18 +62,7 @@ inline RandomJob random_job(const Arm& arm, std::mt19937& random) {
       q = place;
     }
     job.reach(arm.forward(q).position);
-    if (one_of(2) == 0) {
-      text += fmt::format("POINT Q{} = JOINT", i);
-      for (int k = 0; k < arm.count(); ++k) {
-        text += fmt::format(" {}", q[k] * (arm.axis(k).slides() ? 1000 : 180 / kPi));
-      }
-      text += "\n";
-    } else {
-      const Pose pose = arm.forward(q);
-      const Vec3 rpy = to_rpy(pose.orientation) * (180 / kPi);
-      text += fmt::format("POINT Q{} = POSE {} {} {} RPY {} {} {}\n", i, 1000 * pose.position[0],
-                          1000 * pose.position[1], 1000 * pose.position[2], rpy[0], rpy[1], rpy[2]);
-    }
+    text += random_point(arm, q, i, one_of(2) == 0);
     place = q;
   }
   text += "MOVJ Q0\n";

@@ -171,7 +171,8 @@ TEST(Tool, The_workspace_is_kept_by_the_tip) {
 
 // Joint values in which the tip touches a place, turned otherwise each time.
 std::string touching(const std::vector<Vec3>& turns, const Vec3& tip, std::mt19937& random, double noise) {
-  const Inverse inverse(cell_arm());
+  const Arm arm = cell_arm();
+  const Inverse inverse(arm);
   const Vec3 place(0.45, 0.1, 0.35);
   std::normal_distribution<double> off(0, noise);
   std::ostringstream text;
