@@ -245,7 +245,7 @@ TEST(Tool, Bad_points_are_refused_with_the_reason) {
 }
 
 TEST(Tool, Mistakes_are_named_where_they_are) {
-  const std::pair<const char*, const char*> kCases[] = {
+  const std::pair<const char*, const char*> cases[] = {
       {"TOOL pen\n", "a.job:1:6: error: there is no tool 'pen'"},
       {"TOOL pan\nTOOL pen = POSE 0 0 1 RPY 0 0 0\n", "did you mean 'pen'?"},
       {"TOOL pen = POINTS A B\n", "a.job:1:19: error: a tool is taught by 3 points or more"},
@@ -256,7 +256,7 @@ TEST(Tool, Mistakes_are_named_where_they_are) {
       {"TOOL FLANGE = POSE 0 0 0 RPY 0 0 0\n", "a.job:1:6: error: there is already a tool 'FLANGE'"},
       {"FRAME f = POINTS A B C TOOL pen\n", "a.job:1:29: error: there is no tool 'pen'"},
   };
-  for (const auto& [text, wanted] : kCases) {
+  for (const auto& [text, wanted] : cases) {
     EXPECT_THAT(base::to_text(parse_jobs({{"a.job", text}}).diagnostics), HasSubstr(wanted)) << text;
   }
 }
