@@ -141,14 +141,11 @@ int Arm::goes_beyond(const Joints& from, const Joints& to, double slack) const n
 }
 
 int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
+  Joints inside = Joints::Zero();
   for (int i = 0; i < count_; ++i) {
-    const Axis& a = axis(i);
-    const bool inside = a.endless ? std::isfinite(q[i]) : q[i] >= a.lower - slack && q[i] <= a.upper + slack;
-    if (!inside) {
-      return i;
-    }
+    inside[i] = axis(i).lower;
   }
-  return -1;
+  return goes_beyond(inside, q, slack);
 }
 
 // Additive recurrence.

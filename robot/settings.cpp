@@ -2,13 +2,11 @@
 #include "robot/settings.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <sstream>
-#include <system_error>
 #include <utility>
+
+#include "base/word_values.h"
 
 namespace indurop::robot {
 
@@ -50,28 +48,6 @@ constexpr List kLists[] = {
     {"acceleration", &Settings::acceleration}, {"jerk", &Settings::jerk}, {"workspace", &Settings::workspace}};
 constexpr const char* kCategory = "emergency_category";
 
-std::optional<double> number_in(std::string_view text) {
-  text.remove_prefix(text.starts_with('+') ? 1 : 0);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
-}
-
-std::optional<bool> flag_in(std::string_view text) {
-  for (const std::string_view yes : {"true", "1", "on", "yes"}) {
-    if (text == yes) {
-      return true;
-    }
-  }
-  for (const std::string_view no : {"false", "0", "off", "no"}) {
-    if (text == no) {
-      return false;
-    }
-  }
-  return std::nullopt;
-}
-
 // This library stands alone: base/text.h is not in it.
 std::string trimmed(const std::string& text) {
   constexpr const char* kSpaces = " \t\r\n";
@@ -89,7 +65,7 @@ void take_number(const PropertyText& property, const Number& number, Settings& s
   if (text.empty()) {
     return;
   }
-  if (const auto value = number_in(text)) {
+  if (const auto value = base::number_in(text)) {
     settings.*number.member = *value;
   } else {
     wrong.push_back({number.name, quoted(text) + " is no number, write one such as 0.25"});
@@ -100,7 +76,7 @@ void take_list(const PropertyText& property, const List& list, Settings& setting
   std::istringstream words(property(list.name));
   std::vector<double> values;
   for (std::string word; words >> word;) {
-    const auto value = number_in(word);
+    const auto value = base::number_in(word);
     if (!value) {
       wrong.push_back({list.name, quoted(word) + " is no number, write numbers with spaces between them"});
       return;
@@ -125,7 +101,7 @@ std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& s
   }
   for (const Flag& flag : kFlags) {
     const std::string text = property(flag.name);
-    const auto value = flag_in(text);
+    const auto value = base::flag_in(text);
     settings.*flag.member = value.value_or(settings.*flag.member);
     if (!value && !text.empty()) {
       wrong.push_back({flag.name, quoted(text) + " is neither true nor false"});

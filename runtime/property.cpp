@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string_view>
 
 #include "base/text.h"
+#include "base/word_values.h"
 #include "runtime/host.h"
 #include "runtime/process.h"
 
@@ -128,15 +128,9 @@ bool property_real(const char* name, double& value) {
   if (text == nullptr) {
     return false;
   }
-  std::string_view digits = indurop::base::trimmed(text);
-  digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
-  double parsed = 0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), parsed);
-  if (error != std::errc{} || stop != digits.data() + digits.size() || !std::isfinite(parsed)) {
-    return complain(name, text, "a number");
-  }
-  value = parsed;
-  return true;
+  const auto parsed = indurop::base::number_in(indurop::base::trimmed(text));
+  value = parsed.value_or(value);
+  return parsed || complain(name, text, "a number");
 }
 
 bool property_bool(const char* name, bool& value) {
@@ -144,20 +138,9 @@ bool property_bool(const char* name, bool& value) {
   if (text == nullptr) {
     return false;
   }
-  const std::string_view word = indurop::base::trimmed(text);
-  for (const std::string_view yes : {"true", "1", "on", "yes"}) {
-    if (word == yes) {
-      value = true;
-      return true;
-    }
-  }
-  for (const std::string_view no : {"false", "0", "off", "no"}) {
-    if (word == no) {
-      value = false;
-      return true;
-    }
-  }
-  return complain(name, text, "true or false");
+  const auto parsed = indurop::base::flag_in(indurop::base::trimmed(text));
+  value = parsed.value_or(value);
+  return parsed || complain(name, text, "true or false");
 }
 
 }  // namespace irp::detail

@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -16,6 +15,7 @@
 #include "plc/front/compiler.h"
 #include "tools/command/child.h"
 #include "tools/command/self.h"
+#include "tools/command/temporary_folder.h"
 #include "tools/plc/debug_link.h"
 #include "tools/plc/debug_session.h"
 #include "tools/plc/plc_build.h"
@@ -31,28 +31,6 @@ struct Request {
   plc::CompileOptions compile;
   std::string config;
   std::string until;
-};
-
-// Gone at the end, with all that is in it.
-class Folder {
- public:
-  Folder() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "indurop-debug-XXXXXX").string();
-    path_ = ::mkdtemp(name.data()) == nullptr ? "" : name;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code error;
-    if (!path_.empty()) {
-      fs::remove_all(path_, error);
-    }
-  }
-  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
 };
 
 // The program alone, as a configuration of its own.
@@ -90,7 +68,7 @@ int debug(Context& context, Request& request) {
   if (!compiled.ok) {
     return kCheckFailed;
   }
-  const Folder folder;
+  const TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("cannot make a folder for temporary files");
     return kFailed;

@@ -4,11 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "recorder/boxes.h"
@@ -16,6 +14,7 @@
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/table.h"
+#include "tools/command/temporary_folder.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_boxes.h"
 #include "tools/plant/board_commander.h"
@@ -161,25 +160,6 @@ std::vector<std::string> missing(const Boards& boards, const BoardBox& first, co
   return names;
 }
 
-// A folder that goes with this.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "indurop.XXXXXX").string();
-    path_ = ::mkdtemp(name.data()) != nullptr ? name : std::string();
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 int fetch_far(Context& context, Options& options) {
   const auto boards = hear(context, options);
   if (!boards) {
@@ -198,7 +178,7 @@ int fetch_far(Context& context, Options& options) {
   };
   std::erase_if(boxes, [&](const BoardBox& box) { return plant_of(box.agent) != plant_of(first.agent); });
   const auto chosen = boxes_of_moment(boxes, first.end_ns);
-  const Folder folder;
+  const TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("no temporary folder can be made; is TMPDIR writable?");
     return kFailed;

@@ -182,7 +182,7 @@ TEST_F(Splines, Against_the_least_time) {
   fmt::print("{} splines: mean {:.3f}, median {:.3f}, most {:.3f} of the least time\n", ratios.size(),
              sum / static_cast<double>(ratios.size()), ratios[ratios.size() / 2], ratios.back());
   EXPECT_LT(sum, 1.2 * static_cast<double>(ratios.size()));
-  EXPECT_LT(ratios.back(), wanted > 12 ? 1.6 : 1.4);  // the most of more is more
+  EXPECT_LT(ratios.back(), 1.4);
 }
 
 const char* const kJob =
