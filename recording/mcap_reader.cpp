@@ -106,7 +106,7 @@ Result<std::optional<McapMessage>, Problem> McapReader::next() {
   return std::optional(message);
 }
 
-std::vector<std::string> McapReader::each(const std::function<void(const McapMessage&)>& use) {
+std::vector<std::string> McapReader::each(const std::function<void(const McapMessage&)>& use, std::uint64_t until_ns) {
   constexpr std::size_t kMostDamages = 100;
   std::vector<std::string> damages;
   for (const Problem& damage : contents_.damages) {
@@ -116,7 +116,7 @@ std::vector<std::string> McapReader::each(const std::function<void(const McapMes
     const auto message = next();
     if (!message) {
       damages.push_back(message.error().text);
-    } else if (*message) {
+    } else if (*message && (*message)->log_time_ns <= until_ns) {
       use(**message);
     } else {
       break;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,9 +38,10 @@ class McapReader {
   // last one. Its bytes are valid until the next call. Errors: a part of the file is damaged; the next call goes on
   // behind it.
   Result<std::optional<McapMessage>, base::Problem> next();
-  // Gives all messages that are left to `use`. Returns what of the file is not among them, as far as it is known from
-  // open() on; the hundredth such damage ends it.
-  std::vector<std::string> each(const std::function<void(const McapMessage&)>& use);
+  // Gives the messages that are left to `use`, but for those that are younger than `until_ns`. Returns what of the file
+  // is not among them, as far as it is known from open() on; the hundredth such damage ends it.
+  std::vector<std::string> each(const std::function<void(const McapMessage&)>& use,
+                                std::uint64_t until_ns = std::numeric_limits<std::uint64_t>::max());
   // next() goes on with the first message that is not older than this.
   void seek(std::uint64_t log_time_ns);
 

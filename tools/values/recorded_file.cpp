@@ -167,25 +167,17 @@ Result<RecordedValues, Problem> read_values_of(const fs::path& path, const Recor
   }
   Grid grid(reader->contents().span_ns(), wish);
   std::vector<double> values;
-  constexpr int kMostDamages = 1000;
-  for (int damages = 0; damages < kMostDamages;) {
-    const auto message = reader->next();
-    if (!message) {
-      ++damages;
-      continue;
+  const auto take = [&](const recording::McapMessage& message) {
+    const auto lines = wanted->find(message.channel);
+    if (lines == wanted->end() || !recording::read_leaves(layouts.at(lines->first), message.data.view, values)) {
+      return;
     }
-    if (!*message || static_cast<std::int64_t>((*message)->log_time_ns) > grid.out.end_ns) {
-      break;
-    }
-    const auto lines = wanted->find((*message)->channel);
-    if (lines == wanted->end() || !recording::read_leaves(layouts.at(lines->first), (*message)->data.view, values)) {
-      continue;
-    }
-    grid.fill(static_cast<std::int64_t>((*message)->log_time_ns));
+    grid.fill(static_cast<std::int64_t>(message.log_time_ns));
     for (const auto& [leaf, line] : lines->second) {
       grid.held[line] = values[leaf];
     }
-  }
+  };
+  (void)reader->each(take, static_cast<std::uint64_t>(grid.out.end_ns));
   grid.fill(INT64_MAX);
   return std::move(grid.out);
 }

@@ -118,6 +118,17 @@ TEST_F(Reader, Messages_come_in_the_order_of_time_whatever_their_chunk) {
     std::vector<Message> later = in_time(written);
     std::erase_if(later, [](const Message& each) { return std::get<2>(each) < from; });
     EXPECT_EQ(all(*reader).messages, later);
+    const std::uint64_t until = 4567;
+    reader->seek(from);
+    std::vector<std::uint64_t> times;
+    EXPECT_THAT(reader->each([&](const McapMessage& one) { times.push_back(one.log_time_ns); }, until), IsEmpty());
+    std::vector<std::uint64_t> between;
+    for (const Message& one : later) {
+      if (std::get<2>(one) <= until) {
+        between.push_back(std::get<2>(one));
+      }
+    }
+    EXPECT_EQ(times, between);
   }
 }
 
