@@ -19,24 +19,11 @@ using base::Problem;
 
 struct Part {
   recording::McapReader reader;
-  std::string name;
+  std::vector<std::string> names;
+  std::string prefix;  // of its topics, if it is of one
   ChannelMap channels;
   std::optional<recording::McapMessage> message;  // the next one
 };
-
-Result<std::string, Problem> name_of(const recording::McapReader& reader, const std::filesystem::path& file) {
-  const auto& all = reader.contents().metadata;
-  const auto found = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.name == kNodeMetadata; });
-  if (found == all.end()) {
-    return Problem{fmt::format("{} is no recording of indurop record or run --record", file.string())};
-  }
-  auto metadata = reader.metadata(*found);
-  if (!metadata) {
-    return std::move(metadata).error();
-  }
-  const std::string board = metadata->values["board"];
-  return board.empty() ? metadata->values["node"] : board;
-}
 
 Result<void, Problem> advance(Part& source) {
   auto next = source.reader.next();
@@ -52,11 +39,17 @@ Result<Part, Problem> open(const std::filesystem::path& file) {
   if (!reader) {
     return std::move(reader).error();
   }
-  auto name = name_of(*reader, file);
-  if (!name) {
-    return std::move(name).error();
+  const Sources sources = find_sources(*reader);
+  if (sources.all.empty()) {
+    return Problem{fmt::format("{} is no recording of indurop record or run --record", file.string())};
   }
-  return Part{std::move(reader).value(), *std::move(name), {}, std::nullopt};
+  Part part{std::move(reader).value(), {}, {}, {}, std::nullopt};
+  for (const Source& source : sources.all) {
+    const std::string board = source.text("board");
+    part.names.push_back(!source.prefix.empty() ? source.name() : board.empty() ? source.text("node") : board);
+    part.prefix = source.prefix.empty() ? part.names.back() + "/" : "";
+  }
+  return part;
 }
 
 Result<void, Problem> copy_messages(std::vector<Part>& sources, recording::McapWriter& writer, Joined& joined) {
@@ -90,11 +83,12 @@ Result<std::vector<Part>, Problem> open_all(const std::vector<std::filesystem::p
     if (!source) {
       return std::move(source).error();
     }
-    if (std::find(joined.names.begin(), joined.names.end(), source->name) != joined.names.end()) {
-      return Problem{
-          fmt::format("{} is of {}, as another of the files: join one of each", file.string(), source->name)};
+    for (const std::string& name : source->names) {
+      if (std::find(joined.names.begin(), joined.names.end(), name) != joined.names.end()) {
+        return Problem{fmt::format("{} is of {}, as another of the files: join one of each", file.string(), name)};
+      }
+      joined.names.push_back(name);
     }
-    joined.names.push_back(source->name);
     sources.push_back(std::move(source).value());
   }
   return sources;
@@ -114,7 +108,7 @@ Result<Joined, Problem> join(const std::vector<std::filesystem::path>& files, co
   }
   const auto copy = [&]() -> Result<void, Problem> {
     for (Part& source : *sources) {
-      auto channels = copy_frame(source.reader, source.name + "/", *writer);
+      auto channels = copy_frame(source.reader, source.prefix, *writer);
       if (!channels) {
         return std::move(channels).error();
       }

@@ -69,7 +69,7 @@ Sources find_sources(const recording::McapReader& reader) {
       sources.all.push_back(source_of(reader, channel));
     }
   }
-  // A joined file that was joined once more has longer prefixes within shorter ones.
+  // Of prefixes within each other the longer one counts.
   std::sort(sources.all.begin(), sources.all.end(),
             [](const Source& a, const Source& b) { return a.prefix.size() > b.prefix.size(); });
   for (const auto& [id, channel] : channels) {

@@ -13,6 +13,7 @@
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/board_link.h"
 #include "deploy/agent/board_process.h"
+#include "deploy/agent/board_recorder.h"
 #include "deploy/agent/box_watch.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
@@ -56,6 +57,11 @@ std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
 
+std::filesystem::path beside_us(const char* program) {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
+}
+
 LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
   LinkSettings settings = options.link;
   settings.self = self;
@@ -75,7 +81,8 @@ class Agent {
         transaction_(options.board),
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
-        board_commands_(options.board, self_, keys_, process_, log),
+        recorder_(options.board, beside_us("indurop"), {}, log),
+        board_commands_(options.board, self_, keys_, process_, recorder_, log),
         server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_); }),
         net_(link_settings(options, self_), keys_, log) {
     host_ = host_name();
@@ -89,6 +96,7 @@ class Agent {
       const rt::MonoTime now = rt::MonoClock::now();
       service_manager_.alive(now);
       process_.step(now);
+      recorder_.step(now);
       connect(now);
       if (link_ != nullptr) {
         listen(now);
@@ -350,6 +358,7 @@ class Agent {
   Fetcher fetcher_;
   BoardProcess process_;
   std::string held_before_;  // the trial
+  BoardRecorder recorder_;
   BoardCommands board_commands_;
   BlobServer server_;
   ServiceManager service_manager_;

@@ -43,6 +43,9 @@ const char* word_of(Action action) {
       return "keep the black box:";
     case Action::RestartModule:
     case Action::RestartNode:
+    case Action::Record:
+    case Action::EndRecord:
+    case Action::DropRecord:
       break;
   }
   return "restart";
@@ -50,6 +53,10 @@ const char* word_of(Action action) {
 
 bool is_force(Action action) noexcept {
   return action == Action::Force || action == Action::Unforce;
+}
+
+bool is_recording(Action action) noexcept {
+  return action == Action::Record || action == Action::EndRecord || action == Action::DropRecord;
 }
 
 std::string one_line(std::string text) {
@@ -85,8 +92,8 @@ void note_forces(const std::string& board, const Command& command) {
 }  // namespace
 
 BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
-                             const base::Log& log)
-    : board_(std::move(board)), self_(self), keys_(keys), process_(process), log_(log) {}
+                             BoardRecorder& recorder, const base::Log& log)
+    : board_(std::move(board)), self_(self), keys_(keys), process_(process), recorder_(recorder), log_(log) {}
 
 CommandReply BoardCommands::reply(const Command& command, Outcome outcome, const std::string& text) const {
   return {command.commander, board_, self_, command.nonce, outcome, text};
@@ -102,16 +109,22 @@ void BoardCommands::step(CommandLink& link, const std::string& plant, const std:
     return;
   }
   if (const auto done = look(now)) {
-    log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
-              command_->target.empty() ? "the node" : "module " + command_->target,
-              done->outcome == Outcome::Failed ? done->text : "done");
-    if (done->outcome == Outcome::Done && !command_->target.empty()) {
-      note(board_, *command_, command_->target, {});
+    if (!is_recording(command_->action)) {  // its recorder tells what it does
+      tell(*done);
     }
     known_[command_->commander].last = done;
     link.send(*done);
     command_.reset();
     run_.reset();
+  }
+}
+
+void BoardCommands::tell(const CommandReply& done) const {
+  log_.info("command from {}: {} {}: {}", command_->host, word_of(command_->action),
+            command_->target.empty() ? "the node" : "module " + command_->target,
+            done.outcome == Outcome::Failed ? done.text : "done");
+  if (done.outcome == Outcome::Done && !command_->target.empty()) {
+    note(board_, *command_, command_->target, {});
   }
 }
 
@@ -163,6 +176,7 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
   deadline_ = now + kPatience;
   CommandReply answer = is_force(command.action)            ? force(command)
                         : command.action == Action::KeepBox ? keep_box(command)
+                        : is_recording(command.action)      ? begin_recording(command, now)
                         : command.target.empty()            ? begin_node(command)
                                                             : begin_module(command);
   if (answer.outcome == Outcome::UnderWay) {
@@ -220,6 +234,19 @@ CommandReply BoardCommands::keep_box(const Command& command) const {
   return wished ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, wished.error().where);
 }
 
+CommandReply BoardCommands::begin_recording(const Command& command, rt::MonoTime now) {
+  if (command.action == Action::Record && process_.condition() != NodeCondition::Running) {
+    return reply(command, Outcome::Refused, "its node does not run");
+  }
+  const BoardRecorder::Answer answer = recorder_.begin(command, now);
+  return reply(command, answer.outcome, answer.text);
+}
+
+std::optional<CommandReply> BoardCommands::look_at_recording() {
+  const auto answer = recorder_.look(command_->action);
+  return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
+}
+
 CommandReply BoardCommands::begin_module(const Command& command) {
   if (process_.condition() != NodeCondition::Running || !open_run()) {
     return reply(command, Outcome::Refused, "its node does not run");
@@ -261,7 +288,9 @@ CommandReply BoardCommands::begin_node(const Command& command) {
 }
 
 std::optional<CommandReply> BoardCommands::look(rt::MonoTime now) {
-  auto done = command_->target.empty() ? look_at_node() : look_at_module();
+  auto done = is_recording(command_->action) ? look_at_recording()
+              : command_->target.empty()     ? look_at_node()
+                                             : look_at_module();
   if (!done && now > deadline_) {
     done = reply(*command_, Outcome::Failed, fmt::format("not done after {} s; it goes on", kPatience.count()));
   }

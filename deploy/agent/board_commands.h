@@ -10,6 +10,7 @@
 #include <string>
 
 #include "deploy/agent/board_process.h"
+#include "deploy/agent/board_recorder.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/link/command_link.h"
 #include "rt/clock.h"
@@ -21,7 +22,7 @@ namespace indurop::deploy {
 class BoardCommands {
  public:
   BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
-                const base::Log& log);
+                BoardRecorder& recorder, const base::Log& log);
 
   // Takes what has come and goes on with the command under way. `plant`: what is committed here; `busy`: why no command
   // is taken now, empty: it is.
@@ -38,12 +39,15 @@ class BoardCommands {
   CommandReply begin(const Command& command, const std::string& plant, const std::string& busy, rt::MonoTime now);
   CommandReply begin_module(const Command& command);
   CommandReply begin_node(const Command& command);
+  void tell(const CommandReply& done) const;
   [[nodiscard]] CommandReply force(const Command& command) const;
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
+  CommandReply begin_recording(const Command& command, rt::MonoTime now);
   // Empty while it goes on.
   std::optional<deploy::CommandReply> look(rt::MonoTime now);
   std::optional<deploy::CommandReply> look_at_module();
   std::optional<deploy::CommandReply> look_at_node();
+  std::optional<deploy::CommandReply> look_at_recording();
   bool open_run();  // false: the node does not run
   scheduler::ModuleRecord* find(const std::string& module);
   [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;
@@ -52,6 +56,7 @@ class BoardCommands {
   std::uint64_t self_;
   const DeployKeys& keys_;
   BoardProcess& process_;
+  BoardRecorder& recorder_;
   const base::Log& log_;
   std::map<std::uint64_t, Known> known_;    // by commander
   std::optional<deploy::Command> command_;  // under way

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/offer.h"
 
+#include "deploy/agent/board_recorder.h"
 #include "deploy/agent/boxes_text.h"
 #include "deploy/agent/mirror_text.h"
 #include "deploy/agent/run_image.h"
@@ -24,6 +25,13 @@ std::optional<BlobServer::Blob> offer(const std::string& name, const std::string
   }
   if (name.starts_with(kBoxBlob)) {
     const auto file = box_file(board, name.substr(kBoxBlob.size()));
+    return file ? std::optional(BlobServer::Blob{*file, {}}) : std::nullopt;
+  }
+  if (name == kRecordingsBlob) {
+    return text(recordings_text(board));
+  }
+  if (name.starts_with(kRecordingBlob)) {
+    const auto file = recording_file(board, name.substr(kRecordingBlob.size()));
     return file ? std::optional(BlobServer::Blob{*file, {}}) : std::nullopt;
   }
   return state.has(name) ? std::optional(BlobServer::Blob{state.file(name), {}}) : std::nullopt;

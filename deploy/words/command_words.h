@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands to one board outside of deployments: stop, start or restart its node or one of its modules, hold values of
-// its variables, have its black box kept. The agent answers the first word with a number that counts once, so that a
-// recorded command cannot be played again. No network here.
+// its variables, have its black box kept or its runs recorded. The agent answers the first word with a number that
+// counts once, so that a recorded command cannot be played again. No network here.
 
 #pragma once
 
@@ -20,6 +20,13 @@ enum class Action : std::uint8_t {
   Force,    // target: nanoseconds (0: until released), then NAME=VALUE in a line each
   Unforce,  // target: a NAME in a line each, or "*" for all
   KeepBox,  // target: why
+  // What its runs see and write comes to a file on its disk. Target: the recording's name, "past" or "now" (where it
+  // begins), then wanted variables or globs in a line each, none: all. Said again, it goes on: one that is not asked
+  // for any more ends by itself. The answer to the first word names globs that no variable of the board matches, in a
+  // line each; are these all, nothing is recorded.
+  Record,
+  EndRecord,   // target: its name. Unchanged: it had ended before, the text says why
+  DropRecord,  // target: its name; its file was fetched
 };
 
 struct Command {
@@ -29,7 +36,7 @@ struct Command {
   std::uint64_t agent = 0;  // of the board that is meant
   std::string plant;        // what the board runs
   Action action = Action::StopModule;
-  std::string target;       // the module; empty: the node; of forces and black boxes, see there
+  std::string target;       // the module; empty: the node; of other actions, see there
   std::uint64_t nonce = 0;  // as the agent gave it; 0: asks for one
   std::string signature;    // of command_text(); empty: unsigned
 };

@@ -144,5 +144,8 @@ inline constexpr const char* kRunBlob = "run";
 // Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
 inline constexpr const char* kBoxesBlob = "boxes";
 inline constexpr std::string_view kBoxBlob = "box/";
+// Likewise: the list of its recordings (deploy/agent/board_recorder.h), and one of them.
+inline constexpr const char* kRecordingsBlob = "recordings";
+inline constexpr std::string_view kRecordingBlob = "recording/";
 
 }  // namespace indurop::deploy

@@ -46,6 +46,10 @@ int interrupt_code() noexcept {
   return 128 + caught_signal.load(std::memory_order_relaxed);
 }
 
+void take_interrupt() noexcept {
+  caught_signal.store(0, std::memory_order_relaxed);
+}
+
 Woken wait_until(std::int64_t deadline_ns, int fd) noexcept {
   // Signals are let in only inside ppoll, so one that comes between the test and the sleep is not lost.
   sigset_t ours;

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/plant/board_boxes.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 #include "base/json.h"
-#include "deploy/transaction/blob_fetch.h"
 #include "deploy/words/deployment_words.h"
-#include "rt/clock.h"
-#include "tools/command/interrupt.h"
 #include "tools/plant/board_texts.h"
 
 namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kSameMomentNs = 10'000'000'000;
-constexpr std::int64_t kPatienceNs = 5'000'000'000;
-constexpr std::int64_t kLookNs = 20'000'000;
 
 std::uint64_t distance(std::int64_t a, std::int64_t b) {
   return static_cast<std::uint64_t>(std::max(a, b)) - static_cast<std::uint64_t>(std::min(a, b));
@@ -66,40 +58,6 @@ std::vector<BoardBox> boxes_of_moment(const std::vector<BoardBox>& all, std::int
     }
   }
   return chosen;
-}
-
-Result<void, Failure> fetch_box(deploy::DeployLink& link, std::uint64_t self, const BoardBox& box,
-                                const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  const std::string blob = std::string(deploy::kBoxBlob) + box.name;
-  deploy::BlobFetch fetch(box.bytes, 0, link.room());
-  std::int64_t moved = rt::now_ns();
-  while (!fetch.complete() && out.good()) {
-    if (interrupted()) {
-      return Failure{interrupt_code(), "interrupted"};
-    }
-    if (rt::now_ns() - moved > kPatienceNs) {
-      return Failure{kUnreachable, fmt::format("board {} does not answer any more", box.board)};
-    }
-    if (const auto range = fetch.ask(rt::MonoClock::now())) {
-      link.request({self, box.agent, blob, range->offset, range->length, range->restart});
-    }
-    link.wait(rt::mono_time(rt::now_ns() + kLookNs));
-    for (const deploy::BlobChunk& chunk : link.take_chunks()) {
-      if (chunk.source != box.agent || chunk.blob != blob) {
-        continue;
-      }
-      if (chunk.missing) {
-        return Failure{kFailed, fmt::format("{} is not on board {} any more", box.name, box.board)};
-      }
-      if (fetch.take(chunk.offset, chunk.data.size(), rt::MonoClock::now())) {
-        out.write(reinterpret_cast<const char*>(chunk.data.data()), static_cast<std::streamsize>(chunk.data.size()));
-        moved = rt::now_ns();
-      }
-    }
-  }
-  out.close();
-  return out.good() ? Result<void, Failure>() : Failure{kFailed, fmt::format("{} cannot be written", file.string())};
 }
 
 }  // namespace indurop::tools

@@ -4,12 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "deploy/link/deploy_link.h"
-#include "tools/command/failure.h"
 
 namespace indurop::tools {
 
@@ -30,9 +28,5 @@ std::vector<BoardBox> fetch_box_lists(deploy::DeployLink& link, std::uint64_t se
 // The boxes that tell of the same moment as the one that ends at `moment_ns`: of each board the nearest, if it ends
 // within ten seconds of it.
 std::vector<BoardBox> boxes_of_moment(const std::vector<BoardBox>& all, std::int64_t moment_ns);
-
-// Into `file`, which is replaced. Fails if the board stops answering, has lost it meanwhile, or the user interrupts.
-Result<void, Failure> fetch_box(deploy::DeployLink& link, std::uint64_t self, const BoardBox& box,
-                                const std::filesystem::path& file);
 
 }  // namespace indurop::tools

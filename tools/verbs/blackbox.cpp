@@ -18,6 +18,7 @@
 #include "tools/command/units.h"
 #include "tools/plant/board_boxes.h"
 #include "tools/plant/board_commander.h"
+#include "tools/plant/board_file.h"
 #include "tools/plant/board_roster.h"
 #include "tools/values/node_choice.h"
 #include "tools/values/variables.h"
@@ -186,7 +187,8 @@ int fetch_far(Context& context, Options& options) {
   std::vector<std::filesystem::path> files;
   for (const BoardBox& box : chosen) {
     files.push_back(folder.path() / (std::to_string(files.size()) + ".mcap"));
-    if (const auto fetched = fetch_box(*boards->link, options.link.self, box, files.back()); !fetched) {
+    const BoardFile file{box.board, box.agent, std::string(deploy::kBoxBlob) + box.name, box.bytes};
+    if (const auto fetched = fetch_file(*boards->link, options.link.self, file, files.back()); !fetched) {
       return report(context.out, fetched.error());
     }
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +22,11 @@
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
 #include "tools/explain/gather.h"
+#include "tools/plant/record_with_agents.h"
 #include "tools/values/mirror_view.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
+#include "vars/names_of_nothing.h"
 
 namespace indurop::tools {
 namespace {
@@ -38,6 +41,8 @@ struct Options {
   std::int64_t duration_ns = 0;  // 0: until the node or the user ends it
   bool past = false;
   recorder::Limits limits;
+  bool remote = false;
+  deploy::LinkSettings link;
 };
 
 // A node that is recorded.
@@ -155,6 +160,9 @@ std::optional<Failure> add_node(Context& context, const std::string& board, cons
   if (!chosen) {
     return chosen.error();
   }
+  if (!board.empty() && ended(chosen->run)) {
+    return Failure{kUnreachable, {}};  // it may run elsewhere now
+  }
   context.node = chosen->node;
   auto store = open_store(context, vars::Mode::ReadOnly);
   if (!store) {
@@ -177,42 +185,25 @@ std::optional<Failure> add_node(Context& context, const std::string& board, cons
   return std::nullopt;
 }
 
-// Boards that do not run on this host are named; kOk if all do.
-int add_boards(Context& context, const Options& options, Nodes& nodes, std::vector<recorder::Taped>& taped) {
-  const config::ReadPlant read = config::read_plant(options.plant);
-  if (!read.ok()) {
-    print_diagnostics(context, read.diagnostics, false);
-    return kCheckFailed;
-  }
-  int code = kOk;
-  for (const config::Board& board : read.plant.boards) {
-    if (const auto failure = add_node(context, board.name, options, nodes, taped)) {
-      context.out.error(
-          fmt::format("board {} is not in the recording: {}; where it runs, indurop record --node {}, and "
-                      "then indurop recording join",
-                      board.name, failure->text, board.name));
-      code = kFailed;
+// Those of this host are added, unless agents are to record them, too. Returns the others.
+std::vector<BoardElsewhere> add_boards(Context& context, const Options& options, const config::Plant& plant,
+                                       Nodes& nodes, std::vector<recorder::Taped>& taped) {
+  std::vector<BoardElsewhere> elsewhere;
+  for (const config::Board& board : plant.boards) {
+    const auto failure = options.remote ? std::optional<Failure>(Failure{kUnreachable, {}})
+                                        : add_node(context, board.name, options, nodes, taped);
+    if (failure) {
+      elsewhere.push_back({board.name, failure->code == kUnreachable ? "" : failure->text});
     }
   }
-  return code;
+  return elsewhere;
 }
 
-int record(Context& context, const Options& options) {
-  Nodes nodes;
-  std::vector<recorder::Taped> taped;
-  int code = kOk;
-  if (options.plant.empty()) {
-    if (const auto failure = add_node(context, "", options, nodes, taped)) {
-      return report(context.out, *failure);
-    }
-  } else {
-    code = add_boards(context, options, nodes, taped);
-  }
-  if (nodes.empty()) {
-    return code;
-  }
+// Records nodes of this host.
+int record_here(Context& context, const Options& options, const std::filesystem::path& file, const Nodes& nodes,
+                std::vector<recorder::Taped> taped, const std::vector<std::string>& names) {
   be_gentle(nodes.front()->chosen.node);
-  auto parts = recorder::Parts::create(options.file, options.limits, std::move(taped), options.names);
+  auto parts = recorder::Parts::create(file, options.limits, std::move(taped), names);
   if (!parts) {
     context.out.error(parts.error().text);
     return kFailed;
@@ -226,7 +217,59 @@ int record(Context& context, const Options& options) {
     context.out.error(done.error().text + "; the recording ends here");
     return kFailed;
   }
-  return code == kOk ? told : code;
+  return told;
+}
+
+int record_plant(Context& context, Options& options) {
+  const config::ReadPlant read = config::read_plant(options.plant);
+  if (!read.ok()) {
+    print_diagnostics(context, read.diagnostics, false);
+    return kCheckFailed;
+  }
+  Nodes nodes;
+  std::vector<recorder::Taped> taped;
+  std::vector<BoardElsewhere> elsewhere = add_boards(context, options, read.plant, nodes, taped);
+  std::vector<std::string> names = options.names;
+  if (elsewhere.empty()) {
+    return record_here(context, options, options.file, nodes, std::move(taped), names);
+  }
+  if (options.limits.in_parts()) {
+    context.out.error("--split and --keep are for boards of this host only, and " + elsewhere.front().name +
+                      " does not run here");
+    return kUsage;
+  }
+  std::vector<std::string> nobody_has = names;
+  for (const auto& node : nodes) {
+    nobody_has = vars::names_of_nothing(node->store, nobody_has);
+  }
+  std::erase_if(names, [&](const std::string& name) {
+    return std::find(nobody_has.begin(), nobody_has.end(), name) != nobody_has.end();
+  });
+  const FarWish wish{read.plant.name, std::move(elsewhere), options.names,
+                     options.past,    options.duration_ns,  options.file};
+  std::function<int(const std::filesystem::path& file)> here;
+  if (!nodes.empty() && names.empty() == options.names.empty()) {
+    here = [&](const std::filesystem::path& file) {
+      return record_here(context, options, file, nodes, std::move(taped), names);
+    };
+  }
+  return record_with_agents(context, wish, options.link, nobody_has, here);
+}
+
+int record(Context& context, Options& options) {
+  if (options.plant.empty() && options.remote) {
+    context.out.error("say which plant: indurop record --remote --plant plant.xml");
+    return kUsage;
+  }
+  if (!options.plant.empty()) {
+    return record_plant(context, options);
+  }
+  Nodes nodes;
+  std::vector<recorder::Taped> taped;
+  if (const auto failure = add_node(context, "", options, nodes, taped)) {
+    return report(context.out, *failure);
+  }
+  return record_here(context, options, options.file, nodes, std::move(taped), options.names);
 }
 
 Action declare(base::Options& app, Context& context) {
@@ -239,8 +282,11 @@ Action declare(base::Options& app, Context& context) {
                     "Begin a new file, run.0002.mcap and so on, after so much: 10min, 100MB");
   add_amount_option(app, "--keep", options->limits.keep_ns, options->limits.keep_bytes,
                     "Keep the newest so much, 1h or 2GB, in files that --split says (default: 8); older ones go");
-  app.add("--plant", "FILE", options->plant, "Record all boards of this plant that run on this host, in one file")
+  app.add("--plant", "FILE", options->plant,
+          "Record all boards of this plant in one file; agents record those that do not run on this host")
       .completes(base::Completion::File);
+  app.flag("--remote", options->remote, "With --plant: agents record those of this host, too");
+  deploy::add_link_options(app, options->link);
   add_node_option(app, context);
   return [options](Context& c) { return record(c, *options); };
 }
@@ -257,7 +303,7 @@ const Verb kRecordVerb{
     "Examples:\n"
     "  indurop record -o run.mcap\n"
     "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n"
-    "  indurop record --plant plant.xml -o plant.mcap\n"
+    "  indurop record --plant plant.xml -o plant.mcap --duration 60s\n"
     "  indurop record -o last.mcap --keep 1h      # day and night, in a bounded part of the disk\n",
     &declare};
 

@@ -65,6 +65,44 @@ TEST_F(Network, A_cable_pulled_in_the_trial_ends_in_one_state) {
   EXPECT_TRUE(all_run(first.json()["deployment"]));
 }
 
+// It has shared memory of its own, as another host has.
+TEST_F(Network, Boards_here_and_elsewhere_come_into_one_recording) {
+  stop_agent("b", SIGKILL);
+  auto elsewhere = on("b");
+  elsewhere.insert(elsewhere.end(), {"unshare", "-m", "sh", "-c", "mount -t tmpfs none /dev/shm && exec \"$@\"", "sh"});
+  start_agent("b", elsewhere);
+  const Outcome done = deploy(v1_, {}, on("desk"));
+  EXPECT_EQ(done.code, 0) << done.err;
+  const auto nodes = [&](const std::string& file) {
+    return indurop_here({"recording", "info", path(file), "-o", "json"}).json()["nodes"].size();
+  };
+  const auto record = [&](const std::string& file) -> Program& {
+    std::filesystem::remove_all(path("state/" + board("b") + "/recordings"));
+    Program& desk = start_indurop({"record", "--plant", v1_, "-o", path(file)}, on("desk"));
+    EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(path(file + ".parts/this.host.mcap")); }));
+    return desk;
+  };
+  Program& whole = record("whole.mcap");
+  EXPECT_EQ(lab("unplug b"), 0);
+  EXPECT_TRUE(wait_until([&] { return report("b", on("desk")).is_null(); }));
+  EXPECT_EQ(lab("plug b"), 0);
+  EXPECT_TRUE(wait_until([&] { return !report("b", on("desk")).is_null(); }));
+  whole.signal(SIGINT);
+  const Outcome all = whole.finish();
+  EXPECT_EQ(all.code, 130) << all.err;
+  EXPECT_EQ(nodes("whole.mcap"), 3U);
+
+  Program& part = record("part.mcap");
+  EXPECT_EQ(lab("unplug b"), 0);
+  part.signal(SIGINT);
+  const Outcome some = part.finish();
+  EXPECT_EQ(some.code, 1);
+  EXPECT_THAT(some.err, testing::HasSubstr("board " + board("b") + " is not in the recording: it does not answer"));
+  EXPECT_EQ(nodes("part.mcap"), 2U);
+  EXPECT_EQ(lab("plug b"), 0);
+  stop_agent("b", SIGTERM);
+}
+
 TEST_F(Network, Lost_packets_cost_time_only) {
   for (const char* name : {"a", "b", "c", "desk"}) {
     if (lab(std::string("loss ") + name + " 30 2>/dev/null") != 0) {
