@@ -162,13 +162,9 @@ void emit_watch(const TaskPlan& task, const std::string& space, TextWriter& out)
   out.open("void watch()");
   for (const TaskProgram& one : task.programs) {
     const WatchLayout layout = watch_layout(one);
-    out.open("");
-    out.line(fmt::format("static std::array<std::uint8_t, {}> bytes{{}};", layout.bytes));
-    out.line("iec::Watch out(bytes.data());");
-    out.line(fmt::format("out.put(std::uint64_t{{{}U}});", layout.mark));
-    out.line(fmt::format("plc::show(out, {});", instance_of(one)));
-    out.line(fmt::format("::{}::{} = bytes;", space, layout.variable));
-    out.close();
+    out.line(fmt::format(
+        "iec::tell<INDUROP_TYPEOF(::{}::{})::tag_type>({}U, [](iec::Watch& out) {{ plc::show(out, {}); }});", space,
+        layout.variable, layout.mark, instance_of(one)));
   }
   out.close();
   out.line();

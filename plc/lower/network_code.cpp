@@ -221,7 +221,8 @@ LoweredNetworks NetworkCode::finish() {
 }
 
 void NetworkCode::show(FlowPoint::Kind kind, const Source& source, ast::Expression value, Elementary type) {
-  if (options_.flow) {
+  const bool derived = kind == FlowPoint::Kind::Power && derived_.contains(source.element);
+  if (options_.flow && !derived) {
     lowered_.flow.push_back({kind, source, std::move(value), type});
   }
 }

@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "plc/lower/derived_power.h"
 #include "plc/lower/networks.h"
 
 namespace indurop::plc::lower {
@@ -23,7 +24,11 @@ struct Value {
 class NetworkCode {
  public:
   NetworkCode(const Sheet& sheet, const NetworkOptions& options, Diagnostics& diagnostics)
-      : sheet_(sheet), options_(options), diagnostics_(diagnostics) {}
+      : sheet_(sheet), options_(options), diagnostics_(diagnostics) {
+    if (options.flow) {
+      derived_ = derived_power(sheet);
+    }
+  }
 
   void add(ast::Statement statement) { lowered_.body.push_back(std::move(statement)); }
   // Structured Text written at an element.
@@ -43,7 +48,7 @@ class NetworkCode {
   // A function's result: written where it is used once, else kept in a variable of the scan.
   void defer(const Element& element, const Pin& pin, ast::Expression value, std::string guard);
 
-  // Keeps `value` in the variable of the power behind the element.
+  // Keeps `value` in the variable of the power behind the element, which is told unless a view can derive it.
   [[nodiscard]] ast::Expression power(const Element& element, ast::Expression value);
   // True in the scan in which `value` changes so. `key` distinguishes the places of a body.
   [[nodiscard]] ast::Expression edge(ast::Expression value, ast::Edge edge, const std::string& key);
@@ -82,7 +87,8 @@ class NetworkCode {
   LoweredNetworks lowered_;
   std::map<Key, Output> outputs_;
   std::map<Key, int> uses_;
-  std::unordered_set<std::string> names_;  // of variables declared
+  std::unordered_set<std::string> names_;       // of variables declared
+  std::unordered_set<const Element*> derived_;  // behind which a view knows the power
 };
 
 }  // namespace indurop::plc::lower

@@ -24,7 +24,7 @@ using network::Storage;
 // Something a running view shows of a scan, valid at the end of its network and of the body.
 struct FlowPoint {
   enum class Kind : std::uint8_t {
-    Power,   // BOOL: flows out of the source
+    Power,   // BOOL: flows out of the source; left out where it is derived_power()
     Closed,  // BOOL: the variable of a contact lets power through
     Value,   // of `type`: at an output of an instance
   };

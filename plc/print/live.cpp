@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/print/live.h"
 
+#include <algorithm>
+
 #include "plc/lower/flow.h"
 
 namespace indurop::plc {
@@ -61,6 +63,37 @@ class Reader {
 };
 
 }  // namespace
+
+bool LivePower::powered(const network::Source& source) {
+  const network::Element& element = *source.element;
+  if (element.kind == network::Element::Kind::LeftRail) {
+    return true;
+  }
+  if (const auto point = body_.power.find({source.element, source.pin}); point != body_.power.end()) {
+    return told_(point->second);
+  }
+  const bool contact = element.kind == network::Element::Kind::Contact;
+  if ((!contact && element.kind != network::Element::Kind::Coil) || element.inputs.empty()) {
+    return false;
+  }
+  if (const auto known = derived_.find(&element); known != derived_.end()) {
+    return known->second;
+  }
+  derived_[&element] = false;  // a line that leads back brings nothing
+  const auto& lines = element.inputs.front().connections;
+  const bool on =
+      (!contact || closed(element)) && std::any_of(lines.begin(), lines.end(), [&](const network::Connection& line) {
+        const network::Source before = body_.sheet->index.source(line);
+        return before.element != nullptr && powered(before);
+      });
+  derived_[&element] = on;
+  return on;
+}
+
+bool LivePower::closed(const network::Element& element) {
+  const auto point = body_.closed.find(&element);
+  return point != body_.closed.end() ? told_(point->second) : powered({&element, nullptr});
+}
 
 std::vector<LiveBody> live_bodies(plcopen::Document& document, const std::string& pou, Diagnostics& diagnostics) {
   Project declared;

@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -27,13 +29,30 @@ struct LiveBody {
   std::vector<draw::Picture> pictures;  // of the networks
   std::string flow_variable;            // of the POU, an array of BOOL; empty: nothing flows
   using Key = std::pair<const network::Element*, const network::Pin*>;
-  std::map<Key, std::size_t> power;  // elements of that array
+  std::map<Key, std::size_t> power;  // elements of that array; not of derived_power()
   std::map<const network::Element*, std::size_t> closed;
 
   // SFC
   std::optional<network::Chart> chart;
 
   [[nodiscard]] bool drawn() const noexcept { return sheet.has_value() && !chart.has_value(); }
+};
+
+// Where power is in a drawn body: what its module tells, and what follows from that.
+class LivePower {
+ public:
+  // `told`: an element of the array of `body`, which must stay as long as this.
+  LivePower(const LiveBody& body, std::function<bool(std::size_t)> told) : body_(body), told_(std::move(told)) {}
+
+  // Behind it.
+  [[nodiscard]] bool powered(const network::Source& source);
+  // Of a contact: it lets power through. Of others: they have power.
+  [[nodiscard]] bool closed(const network::Element& element);
+
+ private:
+  const LiveBody& body_;
+  std::function<bool(std::size_t)> told_;
+  std::unordered_map<const network::Element*, bool> derived_;
 };
 
 // Of all programs and function blocks, or the one named so, in the order of the document, to which they refer. A module

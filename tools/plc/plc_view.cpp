@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -59,7 +60,8 @@ bool is_text(const plc::LiveBody& body) {
 }
 
 std::string first_indent(const plc::LiveBody& body) {
-  return std::string(static_cast<std::size_t>(std::max(1, body.body->text_at.column) - 1), ' ');
+  std::string blanks(static_cast<std::size_t>(std::max(1, body.body->text_at.column) - 1), ' ');
+  return blanks;
 }
 
 PlcView::PlcView(Context& context, const plc::WatchPlan& plan, std::vector<plc::LiveBody> bodies, ViewChoice choice)
@@ -306,20 +308,12 @@ void PlcView::network_lines(const Shown& shown, std::vector<std::string>& lines)
 }
 
 plc::draw::Live PlcView::live_of(const Shown& shown) const {
-  const auto on = [this, &shown, flow = plc::upper(shown.body->flow_variable)](const auto& points, const auto& key) {
-    const auto found = points.find(key);
-    return found != points.end() && flag(shown, flow, found->second);
-  };
-  const plc::LiveBody& body = *shown.body;
+  const auto power =
+      std::make_shared<plc::LivePower>(*shown.body, [this, &shown, flow = plc::upper(shown.body->flow_variable)](
+                                                        std::size_t number) { return flag(shown, flow, number); });
   plc::draw::Live live;
-  live.powered = [on, &body](const plc::network::Source& source) {
-    return source.element->kind == plc::network::Element::Kind::LeftRail ||
-           on(body.power, plc::LiveBody::Key(source.element, source.pin));
-  };
-  live.closed = [on, &body](const plc::network::Element& element) {
-    return body.closed.contains(&element) ? on(body.closed, &element)
-                                          : on(body.power, plc::LiveBody::Key(&element, nullptr));
-  };
+  live.powered = [power](const plc::network::Source& source) { return power->powered(source); };
+  live.closed = [power](const plc::network::Element& element) { return power->closed(element); };
   live.value = [this, &shown](const plc::network::Source& source) { return output_value(shown, source); };
   return live;
 }

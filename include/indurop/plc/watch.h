@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/plc/types.h>
+#include <indurop/var.h>
 
 #include <array>
 #include <cstddef>
@@ -47,11 +48,26 @@ class Watch {
 
  private:
   void bytes(const void* from, std::size_t size) noexcept {
-    std::memcpy(to_, from, size);
+    indurop::detail::copy_to_shared(to_, from, size);
     to_ += size;
   }
   std::uint8_t* to_;
 };
+
+// Writes the shared variable `Tag`, bytes, in its place in shared memory: a program has thousands of them, which are
+// not put together elsewhere first. `show` puts all but the mark.
+template <class Tag, class Show>
+void tell(std::uint64_t mark, Show show) noexcept {
+  static_assert(Tag::kKind == abi::Kind::Ring);
+  indurop::detail::record_access<Tag, indurop::detail::kWrite>();
+  abi::RingHeader* ring = indurop::detail::ring_of<Tag>();
+  if (void* to = indurop_begin_write(ring, 0, Tag::kSize)) [[likely]] {
+    Watch out(static_cast<std::uint8_t*>(to));
+    out.put(mark);
+    show(out);
+    indurop_commit_write(ring);
+  }
+}
 
 // The power at some points of a drawn body, one by one: what was written in bytes is not read at once as a whole.
 template <class... Power>

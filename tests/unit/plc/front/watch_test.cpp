@@ -76,7 +76,7 @@ TEST(PlcWatch, Only_a_module_built_for_it_tells_anything) {
   const Compiled told = compile(with, reader_of(kProgram));
   ASSERT_TRUE(told.ok) << base::to_text(told.diagnostics);
   EXPECT_THAT(told.glb, HasSubstr("uint8_t main_watch["));
-  EXPECT_THAT(told.modules.front().cpp, HasSubstr("::sut::main_watch = bytes;"));
+  EXPECT_THAT(told.modules.front().cpp, HasSubstr("iec::tell<INDUROP_TYPEOF(::sut::main_watch)::tag_type>"));
   const Compiled quiet = compile(options(), reader_of(kProgram));
   EXPECT_THAT(quiet.glb + quiet.modules.front().cpp, Not(HasSubstr("watch")));
 }
