@@ -31,7 +31,7 @@ class Chart:
         self.writer = Writer(rng, scope, returns=False)
         self.conditions = [self.writer.make.value(BOOL, 2) for _ in self.transitions]
         self.priorities = rng.sample(range(1, 50), len(self.transitions)) if rng.random() < 0.3 else None
-        flags = [one.name for one in variables if one.type is BOOL and one.writable]
+        flags = [one.name for one in variables if one.type is BOOL and one.writable and one.store is None]
         self.actions = [Action(f"act{i}", self.writer.body(rng.randint(1, 3), 1)) for i in range(rng.randint(1, 3))]
         self.actions += [Action(one) for one in rng.sample(flags, min(len(flags), 2))]
         self.lines_of = {step: self.associate(step) for step in self.steps}

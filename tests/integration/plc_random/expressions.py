@@ -31,6 +31,36 @@ class Maker:
     def __init__(self, rng, scope):
         self.rng = rng
         self.scope = scope
+        self.changer = None  # what this statement calls beside what it changes
+        self.changed = []  # the places it changes
+
+    # Calls beside what they change: they show in which order operands are computed
+
+    def begin(self):
+        """Of a statement. Its expressions may name one place and call what changes it."""
+        self.changer, self.changed = None, []
+        known = self.scope.changers()
+        if not known or self.rng.random() < 0.3:
+            return
+        self.changer = self.rng.choice(known)
+        if isinstance(self.changer, parts.BoundMethod):
+            instance = self.scope.read(self.changer.variable)
+            self.changed = self.changer.variable.instance.readable(instance)
+        else:
+            for one in self.changer.of("VAR_IN_OUT"):
+                found = self.paths(lambda t: t is one.type, True, True)
+                self.changed += [self.rng.choice(found)] if found else []
+            self.changed += [self.scope.read(one) for one in self.scope.places(False) if one.store is not None]
+
+    def changing_call(self, type_, depth):
+        """The call, converted to the type if need be."""
+        source = self.changer.result
+        if source is not type_ and source not in self.convertible(type_):
+            return None
+        made = self.changer.call(self, depth)
+        if made is None or source is type_:
+            return made
+        return Expr(f"{source.name}_TO_{type_.name}({made.text})", type_, lambda f: convert(source, type_, made.run(f)))
 
     # Places
 
@@ -78,7 +108,11 @@ class Maker:
                     lambda f: do.limit(low, run(f), high)) if variable.type.signed or low >= 0 else fixed
 
     def variable(self, type_):
-        found = self.paths(lambda t: t.plain is type_ or (t.kind == type_.kind == "string"))
+        fits = lambda t: t.plain is type_ or (t.kind == type_.kind == "string")
+        changed = [one for one in self.changed if fits(one.type)]
+        if changed and self.rng.random() < 0.6:
+            return self.rng.choice(changed)
+        found = self.paths(fits)
         return self.rng.choice(found) if found else None
 
     def common_here(self, types):
@@ -94,6 +128,10 @@ class Maker:
         if type_.kind == "string":
             return self.text(depth)
         choice = rng.random()
+        if self.changer is not None and choice < 0.15:
+            made = self.changing_call(type_, depth)
+            if made is not None:
+                return made
         if depth <= 0 or choice < 0.25:
             found = self.variable(type_) if rng.random() < 0.75 else None
             return found or literals.of_value(rng, type_, literals.some_value(rng, type_))
@@ -106,7 +144,7 @@ class Maker:
             options = [self.logic] * 3 + [self.negation] + options + [self.conversion]
         elif type_.kind != "enum":
             options = [self.times] * 4 + options + [self.conversion]
-        if any(one.result is type_ for one in self.scope.functions):
+        if any(one.result is type_ for one in self.callable()):
             options = options + [self.user_call] * 2
         made = None
         while made is None:
@@ -191,8 +229,9 @@ class Maker:
             return None
         return Expr(f"-{a.at(tree.PRIMARY, self.rng)}", type_, lambda f: do.negated(type_, a.run(f)), tree.SIGN)
 
-    def conversion(self, type_, depth):
-        rng = self.rng
+    @staticmethod
+    def convertible(type_):
+        """Types whose values are converted to it."""
         sources = [BOOL, *BITS, *INTS, *REALS]
         if type_.kind in ("int", "bits"):
             sources = sources + [TIME, TOD, DATE, DT]
@@ -200,7 +239,11 @@ class Maker:
             sources = [DT, *UNSIGNED[:3]]
         if type_.kind in ("tod", "dt"):
             sources = [DT if type_.kind == "tod" else DATE, *UNSIGNED]
-        source = self.common_here([one for one in sources if one is not type_])
+        return [] if type_.kind in ("enum", "string") else [one for one in sources if one is not type_]
+
+    def conversion(self, type_, depth):
+        rng = self.rng
+        source = self.common_here(self.convertible(type_))
         a = self.value(source, depth)
         if a.bare:
             return None
@@ -307,7 +350,7 @@ class Maker:
                 return None
             named = rng.random() < 0.2
             text = f"SEL(G := {g.text}, IN0 := {a.text}, IN1 := {b.text})" if named else f"SEL({g.text}, {a.text}, {b.text})"
-            return Expr(text, type_, lambda f: (a.run(f), b.run(f))[g.run(f)])
+            return Expr(text, type_, lambda f: do.selected(g.run(f), a.run(f), b.run(f)))
         inputs = self.several(type_, rng.randint(2, 4), depth)
         k = self.value(rng.choice(INTS), 0)
         last = len(inputs) - 1
@@ -320,8 +363,11 @@ class Maker:
         return Expr(f"MUX({selector}, {', '.join(one.text for one in inputs)})", type_,
                     lambda f: do.mux(run(f), *[one(f) for one in runs]))
 
+    def callable(self):
+        return [*self.scope.functions, *(one for one in self.scope.changers() if isinstance(one, parts.BoundMethod))]
+
     def user_call(self, type_, depth):
-        function = self.rng.choice([one for one in self.scope.functions if one.result is type_])
+        function = self.rng.choice([one for one in self.callable() if one.result is type_])
         return function.call(self, depth)
 
     def into(self, type_, depth=3):

@@ -68,6 +68,11 @@ def limit(low, x, high):
     return minimum(maximum(x, low), high)
 
 
+def selected(second, a, b):
+    """SEL; what it chooses from is computed in any case."""
+    return b if second else a
+
+
 def mux(k, *values):
     if not 0 <= k < len(values):
         raise Fault("selector K of MUX")

@@ -212,7 +212,7 @@ def text_joined(make, _type, depth):
 
 def text_chosen(make, _type, depth):
     g, a, b = make.value(BOOL, depth), make.text(depth), make.text(0)
-    return Expr(call("SEL", [g, a, b]), kinds.STRING, lambda f: (a.run(f), b.run(f))[g.run(f)])
+    return Expr(call("SEL", [g, a, b]), kinds.STRING, lambda f: do.selected(g.run(f), a.run(f), b.run(f)))
 
 
 def text_of(make, _type, depth):

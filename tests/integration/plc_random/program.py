@@ -9,9 +9,10 @@ import scope as parts
 import tree
 from chart import Chart
 from kinds import BITS, BOOL, ELEMENTARY, INT, INTS, STRING, TIME, Type, clone, string
+from order import make_changer, make_mix
 from statements import Writer
 from tree import Fault, Frame, Return, indent, sequence, text_of
-from units import START, Function, LibraryBlock, Parameter, Start, Started, UserBlock, declared
+from units import START, Function, LibraryBlock, Method, Parameter, Start, Started, UserBlock, declared
 
 TIMES = [START, *(ms * 10**6 for ms in (1010, 1020, 1040, 1540, 1550, 3050, 3060))]
 
@@ -35,6 +36,8 @@ class Program:
         self.functions = []
         self.blocks = []
         self.make_types()
+        self.make_globals()
+        self.make_changers()
         for i in range(self.rng.randint(0, 2)):
             self.make_function(i)
         for i in range(self.rng.randint(0, 2)):
@@ -100,6 +103,19 @@ class Program:
 
     # Variables
 
+    def make_globals(self):
+        """Without initial values: they lie in shared memory, of which the driver has none."""
+        types = [self.rng.choice(self.palette) for _ in range(self.rng.choice((0, 0, 1, 2)))]
+        self.globals = [Parameter(f"{self.prefix}_g{i}", one, "VAR_EXTERNAL") for i, one in enumerate(types)]
+        self.global_values = {}
+        self.reset_globals()
+
+    def reset_globals(self):
+        self.global_values |= {one.name: one.first() for one in self.globals}
+
+    def global_variables(self):
+        return [parts.Variable(one.name, one.type, store=self.global_values) for one in self.globals]
+
     def initial(self, type_):
         if type_.kind in ("array", "struct") or self.rng.random() < 0.5:
             return None
@@ -117,6 +133,25 @@ class Program:
             out.append(Parameter(name, type_, section, initial))
         return out
 
+    def make_changers(self):
+        """Functions of which every call changes something, for half of the programs."""
+        self.changing = []
+        if self.rng.random() < 0.5:
+            return
+        types = [one for one in self.palette if one.kind in ("bool", "bits", "int", "time")]
+        for i in range(self.rng.randint(1, 2)):
+            type_ = self.rng.choice(types)
+            found = [one for one in self.global_variables() if one.type is type_]
+            of_all = self.rng.choice(found) if found and self.rng.random() < 0.7 else None
+            self.changing.append(make_changer(self.rng, f"{self.prefix}_C{i}", type_, of_all))
+            self.functions += [self.changing[-1].function, make_mix(f"{self.prefix}_M{i}", type_)]
+
+    def scope_of(self, variables, with_globals):
+        """For a body: what it may call."""
+        scope = parts.Scope(variables, [one for one in self.functions if with_globals or not one.globals])
+        scope.changing = [one for one in self.changing if with_globals or not one.place]
+        return scope
+
     def make_function(self, i):
         rng = self.rng
         self.hard = rng.sample(HARD, 6)
@@ -133,7 +168,10 @@ class Program:
         function = Function(f"{self.prefix}_F{i}", parameters, result)
         variables = [parts.Variable(one.name, one.type) for one in parameters]
         variables.append(parts.Variable(function.name, result))
-        scope = parts.Scope(variables, self.functions)
+        if not pure and rng.random() < 0.7:
+            function.globals = self.globals
+            variables += self.global_variables()
+        scope = self.scope_of(variables, bool(function.globals))
         writer = Writer(rng, scope)
         body = writer.outermost(rng.randint(1, 5))
         scope.variables = variables
@@ -157,12 +195,37 @@ class Program:
         block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
         variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge) for one in parameters]
         variables += [parts.Variable(one.name, None, instance=one.type) for one in blocks]
-        body = Writer(rng, parts.Scope(variables, self.functions)).outermost(rng.randint(2, 7))
+        if rng.random() < 0.4:
+            block.globals = self.globals
+            variables += self.global_variables()
+        body = Writer(rng, self.scope_of(variables, bool(block.globals))).outermost(rng.randint(2, 7))
         block.run_body = sequence(body)
         block.lines = text_of(body)
         if self.starts and rng.random() < 0.6:
             block.start = self.start_of(variables)
+        if self.starts:  # exported as PLCopen XML there are no methods either
+            block.methods = [self.method_of(f"Do{i}", variables) for i in range(rng.randint(0, 2))]
         self.blocks.append(block)
+
+    def method_of(self, name, variables):
+        """Of a function block with these variables: it changes them."""
+        self.hard = []
+        parameters = self.parameters("VAR_INPUT", "a", 2, 0, self.plain_type) + self.parameters("VAR", "l", 1)
+        result = self.rng.choice([one for one in self.palette if one is not STRING])
+        method = Method(name, parameters, result)
+        seen = self.seen_in(variables) + [parts.Variable(one.name, one.type) for one in parameters]
+        writer = Writer(self.rng, self.scope_of(seen, False))
+        body = writer.outermost(self.rng.randint(1, 3))
+        value = writer.make.into(result)
+        last = tree.Stmt([f"{name} := {value.text};"], lambda f: f.values.__setitem__(name, value.run(f)))
+        method.run_body, method.lines = sequence(body + [last]), text_of(body + [last])
+        return method
+
+    @staticmethod
+    def seen_in(variables):
+        """What methods see: not VAR_IN_OUT, VAR_TEMP, inputs with an edge, instances."""
+        seen = [one for one in variables if one.name[0] in "iov" and one.name[:2] != "io" and one.instance is None]
+        return [one for one in seen if one.name not in HARD]
 
     def start_of(self, variables):
         """FB_Init of a function block with these variables."""
@@ -170,10 +233,9 @@ class Program:
         given = self.parameters("VAR_INPUT", "a", 3, 0, self.plain_type)
         for one in given:
             one.initial = None
-        seen = [one for one in variables if one.name[0] in "iov" and one.name[:2] != "io" and one.instance is None]
-        seen = [one for one in seen if one.name not in HARD] + [parts.Variable(one.name, one.type) for one in given]
+        seen = self.seen_in(variables) + [parts.Variable(one.name, one.type) for one in given]
         seen += [parts.Variable(name, BOOL, writable=False) for name in ("bInitRetains", "bInCopyCode")]
-        body = Writer(self.rng, parts.Scope(seen, self.functions)).outermost(self.rng.randint(1, 4))
+        body = Writer(self.rng, self.scope_of(seen, False)).outermost(self.rng.randint(1, 4))
         return Start(given, text_of(body), sequence(body))
 
     def plain_type(self):
@@ -219,22 +281,36 @@ class Program:
         variables += [parts.Variable(one.name, one.type, writable=False) for one in constants]
         variables += [parts.Variable(one.name, None, instance=one.type) for one in self.blocks_used]
         self.constants = constants
+        seen = self.sight_of_globals()
+        variables += self.global_variables()
         self.chart = None
         if rng.random() < 0.2:
-            self.chart = Chart(rng, parts.Scope(variables, self.functions), variables)
+            self.chart = Chart(rng, self.scope_of(variables, True), variables)
             self.body, self.lines = self.chart.run, self.chart.text()
             return
-        body = Writer(rng, parts.Scope(variables, self.functions)).outermost(rng.randint(6, 18))
+        body = seen + Writer(rng, self.scope_of(variables, True)).outermost(rng.randint(6, 18))
         self.body = sequence(body)
         self.lines = text_of(body)
 
+    def sight_of_globals(self):
+        """Statements that show globals, as the last scan left them, in variables of the program."""
+        out = []
+        for i, one in enumerate(self.globals):
+            shown = Parameter(f"seen{i}", one.type, "VAR")
+            self.variables.append(shown)
+            out.append(tree.Stmt([f"{shown.name} := {one.name};"],
+                                 lambda f, to=shown.name, name=one.name: f.values.__setitem__(to, clone(self.global_values[name]))))
+        return out
+
     def text(self):
         out = [f"(* {self.prefix}: seed {self.seed} *)"]
+        if self.globals:
+            out += ["VAR_GLOBAL", *(f"  {one.line()}" for one in self.globals), "END_VAR"]
         if self.type_lines:
             out += ["TYPE", *indent(self.type_lines), "END_TYPE"]
         for one in (*self.functions, *self.blocks):
             out += one.text()
-        shown = [one for one in (*self.variables, *self.constants)]
+        shown = [*self.variables, *self.constants, *self.globals]
         out += [f"PROGRAM {self.prefix}", *declared(shown), *self.block_lines(), *indent(self.lines), "END_PROGRAM", ""]
         return [line.replace("VAR_BLOCK", "VAR") for line in out]
 
@@ -243,6 +319,7 @@ class Program:
 
     def scans(self):
         """After each scan: (fault or None, the values)."""
+        self.reset_globals()
         values = {one.name: one.first() for one in (*self.variables, *self.constants)}
         values |= {one.name: one.new() for one in self.blocks_used}
         values |= self.chart.first_values() if self.chart else {}

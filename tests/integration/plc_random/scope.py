@@ -13,12 +13,14 @@ class Variable:
     writable: bool = True
     edge: bool = False  # an input of which only the edge counts
     instance: object = None  # Block
+    store: dict = None  # a global: where the values of all globals are
 
 
 class Scope:
     def __init__(self, variables, functions=(), blocks=()):
         self.variables = variables
         self.functions = list(functions)
+        self.changing = []  # order.Changer
         self.locked = set()  # variables of the FORs around
         self.ranges = {}  # variable of a FOR: its values
 
@@ -31,6 +33,15 @@ class Scope:
             found.add(one.plain)
         return found
 
+    def own(self, writable):
+        """Those that nothing else can change meanwhile."""
+        return [one for one in self.places(writable) if one.store is None]
+
+    def changers(self):
+        """What is called in expressions and changes more than its result: functions, methods of instances."""
+        methods = [BoundMethod(one, method) for one in self.instances() for method in getattr(one.instance, "methods", ())]
+        return [one for one in self.functions if not one.pure] + methods
+
     def instances(self):
         return [one for one in self.variables if one.instance is not None]
 
@@ -41,10 +52,10 @@ class Scope:
             return Expr(name, variable.type, lambda f: f.edges[name])
 
         def slot(f):
-            return f.slot(name)
+            return f.slot(name, variable.store)
 
         def run(f):
-            container, key = f.slot(name)
+            container, key = slot(f)
             return container[key]
 
         return Expr(name, variable.type, run, slot=slot)
@@ -53,6 +64,20 @@ class Scope:
         """Variables of all types that can be read, or written."""
         return [one for one in self.variables
                 if one.instance is None and (not writable or (one.writable and one.name not in self.locked))]
+
+
+@dataclasses.dataclass
+class BoundMethod:
+    """A method of an instance in scope, called like a function."""
+    variable: Variable
+    method: object
+
+    @property
+    def result(self):
+        return self.method.result
+
+    def call(self, make, depth, taken=None):
+        return self.method.call_of(self.variable, make, depth, taken)
 
 
 def member(base, name, type_):

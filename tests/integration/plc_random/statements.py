@@ -6,6 +6,7 @@ import literals
 import tree
 from expressions import Maker
 from kinds import BITS, BOOL, INT, INTS, PART_LETTERS, clone, wrap
+from order import Witness
 from tree import Continue, Exit, Jump, Return, Stmt, indent, sequence, text_of
 from units import root
 
@@ -56,7 +57,10 @@ class Writer:
 
     def statement(self, depth):
         rng = self.rng
+        self.make.begin()
         options = [self.assign] * 10 + [self.call] * 3 + [self.set_bit, self.set_part, self.set_or_reset, self.chain]
+        if self.scope.changing:
+            options += [lambda _depth: Witness(self).statement()] * 3
         if depth > 0:
             options += [self.branch] * 3 + [self.case, self.for_loop, self.for_loop, self.guarded_loop]
         if self.loops and depth < 2:
@@ -237,7 +241,7 @@ class Writer:
 
     def for_loop(self, depth):
         rng = self.rng
-        found = [one for one in self.scope.places(True) if one.type.kind == "int"]
+        found = [one for one in self.scope.own(True) if one.type.kind == "int"]
         if not found:
             return None
         variable = rng.choice(found)
@@ -279,7 +283,7 @@ class Writer:
     def guarded_loop(self, depth):
         """WHILE or REPEAT with a counter of its own that ends it."""
         rng = self.rng
-        found = [one for one in self.scope.places(True) if one.type.plain is INT and one.type.low is None]
+        found = [one for one in self.scope.own(True) if one.type.plain is INT and one.type.low is None]
         if not found:
             return None
         counter = rng.choice(found)

@@ -36,8 +36,9 @@ class Frame:
         self.edges = edges or {}  # inputs of which only the edge counts
         self.now = now
 
-    def slot(self, name):
-        return self.refs[name] if name in self.refs else (self.values, name)
+    def slot(self, name, store=None):
+        """`store`: where the values of globals are, if it is one."""
+        return self.refs[name] if name in self.refs else (self.values if store is None else store, name)
 
 
 @dataclasses.dataclass

@@ -100,7 +100,8 @@ class Unit:
                 given = make.into(one.type, depth)
             else:
                 found = [p for p in make.paths(lambda t: t is one.type, True, True) if root(p) not in taken]
-                given = make.rng.choice(found) if found else None
+                changed = [p for p in found if p.text in {place.text for place in make.changed}]
+                given = make.rng.choice(changed or found) if found else None
             if given is None:
                 return None
             if one.section == "VAR_IN_OUT":
@@ -124,13 +125,15 @@ class Function(Unit):
         super().__init__(name, parameters)
         self.result = result
 
+    globals = ()  # what it declares as VAR_EXTERNAL
+
     @property
     def pure(self):
-        return not self.of("VAR_IN_OUT", "VAR_OUTPUT")
+        return not self.of("VAR_IN_OUT", "VAR_OUTPUT") and not self.globals
 
     def text(self):
         head = f"FUNCTION {self.name} : {self.result.name}"
-        return [head, *declared(self.parameters), *indent(self.lines), "END_FUNCTION"]
+        return [head, *declared([*self.globals, *self.parameters]), *indent(self.lines), "END_FUNCTION"]
 
     def execute(self, now, inputs, refs):
         values = {one.name: one.first() for one in self.of("VAR", "VAR_TEMP", "VAR_OUTPUT")}
@@ -176,14 +179,46 @@ class Function(Unit):
         return Expr(f"{self.name}({', '.join(texts)})", self.result, run)
 
 
+class Method(Function):
+    """What it reads and writes is its own and that of its instance."""
+
+    def text(self):
+        head = f"METHOD PUBLIC {self.name} : {self.result.name}"
+        return [head, *declared(self.parameters), *indent(self.lines), "END_METHOD"]
+
+    def execute_in(self, instance, now, inputs):
+        own = {one.name: one.first() for one in self.of("VAR")} | inputs | {self.name: zero(self.result)}
+        instance.values |= own
+        try:
+            self.run_body(Frame(instance.values, now))
+        except Return:
+            pass
+        return [instance.values.pop(name) for name in own][-1]
+
+    def call_of(self, variable, make, depth, taken=None):
+        made = self.actuals(make, min(depth, 1), taken if taken is not None else set())
+        if made is None:
+            return None
+        given = made[0]
+
+        def run(f):
+            inputs = {one.name: clone(expr.run(f)) for one, expr in given}
+            return self.execute_in(f.values[variable.name], f.now, inputs)
+
+        return Expr(f"{variable.name}.{self.name}({', '.join(expr.text for _, expr in given)})", self.result, run)
+
+
 class UserBlock(Unit):
     """A FUNCTION_BLOCK; `new()` makes an instance."""
 
     start = None  # FB_Init
+    methods = ()
+    globals = ()
 
     def text(self):
         start = self.start.text() if self.start else []
-        return [f"FUNCTION_BLOCK {self.name}", *declared(self.parameters), *start, *indent(self.lines), "END_FUNCTION_BLOCK"]
+        start += [line for one in self.methods for line in one.text()]
+        return [f"FUNCTION_BLOCK {self.name}", *declared([*self.parameters, *self.globals]), *start, *indent(self.lines), "END_FUNCTION_BLOCK"]
 
     def new(self):
         return Instance(self)
