@@ -78,7 +78,7 @@ void Group::pass_gates() noexcept {
       gates_[at(i)].brake(hardness_);
       axes_[at(i)].put(gates_[at(i)].state());
     } else {
-      gates_[at(i)].pass(axes_[at(i)].commanded().position);
+      gates_[at(i)].pass(axes_[at(i)].commanded().position, hardness_);
     }
   }
   if (std::all_of(gates_.begin(), gates_.end(), [](const SetPointGate& g) { return g.at_rest(); })) {

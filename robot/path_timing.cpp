@@ -42,8 +42,30 @@ struct Cubic {
   [[nodiscard]] double at(double x) const noexcept { return a + x * (b + x * (c + x * d)); }
   [[nodiscard]] double slope(double x) const noexcept { return b + x * (2 * c + x * 3 * d); }
   [[nodiscard]] double bend(double x) const noexcept { return 2 * c + x * 6 * d; }
+  // From x on, for which a Gaussian quadrature of one over its root is exact: such are as good as the zeros of what is
+  // under the root are far away, here three halves of the stretch at least. Where a path begins or ends they are near.
+  [[nodiscard]] double stretch(double x) const noexcept {
+    constexpr double kOfWay = 2.0 / 3;
+    constexpr double kLeast = 1e-6;
+    const double here = at(x);
+    const double nearest = here / (std::abs(slope(x)) + std::sqrt(here * std::abs(bend(x)) / 2) +
+                                   std::cbrt(here * here * std::abs(d)));
+    return std::max(kOfWay * nearest, kLeast);
+  }
   double a, b, c, d;
 };
+
+double seconds_between(const Cubic& square, double from, double to) noexcept {
+  constexpr std::array kAt{0.01985507175123188, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510,
+                           0.59171732124782490, 0.76276620495816450, 0.89833323870681336, 0.98014492824876812};
+  constexpr std::array kWeight{0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
+                               0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
+  double sum = 0;
+  for (std::size_t i = 0; i < kAt.size(); ++i) {
+    sum += kWeight[i] / std::sqrt(square.at(from + (to - from) * kAt[i]));
+  }
+  return (to - from) * sum;
+}
 
 }  // namespace
 
@@ -51,20 +73,16 @@ PathTiming::Value PathTiming::place(int piece, double part) const noexcept {
   return spline(shape_.data() + piece, part);
 }
 
-// From the beginning of the piece.
+// From the beginning of the piece. What is lost shows as a step of speed between pieces.
 double PathTiming::seconds(int piece, double part) const noexcept {
-  constexpr double kAt[] = {0.01985507175123188, 0.10166676129318664, 0.23723379504183550, 0.40828267875217510,
-                            0.59171732124782490, 0.76276620495816450, 0.89833323870681336, 0.98014492824876812};
-  constexpr double kWeight[] = {0.05061426814518813, 0.11119051722668724, 0.15685332293894363, 0.18134189168918099,
-                                0.18134189168918099, 0.15685332293894363, 0.11119051722668724, 0.05061426814518813};
   const Cubic square(squares_.data() + piece);
-  // In two halves: what is lost shows as a step of speed between pieces.
   double sum = 0;
-  for (int i = 0; i < 16; ++i) {
-    const double x = part / 2 * (kAt[i % 8] + i / 8);
-    sum += kWeight[i % 8] / std::sqrt(square.at(x));
+  for (double x = 0; x < part;) {
+    const double next = std::min(part, x + square.stretch(x));
+    sum += seconds_between(square, x, next);
+    x = next;
   }
-  return part / 2 * sum;
+  return sum;
 }
 
 void PathTiming::set(int count, const double* shape, const double* squares) noexcept {
@@ -94,14 +112,17 @@ Timed PathTiming::at(double time) const noexcept {
   const double begin = times_[static_cast<std::size_t>(piece)];
   const double length = *next - begin;
   const double rest = std::clamp(time - begin, 0.0, length);
-  // Newton's steps from a cubic with the right speeds at both ends; what is left of the last one is its square.
+  // Newton's steps from a cubic with the right speeds at both ends; what is left of the last one is its square. Two do,
+  // but where a path begins slowly and is many times as fast at the end of the piece: a step of place between pieces is
+  // what too few would leave.
   constexpr double kNearly = 1e-9;
+  constexpr int kMostSteps = 16;
   const double x = rest / length;
   const Cubic squared(squares_.data() + piece);
   const double begin_speed = length * std::sqrt(squared.at(0));
   const double end_speed = length * std::sqrt(squared.at(1));
   double part = x * (begin_speed + x * (3 - 2 * begin_speed - end_speed + x * (begin_speed + end_speed - 2)));
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < kMostSteps; ++i) {
     part = std::clamp(part, 0.0, 1.0);
     const double off = seconds(piece, part) - rest;
     part -= off * std::sqrt(squared.at(part));

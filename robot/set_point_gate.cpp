@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kRounding = 1e-4;  // part of a limit: what plans lose to rounding
 constexpr double kEdge = 1e-9;      // rad, likewise at the end of an axis
+// rad or m: what rounding moves a set point by where joints turn far on a short way, beside singular positions. Far below
+// what a drive resolves, but differences of short periods show it: one of order n is off by 2^n times as much.
+constexpr double kNoise = 5e-11;
 
 // Speed at the end if the acceleration becomes `a` in this period and is then taken back as fast as possible.
 double unloaded(double velocity, double a, double step, double period) noexcept {
@@ -22,6 +25,7 @@ double unloaded(double velocity, double a, double step, double period) noexcept 
 
 void SetPointGate::stand(double position) noexcept {
   state_ = {position, 0, 0};
+  steady_ = 0;
 }
 
 LineLimits SetPointGate::harder(double hardness) const noexcept {
@@ -33,8 +37,14 @@ LineState SetPointGate::after(double position) const noexcept {
   return {position, velocity, (velocity - state_.velocity) / period_};
 }
 
-void SetPointGate::pass(double position) noexcept {
+void SetPointGate::pass(double position, double hardness) noexcept {
   state_ = after(position);
+  const double step = most_step(hardness);
+  steady_ = std::clamp(state_.acceleration, steady_ - step, steady_ + step);
+}
+
+double SetPointGate::most_step(double hardness) const noexcept {
+  return harder(hardness).jerk * period_ * (1 + kRounding);
 }
 
 // The differences between set points are what is limited, so the ramp is made of differences: exact for any period.
@@ -69,6 +79,7 @@ LineState SetPointGate::braked(LineState state, const LineLimits& limits) const 
 
 void SetPointGate::brake(double hardness) noexcept {
   state_ = braked(state_, harder(hardness));
+  steady_ = state_.acceleration;
 }
 
 // An axis that stands beyond an end may stay there and come back, not go further.
@@ -105,18 +116,20 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   if (!range_.endless && !may_be(position)) {
     return ErrorCode::JointLimit;
   }
-  if (std::abs(next.velocity) > limits.velocity * margin) {
+  const double fastest = limits.velocity * margin + 2 * kNoise / period_;
+  const double noise = 4 * kNoise / (period_ * period_);  // of the acceleration
+  if (std::abs(next.velocity) > fastest) {
     return ErrorCode::Speed;
   }
-  if (std::abs(next.acceleration) > limits.acceleration * margin) {
+  if (std::abs(next.acceleration) > limits.acceleration * margin + noise) {
     return ErrorCode::Acceleration;
   }
-  if (std::abs(next.acceleration - state_.acceleration) > limits.jerk * period_ * margin) {
+  if (std::abs(next.acceleration - steady_) > most_step(hardness) + 2 * noise) {
     return ErrorCode::Jerk;
   }
   // What is so fast that taking back its acceleration makes it too fast will have to be refused later: refuse it now.
-  if (std::abs(unloaded(next.velocity, next.acceleration, limits.jerk * period_, period_) -
-               period_ * next.acceleration) > limits.velocity * margin) {
+  const double sure = std::copysign(std::max(0.0, std::abs(next.acceleration) - noise), next.acceleration);
+  if (std::abs(unloaded(next.velocity, sure, limits.jerk * period_, period_) - period_ * sure) > fastest) {
     return ErrorCode::Speed;
   }
   return range_.endless || can_rest(next, limits) ? ErrorCode::Ok : ErrorCode::JointLimit;

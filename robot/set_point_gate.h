@@ -26,8 +26,8 @@ class SetPointGate {
   // axis can still come to rest before its end. An axis that stands beyond its end may come back. `hardness` multiplies
   // the acceleration. Changes nothing. Errors: Value (no number), JointLimit, Speed, Acceleration, Jerk.
   [[nodiscard]] ErrorCode check(double position, double hardness) const noexcept;
-  // It gets it.
-  void pass(double position) noexcept;
+  // It gets it. `hardness`: as it was checked with.
+  void pass(double position, double hardness) noexcept;
   // The next set point on the shortest way to rest, as `hardness` allows.
   void brake(double hardness) noexcept;
 
@@ -38,6 +38,7 @@ class SetPointGate {
  private:
   [[nodiscard]] LineState after(double position) const noexcept;
   [[nodiscard]] LineLimits harder(double hardness) const noexcept;
+  [[nodiscard]] double most_step(double hardness) const noexcept;
   [[nodiscard]] LineState braked(LineState state, const LineLimits& limits) const noexcept;
   [[nodiscard]] bool may_be(double position) const noexcept;
   [[nodiscard]] bool can_rest(LineState state, const LineLimits& limits) const noexcept;
@@ -46,6 +47,9 @@ class SetPointGate {
   LineLimits limits_;
   double period_ = 0.01;  // s
   LineState state_;
+  // The acceleration, had it never changed faster than it may: what rounding adds comes and goes, what a wrong path adds
+  // stays and grows.
+  double steady_ = 0;
 };
 
 }  // namespace indurop::robot

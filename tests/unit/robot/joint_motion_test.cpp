@@ -119,7 +119,7 @@ class Joint_motion : public testing::Test {
           refused = fmt::format("axis {}: {}", i + 1, to_string(code));
           kept = false;
         }
-        gate.pass(sut.joints()[i]);
+        gate.pass(sut.joints()[i], hardness);
       }
       time += period;
       return kept;

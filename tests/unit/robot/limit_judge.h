@@ -44,7 +44,9 @@ class Judge {
       }
       judge(broken, i, "speed", v / limits_.velocity[k]);
       judge(broken, i, "acceleration", a / limits_.acceleration[k] / hardness);
-      judge(broken, i, "jerk", j / limits_.jerk[k] / hardness / hardness);
+      // A third difference is off by eight times as much as what each set point is rounded by.
+      const double rounding = 8 * 5e-11 / (period_ * period_ * period_);
+      judge(broken, i, "jerk", std::max(0.0, std::abs(j) - rounding) / limits_.jerk[k] / hardness / hardness);
       seen = {p, v, a};
     }
     return broken;

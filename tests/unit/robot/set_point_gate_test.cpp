@@ -12,6 +12,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr LineLimits kLimits{3, 12, 120};
+constexpr double kNoise = 5e-11;  // rad, what rounding may move a set point by
 
 // Set points of the fastest move there is between two places, then at rest.
 std::vector<double> move(double from, double to, double period, const LineLimits& limits) {
@@ -31,11 +32,45 @@ TEST(Set_point_gate, Lets_the_fastest_moves_pass_from_end_to_end) {
         sut.stand(from);
         for (const double point : move(from, to, period, kLimits)) {
           ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << from << " to " << to << " at " << point << ", " << period;
-          sut.pass(point);
+          sut.pass(point, 1);
         }
       }
     }
   }
+}
+
+// Beside a singular position the inverse kinematics round more than plans leave.
+TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-kNoise, kNoise);
+  for (const double period : {0.0001, 0.00025, 0.001, 0.01}) {
+    SetPointGate sut({-2, 2, false}, kLimits, period);
+    sut.stand(-1.5);
+    for (const double exact : move(-1.5, 1.5, period, kLimits)) {
+      const double point = exact + noise(random);
+      ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << point << ", period " << period;
+      sut.pass(point, 1);
+    }
+  }
+}
+
+// What hides behind rounding adds up.
+TEST(Set_point_gate, Refuses_a_jerk_a_hundredth_too_large) {
+  const double period = 0.0001;
+  SetPointGate sut({-2, 2, false}, kLimits, period);
+  sut.stand(0);
+  LineState state;
+  while (state.acceleration < kLimits.acceleration / 2) {
+    state.acceleration += 1.01 * kLimits.jerk * period;
+    state.velocity += state.acceleration * period;
+    state.position += state.velocity * period;
+    if (sut.check(state.position, 1) != ErrorCode::Ok) {
+      break;
+    }
+    sut.pass(state.position, 1);
+  }
+  EXPECT_EQ(sut.check(state.position, 1), ErrorCode::Jerk);
+  EXPECT_LT(state.acceleration, kLimits.acceleration / 2);
 }
 
 TEST(Set_point_gate, Names_the_limit_that_is_broken) {
@@ -57,7 +92,7 @@ TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
   EXPECT_EQ(sut.check(2.5 + 1e-9, 1), ErrorCode::JointLimit);
   for (const double point : move(2.5, 1.5, 0.001, kLimits)) {
     ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << point;
-    sut.pass(point);
+    sut.pass(point, 1);
   }
   sut.stand(1.9);
   EXPECT_EQ(sut.check(2.1, 1), ErrorCode::JointLimit) << "it is inside again";
@@ -83,7 +118,7 @@ TEST(Set_point_gate, Refuses_what_could_not_come_to_rest_before_the_end) {
     if (code != ErrorCode::Ok) {
       break;
     }
-    sut.pass(point);
+    sut.pass(point, 1);
     last = point;
   }
   EXPECT_EQ(code, ErrorCode::JointLimit);
@@ -114,9 +149,10 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
       const double a = (v - v0) / period;
       const double j = (a - a0) / period;
       ASSERT_LE(std::abs(p), 1 + 1e-8) << what << " in round " << round;
+      const double noise = 8 * kNoise / std::pow(period, 3);
       ASSERT_LE(std::abs(v), limits.velocity * 1.0002) << what << " in round " << round;
       ASSERT_LE(std::abs(a), limits.acceleration * 1.0002) << what << " in round " << round;
-      ASSERT_LE(std::abs(j), limits.jerk * 1.0003) << what << " in round " << round;
+      ASSERT_LE(std::abs(j), limits.jerk * 1.0003 + noise) << what << " in round " << round;
       p0 = p, v0 = v, a0 = a;
     };
     // A chain of attempts that differ a little from going on as before: some pass.
@@ -125,7 +161,7 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
       const double a = sut.state().acceleration + (2.4 * part(random) - 1.2) * limits.jerk * period;
       const double point = sut.state().position + period * (sut.state().velocity + period * a);
       if (sut.check(point, 1) == ErrorCode::Ok) {
-        sut.pass(point);
+        sut.pass(point, 1);
       } else {
         sut.brake(1);
       }
@@ -152,7 +188,7 @@ TEST(Set_point_gate, Brakes_as_fast_as_can_be) {
   SetPointGate sut({-100, 100, false}, kLimits, period);
   sut.stand(0);
   for (const double point : move(0, 3, period, kLimits)) {
-    sut.pass(point);
+    sut.pass(point, 1);
     if (sut.state().velocity > 2.9) {
       break;
     }

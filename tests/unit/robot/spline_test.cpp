@@ -128,7 +128,7 @@ TEST_F(Splines, Through_random_points_keep_all_limits_and_pass_them) {
       for (int a = 0; a < arm.count(); ++a) {
         SetPointGate& gate = gates[static_cast<std::size_t>(a)];
         ASSERT_EQ(gate.check(follower.joints()[a], 1), ErrorCode::Ok) << tries << " axis " << a + 1;
-        gate.pass(follower.joints()[a]);
+        gate.pass(follower.joints()[a], 1);
       }
     }
     EXPECT_LT(distance(arm.forward(follower.joints()), sut.end()), 1e-9);
