@@ -48,8 +48,8 @@ struct Cubic {
     constexpr double kOfWay = 2.0 / 3;
     constexpr double kLeast = 1e-6;
     const double here = at(x);
-    const double nearest = here / (std::abs(slope(x)) + std::sqrt(here * std::abs(bend(x)) / 2) +
-                                   std::cbrt(here * here * std::abs(d)));
+    const double nearest =
+        here / (std::abs(slope(x)) + std::sqrt(here * std::abs(bend(x)) / 2) + std::cbrt(here * here * std::abs(d)));
     return std::max(kOfWay * nearest, kLeast);
   }
   double a, b, c, d;
@@ -105,12 +105,15 @@ void PathTiming::slow_down(double factor) noexcept {
   }
 }
 
+int PathTiming::piece_at(double time) const noexcept {
+  const double* first = times_.data() + 1;
+  return static_cast<int>(std::upper_bound(first, times_.data() + count_, time) - first);
+}
+
 Timed PathTiming::at(double time) const noexcept {
-  const double* end = times_.data() + count_;
-  const double* next = std::upper_bound(times_.data() + 1, end, time);
-  const int piece = static_cast<int>(next - times_.data()) - 1;
+  const int piece = piece_at(time);
   const double begin = times_[static_cast<std::size_t>(piece)];
-  const double length = *next - begin;
+  const double length = times_[static_cast<std::size_t>(piece) + 1] - begin;
   const double rest = std::clamp(time - begin, 0.0, length);
   // Newton's steps from a cubic with the right speeds at both ends; what is left of the last one is its square. Two do,
   // but where a path begins slowly and is many times as fast at the end of the piece: a step of place between pieces is

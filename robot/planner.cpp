@@ -72,6 +72,7 @@ void Planner::begin(const Joints& from) noexcept {
   next_ = 1;
   windows_ = noted_ = rehearsals_ = 0;
   unseen_ = false;
+  searches_ = 1;
   stage_ = Stage::Done;
 }
 

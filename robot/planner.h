@@ -81,6 +81,7 @@ class Planner {
   int windows_ = 0;
   int noted_ = 0;
   int rehearsals_ = 0;
+  int searches_ = 0;
   bool unseen_ = false;  // the last rehearsal did not come to an end
   Stage stage_ = Stage::Done;
   // Stretches that are looked at closer before the path is known.

@@ -12,6 +12,9 @@ namespace {
 constexpr double kStep = 0.002;      // s between instants of a motion that are looked at
 constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
+// What is lost by going slower everywhere is worth another search.
+constexpr double kTooMuch = 1.02;
+constexpr int kMostSearches = 3;
 constexpr int kMostRehearsals = 6;
 constexpr double kNotFound = 1.1;  // after all of them: what happens there is too narrow to be seen
 
@@ -21,9 +24,10 @@ void Planner::search() noexcept {
   if (!search_.done()) {
     return;
   }
-  const PathTiming& found = search_.timing();
-  if (found.known()) {
-    segment_.timing = found;
+  if (search_.timing().known()) {
+    segment_.timing = search_.timing();
+  }
+  if (segment_.timing.known()) {
     rehearse_timing();
   } else {
     rehearse_profile();
@@ -54,6 +58,9 @@ void Planner::rehearse() noexcept {
   const double time = rehearsal_.time();
   const bool timing = stage_ == Stage::RehearseTiming;
   const bool seen = rehearsal_.look(segment_, timing ? segment_.timing.at(time).place : profile_.at(time).position);
+  if (timing && seen && searches_ < kMostSearches) {
+    search_.note(time, rehearsal_.last_factor());
+  }
   if (timing && !seen) {
     segment_.timing = {};
     rehearse_profile();
@@ -65,6 +72,12 @@ void Planner::rehearse() noexcept {
 // What was too fast is gone through once more, since what lies between two instants shows when it is slower.
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
+  if (stage_ == Stage::RehearseTiming && slower > kTooMuch && searches_ < kMostSearches) {
+    ++searches_;
+    search_.refine();
+    stage_ = Stage::Search;
+    return;
+  }
   const bool sure = slower < kNearlyOne || ++rehearsals_ == kMostRehearsals;
   unseen_ = sure && slower > kNotFound;
   if (stage_ == Stage::RehearseProfile) {

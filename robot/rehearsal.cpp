@@ -41,9 +41,10 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
   const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
   const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
   const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
-  worst_ = std::max({worst_, first.cwiseQuotient(joints_.velocity).maxCoeff(),
-                     std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
-                     std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
+  last_ = std::max({first.cwiseQuotient(joints_.velocity).maxCoeff(),
+                    std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()),
+                    std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff())});
+  worst_ = std::max(worst_, last_);
   for (int i = 0; i < kAxes; ++i) {
     pace_.acceleration = std::min(pace_.acceleration, shared(joints_.acceleration[i], first[i]));
     pace_.mixed = std::min(pace_.mixed, shared(joints_.jerk[i], second[i]));
@@ -51,6 +52,10 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
   }
   ++next_;
   return true;
+}
+
+double Rehearsal::last_factor() const noexcept {
+  return std::max(1.0, last_ / kSure);
 }
 
 double Rehearsal::factor() const noexcept {

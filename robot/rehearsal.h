@@ -23,7 +23,8 @@ class Rehearsal {
   [[nodiscard]] double time() const noexcept;
   [[nodiscard]] bool look(const Segment& segment, double place) noexcept;
 
-  // When done: how many times as long it has to take, 1 at least.
+  // How many times as long it has to take, 1 at least: by the last instant, and, when done, as a whole.
+  [[nodiscard]] double last_factor() const noexcept;
   [[nodiscard]] double factor() const noexcept;
   // Of changes of the pace at which it is followed.
   [[nodiscard]] const PaceLimits& pace_limits() const noexcept { return pace_; }
@@ -34,7 +35,7 @@ class Rehearsal {
   int count_ = 0;
   int next_ = 0;
   double step_ = 0;
-  double worst_ = 0;
+  double last_ = 0, worst_ = 0;
   double acceleration_share_ = 1, jerk_share_ = 1;
   PaceLimits pace_;
   std::array<Joints, 4> seen_;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kRounding = 1e-4;  // part of a limit: what plans lose to rounding
 constexpr double kEdge = 1e-9;      // rad, likewise at the end of an axis
-// rad or m: what rounding moves a set point by where joints turn far on a short way, beside singular positions. Far below
-// what a drive resolves, but differences of short periods show it: one of order n is off by 2^n times as much.
+// rad or m: what rounding moves a set point by where joints turn far on a short way, beside singular positions. Far
+// below what a drive resolves, but differences of short periods show it: one of order n is off by 2^n times as much.
 constexpr double kNoise = 5e-11;
 
 // Speed at the end if the acceleration becomes `a` in this period and is then taken back as fast as possible.

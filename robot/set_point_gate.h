@@ -47,8 +47,8 @@ class SetPointGate {
   LineLimits limits_;
   double period_ = 0.01;  // s
   LineState state_;
-  // The acceleration, had it never changed faster than it may: what rounding adds comes and goes, what a wrong path adds
-  // stays and grows.
+  // The acceleration, had it never changed faster than it may: what rounding adds comes and goes, what a wrong path
+  // adds stays and grows.
   double steady_ = 0;
 };
 

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kMostSteps = 60;
 constexpr double kEnough = 1e-3;  // of the duration: what the barrier may still cost
-// Knots that are worked on while one place is looked at, inverse kinematics and all.
-constexpr int kDerivedPerPlace = 8;
-constexpr int kWeighedPerPlace = 16;
+// Places that are worked on while one is looked at, inverse kinematics and all.
+constexpr int kDerivedPerLook = 8;
+constexpr int kWeighedPerLook = 16;
 constexpr std::size_t at(int i) noexcept {
   return static_cast<std::size_t>(i);
 }
@@ -20,11 +20,12 @@ constexpr std::size_t at(int i) noexcept {
 }  // namespace
 
 // At an even speed that keeps all limits.
-void TimingBarrier::begin(int count) noexcept {
+void TimingBarrier::begin(int count, int per_knot) noexcept {
   count_ = count;
+  per_knot_ = per_knot;
   double most = 1e12;
-  for (int i = 0; i <= count_; ++i) {
-    const TimingKnot& k = knots_[at(i)];
+  for (int i = 0; i <= last(); ++i) {
+    const TimingPlace& k = places_[at(i)];
     most = std::min(most, k.fastest);
     for (std::size_t r = 0; r < kRows; ++r) {
       most = std::min(
@@ -33,23 +34,27 @@ void TimingBarrier::begin(int count) noexcept {
   }
   std::fill_n(z_.begin(), count_ + 3, 0.7 * most);
   stiff_ = 100 / std::pow(0.7 * most, 2.5);
-  weight_ = 0.02 * count_ / std::sqrt(0.7 * most) / (count_ + 1);
+  weight_ = 0.02 * count_ / std::sqrt(0.7 * most) / (last() + 1);
   steps_ = 0;
   begin_step();
 }
 
-TimingBarrier::Local TimingBarrier::local(const double* z, int knot) const noexcept {
-  z += knot;
-  return {(z[0] + 4 * z[1] + z[2]) / 6, (z[2] - z[0]) / 2, z[0] - 2 * z[1] + z[2]};
+TimingBarrier::Local TimingBarrier::local(const double* z, int place) const noexcept {
+  z += place / per_knot_;
+  if (place % per_knot_ == 0) {
+    return {(z[0] + 4 * z[1] + z[2]) / 6, (z[2] - z[0]) / 2, z[0] - 2 * z[1] + z[2]};
+  }
+  return {(z[0] + z[3] + 23 * (z[1] + z[2])) / 48, (z[3] - z[0] + 5 * (z[2] - z[1])) / 8,
+          (z[0] - z[1] - z[2] + z[3]) / 2};
 }
 
 // What is made least: the duration and the barrier; infinite beyond a limit.
 double TimingBarrier::height(const double* z) const noexcept {
   double time = 0;
   double logs = 0;
-  for (int i = 0; i <= count_; ++i) {
+  for (int i = 0; i <= last(); ++i) {
     const Local m = local(z, i);
-    const TimingKnot& k = knots_[at(i)];
+    const TimingPlace& k = places_[at(i)];
     double product = k.fastest - m.w;
     if (!(m.w > 0) || !(product > 0)) {
       return HUGE_VAL;
@@ -66,7 +71,7 @@ double TimingBarrier::height(const double* z) const noexcept {
     if (!(least > 0)) {
       return HUGE_VAL;
     }
-    time += (i == 0 || i == count_ ? 0.5 : 1) * root;
+    time += share(i) * root;
     logs += std::log(product) + 2 * kRows * std::log(root);
   }
   const double first = z[2] - z[0];
@@ -86,14 +91,14 @@ void TimingBarrier::hold_ends() noexcept {
   }
 }
 
-// Adds what this knot has of gradient and curvature.
-void TimingBarrier::derive(int knot, const Local& m) noexcept {
-  const TimingKnot& k = knots_[at(knot)];
+// Adds what this place has of gradient and curvature.
+void TimingBarrier::derive(int place) noexcept {
+  const TimingPlace& k = places_[at(place)];
+  const Local m = local(z_.data(), place);
   const double root = 1 / std::sqrt(m.w);
-  const double share = knot == 0 || knot == count_ ? 0.5 : 1;
   // In w, w' and w''.
-  double g[3] = {-0.5 * share * root / m.w, 0, 0};
-  double h00 = 0.75 * share * root / (m.w * m.w);
+  double g[3] = {-0.5 * share(place) * root / m.w, 0, 0};
+  double h00 = 0.75 * share(place) * root / (m.w * m.w);
   double h01 = 0;
   double h02 = 0;
   double h11 = 0;
@@ -134,16 +139,21 @@ void TimingBarrier::derive(int knot, const Local& m) noexcept {
       h22 += two * z * z;
     }
   }
-  // By the three coefficients.
-  constexpr double kBy[3][3] = {{1.0 / 6, -0.5, 1}, {4.0 / 6, 0, -2}, {1.0 / 6, 0.5, 1}};
-  for (int i = 0; i < 3; ++i) {
-    const double* b = kBy[i];
+  // By the coefficients.
+  static constexpr double kAtKnot[3][3] = {{1.0 / 6, -0.5, 1}, {4.0 / 6, 0, -2}, {1.0 / 6, 0.5, 1}};
+  static constexpr double kHalfWay[4][3] = {
+      {1.0 / 48, -0.125, 0.5}, {23.0 / 48, -0.625, -0.5}, {23.0 / 48, 0.625, -0.5}, {1.0 / 48, 0.125, 0.5}};
+  const int knot = place / per_knot_;
+  const bool at_knot = place % per_knot_ == 0;
+  const auto* by = at_knot ? kAtKnot : kHalfWay;
+  for (int i = 0; i < (at_knot ? 3 : 4); ++i) {
+    const double* b = by[i];
     gradient_[at(knot + i)] += b[0] * g[0] + b[1] * g[1] + b[2] * g[2];
     const double x = b[0] * h00 + b[1] * h01 + b[2] * h02;
     const double y = b[0] * h01 + b[1] * h11 + b[2] * h12;
     const double z = b[0] * h02 + b[1] * h12 + b[2] * h22;
     for (int n = 0; n <= i; ++n) {
-      band_[at(knot + i)][at(i - n)] += kBy[n][0] * x + kBy[n][1] * y + kBy[n][2] * z;
+      band_[at(knot + i)][at(i - n)] += by[n][0] * x + by[n][1] * y + by[n][2] * z;
     }
   }
 }
@@ -153,27 +163,31 @@ bool TimingBarrier::solve() noexcept {
   const int n = count_ + 3;
   for (int i = 0; i < n; ++i) {
     auto& row = band_[at(i)];
-    const double l2 = i >= 2 ? row[2] : 0;
-    double l1 = i >= 1 ? row[1] : 0;
-    if (i >= 2) {
-      l1 -= l2 * band_[at(i - 1)][1];  // l2 still with its pivot
+    double sum = -gradient_[at(i)];
+    // From the farthest on; each still has its pivot while the nearer ones need it.
+    const int band = std::min(i, kBand - 1);
+    for (int far = band; far > 0; --far) {
+      for (int other = band; other > far; --other) {
+        row[at(far)] -= row[at(other)] * band_[at(i - far)][at(other - far)];
+      }
     }
-    const double f2 = i >= 2 ? l2 / band_[at(i - 2)][0] : 0;
-    const double f1 = i >= 1 ? l1 / band_[at(i - 1)][0] : 0;
-    row[0] -= f2 * l2 + f1 * l1;
-    row[1] = f1;
-    row[2] = f2;
+    for (int far = band; far > 0; --far) {
+      const double factor = row[at(far)] / band_[at(i - far)][0];
+      row[0] -= factor * row[at(far)];
+      row[at(far)] = factor;
+      sum -= factor * direction_[at(i - far)];
+    }
     if (!(row[0] > 0)) {
       return false;
     }
-    direction_[at(i)] =
-        -gradient_[at(i)] - (i >= 1 ? f1 * direction_[at(i - 1)] : 0) - (i >= 2 ? f2 * direction_[at(i - 2)] : 0);
+    direction_[at(i)] = sum;
   }
   for (int i = n - 1; i >= 0; --i) {
     double& x = direction_[at(i)];
     x /= band_[at(i)][0];
-    x -= i + 1 < n ? band_[at(i + 1)][1] * direction_[at(i + 1)] : 0;
-    x -= i + 2 < n ? band_[at(i + 2)][2] * direction_[at(i + 2)] : 0;
+    for (int far = 1; far < kBand && i + far < n; ++far) {
+      x -= band_[at(i + far)][at(far)] * direction_[at(i + far)];
+    }
   }
   return true;
 }
@@ -181,7 +195,7 @@ bool TimingBarrier::solve() noexcept {
 void TimingBarrier::begin_step() noexcept {
   const int n = count_ + 3;
   std::fill_n(gradient_.begin(), n, 0.0);
-  std::fill_n(band_.begin(), n, std::array<double, 3>{});
+  std::fill_n(band_.begin(), n, std::array<double, kBand>{});
   next_ = 0;
   stage_ = Stage::Derive;
 }
@@ -214,16 +228,16 @@ void TimingBarrier::descend() noexcept {
 
 void TimingBarrier::end_step(bool better) noexcept {
   double duration = 0;
-  for (int i = 0; i <= count_; ++i) {
-    duration += 1 / std::sqrt(local(z_.data(), i).w);
+  for (int i = 0; i <= last(); ++i) {
+    duration += share(i) / std::sqrt(local(z_.data(), i).w);
   }
-  const bool last = weight_ * (count_ + 1) * 4 < kEnough * duration;
-  if (++steps_ >= kMostSteps || (last && (!better || decrement_ < weight_))) {
+  const bool fine = weight_ * (last() + 1) * 4 < kEnough * duration;
+  if (++steps_ >= kMostSteps || (fine && (!better || decrement_ < weight_))) {
     stage_ = Stage::Done;
     return;
   }
-  if (!better || decrement_ < 0.3 * weight_ * (count_ + 1)) {
-    weight_ *= last ? 1 : 0.2;
+  if (!better || decrement_ < 0.3 * weight_ * (last() + 1)) {
+    weight_ *= fine ? 1 : 0.2;
   }
   begin_step();
 }
@@ -231,19 +245,19 @@ void TimingBarrier::end_step(bool better) noexcept {
 int TimingBarrier::work() noexcept {
   switch (stage_) {
     case Stage::Derive: {
-      const int to = std::min(next_ + 4 * kDerivedPerPlace, count_ + 1);
+      const int to = std::min(next_ + 4 * kDerivedPerLook, last() + 1);
       for (; next_ < to; ++next_) {
-        derive(next_, local(z_.data(), next_));
+        derive(next_);
       }
-      stage_ = next_ > count_ ? Stage::Solve : Stage::Derive;
+      stage_ = next_ > last() ? Stage::Solve : Stage::Derive;
       return 4;
     }
     case Stage::Solve:
       find_direction();
-      return 1 + count_ / kWeighedPerPlace;
+      return 1 + last() / kWeighedPerLook;
     case Stage::Descend:
       descend();
-      return 1 + count_ / kWeighedPerPlace;
+      return 1 + last() / kWeighedPerLook;
     case Stage::Done:
       break;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least duration that keeps all limits at the knots of a timing. The square of the parameter's speed makes these
-// limits nearly linear, so a barrier method with a banded system finds it in a few dozen steps; each of them is a
-// timing that keeps the limits.
+// The least duration that keeps all limits at the knots of a timing, and half way between them if that is asked for.
+// The square of the parameter's speed makes these limits nearly linear, so a barrier method with a banded system finds
+// it in a few dozen steps; each of them is a timing that keeps the limits.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace indurop::robot {
 
-// What limits the motion at one knot, by the parameter, as parts of the limits.
-struct TimingKnot {
+// What limits the motion at one place, by the parameter, as parts of the limits.
+struct TimingPlace {
   static constexpr int kRows = kAxes + 1;      // the joints, and the place on the path itself for the tool
   double fastest = 0;                          // square of the parameter's speed
   std::array<double, kRows> bend{}, drive{};   // acceleration = bend * w + drive * w'
@@ -24,10 +24,11 @@ struct TimingKnot {
 class TimingBarrier {
  public:
   static constexpr int kMost = PathTiming::kMost;
-  // Before begin(): what limits the motion there. Real-time safe, as all here.
-  TimingKnot& knot(int i) noexcept { return knots_[static_cast<std::size_t>(i)]; }
-  // With knots 0 to `count`.
-  void begin(int count) noexcept;
+  // Before begin(): what limits the motion at the knots, or at the knots and half way between them, one after another.
+  // Real-time safe, as all here.
+  TimingPlace& place(int i) noexcept { return places_[static_cast<std::size_t>(i)]; }
+  // With knots 0 to `count`; `per_knot`: places from one to the next, 1 or 2.
+  void begin(int count, int per_knot) noexcept;
   // A part of a step; returns how much that was, in places whose inverse kinematics take as long.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
@@ -35,16 +36,20 @@ class TimingBarrier {
   [[nodiscard]] const double* squares() const noexcept { return z_.data(); }
 
  private:
-  static constexpr int kRows = TimingKnot::kRows;
+  static constexpr int kRows = TimingPlace::kRows;
   enum class Stage { Derive, Solve, Descend, Done };
   struct Local {
     double w = 0, d = 0, dd = 0;  // and its derivatives
   };
+  static constexpr int kBand = 4;  // coefficients that a place has, at most
   using Coefficients = std::array<double, kMost + 3>;
 
-  [[nodiscard]] Local local(const double* z, int knot) const noexcept;
+  [[nodiscard]] int last() const noexcept { return count_ * per_knot_; }
+  [[nodiscard]] Local local(const double* z, int place) const noexcept;
+  // Of a place in the duration.
+  [[nodiscard]] double share(int place) const noexcept { return (place == 0 || place == last() ? 0.5 : 1) / per_knot_; }
   [[nodiscard]] double height(const double* z) const noexcept;
-  void derive(int knot, const Local& m) noexcept;
+  void derive(int place) noexcept;
   void hold_ends() noexcept;
   bool solve() noexcept;
   void begin_step() noexcept;
@@ -54,14 +59,15 @@ class TimingBarrier {
 
   Stage stage_ = Stage::Done;
   int count_ = 0;
+  int per_knot_ = 1;
   int next_ = 0;
   int steps_ = 0;
   double weight_ = 0;  // of the barrier
   double stiff_ = 0;
   double here_ = 0, decrement_ = 0, length_ = 0;  // of the present step
   Coefficients z_{}, gradient_{}, direction_{}, trial_{};
-  std::array<std::array<double, 3>, kMost + 3> band_{};
-  std::array<TimingKnot, kMost + 1> knots_{};
+  std::array<std::array<double, kBand>, kMost + 3> band_{};
+  std::array<TimingPlace, 2 * kMost + 1> places_{};
 };
 
 }  // namespace indurop::robot

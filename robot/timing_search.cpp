@@ -26,7 +26,27 @@ void TimingSearch::begin(const Segment& segment, const PathBounds& bounds) noexc
   timing_ = {};
   near_ = segment.from;
   next_ = 0;
+  per_knot_ = 1;
+  slower_.fill(1);
+  noted_.fill(1);
   stage_ = guess(bounds) ? Stage::Look : Stage::Done;
+}
+
+void TimingSearch::note(double time, double factor) noexcept {
+  double& noted = noted_[at(timing_.piece_at(time))];
+  noted = std::max(noted, factor);
+}
+
+void TimingSearch::refine() noexcept {
+  for (int i = 0; i < count_ && per_knot_ > 1; ++i) {
+    slower_[at(i)] *= noted_[at(i)];
+  }
+  noted_.fill(1);
+  timing_ = {};
+  near_ = segment_.from;
+  next_ = 0;
+  per_knot_ = 2;
+  stage_ = Stage::Look;
 }
 
 // Knots at equal times of a motion without limits of jerk, so that they are dense where it is slow.
@@ -91,12 +111,21 @@ void TimingSearch::smooth_ends() noexcept {
   }
 }
 
-bool TimingSearch::look(int knot) noexcept {
-  const double* c = shape_.data() + knot;
-  const double place = (c[0] + 26 * c[1] + 66 * c[2] + 26 * c[3] + c[4]) / 120;
-  const double g1 = (c[4] - c[0] + 10 * (c[3] - c[1])) / 24;
-  const double g2 = (c[0] + 2 * c[1] - 6 * c[2] + 2 * c[3] + c[4]) / 6;
-  const double g3 = (c[4] - 2 * c[3] + 2 * c[1] - c[0]) / 2;
+// By the parameter.
+PathTiming::Value TimingSearch::place_at(int index) const noexcept {
+  const double* c = shape_.data() + index / per_knot_;
+  if (index % per_knot_ == 0) {
+    return {(c[0] + 26 * c[1] + 66 * c[2] + 26 * c[3] + c[4]) / 120, (c[4] - c[0] + 10 * (c[3] - c[1])) / 24,
+            (c[0] + 2 * c[1] - 6 * c[2] + 2 * c[3] + c[4]) / 6, (c[4] - 2 * c[3] + 2 * c[1] - c[0]) / 2};
+  }
+  return {(c[0] + c[5] + 237 * (c[1] + c[4]) + 1682 * (c[2] + c[3])) / 3840,
+          (c[5] - c[0] + 75 * (c[4] - c[1]) + 154 * (c[3] - c[2])) / 384,
+          (c[0] + c[5] + 21 * (c[1] + c[4]) - 22 * (c[2] + c[3])) / 48,
+          (c[5] - c[0] + 3 * (c[4] - c[1]) - 14 * (c[3] - c[2])) / 8};
+}
+
+bool TimingSearch::look(int index) noexcept {
+  const auto [place, g1, g2, g3] = place_at(index);
   // Not farther apart than what happens there: beside a singular position that is little of the way.
   const double e = std::min({2e-4, segment_.length / 64, std::max(4 * g1, 1e-9 * segment_.length)});
   const double middle = std::clamp(place, 2 * e, segment_.length - 2 * e);
@@ -110,15 +139,17 @@ bool TimingSearch::look(int knot) noexcept {
   const Joints first = (q[0] - 8 * q[1] + 8 * q[3] - q[4]) / (12 * e);
   const Joints second = (-q[0] + 16 * q[1] - 30 * q[2] + 16 * q[3] - q[4]) / (12 * e * e);
   const Joints third = (q[4] - 2 * q[3] + 2 * q[1] - q[0]) / (2 * e * e * e);
-  TimingKnot& k = barrier_.knot(knot);
+  TimingPlace& k = barrier_.place(index);
+  const double slower =
+      std::max(slower_[at(std::max(index - 1, 0) / per_knot_)], slower_[at(std::min(index / per_knot_, count_ - 1))]);
   const auto row = [&](int i, double d1, double d2, double d3, const LineLimits& most) {
     const double x1 = d1 * g1;
     const double x2 = d2 * g1 * g1 + d1 * g2;
     const double x3 = d3 * g1 * g1 * g1 + 3 * d2 * g1 * g2 + d1 * g3;
-    const double v = (i < kAxes ? kMargin : 1) * most.velocity / std::max(std::abs(x1), 1e-12);
+    const double v = (i < kAxes ? kMargin / slower : 1) * most.velocity / std::max(std::abs(x1), 1e-12);
     k.fastest = std::min(k.fastest, v * v);
-    const double a = 1 / (TimingShares::kAcceleration * kMargin * most.acceleration);
-    const double j = 1 / (TimingShares::kJerk * kMargin * most.jerk);
+    const double a = slower * slower / (TimingShares::kAcceleration * kMargin * most.acceleration);
+    const double j = slower * slower * slower / (TimingShares::kJerk * kMargin * most.jerk);
     k.bend[at(i)] = x2 * a;
     k.drive[at(i)] = x1 * a / 2;
     k.third[at(i)] = x3 * j;
@@ -137,8 +168,8 @@ int TimingSearch::work() noexcept {
   if (stage_ == Stage::Look) {
     if (!look(next_)) {
       stage_ = Stage::Done;
-    } else if (++next_ > count_) {
-      barrier_.begin(count_);
+    } else if (++next_ > count_ * per_knot_) {
+      barrier_.begin(count_, per_knot_);
       stage_ = Stage::Search;
     }
     return 5;

@@ -24,10 +24,15 @@ class TimingSearch {
   TimingSearch(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
 
   void begin(const Segment& segment, const PathBounds& bounds) noexcept;
+  // What was found takes `factor` times the time it may take, at this time of it.
+  void note(double time, double factor) noexcept;
+  // Looks for it once more, with the limits kept half way between the knots as well; the next time, slower where it was
+  // noted that it is too fast.
+  void refine() noexcept;
   // Works on a little; returns how much that was, in places whose inverse kinematics take as long. Real-time safe.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
-  // When done; not known() if none was found. It keeps the limits at its knots.
+  // When done; not known() if none was found. It keeps the limits at its knots, once refined also half way between.
   [[nodiscard]] const PathTiming& timing() const noexcept { return timing_; }
 
  private:
@@ -35,7 +40,8 @@ class TimingSearch {
 
   bool guess(const PathBounds& bounds) noexcept;
   void smooth_ends() noexcept;
-  bool look(int knot) noexcept;
+  bool look(int index) noexcept;
+  [[nodiscard]] PathTiming::Value place_at(int index) const noexcept;
 
   const Places& places_;
   const JointLimits& joints_;
@@ -44,6 +50,9 @@ class TimingSearch {
   TimingBarrier barrier_;
   Stage stage_ = Stage::Done;
   int count_ = 0;
+  int per_knot_ = 1;
+  // By how much the limits of a piece are made lower, and by how much more they have to be.
+  std::array<double, PathTiming::kMost> slower_{}, noted_{};
   int next_ = 0;
   Joints near_ = Joints::Zero();
   std::array<double, PathTiming::kMost + 5> shape_{};

@@ -201,6 +201,8 @@ TEST_F(Path_time, Lines_against_the_least_time) {
   ratios.without.print("lines");
   ratios.with.print("lines, limits of jerk counted,");
   EXPECT_GE(ratios.without.part(0), 0.995);  // nothing is faster than the yardstick
+  EXPECT_LT(ratios.with.mean(), 1.1);
+  EXPECT_LT(ratios.with.part(0.95), 1.25);
 }
 
 TEST_F(Path_time, Circles_against_the_least_time) {
@@ -208,6 +210,8 @@ TEST_F(Path_time, Circles_against_the_least_time) {
   ratios.without.print("circles");
   ratios.with.print("circles, limits of jerk counted,");
   EXPECT_GE(ratios.without.part(0), 0.995);
+  EXPECT_LT(ratios.with.mean(), 1.1);
+  EXPECT_LT(ratios.with.part(0.95), 1.25);
 }
 
 }  // namespace

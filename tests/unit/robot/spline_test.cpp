@@ -179,10 +179,12 @@ TEST_F(Splines, Against_the_least_time) {
   for (const double ratio : ratios) {
     sum += ratio;
   }
-  fmt::print("{} splines: mean {:.3f}, median {:.3f}, most {:.3f} of the least time\n", ratios.size(),
-             sum / static_cast<double>(ratios.size()), ratios[ratios.size() / 2], ratios.back());
-  EXPECT_LT(sum, 1.2 * static_cast<double>(ratios.size()));
-  EXPECT_LT(ratios.back(), 1.4);
+  const double nearly_all = ratios[ratios.size() * 9 / 10];
+  fmt::print("{} splines: mean {:.3f}, median {:.3f}, p90 {:.3f}, most {:.3f} of the least time\n", ratios.size(),
+             sum / static_cast<double>(ratios.size()), ratios[ratios.size() / 2], nearly_all, ratios.back());
+  EXPECT_LT(sum, 1.15 * static_cast<double>(ratios.size()));
+  EXPECT_LT(nearly_all, 1.25);
+  EXPECT_LT(ratios.back(), 1.6);  // where the bend of the path changes abruptly at a point, between two knots
 }
 
 const char* const kJob =
