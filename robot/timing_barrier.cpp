@@ -139,7 +139,11 @@ void TimingBarrier::derive(int place) noexcept {
       h22 += two * z * z;
     }
   }
-  // By the coefficients.
+  add(place, {{g[0], g[1], g[2]}, {{{h00, h01, h02}, {h01, h11, h12}, {h02, h12, h22}}}});
+}
+
+// By the coefficients.
+void TimingBarrier::add(int place, const Curve& curve) noexcept {
   static constexpr double kAtKnot[3][3] = {{1.0 / 6, -0.5, 1}, {4.0 / 6, 0, -2}, {1.0 / 6, 0.5, 1}};
   static constexpr double kHalfWay[4][3] = {
       {1.0 / 48, -0.125, 0.5}, {23.0 / 48, -0.625, -0.5}, {23.0 / 48, 0.625, -0.5}, {1.0 / 48, 0.125, 0.5}};
@@ -148,12 +152,13 @@ void TimingBarrier::derive(int place) noexcept {
   const auto* by = at_knot ? kAtKnot : kHalfWay;
   for (int i = 0; i < (at_knot ? 3 : 4); ++i) {
     const double* b = by[i];
-    gradient_[at(knot + i)] += b[0] * g[0] + b[1] * g[1] + b[2] * g[2];
-    const double x = b[0] * h00 + b[1] * h01 + b[2] * h02;
-    const double y = b[0] * h01 + b[1] * h11 + b[2] * h12;
-    const double z = b[0] * h02 + b[1] * h12 + b[2] * h22;
+    gradient_[at(knot + i)] += b[0] * curve.slope[0] + b[1] * curve.slope[1] + b[2] * curve.slope[2];
+    std::array<double, 3> along{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      along[k] = b[0] * curve.bend[0][k] + b[1] * curve.bend[1][k] + b[2] * curve.bend[2][k];
+    }
     for (int n = 0; n <= i; ++n) {
-      band_[at(knot + i)][at(i - n)] += by[n][0] * x + by[n][1] * y + by[n][2] * z;
+      band_[at(knot + i)][at(i - n)] += by[n][0] * along[0] + by[n][1] * along[1] + by[n][2] * along[2];
     }
   }
 }

@@ -49,7 +49,13 @@ class TimingBarrier {
   // Of a place in the duration.
   [[nodiscard]] double share(int place) const noexcept { return (place == 0 || place == last() ? 0.5 : 1) / per_knot_; }
   [[nodiscard]] double height(const double* z) const noexcept;
+  // First and second derivatives by w, w' and w''.
+  struct Curve {
+    std::array<double, 3> slope{};
+    std::array<std::array<double, 3>, 3> bend{};
+  };
   void derive(int place) noexcept;
+  void add(int place, const Curve& curve) noexcept;
   void hold_ends() noexcept;
   bool solve() noexcept;
   void begin_step() noexcept;

@@ -125,10 +125,13 @@ PathTiming::Value TimingSearch::place_at(int index) const noexcept {
 }
 
 bool TimingSearch::look(int index) noexcept {
-  const auto [place, g1, g2, g3] = place_at(index);
+  const PathTiming::Value g = place_at(index);
+  const double g1 = g.first;
+  const double g2 = g.second;
+  const double g3 = g.third;
   // Not farther apart than what happens there: beside a singular position that is little of the way.
   const double e = std::min({2e-4, segment_.length / 64, std::max(4 * g1, 1e-9 * segment_.length)});
-  const double middle = std::clamp(place, 2 * e, segment_.length - 2 * e);
+  const double middle = std::clamp(g.value, 2 * e, segment_.length - 2 * e);
   std::array<Joints, 5> q;
   for (int i = 0; i < 5; ++i) {
     if (places_.on(segment_, middle + e * (i - 2), near_, near_) != Reach::Ok) {
@@ -160,7 +163,7 @@ bool TimingSearch::look(int index) noexcept {
   for (int i = 0; i < kAxes; ++i) {
     row(i, first[i], second[i], third[i], {joints_.velocity[i], joints_.acceleration[i], joints_.jerk[i]});
   }
-  row(kAxes, 1, 0, 0, segment_.most_at(place));
+  row(kAxes, 1, 0, 0, segment_.most_at(g.value));
   return true;
 }
 
