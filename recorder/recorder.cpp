@@ -92,6 +92,11 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
       wanted_[i] = false;
     }
   }
+  copied_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const schema::Type& type = variable(i).type;
+    copied_[i] = recording::lies_as_cdr(type) && type.size() == follower_.variables()[i].size;
+  }
   wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
   known_.resize(follower_.tracks());
   for (Known& known : known_) {
@@ -178,7 +183,10 @@ Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint3
   if (!channel) {
     return std::move(channel).error();
   }
-  if (!recording::to_cdr(variable(value.variable).type, value.bytes, cdr_)) {
+  if (copied_[value.variable]) {
+    cdr_.assign(recording::kCdrHead.begin(), recording::kCdrHead.end());
+    cdr_.insert(cdr_.end(), value.bytes.begin(), value.bytes.end());
+  } else if (!recording::to_cdr(variable(value.variable).type, value.bytes, cdr_)) {
     return Problem{fmt::format("{} has another size than its type", variable(value.variable).name)};
   }
   auto written =

@@ -112,6 +112,7 @@ class Recorder {
   tape::Follower follower_;
   About about_;
   std::vector<bool> wanted_;
+  std::vector<bool> copied_;  // those that lie in memory as in the file
   std::size_t wanted_count_ = 0;
   std::vector<std::string> too_large_;
   std::vector<std::uint16_t> channels_;  // of variables; 0: none yet

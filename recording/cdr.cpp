@@ -15,9 +15,6 @@ using schema::Type;
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in memory");
 
-// CDR_LE, no options. Alignment counts from behind it.
-constexpr std::array<std::uint8_t, 4> kEncapsulation{0, 1, 0, 0};
-
 std::uint64_t elements(const Type& type) {
   std::uint64_t count = 1;
   for (const std::uint32_t dim : type.dims) {
@@ -27,7 +24,7 @@ std::uint64_t elements(const Type& type) {
 }
 
 std::size_t padding(std::size_t at, std::size_t align) {
-  return (align - (at - kEncapsulation.size()) % align) % align;
+  return (align - (at - kCdrHead.size()) % align) % align;
 }
 
 class Encoder {
@@ -143,8 +140,30 @@ class Decoder {
   }
 
   std::span<const std::uint8_t> from_;
-  std::size_t at_ = kEncapsulation.size();
+  std::size_t at_ = kCdrHead.size();
 };
+
+// `end`: of the bytes that are known to lie so; moves on behind those of `type`, which begin at `at`.
+bool lies_so(const Type& type, std::size_t at, std::size_t& end) {
+  const std::uint64_t count = elements(type);
+  if (type.base == Base::Text || type.base == Base::Bool) {
+    return false;
+  }
+  if (type.base == Base::Struct) {
+    for (std::uint64_t i = 0; i < count; ++i, at += type.element_size) {
+      for (const schema::Field& field : type.fields) {
+        if (!lies_so(field.type, at + field.offset, end)) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+  const std::size_t size = schema::size_of(type.base);
+  const bool so = at == end && at % size == 0;
+  end += size * count;
+  return so;
+}
 
 constexpr Error kWrongSize{Errc::InvalidArgument, 0, "a value of another size than its type"};
 
@@ -154,19 +173,24 @@ Status to_cdr(const Type& type, std::span<const std::uint8_t> value, std::vector
   if (value.size() != type.size()) {
     return kWrongSize;
   }
-  cdr.assign(kEncapsulation.begin(), kEncapsulation.end());
+  cdr.assign(kCdrHead.begin(), kCdrHead.end());
   Encoder(cdr).value(type, value.data());
   return {};
+}
+
+bool lies_as_cdr(const Type& type) {
+  std::size_t end = 0;
+  return lies_so(type, 0, end) && end == type.size();
 }
 
 Status from_cdr(const Type& type, std::span<const std::uint8_t> cdr, std::span<std::uint8_t> value) {
   if (value.size() != type.size()) {
     return kWrongSize;
   }
-  if (cdr.size() < kEncapsulation.size()) {
+  if (cdr.size() < kCdrHead.size()) {
     return Error{Errc::Corrupt, 0, "a value without the header of CDR"};
   }
-  if (cdr[0] != kEncapsulation[0] || cdr[1] != kEncapsulation[1]) {
+  if (cdr[0] != kCdrHead[0] || cdr[1] != kCdrHead[1]) {
     return Error{Errc::Unsupported, 0, "a value in another encoding than CDR in little endian"};
   }
   std::fill(value.begin(), value.end(), std::uint8_t{0});

@@ -6,6 +6,7 @@
 
 #include <indurop/result.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +18,11 @@ namespace indurop::recording {
 // Writes `value`, the bytes of a variable of this type in memory, to `cdr`, whose capacity is used again.
 // Errors: InvalidArgument if `value` has not type.size() bytes.
 Status to_cdr(const schema::Type& type, std::span<const std::uint8_t> value, std::vector<std::uint8_t>& cdr);
+
+// True if to_cdr() of any value of this type is kCdrHead and the value as it lies in memory: numbers without gaps.
+bool lies_as_cdr(const schema::Type& type);
+// CDR in little endian, no options. Alignment counts from behind it.
+inline constexpr std::array<std::uint8_t, 4> kCdrHead{0, 1, 0, 0};
 
 // The way back. Padding and the bytes behind a text's NUL become 0. After an error `value` is undefined.
 // Errors: InvalidArgument as above, Unsupported if another encoding is announced, Corrupt if `cdr` is no value of this

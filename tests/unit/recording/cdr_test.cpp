@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -61,6 +62,28 @@ TEST(Cdr, Random_values_come_back) {
     ASSERT_TRUE(from_cdr(type, encoded(type, value), back).ok()) << schema::canonical(type);
     ASSERT_EQ(back, value) << schema::canonical(type);
   }
+}
+
+TEST(Cdr, Numbers_without_gaps_lie_in_memory_as_in_CDR) {
+  RandomValue random(3);
+  int so = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Type type = random.type();
+    Bytes value(type.size());  // any bytes, in gaps too
+    std::generate(value.begin(), value.end(), [&] { return static_cast<std::uint8_t>(random.below(256)); });
+    Bytes copied(kCdrHead.begin(), kCdrHead.end());
+    copied.insert(copied.end(), value.begin(), value.end());
+    if (lies_as_cdr(type)) {
+      ASSERT_EQ(encoded(type, value), copied) << schema::canonical(type);
+      so += type.base == Base::Struct ? 1 : 0;
+    }
+  }
+  EXPECT_GT(so, 100);
+  EXPECT_TRUE(lies_as_cdr(structure("pair", {{"a", number(Base::Double)}, {"b", number(Base::UInt64)}})));
+  EXPECT_FALSE(lies_as_cdr(structure("gap", {{"a", number(Base::UInt8)}, {"b", number(Base::UInt64)}})));
+  EXPECT_FALSE(lies_as_cdr(structure("end", {{"a", number(Base::UInt64)}, {"b", number(Base::UInt8)}})));
+  EXPECT_FALSE(lies_as_cdr(number(Base::Bool))) << "memory may hold a 2";
+  EXPECT_FALSE(lies_as_cdr(text(4)));
 }
 
 TEST(Cdr, What_is_no_value_of_the_type_is_refused) {
