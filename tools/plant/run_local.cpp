@@ -30,7 +30,7 @@ struct Child {
 };
 
 // "r.json" of board "left" is "r.left.json".
-std::string report_of(const std::filesystem::path& file, const std::string& board) {
+std::string file_of(const std::filesystem::path& file, const std::string& board) {
   auto named = file;
   named.replace_extension("." + board + file.extension().string());
   return named.string();
@@ -42,7 +42,10 @@ std::vector<std::string> command(const std::filesystem::path& program, const con
   options.board = board.name;
   options.one_host = true;
   if (!options.report.empty()) {
-    options.report = report_of(options.report, board.name);
+    options.report = file_of(options.report, board.name);
+  }
+  if (!options.record.empty()) {
+    options.record = file_of(options.record, board.name);
   }
   if (!options.core && board.config.core < 0) {
     options.core = core;

@@ -71,6 +71,23 @@ TEST_F(Local, All_boards_are_recorded_in_one_file_and_each_is_replayed) {
   }
 }
 
+TEST_F(Local, Each_board_is_recorded_from_its_first_run_on) {
+  const std::string plant = two_boards();
+  const std::string file = folder() / "r.mcap";
+  EXPECT_EQ(run(plant, {"-q", "--duration", "1s", "--record", file}).wait(), 0);
+  std::vector<std::string> join{"recording", "join", "-o", (folder() / "all.mcap").string()};
+  for (const char* name : {"sensor", "control"}) {
+    join.push_back(folder() / ("r." + board(name) + ".mcap"));
+  }
+  EXPECT_EQ(indurop(join).wait(), 0);
+  for (const char* name : {"sensor", "control"}) {
+    const Outcome again =
+        indurop({"replay", folder() / "all.mcap", "--board", board(name), "--node", board("replay")}).finish();
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_THAT(again.out, HasSubstr(" values: equal"));
+  }
+}
+
 TEST_F(Local, A_duration_ends_all_of_them) {
   EXPECT_EQ(run(two_boards(), {"-q", "--duration", "300ms"}).wait(), 0);
 }
