@@ -114,9 +114,6 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
         known ? reason_to_leave_out(configured[i], checked_.check.facts[i].file.imports) : "it is not in the recording";
     module.runs = module.why_not.empty();
     any = any || module.runs;
-    if (module.runs) {
-      warn_of_what_is_not_recorded(configured[i], checked_.check.facts[i].file.imports, recorded.tells_answers());
-    }
     if (!module.runs) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
                     module.why_not);
@@ -145,6 +142,17 @@ bool Replay::begin(const RecordedRuns& recorded) {
   if (!choose_modules(recorded)) {
     return false;
   }
+  const bool processes = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) {
+    return module->runs && module->state.task.type == ModuleType::Process;
+  });
+  if (processes) {
+    auto retold = tape::RetoldWriter::create(options_.node, run_.node_pid.load());
+    if (!retold) {
+      console_.error("what runs of processes were told cannot be given to them: {}", describe(retold.error()));
+      return false;
+    }
+    retold_.emplace(std::move(retold).value());
+  }
   for (const std::string& name : recorded.unknown_variables()) {
     console_.warning("{} of the recording is not in this configuration", name);
   }
@@ -154,9 +162,18 @@ bool Replay::begin(const RecordedRuns& recorded) {
   return true;
 }
 
+std::vector<tape::RetoldAnswer> Replay::Module::told() const {
+  std::vector<tape::RetoldAnswer> all;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    all.push_back({codes[i], answers[i]});
+  }
+  return all;
+}
+
 // A process has all the time there is, as long as it lives.
 bool Replay::run_process(Module& module, const tape::RunTail& tail) {
   scheduler::ProcessSlot& slot = *module.state.slot;
+  retold_->give(module.clock, module.told());
   const std::uint64_t release = slot.released.load() + 1;
   slot.release_ns.store(tail.release_ns);
   slot.release_tick.store(tail.tick);
@@ -205,10 +222,7 @@ bool Replay::run_again(const recorder::RunWords& run) {
     }
   } else {
     scheduler::TaskState* state = &module.state;
-    std::vector<runtime::ToldAnswer> answers;
-    for (std::size_t i = 0; i < module.codes.size(); ++i) {
-      answers.push_back({module.codes[i], module.answers[i]});
-    }
+    const std::vector<tape::RetoldAnswer> answers = module.told();
     runtime::set_clock_readings(module.clock);
     runtime::set_answers(answers);
     runner_.run({&state, 1}, run.tail.tick, rt::mono_time(run.tail.release_ns));

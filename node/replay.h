@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "node/processes.h"
 #include "node/recorded_runs.h"
 #include "scheduler/runner.h"
+#include "tape/retold.h"
 
 namespace indurop::node {
 
@@ -72,6 +74,7 @@ class Replay {
     std::vector<std::int64_t> clock;  // what it was told then
     std::vector<std::int64_t> codes;  // by functions and channels, likewise
     std::vector<std::vector<std::uint8_t>> answers;
+    [[nodiscard]] std::vector<tape::RetoldAnswer> told() const;
     std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
     scheduler::TaskState state;
     std::uint64_t count = 0;
@@ -83,8 +86,6 @@ class Replay {
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
-  void warn_of_what_is_not_recorded(const config::Module& module, const std::vector<std::string>& imports,
-                                    bool tells_answers);
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();
@@ -116,6 +117,7 @@ class Replay {
   scheduler::Runner runner_;
   Phases phases_;
   Processes processes_;
+  std::optional<tape::RetoldWriter> retold_;      // to processes, if there are some
   std::vector<std::unique_ptr<Module>> modules_;  // as in the configuration
   std::vector<std::uint32_t> of_recording_;       // its modules among them; kNoSuchModule: none
   std::int64_t real_minus_node_ns_ = 0;

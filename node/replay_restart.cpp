@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay does about what its values do not tell: modules that were started anew are so again, and what no
-// recording has is said before.
+// What a replay does about what its values do not tell: modules that were started anew are so again.
 
 #include <thread>
 
@@ -13,31 +12,6 @@ constexpr std::chrono::seconds kPatience{10};
 constexpr std::chrono::milliseconds kPause{1};
 
 }  // namespace
-
-// What functions and channels gave to a thread module is in the recording.
-void Replay::warn_of_what_is_not_recorded(const config::Module& module, const std::vector<std::string>& imports,
-                                          bool tells_answers) {
-  if (module.type == scheduler::ModuleType::Thread && tells_answers) {
-    return;
-  }
-  bool calls = false;
-  bool channels = false;
-  for (const std::string& symbol : imports) {
-    calls = calls || symbol == "indurop_call";
-    channels = channels || symbol.starts_with("_ZN7channel");
-  }
-  if (calls) {
-    console_.warning(
-        "module {} calls shared functions: they are called again here, and what they return is not given to it from "
-        "the recording and may differ",
-        module.name);
-  }
-  if (channels) {
-    console_.warning(
-        "module {} has channels: what it reads from them is not given to it from the recording and may differ",
-        module.name);
-  }
-}
 
 bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
   if (function == nullptr) {

@@ -158,6 +158,10 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
       tape_ = std::move(member).value();
     }
   }
+  retold_.reset();
+  if (auto retold = tape::RetoldReader::open(node_, run.node_pid.load(std::memory_order_relaxed))) {
+    retold_ = std::move(retold).value();
+  }
   holder_ = holder;
   enrolled_as_ = is_launched ? launched : pid_;  // a script may stand between the node and this program
   phase_ = Phase::Prepared;
@@ -216,6 +220,10 @@ bool Enrolment::take_release() noexcept {
   if (tape_) {
     tape_->track().begin();
     set_current_track(&tape_->track());
+  }
+  if (retold_) {
+    set_clock_readings(retold_->readings());
+    set_answers(retold_->answers());
   }
   slot_->start_ns.store(rt::to_ns(schedule_now()), std::memory_order_relaxed);
   ++seen_;

@@ -14,6 +14,7 @@
 #include "runtime/run_mapping.h"
 #include "scheduler/run_block.h"
 #include "tape/member.h"
+#include "tape/retold.h"
 
 namespace indurop::runtime {
 
@@ -61,7 +62,8 @@ class Enrolment {
   std::string node_;
   RunMapping* mapping_ = nullptr;
   scheduler::ProcessSlot* slot_ = nullptr;
-  std::optional<tape::Member> tape_;  // none: the node keeps none
+  std::optional<tape::Member> tape_;          // none: the node keeps none
+  std::optional<tape::RetoldReader> retold_;  // the node is a replay
   std::int32_t pid_ = 0;
   std::int32_t holder_ = 0;       // who was in the slot before
   std::int32_t enrolled_as_ = 0;  // pid the node knows us by

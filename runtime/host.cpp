@@ -20,8 +20,8 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local tape::Track* t_track = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_reading = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_readings_end = nullptr;
-[[gnu::tls_model("initial-exec")]] thread_local const ToldAnswer* t_answer = nullptr;
-[[gnu::tls_model("initial-exec")]] thread_local const ToldAnswer* t_answers_end = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const tape::RetoldAnswer* t_answer = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const tape::RetoldAnswer* t_answers_end = nullptr;
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 }  // namespace
@@ -46,12 +46,12 @@ std::int64_t read_clock() noexcept {
   return now;
 }
 
-void set_answers(std::span<const ToldAnswer> answers) noexcept {
+void set_answers(std::span<const tape::RetoldAnswer> answers) noexcept {
   t_answer = answers.data();
   t_answers_end = answers.data() + answers.size();
 }
 
-const ToldAnswer* next_answer() noexcept {
+const tape::RetoldAnswer* next_answer() noexcept {
   return t_answer != t_answers_end ? t_answer++ : nullptr;
 }
 

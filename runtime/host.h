@@ -20,6 +20,7 @@
 #include "runtime/message_ring.h"
 #include "scheduler/run_block.h"
 #include "tape/layout.h"
+#include "tape/retold.h"
 #include "tape/track.h"
 #include "vars/store.h"
 
@@ -39,19 +40,15 @@ std::int64_t read_clock() noexcept;
 
 // Likewise what calls of shared functions and channels give it, and how fresh values of other boards are. As long as
 // there are `answers`, they are what it gets; functions are called nevertheless, for what they do.
-struct ToldAnswer {
-  std::int64_t code = 0;
-  std::span<const std::uint8_t> bytes;
-};
-void set_answers(std::span<const ToldAnswer> answers) noexcept;
+void set_answers(std::span<const tape::RetoldAnswer> answers) noexcept;
 // Null: what really comes counts, and is told by note_answer().
-const ToldAnswer* next_answer() noexcept;
+const tape::RetoldAnswer* next_answer() noexcept;
 void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcept;
 // The same around one of them: `ask` fills `bytes` and returns its code; `fills` says of a code whether `size` bytes
 // come with it. Returns the code that the run gets. Real-time safe if `ask` is.
 template <class Fills, class Ask>
 std::int64_t answer(void* bytes, std::size_t size, Fills fills, Ask ask) {
-  const ToldAnswer* const then = next_answer();
+  const tape::RetoldAnswer* const then = next_answer();
   const std::int64_t now = ask();
   if (then == nullptr) {
     note_answer(now, bytes, fills(now) ? size : 0);

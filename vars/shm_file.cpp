@@ -106,6 +106,9 @@ std::string external_file(const std::string& node) {
 std::string tape_file(const std::string& node) {
   return "indurop." + node + ".tape";
 }
+std::string retold_file(const std::string& node) {
+  return "indurop." + node + ".retold";
+}
 std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
 }

@@ -27,6 +27,7 @@ std::string run_file(const std::string& node);       // indurop.<node>.run
 std::string mirror_file(const std::string& node);    // indurop.<node>.mirror
 std::string external_file(const std::string& node);  // indurop.<node>.external
 std::string tape_file(const std::string& node);      // indurop.<node>.tape
+std::string retold_file(const std::string& node);    // indurop.<node>.retold
 std::string lock_file(const std::string& node);      // indurop.<node>.lock
 
 // Who may do what: the owner and its group write, everybody reads. Set explicitly, the umask plays no part.

@@ -89,22 +89,15 @@ TEST_F(Recording, Tells_which_modules_were_started_anew) {
   EXPECT_CONTAINS(again.out, " values: equal");
 }
 
-TEST_F(Recording, Says_before_what_it_does_not_know) {
-  ASSERT_EQ(run_to_end({{.file = "counter.so", .name = "counter"},
-                        {.file = "asker_process.exe", .name = "asker", .type = "process"},
-                        {.file = "server.so", .name = "server"}},
-                       {"--sim", "--until", "50ms", "--record", file()})
-                .code,
-            0);
-  const Outcome again = replay();
-  EXPECT_CONTAINS(again.err, "warning: module asker calls shared functions");
-  EXPECT_CONTAINS(again.err, "warning: module asker has channels");
-  EXPECT_FALSE(contains(again.err, "module counter calls")) << again.err;
-}
+class Recording_of_askers : public Recording, public testing::WithParamInterface<bool> {};
 
-TEST_F(Recording, Gives_runs_what_functions_and_channels_gave_them) {
-  Program& sut = start_and_wait({{.file = "asker.so", .name = "asker"}, {.file = "dice.so", .name = "dice"}},
-                                {"--record", file()});
+TEST_P(Recording_of_askers, Gives_runs_what_functions_channels_and_the_clock_gave_them) {
+  Module asker{.file = "asker.so", .name = "asker"};
+  if (GetParam()) {
+    asker.file = "asker_process.exe";
+    asker.type = "process";
+  }
+  Program& sut = start_and_wait({asker, {.file = "dice.so", .name = "dice"}}, {"--record", file()});
   auto store = vars::Store::attach(node(), vars::Mode::ReadWrite);
   ASSERT_TRUE(store.ok());
   const auto* entry = store->find(abi::fnv1a64("nt::looks", 9));
@@ -123,8 +116,8 @@ TEST_F(Recording, Gives_runs_what_functions_and_channels_gave_them) {
   const Outcome again = replay();
   EXPECT_EQ(again.code, 0) << again.out << again.err;
   EXPECT_CONTAINS(again.out, " values: equal");
-  EXPECT_FALSE(contains(again.err, "warning: module asker")) << again.err;
 }
+INSTANTIATE_TEST_SUITE_P(In_threads_and_processes, Recording_of_askers, testing::Bool());
 
 TEST_F(Recording, Is_readable_when_the_node_was_killed) {
   Program& sut = start_and_wait(threads(), {"--record", file()});
