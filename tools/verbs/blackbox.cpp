@@ -43,29 +43,38 @@ struct Options {
 // Boards that were heard, and what speaks to them.
 struct Boards {
   std::unique_ptr<deploy::DeployLink> link;
+  BoardRoster roster;
   std::vector<deploy::BoardReport> reports;
+
+  // What they say by now.
+  void refresh(const std::string& only) {
+    roster.listen(*link, rt::now_ns());
+    reports.clear();
+    for (const auto& [key, entry] : roster.all()) {
+      if (only.empty() || key.first == only) {
+        reports.push_back(entry.report);
+      }
+    }
+  }
 };
 
 Result<Boards, Failure> hear(Context& context, Options& options) {
   constexpr std::int64_t kHearNs = 3'000'000'000;  // agents speak twice a second
-  if (!context.node.empty()) {
+  if (!context.node.empty() && options.when.empty()) {
     return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
-  Boards boards{open_link(context, options.link), {}};
+  Boards boards{open_link(context, options.link), {}, {}};
   if (boards.link == nullptr) {
     return Failure{kUnreachable, {}};
   }
-  BoardRoster roster;
-  roster.gather(*boards.link, kHearNs,
-                [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
+  const BoardRoster& roster = boards.roster;
+  boards.roster.gather(*boards.link, kHearNs, [&] {
+    return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr;
+  });
   if (interrupted()) {
     return Failure{interrupt_code(), {}};
   }
-  for (const auto& [key, entry] : roster.all()) {
-    if (options.board.empty() || key.first == options.board) {
-      boards.reports.push_back(entry.report);
-    }
-  }
+  boards.refresh(options.board);
   if (boards.reports.empty()) {
     return with_keys_hint(
         {kUnreachable, options.board.empty() ? "no board was heard" : "board " + options.board + " was not heard"},
@@ -256,17 +265,22 @@ int keep(Context& context, const std::string& why) {
   return kOk;
 }
 
-// Of all boards that are heard, at about the same time.
+// Of all boards that are heard, at about the same time; they are heard before, so that a box still tells what led to
+// it.
 int keep_far(Context& context, Options& options) {
   constexpr std::int64_t kTimeoutNs = 5'000'000'000;
   auto commander = BoardCommander::make(context, options.link.keys);
   if (!commander) {
     return report(context.out, commander.error());
   }
-  const auto boards = hear(context, options);
+  auto boards = hear(context, options);
   if (!boards) {
     return report(context.out, boards.error());
   }
+  if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
+    return code;
+  }
+  boards->refresh(options.board);
   int code = kOk;
   for (const deploy::BoardReport& board : boards->reports) {
     const auto answered =
@@ -296,24 +310,22 @@ int act(Context& context, Options& options) {
     context.out.error(fmt::format("blackbox cannot '{}'; it can list, keep or fetch", printable(options.action)));
     return kUsage;
   }
-  if (options.far() && !options.when.empty()) {
-    context.out.error("--when looks at a variable of a node of this machine; leave --remote and --board out");
-    return kUsage;
-  }
+  options.what = options.what.empty() ? options.when : options.what;
   if (options.far()) {
     return keep_far(context, options);
   }
   if (const int code = options.when.empty() ? kOk : await(context, options.when); code != kOk) {
     return code;
   }
-  return keep(context, options.what.empty() && !options.when.empty() ? options.when : options.what);
+  return keep(context, options.what);
 }
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   app.add("action", "list|keep|fetch", options->action, "What to do (default: list)");
   app.add("what", "TEXT", options->what, "With keep: why, for whoever lists it; with fetch: the file to write");
-  app.add("--when", "NAME", options->when, "With keep: wait until this variable is not 0 any more")
+  app.add("--when", "NAME", options->when,
+          "With keep: wait until this variable of a node of this machine is not 0 any more")
       .completes(base::Completion::Variable);
   app.add("--at", "BOX", options->at, "With fetch: the moment of this box, as listed (default: the newest)");
   app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
@@ -340,6 +352,7 @@ const Verb kBlackboxVerb{
     "  indurop blackbox keep --when PLC_ROBOT::alarm\n"
     "  indurop blackbox --remote\n"
     "  indurop blackbox keep 'the drill broke' --remote\n"
+    "  indurop blackbox keep --when PLC_ROBOT::alarm --remote\n"
     "  indurop blackbox fetch moment.mcap --remote\n"
     "  indurop blackbox --node cell -o json\n",
     &declare};

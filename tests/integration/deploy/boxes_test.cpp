@@ -15,6 +15,7 @@ class Boxes : public AgentsTest {
       std::filesystem::copy_file(std::string(MODULE_FOLDER) + "/" + module + ".so",
                                  folder() / (std::string(module) + ".so"));
     }
+    std::filesystem::copy_file(TWO_BOARDS "/table.so", folder() / "table.so");
   }
   void run_plant(const char* module) {
     start_agent("a");
@@ -99,6 +100,14 @@ TEST_F(Boxes, Those_of_all_boards_come_into_one_file) {
   EXPECT_EQ(here["channels"].size(), messages.size());
   EXPECT_EQ(indurop({"blackbox", "fetch", path("moment.mcap"), "--remote"}).code, 1) << "it is there already";
   EXPECT_EQ(indurop({"blackbox", "fetch", path("x.mcap"), "--remote", "--at", "../nothing.mcap"}).code, 1);
+}
+
+TEST_F(Boxes, A_condition_of_a_user_keeps_those_of_all_boards) {
+  run_plant("table");
+  Program& sut = start_indurop({"blackbox", "keep", "--when", "cell::torque", "--node", board("a"), "--remote"});
+  EXPECT_EQ(indurop_here({"set", "--node", board("a"), "cell::torque", "1"}).code, 0);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  EXPECT_TRUE(wait_until([&] { return !box("a", "cell::torque").is_null() && !box("b", "cell::torque").is_null(); }));
 }
 
 TEST_F(Boxes, A_user_may_want_one_of_all_boards) {
