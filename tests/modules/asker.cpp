@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it writes is what a shared function and a channel gave it. With ASKS_AS_PROCESS it is a process.
+// What it writes is what a shared function, a channel and the clock gave it. With ASKS_AS_PROCESS it is a process.
 #include <indurop/channel.h>
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
@@ -19,6 +19,7 @@ void ask() {
   if (channel::read(handle, "nt::looks", sizeof looks, &looks) == sizeof looks) {
     nt::newest = looks;
   }
+  nt::asked_ns = irp::now_ns();
 }
 
 }  // namespace
