@@ -32,6 +32,7 @@ class RemoteLook : public AgentsTest {
 // Compared with what the same verbs read in the node's own memory.
 TEST_F(RemoteLook, Runs_and_figures_are_those_of_the_node) {
   start_boards();
+  ASSERT_TRUE(wait_until([&] { return here({"status"})["modules"][0]["runs"] >= 200; }));
   const Json far = at_a({"log", "-n", "500", "-o", "json"}).json();
   const Json near = here({"log", "-n", "8192"});
   ASSERT_GE(far["runs"].size(), 100U);
