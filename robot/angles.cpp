@@ -16,8 +16,11 @@ Eigen::Vector2d turned2(const Eigen::Vector2d& v, double angle) noexcept {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
+// By what is perpendicular to the axis alone: of what nearly lies on it, differences of products would leave nothing.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) noexcept {
-  return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
+  const Vec3 f = from - axis * axis.dot(from);
+  const Vec3 t = to - axis * axis.dot(to);
+  return std::atan2(axis.dot(f.cross(t)), f.dot(t));
 }
 
 std::optional<double> angle_with_cosine(double cosine) noexcept {

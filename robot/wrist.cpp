@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/wrist.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "robot/angles.h"
@@ -8,19 +9,31 @@
 namespace indurop::robot {
 
 Wrist::Wrist(const Vec3& first, const Vec3& middle, const Vec3& last) noexcept
-    : first_(first), middle_(middle), last_(last) {
-  constant_ = first.dot(middle) * middle.dot(last);
-  cosine_ = first.dot(last) - constant_;
-  sine_ = first.dot(middle.cross(last));
-}
+    : first_(first),
+      middle_(middle),
+      last_(last),
+      cosine_(first.dot(last) - first.dot(middle) * middle.dot(last)),
+      sine_(first.dot(middle.cross(last))),
+      constant_(first.dot(middle) * middle.dot(last)) {}
 
 double Wrist::straight() const noexcept {
   return std::atan2(sine_, cosine_);
 }
 
+// How far from straight; where that is little, a cosine says nothing of it.
+std::optional<double> Wrist::bent_by(const Vec3& wanted) const noexcept {
+  constexpr double kAligned = 1e-12;
+  const double most = std::hypot(cosine_, sine_);
+  const double cosine = first_.dot(wanted);
+  if (std::abs(most + constant_ - 1) < kAligned && cosine > constant_) {
+    return 2 * std::asin(std::min(1.0, (first_ - wanted).norm() / (2 * std::sqrt(most))));
+  }
+  return angle_with_cosine((cosine - constant_) / most);
+}
+
 std::optional<Wrist::Angles> Wrist::turn(const Mat3& rotation, bool other, const Keep& keep) const noexcept {
   const Vec3 wanted = rotation * last_;
-  const auto half = angle_with_cosine((first_.dot(wanted) - constant_) / std::hypot(cosine_, sine_));
+  const auto half = bent_by(wanted);
   if (!half) {
     return std::nullopt;
   }

@@ -32,6 +32,8 @@ class Wrist {
   [[nodiscard]] std::optional<Angles> turn(const Mat3& rotation, bool other, const Keep& keep) const noexcept;
 
  private:
+  [[nodiscard]] std::optional<double> bent_by(const Vec3& wanted) const noexcept;
+
   Vec3 first_ = Vec3::UnitZ(), middle_ = Vec3::UnitY(), last_ = Vec3::UnitZ();
   double cosine_ = 0, sine_ = 0, constant_ = 0;  // first * (last turned by the middle angle) = these * cos, sin, 1
 };
