@@ -24,9 +24,9 @@ bool is_enable_out(const Argument& argument) {
   return same_name(argument.name, "ENO") && argument.output;
 }
 
-std::vector<std::string> names_of(const std::vector<LibraryParameter>& list) {
+std::vector<std::string> names_of(const LibraryBlock& block, bool outputs) {
   std::vector<std::string> names;
-  for (const LibraryParameter& one : list) {
+  for (const LibraryParameter& one : outputs ? block.outputs : block.inputs) {
     names.push_back(one.name);
   }
   return names;
@@ -175,7 +175,7 @@ void CallChecker::no_function(const Expression& call) {
   for (const Pou& one : context_.program.pous) {
     known.push_back(one.name);
   }
-  const std::string hint = did_you_mean(callee.name, known);
+  const std::string hint = did_you_mean(context_, callee.name, known);
   context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name,
                                       hint.empty() ? ", declare it as FUNCTION" : hint));
 }
@@ -274,7 +274,7 @@ void CallChecker::library_block(Expression& call, const LibraryBlock& block) {
           argument.name.empty()
               ? fmt::format("{} has only {} inputs and outputs", block.name, block.inputs.size() + block.outputs.size())
               : fmt::format("{} has no {} '{}'{}", block.name, argument.output ? "output" : "input", argument.name,
-                            did_you_mean(argument.name, names_of(argument.output ? block.outputs : block.inputs))));
+                            did_you_mean(context_, argument.name, names_of(block, argument.output))));
       continue;
     }
     if (!given.insert(parameter).second) {
@@ -339,7 +339,7 @@ void CallChecker::user_block(Expression& call, const Pou& pou) {
                      argument.name.empty()
                          ? fmt::format("{} has only {} inputs and outputs", pou.name, inputs.size())
                          : fmt::format("{} has no {} '{}'{}", pou.name, argument.output ? "output" : "input",
-                                       argument.name, did_you_mean(argument.name, known)));
+                                       argument.name, did_you_mean(context_, argument.name, known)));
       continue;
     }
     if (!given.insert(parameter).second) {

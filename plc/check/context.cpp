@@ -7,7 +7,10 @@
 
 namespace indurop::plc {
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& known) {
+std::string did_you_mean(const Context& context, std::string_view name, const std::vector<std::string>& known) {
+  if (context.diagnostics.full()) {
+    return "";
+  }
   const std::string found = base::nearest(name, known);
   return found.empty() ? "" : ", did you mean '" + found + "'?";
 }
@@ -16,6 +19,10 @@ void complain_undeclared(Context& context, const Place& at, const std::string& n
   const std::string capitals = upper(name);
   if (context.known_errors.contains({nullptr, capitals}) ||
       !context.known_errors.insert({context.pou, capitals}).second) {
+    return;
+  }
+  if (context.diagnostics.full()) {  // it only counts
+    context.error(at, fmt::format("'{}' is not declared", name));
     return;
   }
   std::vector<std::string> known;
@@ -27,7 +34,7 @@ void complain_undeclared(Context& context, const Place& at, const std::string& n
   for (const Global& one : context.program.globals) {
     known.push_back(one.name);
   }
-  const std::string hint = did_you_mean(name, known);
+  const std::string hint = did_you_mean(context, name, known);
   context.error(
       at, fmt::format("'{}' is not declared{}", name, hint.empty() ? ", declare it between VAR and END_VAR" : hint));
 }

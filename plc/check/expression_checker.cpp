@@ -74,24 +74,26 @@ Resolved& ExpressionChecker::resolved(Expression& expression) {
   return *expression.resolved;
 }
 
-const Type* ExpressionChecker::value(Expression& expression, const Type* wanted) {
+const Type* ExpressionChecker::value_or_instance(Expression& expression, const Type* wanted) {
   const Type* type = typed(expression, wanted);
-  if (type == nullptr) {
-    const Meaning meaning = expression.resolved->meaning;
-    if (meaning == Meaning::Type || meaning == Meaning::Namespace) {
-      context_.error(expression.at, fmt::format("'{}' is a {}, but a value is needed", expression.name,
-                                                meaning == Meaning::Type ? "type" : "namespace"));
-    }
-    return nullptr;
-  }
-  if (type->kind == Type::Kind::Block) {
-    const bool is_struct = type->pou != nullptr && type->pou->tree->is_struct;
-    context_.error(expression.at, fmt::format("{} is not a value{}, name one of its {}", with_article(*type),
-                                              is_struct ? " because it contains function blocks" : "",
-                                              is_struct ? "fields" : "outputs"));
-    return nullptr;
+  const Meaning meaning = expression.resolved->meaning;
+  if (type == nullptr && (meaning == Meaning::Type || meaning == Meaning::Namespace)) {
+    context_.error(expression.at, fmt::format("'{}' is a {}, but a value is needed", expression.name,
+                                              meaning == Meaning::Type ? "type" : "namespace"));
   }
   return type;
+}
+
+const Type* ExpressionChecker::value(Expression& expression, const Type* wanted) {
+  const Type* type = value_or_instance(expression, wanted);
+  if (type == nullptr || type->kind != Type::Kind::Block) {
+    return type;
+  }
+  const bool is_struct = type->pou != nullptr && type->pou->tree->is_struct;
+  context_.error(expression.at, fmt::format("{} is not a value{}, name one of its {}", with_article(*type),
+                                            is_struct ? " because it contains function blocks" : "",
+                                            is_struct ? "fields" : "outputs"));
+  return nullptr;
 }
 
 const Type* ExpressionChecker::typed(Expression& expression, const Type* wanted) {

@@ -19,10 +19,12 @@ class ExpressionChecker {
   // The type of the value; null after an error. `wanted` helps only where the expression itself leaves it open: in
   // SQRT(2.0) a REAL or an LREAL.
   const Type* value(ast::Expression& expression, const Type* wanted = nullptr);
+  // The same of what may be an instance of a function block.
+  const Type* value_or_instance(ast::Expression& expression, const Type* wanted = nullptr);
   // A value that is assigned to a `to`; false after an error. `what` begins the message: "x is a BOOL".
   bool assigned(ast::Expression& expression, const Type& to);
   // A variable that is written; its type, null after an error.
-  const Type* target(ast::Expression& expression);
+  const Type* target(ast::Expression& expression, bool instances = false);
   // Whether it is a number of another module that a contact or coil takes as a BOOL. `type`: its own.
   [[nodiscard]] static bool counts_as_truth(const ast::Expression& expression, const Type& type) noexcept;
   // A variable that is passed by reference, read and written.
@@ -74,7 +76,7 @@ class ExpressionChecker {
   const Type* binary(ast::Expression& expression, const Type* wanted);
   const Type* this_or_super(ast::Expression& expression);
   bool variable_of_this(ast::Expression& expression);
-  bool can_see(const Variable& variable, const Place& at);
+  bool can_see(Variable& variable, const Place& at);
   bool may_call(const Pou& method, const Place& at);
   const Type* object(ast::Expression& expression);
   const Pou* accessor(const Pou& pou, const ast::Expression& expression, ast::Accessor which);

@@ -86,15 +86,20 @@ bool ExpressionChecker::variable_of_this(Expression& expression) {
 }
 
 // What a method sees of its instance.
-bool ExpressionChecker::can_see(const Variable& variable, const Place& at) {
+bool ExpressionChecker::can_see(Variable& variable, const Place& at) {
   if (variable.owner == context_.pou || variable.owner == nullptr) {
     return true;
   }
   const bool own_type = context_.pou->self() == variable.owner;
+  const bool in_method = variable.section == ast::Section::InOut && context_.pou->owner != nullptr;
+  if (in_method && context_.codesys() && variable.type != nullptr && !variable.type->open) {
+    variable.in_methods = true;
+    return true;
+  }
   const char* what = variable.section == ast::Section::Temp       ? "VAR_TEMP"
                      : variable.declared->edge != ast::Edge::None ? "an input with an edge"
-                     : variable.section == ast::Section::InOut && context_.pou->owner != nullptr ? "VAR_IN_OUT"
-                                                                                                 : nullptr;
+                     : in_method                                  ? "VAR_IN_OUT"
+                                                                  : nullptr;
   if (what != nullptr) {
     context_.error(
         at, fmt::format("'{}' is {} of {}, which only its body sees; {}", variable.name, what, variable.owner->name,
@@ -239,7 +244,7 @@ const Pou* CallChecker::method_of(Expression& callee, bool& said) {
   if (found == nullptr && type->pou->find(upper(callee.name)) == nullptr) {
     said = true;
     context_.error(callee.at, fmt::format("{} has no method '{}'{}", type->name, callee.name,
-                                          did_you_mean(callee.name, methods_of(*type->pou, false))));
+                                          did_you_mean(context_, callee.name, methods_of(*type->pou, false))));
   }
   return found;
 }

@@ -201,7 +201,8 @@ const Type* ExpressionChecker::enum_value(Expression& expression, const Type& ty
     }
     known.push_back(one.name);
   }
-  context_.error(expression.at, fmt::format("{} has no value '{}'{}", type.name, item, did_you_mean(item, known)));
+  context_.error(expression.at,
+                 fmt::format("{} has no value '{}'{}", type.name, item, did_you_mean(context_, item, known)));
   return nullptr;
 }
 
@@ -273,7 +274,7 @@ const Type* ExpressionChecker::member(Expression& expression) {
     known.push_back(field.name);
   }
   context_.error(expression.at, fmt::format("{} has no member '{}'{}", with_article(*type), expression.name,
-                                            did_you_mean(expression.name, known)));
+                                            did_you_mean(context_, expression.name, known)));
   return nullptr;
 }
 
@@ -365,7 +366,7 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
     }
   }
   context_.error(expression.at, fmt::format("{} has no input or output '{}'{}", to_string(block), expression.name,
-                                            did_you_mean(expression.name, known)));
+                                            did_you_mean(context_, expression.name, known)));
   return nullptr;
 }
 

@@ -110,7 +110,7 @@ class Declarer {
           known.push_back(pou->name);
         }
       }
-      const std::string hint = did_you_mean(at.name, known);
+      const std::string hint = did_you_mean(context_, at.name, known);
       context_.error(at.at, fmt::format("there is no {} '{}'{}",
                                         kinds[0] == Kind::Interface ? "INTERFACE" : "function block or class", at.name,
                                         hint.empty() ? ", declare it" : hint));

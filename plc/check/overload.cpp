@@ -99,7 +99,7 @@ std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, cons
         known.push_back(one.name);
       }
       context_.error(argument.at, fmt::format("{} has no {} '{}'{}", first.name, argument.output ? "output" : "input",
-                                              argument.name, did_you_mean(argument.name, known)));
+                                              argument.name, did_you_mean(context_, argument.name, known)));
       return std::nullopt;
     }
     inputs.resize(std::max(inputs.size(), *position + 1));

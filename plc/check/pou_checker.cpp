@@ -267,7 +267,7 @@ void declare_pous(Context& context) {
 namespace {
 
 void check_result(Context& context, const Pou& pou) {
-  if (pou.result != nullptr && holds_instances(*pou.result)) {
+  if (pou.result != nullptr && holds_instances(*pou.result) && !context.codesys()) {
     context.error(pou.tree->result->at, "a function block cannot be a result, use a REFERENCE TO it or an INTERFACE");
   }
   if (pou.result != nullptr && pou.result->open) {

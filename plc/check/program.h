@@ -59,7 +59,8 @@ struct Variable {
   bool retain = false;
   bool used = false;
   bool written = false;
-  bool called = false;  // an instance, or passed as VAR_IN_OUT
+  bool called = false;      // an instance, or passed as VAR_IN_OUT
+  bool in_methods = false;  // a VAR_IN_OUT of a function block that its methods use
   const Pou* owner = nullptr;
 };
 

@@ -218,13 +218,13 @@ void StatementChecker::assign(Statement& one) {
   if (expressions_.write_property(one)) {
     return;
   }
-  const Type* to = expressions_.target(*one.target);
+  const Type* to = expressions_.target(*one.target, true);
   if (to == nullptr) {
-    expressions_.value(*one.value);
+    expressions_.value_or_instance(*one.value);
     return;
   }
   if (to->kind == Type::Kind::Block) {
-    context_.error(one.at, "instances of function blocks cannot be assigned");
+    copy_instance(one, *to);
     return;
   }
   if (ExpressionChecker::counts_as_truth(*one.target, *to)) {  // a coil writes 1 or 0
@@ -234,6 +234,23 @@ void StatementChecker::assign(Statement& one) {
                            std::move(arguments));
   }
   expressions_.assigned(*one.value, *to);
+}
+
+// fb := other; takes over all its variables, as CODESYS does.
+void StatementChecker::copy_instance(Statement& one, const Type& to) {
+  const Type* from = expressions_.value_or_instance(*one.value, &to);
+  if (from == nullptr) {
+    return;
+  }
+  if (!context_.codesys()) {
+    context_.error(one.at,
+                   fmt::format("{} contains or is a function block, which is not assigned as a whole; assign its "
+                               "variables, or say --dialect codesys",
+                               with_article(to)));
+  } else if (from != &to) {
+    context_.error(
+        one.at, fmt::format("{} is not {}, whose variables it would take over", with_article(*from), with_article(to)));
+  }
 }
 
 void StatementChecker::if_statement(Statement& one) {

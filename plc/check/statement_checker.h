@@ -22,6 +22,7 @@ class StatementChecker {
   void bind(ast::Statement& one);
   void attempt(ast::Statement& one);
   void assign(ast::Statement& one);
+  void copy_instance(ast::Statement& one, const Type& to);
   bool infer(ast::Statement& one);
   bool action_with_values(ast::Statement& one);
   void condition(ast::Expression& expression);

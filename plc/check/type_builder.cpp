@@ -127,7 +127,7 @@ class TypeBuilder {
       known.emplace_back(name_of(static_cast<Elementary>(i)));
     }
     std::string hint = why_left_out(context_.program.project, spec.name);
-    hint = hint.empty() ? did_you_mean(spec.name, known) : hint;
+    hint = hint.empty() ? did_you_mean(context_, spec.name, known) : hint;
     context_.error(spec.at, fmt::format("there is no type and no function block '{}'{}", spec.name,
                                         hint.empty() ? whose(spec.name) : hint));
     return nullptr;

@@ -56,9 +56,9 @@ const Expression& ExpressionChecker::root_of(const Expression& expression) noexc
   return *at;
 }
 
-const Type* ExpressionChecker::target(Expression& expression) {
+const Type* ExpressionChecker::target(Expression& expression, bool instances) {
   const bool reading = std::exchange(reading_, expression.kind == Expression::Kind::Bit);
-  const Type* type = value(expression);
+  const Type* type = instances ? value_or_instance(expression) : value(expression);
   reading_ = reading;
   if (type == nullptr || !writable(expression)) {
     return nullptr;

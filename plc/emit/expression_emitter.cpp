@@ -166,6 +166,9 @@ std::string ExpressionEmitter::name(const Expression& expression) const {
                                ? kept_name(variable)
                                : (expression.of_this ? "this->" : "") + cpp_name(std::string_view(variable.name));
   if (variable.section == ast::Section::InOut && !variable.owner->is_callable() && !variable.type->open) {
+    if (pou_.owner != nullptr) {  // a method may run when nothing was given yet, or what was given is gone
+      return fmt::format("iec::given({}, {})", place(expression.at), text);
+    }
     return "(*" + text + ")";
   }
   return variable.declared->edge == ast::Edge::None ? text : text + "_edge";

@@ -5,6 +5,7 @@
 
 #include "plc/check/expression_checker.h"
 #include "plc/emit/cpp_text.h"
+#include "plc/emit/in_outs.h"
 #include "plc/emit/loop_check.h"
 #include "plc/lower/flow.h"
 
@@ -199,6 +200,12 @@ void StatementEmitter::enabled(const Expression& call, Body body) {
 
 void StatementEmitter::assign(const Statement& one) {
   const Type& to = *one.target->type;
+  if (to.kind == Type::Kind::Block) {
+    const std::string target = expressions_.variable(*one.target);
+    out_.line(fmt::format("{} = {};", target, expressions_.variable(*one.value)));
+    forget_in_outs(to, target, out_);
+    return;
+  }
   if (one.attempts) {
     out_.line(fmt::format("iec::attempt({}, {}, {});", expressions_.place(one.at), expressions_.variable(*one.target),
                           expressions_.variable(*one.value)));
@@ -253,6 +260,8 @@ void StatementEmitter::block_call(const Expression& call) {
     if (one.argument->output) {
       const std::string member = one.parameter != nullptr ? cpp_name(std::string_view(one.member)) : one.member;
       out_.line(expressions_.assign_output(*one.argument, instance + "." + member, *one.type) + ";");
+    } else if (one.parameter != nullptr && one.parameter->in_methods && !outlasts_call(*one.argument->value)) {
+      out_.line(fmt::format("{}.{} = nullptr;", instance, cpp_name(std::string_view(one.member))));
     }
   }
 }

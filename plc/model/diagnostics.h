@@ -27,6 +27,8 @@ class Diagnostics {
   void show_lines_of(const std::string& file, std::string text) { texts_[file] = std::move(text); }
 
   [[nodiscard]] bool failed() const noexcept { return all_.failed(); }
+  // Further errors only count.
+  [[nodiscard]] bool full() const noexcept { return all_.full(); }
   [[nodiscard]] std::size_t errors() const noexcept { return all_.errors(); }
 
   // Files in the order in which they were first complained about, lines ascending.

@@ -242,6 +242,7 @@ bool ProjectParser::names(std::vector<ast::NameAt>& to, std::string_view what) {
       }
       one.name += "." + inner;
     }
+    in_.refuse_generic();
     to.push_back(std::move(one));
   } while (in_.accept(","));
   return true;

@@ -56,7 +56,11 @@ class TokenReader {
     if (accept(word)) {
       return true;
     }
-    missing(fmt::format("expected '{}' {}", word, where));
+    if (peek().is(":=") && (word == ")" || word == "THEN" || word == "DO" || word == "OF")) {
+      error(peek(), "an assignment inside of an expression (ExST) is not supported, write it as a statement before");
+    } else {
+      missing(fmt::format("expected '{}' {}", word, where));
+    }
     return false;
   }
   // The ';' behind a statement or declaration. Where it misses at the end of a line, that is said and reading goes on.
@@ -99,6 +103,23 @@ class TokenReader {
   // Behind the word, or at the end of the text.
   void skip_behind(std::string_view word) noexcept {
     while (!at_end() && !take().is(word)) {
+    }
+  }
+
+  // List<INT>, of function blocks with VAR_GENERIC.
+  void refuse_generic() {
+    if (!peek().is("<")) {
+      return;
+    }
+    unsupported(
+        peek(),
+        "what has VAR_GENERIC is not supported, use VAR_IN_OUT with ARRAY[*], or a function block for each size");
+    for (int open = 0; !at_end() && !next_is({";", "END_VAR"});) {
+      const Token& token = take();
+      open += token.is("<") ? 1 : token.is(">") ? -1 : 0;
+      if (open == 0) {
+        return;
+      }
     }
   }
 

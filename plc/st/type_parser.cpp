@@ -53,6 +53,7 @@ bool DeclarationParser::named(ast::TypeSpec& out) {
       }
       out.name += "." + std::string(in_.take().text);
     }
+    in_.refuse_generic();
     return starts(out);
   }
   out.elementary = *elementary;

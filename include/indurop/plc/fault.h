@@ -41,4 +41,13 @@ class Fault : public std::exception {
   throw Fault(place, reason);
 }
 
+// A VAR_IN_OUT of a function block, for its methods; null: there is none.
+template <class T>
+[[nodiscard]] T& given(Place place, T* in_out) {
+  if (in_out == nullptr) [[unlikely]] {
+    fail(place, "a VAR_IN_OUT is used that no call gave, or whose variable is gone,");
+  }
+  return *in_out;
+}
+
 }  // namespace indurop::iec

@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "tests/unit/plc/front/compiled.h"
 
 namespace indurop::plc {
@@ -202,6 +205,48 @@ TEST(PlcRefused, What_is_not_supported_is_said_once) {
   EXPECT_FALSE(sut.ok);
   EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
   EXPECT_THAT(messages(sut), HasSubstr("__TRY is not supported"));
+}
+
+TEST(PlcRefused, What_others_have_is_one_error_in_each_line_that_has_it) {
+  const std::string counter = "FUNCTION_BLOCK C VAR_OUTPUT n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK\n";
+  for (const auto& [text, message] : {
+           std::pair{"PROGRAM Main VAR a, b : INT; END_VAR IF (a := b) > 3 THEN b := 1; END_IF; END_PROGRAM", "(ExST)"},
+           std::pair{"PROGRAM Main VAR a, b : BOOL; END_VAR IF a := b THEN b := FALSE; END_IF; END_PROGRAM", "(ExST)"},
+           std::pair{"PROGRAM Main VAR a, b : INT; END_VAR a := b + (b := 1); END_PROGRAM", "(ExST)"},
+           std::pair{"PROGRAM Main VAR l : List<10, Inner<INT>>; END_VAR l(x := 3); END_PROGRAM", "VAR_GENERIC"},
+           std::pair{"FUNCTION_BLOCK L EXTENDS List<10> END_FUNCTION_BLOCK", "VAR_GENERIC"},
+           std::pair{"FUNCTION Make : C Make.n := 1; END_FUNCTION", "a function block cannot be a result"},
+           std::pair{"PROGRAM Main VAR c, d : C; END_VAR c(); d(); c := d; END_PROGRAM", "is not assigned as a whole"},
+       }) {
+    const Compiled sut = compiled(counter + text);
+    EXPECT_THAT(messages(sut), HasSubstr(message)) << text;
+    const auto errors = std::count_if(sut.diagnostics.begin(), sut.diagnostics.end(), [](const base::Diagnostic& one) {
+      return one.severity == base::Diagnostic::Severity::Error;
+    });
+    EXPECT_EQ(errors, 1) << text << "\n" << messages(sut);
+  }
+}
+
+// Each method that uses it may run when the variable is gone: then it is a fault, no value of another one.
+TEST(PlcRefused, VAR_IN_OUT_that_methods_use_ends_with_its_variable) {
+  const std::string block =
+      "FUNCTION_BLOCK F VAR_IN_OUT io : INT; END_VAR METHOD Up : INT io := io + 1; Up := io; END_METHOD Up(); "
+      "END_FUNCTION_BLOCK PROGRAM Main VAR f : F; k : INT; END_VAR VAR_TEMP t : INT; END_VAR ";
+  const auto code = [&](const std::string& body) {
+    CompileOptions options;
+    options.files = {"in.st"};
+    options.name = "sut";
+    options.dialect = Dialect::Codesys;
+    const Compiled sut = compile(options, [&](const std::string& name) {
+      return glb2idl::ReadResult{block + body + " END_PROGRAM", name, ""};
+    });
+    EXPECT_TRUE(sut.ok) << messages(sut);
+    return sut.modules.at(0).cpp;
+  };
+  EXPECT_THAT(code("f(io := k);"), HasSubstr("iec::given({\"in.st:1:"));
+  EXPECT_THAT(code("f(io := k);"), Not(HasSubstr("f.io = nullptr;")));
+  EXPECT_THAT(code("f(io := t);"), HasSubstr("f.io = nullptr;"));
+  EXPECT_THAT(wrong(block + "f(io := k); END_PROGRAM"), HasSubstr("'io' is VAR_IN_OUT of F, which only its body sees"));
 }
 
 TEST(PlcRefused, Characters_are_no_numbers_and_texts_of_two_kinds_not_mixed) {
