@@ -334,9 +334,9 @@ TEST(Planner, What_cannot_work_is_known_before) {
 TEST(Planner, A_line_through_a_singular_position_is_refused) {
   Watched w;
   // Downwards, the tool pointing forward: where the forearm points forward too, axes 4 and 6 would have to turn half a
-  // turn at once, on some micrometres.
+  // turn at once, on some nanometres.
   const auto forward = [](double z) {
-    MoveCommand command = pose(Move::Line, {0.65, 2e-6, z});
+    MoveCommand command = pose(Move::Line, {0.65, 1e-8, z});
     command.target.pose.orientation = from_rpy({0, kPi / 2, 0});
     return command;
   };
