@@ -86,7 +86,7 @@ class Order {
 
   const Store& store_;
   const BatchBlock& block_;
-  std::array<abi::RingHeader*, kMostBatchValues> rings_;  // held_ of them
+  std::array<abi::RingHeader*, kMostBatchValues> rings_{};  // held_ of them
   std::size_t held_ = 0;
   unsigned char* slot_ = nullptr;
 };
