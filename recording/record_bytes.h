@@ -45,13 +45,15 @@ class FieldWriter {
   }
   // As above, in one piece: a recording has one such pair for each message.
   void put(const std::vector<std::pair<std::uint64_t, std::uint64_t>>& pairs) {
-    static_assert(sizeof pairs[0] == 2 * sizeof(std::uint64_t));
-    const std::size_t size = pairs.size() * sizeof pairs[0];
+    constexpr std::size_t kSize = sizeof(std::uint64_t);
+    const std::size_t size = pairs.size() * 2 * kSize;
     put(static_cast<std::uint32_t>(size));
-    const std::size_t at = to_.size();
+    std::size_t at = to_.size();
     to_.resize(at + size);
-    if (size > 0) {
-      std::memcpy(to_.data() + at, pairs.data(), size);
+    for (const auto& [first, second] : pairs) {
+      std::memcpy(to_.data() + at, &first, kSize);
+      std::memcpy(to_.data() + at + kSize, &second, kSize);
+      at += 2 * kSize;
     }
   }
 

@@ -83,7 +83,7 @@ void note(const std::string& board, const Command& command, const std::string& w
 void note_forces(const std::string& board, const Command& command) {
   const auto lines = base::lines_of(command.target);
   for (std::size_t i = command.action == Action::Force ? 1 : 0; i < lines.size(); ++i) {
-    const std::string line(lines[i]);
+    const std::string& line = lines[i];
     const auto equals = line.find('=');
     note(board, command, line.substr(0, equals), equals == std::string::npos ? "" : line.substr(equals + 1));
   }

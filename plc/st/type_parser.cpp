@@ -85,7 +85,8 @@ bool DeclarationParser::starts(ast::TypeSpec& out) {
   do {
     auto arguments = in_.peek().is("(") ? expressions_.arguments() : std::nullopt;
     if (!arguments) {
-      return in_.expect("(", "before what FB_Init is given") && false;
+      in_.expect("(", "before what FB_Init is given");
+      return false;
     }
     out.starts.push_back(std::move(*arguments));
   } while (several && in_.accept(","));
