@@ -34,6 +34,7 @@ class PathTiming {
   void set(int count, const double* shape, const double* squares) noexcept;
   void slow_down(double factor) noexcept;  // as a whole; factor >= 1
   [[nodiscard]] int count() const noexcept { return count_; }
+  // Where that time is, likewise; known().
   [[nodiscard]] int piece_at(double time) const noexcept;
 
  private:

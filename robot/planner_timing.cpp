@@ -12,9 +12,7 @@ namespace {
 constexpr double kStep = 0.002;      // s between instants of a motion that are looked at
 constexpr double kFineStep = 0.001;  // of chains, whose corners may be narrow, and near singular positions
 constexpr double kNearlyOne = 1.02;
-// What is lost by going slower everywhere is worth another search.
-constexpr double kTooMuch = 1.02;
-constexpr int kMostSearches = 3;
+constexpr int kMostSearches = 3;  // what is lost by going slower everywhere is worth another one
 constexpr int kMostRehearsals = 6;
 constexpr double kNotFound = 1.1;  // after all of them: what happens there is too narrow to be seen
 
@@ -24,10 +22,9 @@ void Planner::search() noexcept {
   if (!search_.done()) {
     return;
   }
-  if (search_.timing().known()) {
-    segment_.timing = search_.timing();
-  }
-  if (segment_.timing.known()) {
+  const PathTiming& found = search_.timing();
+  if (found.known()) {
+    segment_.timing = found;
     rehearse_timing();
   } else {
     rehearse_profile();
@@ -72,7 +69,7 @@ void Planner::rehearse() noexcept {
 // What was too fast is gone through once more, since what lies between two instants shows when it is slower.
 void Planner::end_rehearsal() noexcept {
   const double slower = rehearsal_.factor();
-  if (stage_ == Stage::RehearseTiming && slower > kTooMuch && searches_ < kMostSearches) {
+  if (stage_ == Stage::RehearseTiming && slower > kNearlyOne && searches_ < kMostSearches) {
     ++searches_;
     search_.refine();
     stage_ = Stage::Search;

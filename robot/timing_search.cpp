@@ -42,7 +42,6 @@ void TimingSearch::refine() noexcept {
     slower_[at(i)] *= noted_[at(i)];
   }
   noted_.fill(1);
-  timing_ = {};
   near_ = segment_.from;
   next_ = 0;
   per_knot_ = 2;
@@ -179,7 +178,11 @@ int TimingSearch::work() noexcept {
   }
   const int places = barrier_.work();
   if (barrier_.done()) {
-    timing_.set(count_, shape_.data(), barrier_.squares());
+    PathTiming found;
+    found.set(count_, shape_.data(), barrier_.squares());
+    if (std::isfinite(found.duration())) {  // else the square of a speed is negative between two places
+      timing_ = found;
+    }
     stage_ = Stage::Done;
   }
   return places;

@@ -32,7 +32,8 @@ class TimingSearch {
   // Works on a little; returns how much that was, in places whose inverse kinematics take as long. Real-time safe.
   int work() noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
-  // When done; not known() if none was found. It keeps the limits at its knots, once refined also half way between.
+  // When done; not known() if none was found. It keeps the limits at its knots, once refined also half way between. If
+  // refining finds none, that of before.
   [[nodiscard]] const PathTiming& timing() const noexcept { return timing_; }
 
  private:
