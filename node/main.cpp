@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
 #include "base/exit_code.h"
+#include "base/program_folder.h"
 #include "node/conductor.h"
 #include "node/node.h"
 #include "node/options.h"
@@ -29,8 +29,7 @@ int become_agent(char** argv) {
     }
   }
   words.push_back(nullptr);
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "indurop-agent";
+  const auto program = indurop::base::program_folder() / "indurop-agent";
   ::execv(program.c_str(), words.data());
   std::fprintf(stderr, "indurop-node: error: cannot start %s: %s\n", program.c_str(), std::strerror(errno));
   return indurop::kFailed;

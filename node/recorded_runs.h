@@ -54,7 +54,7 @@ class RecordedRuns {
 
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
   [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
-  // It says what runs were told by functions and channels; recordings of earlier releases do not.
+  // The recording was ended, not cut off.
   [[nodiscard]] bool complete() const noexcept { return reader_.contents().has_summary; }
 
  private:

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "base/program_folder.h"
 #include "base/read_file.h"
-#include "tools/command/self.h"
 
 namespace indurop::serve {
 namespace {
@@ -69,7 +69,7 @@ std::string_view type_of(std::string_view path) noexcept {
 
 Page::Page(std::filesystem::path folder) : folder_(std::move(folder)) {
   if (folder_.empty()) {
-    const auto programs = tools::program_folder();
+    const auto programs = base::program_folder();
     std::error_code ignored;
     for (const char* place : {"../share/indurop/web", "../web"}) {
       if (std::filesystem::exists(programs / place / "index.html", ignored)) {

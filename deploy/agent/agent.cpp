@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/exit_code.h"
+#include "base/program_folder.h"
 #include "base/stop_signal.h"
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_commands.h"
@@ -57,11 +58,6 @@ std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
 
-std::filesystem::path beside_us(const char* program) {
-  std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
-}
-
 LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
   LinkSettings settings = options.link;
   settings.self = self;
@@ -81,7 +77,7 @@ class Agent {
         transaction_(options.board),
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
-        recorder_(options.board, beside_us("indurop"), {}, log),
+        recorder_(options.board, base::program_folder() / "indurop", {}, log),
         board_commands_(options.board, self_, keys_, process_, recorder_, log),
         server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_); }),
         net_(link_settings(options, self_), keys_, log) {

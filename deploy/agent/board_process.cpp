@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/exit_code.h"
+#include "base/program_folder.h"
 #include "base/spawn.h"
 #include "deploy/agent/options.h"
 #include "mirror/frames/mirror_block.h"
@@ -41,9 +42,7 @@ const scheduler::RunBlock& present(const std::optional<vars::RunFile>& file) {
 
 // indurop-node beside this program, held open: after an update of the files the node is still the one this agent knows.
 int open_node_program() {
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return ::open((self.parent_path() / "indurop-node").c_str(), O_PATH | O_CLOEXEC);
+  return ::open((base::program_folder() / "indurop-node").c_str(), O_PATH | O_CLOEXEC);
 }
 
 // By its name if it still has one, so that the node has it in the list of processes too.

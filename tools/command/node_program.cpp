@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/program_folder.h"
 #include "tools/command/become.h"
-#include "tools/command/self.h"
 
 namespace indurop::tools {
 namespace {
@@ -22,7 +22,7 @@ bool executable(const std::filesystem::path& file) {
 }
 
 std::filesystem::path find() {
-  const auto here = program_folder();
+  const auto here = base::program_folder();
   std::vector<std::filesystem::path> places;
   if (!here.empty()) {
     places = {here / kProgram, here / "../libexec/indurop" / kProgram};

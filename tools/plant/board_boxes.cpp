@@ -2,7 +2,6 @@
 #include "tools/plant/board_boxes.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "base/json.h"
 #include "deploy/words/deployment_words.h"

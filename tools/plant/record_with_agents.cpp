@@ -57,13 +57,12 @@ int tell(Context& context, const std::vector<std::string>& problems) {
   return problems.empty() ? kOk : kFailed;
 }
 
-int wait(std::int64_t duration_ns) {
+void wait(std::int64_t duration_ns) {
   constexpr std::int64_t kLookNs = 1'000'000'000;
   const std::int64_t end = rt::now_ns() + duration_ns;
   while (!interrupted() && (duration_ns == 0 || rt::now_ns() < end)) {
     wait_until(duration_ns == 0 ? rt::now_ns() + kLookNs : end);
   }
-  return kOk;
 }
 
 int join(Context& context, const FarWish& wish, BoardRecordings& recordings, const fs::path& parts) {
@@ -128,7 +127,12 @@ int record_with_agents(Context& context, const FarWish& wish, deploy::LinkSettin
     return code;
   }
   recordings.go_on();
-  const int recorded = here ? here(parts / kHere) : wait(wish.duration_ns);
+  int recorded = kOk;
+  if (here) {
+    recorded = here(parts / kHere);
+  } else {
+    wait(wish.duration_ns);
+  }
   const int joined = join(context, wish, recordings, parts);
   for (const int next : {recorded, joined}) {
     code = code == kOk ? next : code;

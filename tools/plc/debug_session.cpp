@@ -10,11 +10,11 @@
 #include <iostream>
 #include <sstream>
 
+#include "base/program_folder.h"
 #include "base/spawn.h"
 #include "plc/print/expression_text.h"
 #include "tools/command/child.h"
 #include "tools/command/interrupt.h"
-#include "tools/command/self.h"
 
 namespace indurop::tools {
 namespace {
@@ -313,7 +313,7 @@ void DebugSession::set(const std::string& assignment) {
   context_.out.flush();
   const std::size_t space = assignment.find(' ');
   const bool pair = assignment.find('=') == std::string::npos && space != std::string::npos;
-  std::vector<std::string> words{(program_folder() / "indurop").string(), "set", "--node", node_};
+  std::vector<std::string> words{(base::program_folder() / "indurop").string(), "set", "--node", node_};
   words.push_back(pair ? assignment.substr(0, space) + "=" + trimmed(assignment.substr(space)) : assignment);
   if (const auto done = run_child(words); !done) {
     context_.out.error(done.error().text);

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/program_folder.h"
 #include "base/replace_file.h"
 #include "plc/front/compiler.h"
 #include "plc/front/library_file.h"
-#include "tools/command/self.h"
 #include "tools/plc/plc_compiler.h"
 #include "tools/plc/plc_file.h"
 #include "tools/plc/plc_sources.h"
@@ -42,7 +42,7 @@ struct Parts {
 };
 
 bool find_parts(Context& context, Parts& parts) {
-  const fs::path programs = program_folder();
+  const fs::path programs = base::program_folder();
   const fs::path prefix = programs.parent_path();
   std::error_code error;
   parts.glb2idl = programs / "glb2idl";

@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/program_folder.h"
 #include "base/replace_file.h"
 #include "base/spawn.h"
 #include "plc/front/compiler.h"
 #include "tools/command/child.h"
-#include "tools/command/self.h"
 #include "tools/command/temporary_folder.h"
 #include "tools/plc/debug_link.h"
 #include "tools/plc/debug_session.h"
@@ -85,7 +85,7 @@ int debug(Context& context, Request& request) {
   ::setenv("INDUROP_PLC_DEBUG", socket.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): one thread
   const std::string node = fmt::format("debug{}", ::getpid());
   base::Launch launch;
-  launch.program = program_folder() / "indurop";
+  launch.program = base::program_folder() / "indurop";
   launch.words = {"indurop", "run", request.config, "--sim", "-q", "--node", node};
   if (!request.until.empty()) {
     launch.words.insert(launch.words.end(), {"--until", request.until});

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/program_folder.h"
 #include "base/replace_file.h"
 #include "glb2idl/names.h"
-#include "tools/command/self.h"
 #include "tools/verbs/new_templates.h"
 #include "tools/verbs/verbs.h"
 
@@ -70,7 +70,7 @@ std::string minor_version() {
 }
 
 bool write_project(Context& context, const fs::path& folder, const std::string& name) {
-  const fs::path programs = program_folder();
+  const fs::path programs = base::program_folder();
   const fs::path package = package_folder(programs);
   if (package.empty()) {
     context.out.note(

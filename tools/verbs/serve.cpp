@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/program_folder.h"
 #include "tools/command/become.h"
-#include "tools/command/self.h"
 #include "tools/command/serve_options.h"
 #include "tools/verbs/verbs.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kProgram = "indurop-serve";
 
 int become_server(Context& context, ServeOptions& options) {
-  const auto program = program_folder() / kProgram;
+  const auto program = base::program_folder() / kProgram;
   if (access(program.c_str(), X_OK) != 0) {
     context.out.error(
         fmt::format("{} is not there; it is built where Debian's libwebsockets-dev is", program.string()));

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 
-namespace indurop::tools {
+namespace indurop::base {
 
 // Folder of the running program's file, links resolved. Empty if the system does not say.
 std::filesystem::path program_folder();
 
-}  // namespace indurop::tools
+}  // namespace indurop::base

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/command/self.h"
+#include "base/program_folder.h"
 
-namespace indurop::tools {
+namespace indurop::base {
 
 std::filesystem::path program_folder() {
   std::error_code error;
@@ -9,4 +9,4 @@ std::filesystem::path program_folder() {
   return error ? std::filesystem::path{} : program.parent_path();
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::base
