@@ -15,13 +15,14 @@ struct FileNames {
   std::string urdf;
   std::vector<std::string> jobs;  // points too
   std::vector<double> workspace;  // as Settings has it; NaN: what is no number
+  double tool_speed = 0;          // mm/s, likewise; 0: anything goes
 };
 
 struct Findings {
   std::vector<base::Diagnostic> files;  // with a note of what the arm can do
   std::vector<WrongSetting> properties;
 };
-// All of both. The workspace is taken from the properties.
+// All of both. Workspace and tool speed are taken from the properties.
 Findings check_module(FileNames names, const PropertyText& property);
 
 }  // namespace indurop::robot

@@ -225,6 +225,23 @@ Diagnostics check_offsets(const JobBook& book, const Inverse& inverse) {
   return errors;
 }
 
+// They are no danger: lines run at full speed then.
+Diagnostics check_speeds(const JobBook& book, double most) {
+  Diagnostics warnings;
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      if (const double asked = 1000 * step.value; step.op == Op::Speed && step.index == 1 && most > 0 && asked > most) {
+        std::ostringstream text;
+        text << "SPEED " << asked << " mm/s is beyond full speed, " << most
+             << " mm/s (property tool_speed): lines run at that";
+        warnings.push_back(error(job.file, {static_cast<int>(step.line), 1}, text.str()));
+        warnings.back().severity = base::Diagnostic::Severity::Warning;
+      }
+    }
+  }
+  return warnings;
+}
+
 void sort_out(Diagnostics said, ReadFiles& read) {
   for (base::Diagnostic& one : said) {
     (one.severity == base::Diagnostic::Severity::Error ? read.errors : read.notes).push_back(std::move(one));
@@ -254,6 +271,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm), read);
+    sort_out(check_speeds(read.book, names.tool_speed), read);
     take_over(check_workspace(names, read.book, read.model->arm), read.errors);
     if (read.book.tools.size() == 1) {
       take_over(check_splines(read.book, inverse), read.errors);
@@ -272,6 +290,7 @@ Findings check_module(FileNames names, const PropertyText& property) {
   add(take_properties(property, settings));
   add(check_settings(settings));
   names.workspace = settings.workspace;
+  names.tool_speed = settings.tool_speed;
   ReadFiles read = read_files(names);
   if (read.model) {
     add(check_axes(settings, read.model->arm));

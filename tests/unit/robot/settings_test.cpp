@@ -2,16 +2,23 @@
 #include "robot/settings.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 
+#include "base/diagnostic.h"
+#include "robot/files.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class Robot_settings : public testing::Test {
  protected:
@@ -92,6 +99,27 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
   EXPECT_THAT(settings.acceleration, ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(settings.jerk, ElementsAre(6, 5, 4, 3, 2, 1));
   EXPECT_THAT(settings.workspace, ElementsAre(0, 0, 0, 1, 1, 1));
+}
+
+TEST(Robot_files, Speeds_of_jobs_beyond_full_speed_are_warned_of) {
+  const auto job = std::filesystem::path(testing::TempDir()) / ("speeds." + std::to_string(::getpid()) + ".job");
+  const auto urdf = std::filesystem::path(job).replace_extension(".urdf");
+  std::ofstream(urdf) << cell_urdf();
+  std::ofstream(job) << "SPEED 1000 mm/s\nSPEED 1001 mm/s\nSPEED 100%\n  SPEED 0.5 mm/s\n";
+  const auto told = [&](const std::string& tool_speed) {
+    const Findings found = check_module({urdf.string(), {job.string()}, {}}, [&](const std::string& name) {
+      return name == "tool_speed" ? tool_speed : "";
+    });
+    return base::to_text(found.files);
+  };
+  const std::string text = told("1000");
+  EXPECT_THAT(text, HasSubstr(job.string() + ":2:1: warning: SPEED 1001 mm/s is beyond full speed, 1000 mm/s (property "
+                                             "tool_speed): lines run at that"));
+  EXPECT_THAT(text, Not(HasSubstr("SPEED 1000 ")));
+  EXPECT_THAT(told("250"), HasSubstr("SPEED 1000 mm/s is beyond full speed, 250 mm/s"));
+  EXPECT_THAT(told("250"), Not(HasSubstr("SPEED 0.5 ")));
+  std::filesystem::remove(job);
+  std::filesystem::remove(urdf);
 }
 
 }  // namespace
