@@ -99,7 +99,7 @@ def some_value(rng, type_):
     if type_.kind == "real":
         value = rng.choice((0.0, 1.0, -1.0, 0.5, 2.5, 3.5, -7.25, 100.0, 0.1, 1e-5, 123456.0, 3.0e9, 1e20, -1e-20,
                             rng.uniform(-10, 10), rng.uniform(-1000, 1000), 3.4e38 if rng.random() < 0.2 else 1e10))
-        return single(value) if type_ is REAL else value
+        return single(value) if type_.plain is REAL else value
     if type_.kind == "time":
         return rng.choice((0, 10**9, 10**6 * rng.randint(-500, 5000), 1500, -1, 90 * 86400 * 10**9, rng.randint(0, 10**12)))
     if type_.kind == "tod":
