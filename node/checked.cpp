@@ -80,6 +80,9 @@ Reading read_plant(const Options& options) {
   config::Plant& plant = read.plant;
   for (config::Board& board : plant.boards) {
     if (board.name == options.board) {
+      if (!take_files(options.replay.with, board.config, out.diagnostics)) {
+        return out;
+      }
       take_core(options, board.config);
     }
   }

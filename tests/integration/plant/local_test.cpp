@@ -86,6 +86,16 @@ TEST_F(Local, Each_board_is_recorded_from_its_first_run_on) {
     EXPECT_EQ(again.code, 0) << again.out << again.err;
     EXPECT_THAT(again.out, HasSubstr(" values: equal"));
   }
+  const Outcome changed = indurop({"replay", folder() / "all.mcap", "--board", board("control"), "--node",
+                                   board("replay"), "--with", OTHER_CONTROLLER})
+                              .finish();
+  EXPECT_EQ(changed.code, 4) << changed.out << changed.err;
+  EXPECT_THAT(changed.err, HasSubstr("module controller: cell::torque was "));
+  const Outcome elsewhere = indurop({"replay", folder() / "all.mcap", "--board", board("sensor"), "--node",
+                                     board("replay"), "--with", OTHER_CONTROLLER})
+                                .finish();
+  EXPECT_EQ(elsewhere.code, 4);
+  EXPECT_THAT(elsewhere.err, HasSubstr("no module has this name or such a file"));
 }
 
 TEST_F(Local, A_duration_ends_all_of_them) {
