@@ -166,7 +166,7 @@ class Program:
             if result.kind not in ("array", "struct") and result is not STRING and result.kind != "string":
                 break
         function = Function(f"{self.prefix}_F{i}", parameters, result)
-        variables = [parts.Variable(one.name, one.type) for one in parameters]
+        variables = [parts.Variable(one.name, one.type, lent=one.section == "VAR_IN_OUT") for one in parameters]
         variables.append(parts.Variable(function.name, result))
         if not pure and rng.random() < 0.7:
             function.globals = self.globals
@@ -193,7 +193,8 @@ class Program:
         parameters += self.parameters("VAR", "v", 3, 1) + self.parameters("VAR_TEMP", "t", 1)
         blocks = self.instances(rng.randint(0, 2))
         block = UserBlock(f"{self.prefix}_B{i}", parameters + blocks)
-        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge) for one in parameters]
+        variables = [parts.Variable(one.name, one.type, edge=bool(one.edge), writable=not one.edge, lent=one.section == "VAR_IN_OUT")
+                     for one in parameters]
         variables += [parts.Variable(one.name, None, instance=one.type) for one in blocks]
         if rng.random() < 0.4:
             block.globals = self.globals

@@ -14,6 +14,7 @@ class Variable:
     edge: bool = False  # an input of which only the edge counts
     instance: object = None  # Block
     store: dict = None  # a global: where the values of all globals are
+    lent: bool = False  # VAR_IN_OUT: it may be a global, or another one of these
 
 
 class Scope:
@@ -35,7 +36,7 @@ class Scope:
 
     def own(self, writable):
         """Those that nothing else can change meanwhile."""
-        return [one for one in self.places(writable) if one.store is None]
+        return [one for one in self.places(writable) if one.store is None and not one.lent]
 
     def changers(self):
         """What is called in expressions and changes more than its result: functions, methods of instances."""
