@@ -165,6 +165,7 @@ Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& opt
     gate.hosts.insert(gate.hosts.end(), own.begin(), own.end());
   }
   gate.hosts.insert(gate.hosts.end(), options.hosts.begin(), options.hosts.end());
+  gate.origins = options.origins;
   return gate;
 }
 

@@ -38,7 +38,8 @@ Server::Server(tools::ServeOptions options, GateSettings gate, std::string versi
       api_(gate_, audit_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node),
-      hub_(boards_, version, [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
+      hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
+           [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
       orders_(options_.node) {}
 

@@ -97,7 +97,9 @@ Result<std::unique_ptr<Door>, base::Problem> Door::open(const DoorSettings& sett
   const auto rx = static_cast<std::size_t>(kMostHeaders);
   impl->protocols[0] = {"http", &Impl::on_http, 0, rx, 0, nullptr, 0};
   impl->protocols[1] = {"indurop.v1", &Impl::on_stream, 0, rx, 0, nullptr, 0};
-  impl->protocols[2] = {"listener", &Impl::on_listener, 0, rx, 0, nullptr, 0};
+  impl->protocols[2] = {kFoxgloveSdk, &Impl::on_stream, 0, rx, 0, nullptr, 0};
+  impl->protocols[3] = {kFoxglove, &Impl::on_stream, 0, rx, 0, nullptr, 0};
+  impl->protocols[4] = {"listener", &Impl::on_listener, 0, rx, 0, nullptr, 0};
   lws_set_log_level(LLL_ERR, &say);
   lws_context_creation_info info{};
   info.port = CONTEXT_PORT_NO_LISTEN_SERVER;

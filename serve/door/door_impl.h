@@ -59,7 +59,7 @@ struct Door::Impl {
   House* house;
   Listener listener;
   lws_context* context = nullptr;
-  std::array<lws_protocols, 4> protocols{};
+  std::array<lws_protocols, 6> protocols{};
   std::unordered_map<lws*, std::unique_ptr<Exchange>> exchanges;
   std::unordered_map<lws*, std::unique_ptr<Stream>> streams;
   std::unordered_map<lws*, Request> admitted;  // to a WebSocket that is being set up

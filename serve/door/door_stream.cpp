@@ -23,10 +23,11 @@ std::string path_of(lws* wsi) {
 int Door::Impl::stream_asked(lws* wsi) {
   Request request = read_request(wsi, path_of(wsi));
   request.stream = true;
+  request.subprotocol = lws_get_protocol(wsi)->name;
   if (auto refused = house->refuse(request)) {
     return Exchange::refuse(wsi, *refused);
   }
-  if (request.path != "/api/v1/stream") {
+  if (request.path != "/api/v1/stream" && !is_foxglove(request.subprotocol)) {
     return Exchange::refuse(wsi, refusal(status::kNotFound, "the WebSocket is at /api/v1/stream"));
   }
   if (streams.size() >= settings.most_streams || connections > settings.most_connections) {

@@ -84,6 +84,10 @@ bool Gate::same_origin(const Request& request) const {
     return request.fetch_site.empty() || request.fetch_site == "same-origin" || request.fetch_site == "none" ||
            (request.method == Method::Get && !request.stream);
   }
+  const auto known = [&](const std::string& one) { return lower(one) == lower(request.origin); };
+  if (request.stream && std::any_of(settings_.origins.begin(), settings_.origins.end(), known)) {
+    return true;
+  }
   return lower(request.origin) == (settings_.tls ? "https://" : "http://") + lower(request.host);
 }
 
@@ -95,7 +99,7 @@ std::optional<Reply> Gate::refuse(const Request& request) const {
   if (!same_origin(request)) {
     return refusal(status::kForbidden, "a page of another site may not ask this server");
   }
-  const bool api = request.path.starts_with("/api/");
+  const bool api = request.stream || request.path.starts_with("/api/");
   if (request.method == Method::Other) {
     Reply reply = refusal(status::kMethodNotAllowed, "only GET and POST are answered");
     reply.allow = "GET, POST";

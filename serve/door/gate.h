@@ -23,6 +23,7 @@ struct GateSettings {
   bool write = false;
   std::vector<std::string> hosts;  // lower-case names and addresses by which we may be called
   std::vector<Token> tokens;
+  std::vector<std::string> origins;  // of pages that may follow variables though they are not ours
 };
 
 class Gate {

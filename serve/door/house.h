@@ -35,6 +35,13 @@ inline constexpr int kBadText = 1007;
 inline constexpr int kTooLarge = 1009;
 }  // namespace close_code
 
+// Subprotocols of https://github.com/foxglove/ws-protocol, under two names: of others' servers and of their own.
+inline constexpr const char* kFoxglove = "foxglove.websocket.v1";
+inline constexpr const char* kFoxgloveSdk = "foxglove.sdk.v1";
+constexpr bool is_foxglove(std::string_view subprotocol) noexcept {
+  return subprotocol == kFoxglove || subprotocol == kFoxgloveSdk;
+}
+
 // The way to a client with a WebSocket.
 class Line {
  public:

@@ -24,6 +24,7 @@ struct Request {
   std::string fetch_site;     // Sec-Fetch-Site
   std::string authorization;  // whole header
   std::string subprotocols;   // Sec-WebSocket-Protocol
+  std::string subprotocol;    // the one that is spoken
   std::string content_type;
   std::string certificate;  // name in the client's certificate, if an authority we trust signed it
   std::string from;         // address

@@ -2,6 +2,7 @@
 #include "serve/stream/client.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rt/clock.h"
 
@@ -24,8 +25,8 @@ StreamClient::~StreamClient() {
   hub_->leave(*this);
 }
 
-void StreamClient::tell(std::string_view text) {
-  control_.push_back(std::make_shared<Message>(text));
+void StreamClient::tell(std::string_view word) {
+  control_.push_back(std::make_shared<Message>(word));
   line_->ask();
 }
 
@@ -92,7 +93,7 @@ void StreamClient::sampled(const Feed& feed) {
   }
 }
 
-std::vector<std::uint32_t> StreamClient::ended(const Feed& feed) {
+void StreamClient::ended(const Feed& feed, const Board* board) {
   std::vector<std::uint32_t> ids;
   for (auto at = subscriptions_.begin(); at != subscriptions_.end();) {
     if (at->second.feed.get() == &feed) {
@@ -102,7 +103,10 @@ std::vector<std::uint32_t> StreamClient::ended(const Feed& feed) {
       ++at;
     }
   }
-  return ids;
+  if (!ids.empty()) {
+    tell(fmt::format(R"({{"type":"layout_changed","board":{},"layout":"{}","ids":[{}]}})",
+                     base::Json(feed.board()).dump(), board != nullptr ? board->layout() : "", fmt::join(ids, ",")));
+  }
 }
 
 SharedMessage StreamClient::frame_of(Subscription& subscription) {

@@ -10,11 +10,12 @@
 #include <memory>
 #include <string>
 
+#include "serve/stream/follower.h"
 #include "serve/stream/hub.h"
 
 namespace indurop::serve {
 
-class StreamClient final : public Visitor {
+class StreamClient final : public Follower {
  public:
   StreamClient(Hub& hub, Line& line, std::uint64_t id, std::string address);
   StreamClient(const StreamClient&) = delete;
@@ -24,12 +25,11 @@ class StreamClient final : public Visitor {
   int heard(std::string_view text) override;
   SharedMessage next() override;
 
-  void tell(std::string_view text);
-  // The feed has a new sample.
-  void sampled(const Feed& feed);
-  // The feed is at its end. Returns the subscriptions that ended with it.
-  std::vector<std::uint32_t> ended(const Feed& feed);
-  [[nodiscard]] ClientFigures figures() const;
+  void tell(std::string_view word) override;
+  void sampled(const Feed& feed) override;
+  void ended(const Feed& feed, const Board* board) override;
+  void looked_around() override {}  // the hub's word says it
+  [[nodiscard]] ClientFigures figures() const override;
 
  private:
   struct Subscription {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,14 @@ class Feed {
   // The next sample, and when the one after it is due. `board`: refreshed, null if there is none. False: the layout has
   // changed, this feed is at its end.
   bool sample(const Board* board, std::int64_t now_ns);
+
+  // Of the last sample.
+  [[nodiscard]] const tools::Item& item(std::size_t i) const { return items_[i]; }
+  [[nodiscard]] std::span<const std::uint8_t> value(std::size_t i) const {
+    return record_.value(i, items_[i].place.type.size());
+  }
+  [[nodiscard]] bool readable(std::size_t i) const { return head_.alive && quality_[i] != Quality::Unread; }
+  [[nodiscard]] std::int64_t wall_ns() const noexcept { return head_.wall_ns; }
 
   // The sample as a message; made when it is first asked for. Changes are against the sample before.
   SharedMessage binary();

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "rt/clock.h"
 #include "serve/stream/client.h"
+#include "serve/stream/foxglove.h"
 
 namespace indurop::serve {
 
@@ -16,12 +17,17 @@ std::unique_ptr<Visitor> Hub::receive(const Request& request, Line& line) {
   if (boards_word_.empty()) {
     look_around();
   }
-  auto client = std::make_unique<StreamClient>(*this, line, ++last_client_, request.from);
+  std::unique_ptr<Follower> client;
+  if (is_foxglove(request.subprotocol)) {
+    client = std::make_unique<FoxgloveClient>(*this, line, ++last_client_, request.from, foxglove_);
+  } else {
+    client = std::make_unique<StreamClient>(*this, line, ++last_client_, request.from);
+  }
   clients_.push_back(client.get());
   return client;
 }
 
-void Hub::leave(StreamClient& client) {
+void Hub::leave(Follower& client) {
   std::erase(clients_, &client);
 }
 
@@ -78,7 +84,7 @@ void Hub::run(std::int64_t now_ns) {
       end(*feed);
       continue;
     }
-    for (StreamClient* const client : clients_) {
+    for (Follower* const client : clients_) {
       client->sampled(*feed);
     }
   }
@@ -87,12 +93,8 @@ void Hub::run(std::int64_t now_ns) {
 
 void Hub::end(const Feed& feed) {
   const Board* const board = boards_->find(feed.board());
-  for (StreamClient* const client : clients_) {
-    if (const auto ids = client->ended(feed); !ids.empty()) {
-      client->tell(fmt::format(R"({{"type":"layout_changed","board":{},"layout":"{}","ids":[{}]}})",
-                               base::Json(feed.board()).dump(), board != nullptr ? board->layout() : "",
-                               fmt::join(ids, ",")));
-    }
+  for (Follower* const client : clients_) {
+    client->ended(feed, board);
   }
 }
 
@@ -124,6 +126,9 @@ void Hub::look_around() {
   base::Json word = base::Json::object();
   word["type"] = "boards";
   word["boards"] = std::move(list);
+  for (Follower* const client : clients_) {
+    client->looked_around();
+  }
   std::string text = word.dump();
   if (text == boards_word_) {
     return;
@@ -133,14 +138,14 @@ void Hub::look_around() {
 }
 
 void Hub::tell_all(const std::string& word) {
-  for (StreamClient* const client : clients_) {
+  for (Follower* const client : clients_) {
     client->tell(word);
   }
 }
 
 std::vector<ClientFigures> Hub::clients() const {
   std::vector<ClientFigures> all;
-  for (const StreamClient* const client : clients_) {
+  for (const Follower* const client : clients_) {
     all.push_back(client->figures());
   }
   return all;

@@ -18,7 +18,13 @@
 
 namespace indurop::serve {
 
-class StreamClient;
+class Follower;
+
+// What Foxglove is shown.
+struct FoxgloveSettings {
+  std::vector<std::string> names;  // globs and parts; none: all variables
+  double rate_hz = 50;
+};
 
 // Why there is no stream.
 struct Refusal {
@@ -29,8 +35,8 @@ struct Refusal {
 class Hub {
  public:
   // `boards` is borrowed. `wake_at` is told when feeds are due next, in ns from now.
-  Hub(Boards& boards, std::string version, std::function<void(std::int64_t)> wake_at)
-      : boards_(&boards), version_(std::move(version)), wake_at_(std::move(wake_at)) {}
+  Hub(Boards& boards, std::string version, FoxgloveSettings foxglove, std::function<void(std::int64_t)> wake_at)
+      : boards_(&boards), version_(std::move(version)), foxglove_(std::move(foxglove)), wake_at_(std::move(wake_at)) {}
 
   std::unique_ptr<Visitor> receive(const Request& request, Line& line);
   // Samples what is due.
@@ -43,9 +49,11 @@ class Hub {
 
   // For clients.
   Result<std::shared_ptr<Feed>, Refusal> feed_for(const ClientWord& word);
-  void leave(StreamClient& client);
+  void leave(Follower& client);
   [[nodiscard]] const std::string& boards_word() const noexcept { return boards_word_; }
   [[nodiscard]] std::string hello() const;
+  [[nodiscard]] Boards& boards() const noexcept { return *boards_; }
+  [[nodiscard]] const std::string& version() const noexcept { return version_; }
 
  private:
   void end(const Feed& feed);
@@ -53,9 +61,10 @@ class Hub {
 
   Boards* boards_;
   std::string version_;
+  FoxgloveSettings foxglove_;
   std::function<void(std::int64_t)> wake_at_;
   std::map<std::string, std::weak_ptr<Feed>, std::less<>> feeds_;  // by what is looked at
-  std::vector<StreamClient*> clients_;
+  std::vector<Follower*> clients_;
   std::string boards_word_;
   std::uint32_t last_feed_ = 0;
   std::uint64_t last_client_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/command/serve_options.h"
 
+#include <fmt/format.h>
+
 namespace indurop::tools {
 namespace {
 
@@ -25,6 +27,7 @@ std::vector<std::string> plant_words(const deploy::LinkSettings& link) {
 void declare_serve_options(base::Options& app, ServeOptions& options) {
   constexpr double kMostPort = 65535;
   constexpr double kMostClients = 1000;
+  constexpr double kLeastHz = 0.1;
   app.add("--node", "NAME", options.node, "Show this node only (default: all of this host)")
       .completes(base::Completion::Node);
   app.add("--port", "PORT", options.port, "Listen on this port (default 8080; 0: any that is free)")
@@ -41,6 +44,14 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
           "Authority whose certificates count like a token (a plant's ca.pem)")
       .completes(base::Completion::File);
   app.add("--host", "NAME", options.hosts, "Another name under which clients may call this server").one_at_a_time();
+  app.add("--origin", "URL", options.origins,
+          "A page of another origin may follow variables too, https://app.foxglove.dev")
+      .one_at_a_time();
+  app.add("--foxglove", "GLOB", options.foxglove, "Show Foxglove these variables or parts of them (default: all)")
+      .one_at_a_time()
+      .completes(base::Completion::Variable);
+  app.add("--foxglove-hz", "RATE", options.foxglove_hz, "Messages per second and variable to Foxglove (default 50)")
+      .range(kLeastHz, kMostFoxgloveHz);
   app.add("--web", "DIR", options.web, "Folder of the page (default: the installed one)")
       .completes(base::Completion::Folder);
   app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
@@ -81,6 +92,13 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   for (const std::string& host : options.hosts) {
     value("--host", host);
   }
+  for (const std::string& origin : options.origins) {
+    value("--origin", origin);
+  }
+  for (const std::string& name : options.foxglove) {
+    value("--foxglove", name);
+  }
+  value("--foxglove-hz", fmt::format("{}", options.foxglove_hz));
   value("--web", options.web.string());
   value("--audit", options.audit.string());
   value("--recordings", options.recordings.string());
@@ -96,9 +114,6 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   if (options.plant) {
     const std::vector<std::string> more = plant_words(options.link);
     words.insert(words.end(), more.begin(), more.end());
-  }
-  if (options.quiet) {
-    words.emplace_back("--quiet");
   }
   return words;
 }

@@ -14,6 +14,8 @@
 
 namespace indurop::tools {
 
+inline constexpr double kMostFoxgloveHz = 100;
+
 struct ServeOptions {
   std::string node;  // empty: all of this host
   std::string bind = "127.0.0.1";
@@ -27,6 +29,9 @@ struct ServeOptions {
   std::filesystem::path audit;
   std::filesystem::path recordings;
   std::vector<std::string> hosts;
+  std::vector<std::string> origins;
+  std::vector<std::string> foxglove;  // names; none: all variables
+  double foxglove_hz = 50;
   std::uint64_t clients = 64;
   bool quiet = false;
   bool plant = false;  // boards of the network too

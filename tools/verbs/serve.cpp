@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop serve: becomes indurop-serve.
-#include <fmt/format.h>
-#include <unistd.h>
+#include <memory>
 
-#include "base/program_folder.h"
-#include "tools/command/become.h"
+#include "tools/command/become_server.h"
 #include "tools/command/serve_options.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
-
-constexpr const char* kProgram = "indurop-serve";
-
-int become_server(Context& context, ServeOptions& options) {
-  const auto program = base::program_folder() / kProgram;
-  if (access(program.c_str(), X_OK) != 0) {
-    context.out.error(
-        fmt::format("{} is not there; it is built where Debian's libwebsockets-dev is", program.string()));
-    return kFailed;
-  }
-  options.quiet = context.out.quiet();
-  return become(context, program, words_of(options));
-}
 
 Action declare(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<ServeOptions>();

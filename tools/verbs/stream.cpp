@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop stream: values as datagrams of JSON, as PlotJuggler's UDP server takes them.
+// indurop stream: values for programs that draw them: as datagrams of JSON, which PlotJuggler's UDP server takes, or
+// for Foxglove, to which indurop-serve speaks.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netdb.h>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "rt/clock.h"
+#include "tools/command/become_server.h"
 #include "tools/command/gentle.h"
 #include "tools/command/rounds.h"
 #include "tools/values/node_choice.h"
@@ -25,6 +27,8 @@ constexpr std::size_t kMostBytes = 60'000;  // of a datagram; UDP has room for 6
 struct Options {
   std::vector<std::string> names;
   bool plotjuggler = false;
+  bool foxglove = false;
+  std::uint64_t port = 8765;
   std::string to = "127.0.0.1:9870";
   double hz = 50;
   std::uint64_t count = 0;
@@ -134,9 +138,40 @@ class Stream {
   bool told_ = false;
 };
 
+// What Foxglove's own pages and programs call themselves; only they may connect, besides programs that are no browsers.
+constexpr const char* kOrigins[] = {"https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"};
+
+int stream_to_foxglove(Context& context, const Options& options) {
+  if (context.far.wanted) {
+    context.out.error("Foxglove gets the variables of this host only; run this on the board, or use --plotjuggler");
+    return kUsage;
+  }
+  if (options.hz > kMostFoxgloveHz) {
+    context.out.error(fmt::format("Foxglove gets at most {:g} messages per second and variable", kMostFoxgloveHz));
+    return kUsage;
+  }
+  auto node = choose_node(context.node);
+  if (!node) {
+    return report(context.out, node.error());
+  }
+  ServeOptions serve;
+  serve.node = std::move(node).value();
+  serve.port = options.port;
+  serve.foxglove = options.names;
+  serve.foxglove_hz = options.hz;
+  serve.origins.assign(std::begin(kOrigins), std::end(kOrigins));
+  if (options.port != 0) {  // else the server says which it is
+    context.out.note(fmt::format("in Foxglove: Open connection, Foxglove WebSocket, ws://localhost:{}", options.port));
+  }
+  return become_server(context, serve);
+}
+
 int stream(Context& context, const Options& options) {
+  if (options.foxglove) {
+    return stream_to_foxglove(context, options);
+  }
   if (!options.plotjuggler) {
-    context.out.error("to whom? --plotjuggler sends what PlotJuggler's UDP server takes (see: indurop help stream)");
+    context.out.error("to whom? --plotjuggler or --foxglove (see: indurop help stream)");
     return kUsage;
   }
   auto sender = Sender::open(options.to);
@@ -166,14 +201,18 @@ Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   constexpr double kMostHz = 1000;
   constexpr double kLeastHz = 0.001;
+  constexpr double kMostPort = 65535;
   app.add("names", "GLOB", options->names, "Variables, parts of them, or globs")
       .required()
       .completes(base::Completion::Variable);
   app.flag("--plotjuggler", options->plotjuggler, "Send JSON over UDP, as PlotJuggler's UDP server takes it");
-  app.add("--to", "HOST:PORT", options->to, "Where to (default 127.0.0.1:9870)");
-  app.add("--hz", "RATE", options->hz, "Rounds per second (default 50, at most 1000)").range(kLeastHz, kMostHz);
-  app.add("-n,--count", "COUNT", options->count, "Stop after COUNT rounds");
-  add_time_option(app, "--timeout", options->timeout_ns, "Stop after this time");
+  app.flag("--foxglove", options->foxglove, "Wait for Foxglove, which connects by WebSocket");
+  app.add("--to", "HOST:PORT", options->to, "To PlotJuggler here (default 127.0.0.1:9870)");
+  app.add("--port", "PORT", options->port, "Wait for Foxglove here (default 8765)").range(0, kMostPort);
+  app.add("--hz", "RATE", options->hz, "Rounds per second (default 50, at most 1000; Foxglove 100)")
+      .range(kLeastHz, kMostHz);
+  app.add("-n,--count", "COUNT", options->count, "To PlotJuggler: stop after COUNT rounds");
+  add_time_option(app, "--timeout", options->timeout_ns, "To PlotJuggler: stop after this time");
   add_node_option(app, context);
   add_far_options(app, context);
   return [options](Context& c) { return stream(c, *options); };
@@ -184,11 +223,15 @@ Action declare(base::Options& app, Context& context) {
 const Verb kStreamVerb{
     "stream", "Variables", "Send values to a program that draws them",
     "In PlotJuggler: start the UDP server with JSON, and let it use the field 'timestamp' (seconds since 1970).\n"
-    "Namespaces are objects, so 'knu::Robot::tick' is shown as /knu/Robot/tick. What happens in every tick is seen by\n"
-    "indurop scope and indurop record.\n"
+    "Namespaces are objects, so 'knu::Robot::tick' is shown as /knu/Robot/tick.\n"
+    "In Foxglove: 'Open connection', 'Foxglove WebSocket', ws://localhost:8765. Each variable is a topic. It is only "
+    "heard\n"
+    "on this machine; from elsewhere by 'ssh -L 8765:localhost:8765 BOARD'.\n"
+    "What happens in every tick is seen by indurop scope and indurop record.\n"
     "Examples:\n"
     "  indurop stream 'knu::Robot::*' --plotjuggler\n"
-    "  indurop stream joints --plotjuggler --to 192.168.1.5:9870 --hz 100\n",
+    "  indurop stream joints --plotjuggler --to 192.168.1.5:9870 --hz 100\n"
+    "  indurop stream 'knu::Robot::*' --foxglove\n",
     &declare};
 
 }  // namespace indurop::tools

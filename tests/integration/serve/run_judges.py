@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Judges from npm look at a server: judge.mjs. run_judges.py PROGRAMS FAKE_NODE WORK"""
+"""Judges from npm look at a server: judge.mjs, judge_foxglove.mjs. run_judges.py PROGRAMS FAKE_NODE WORK"""
 
 import pathlib
 import shutil
@@ -25,8 +25,8 @@ def main():
     try:
         setting.start_node()
         server = setting.start_server("--write", "--token-file", setting.tokens)
-        subprocess.run(["node", HERE / "judge.mjs", packages, f"http://127.0.0.1:{server.port}", setting.node, harness.TOKEN],
-                       check=True)
+        for judge in ("judge.mjs", "judge_foxglove.mjs"):
+            subprocess.run(["node", HERE / judge, packages, f"http://127.0.0.1:{server.port}", setting.node, harness.TOKEN], check=True)
     finally:
         setting.clean()
 

@@ -71,6 +71,35 @@ TEST(Gate, Refuses_pages_of_other_sites) {
   EXPECT_EQ(code(gate.refuse(unnamed)), 403);
 }
 
+TEST(Gate, Lets_pages_of_named_origins_follow_variables_and_do_nothing_else) {
+  GateSettings settings = here(true);
+  settings.origins = {"https://app.foxglove.dev"};
+  const Gate gate(settings);
+  Request stream = look();
+  stream.stream = true;
+  stream.path = "/";
+  for (const char* origin : {"https://app.foxglove.dev", "HTTPS://App.Foxglove.Dev"}) {
+    stream.origin = origin;
+    EXPECT_EQ(code(gate.refuse(stream)), 0) << origin;
+  }
+  for (const char* origin : {"http://app.foxglove.dev", "https://app.foxglove.dev.evil.example", "null"}) {
+    stream.origin = origin;
+    EXPECT_EQ(code(gate.refuse(stream)), 403) << origin;
+  }
+  Request order = write();
+  order.origin = "https://app.foxglove.dev";
+  EXPECT_EQ(code(gate.refuse(order)), 403);
+}
+
+TEST(Gate, Wants_to_know_who_follows_from_elsewhere_whatever_the_path) {
+  GateSettings settings = here(false);
+  settings.loopback = false;
+  Request stream = look();
+  stream.stream = true;
+  stream.path = "/";
+  EXPECT_EQ(code(Gate(settings).refuse(stream)), 401);
+}
+
 TEST(Gate, Lets_nobody_write_without_the_option_and_a_token) {
   EXPECT_EQ(code(Gate(here(false)).refuse(write())), 403);
   const Gate gate(here(true));
