@@ -177,13 +177,19 @@ std::int64_t on_clock_of(const Facts& to, const Facts& from, std::int64_t time_n
 Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::vector<std::string> evidence) {
   const std::string& board = peer.name;
   std::int64_t last = 0;
+  std::int64_t first = INT64_MAX;
   for (const RunFact& run : its.runs) {
+    first = std::min(first, on_clock_of(facts, its, run.start_ns));
     last = std::max(last, on_clock_of(facts, its, run.end_ns));
   }
   evidence.push_back(
       fmt::format("the last run of {} itself that is known was in {} of {}", board, when(facts, last), facts.board));
   const std::int64_t slack = std::max<std::int64_t>(facts.lease_ns, 2 * its.basic_period_ns) + 20'000'000;
-  const bool went_on = last > peer.heard_ns + slack;
+  // Of a board from which nothing is read it is not known when it fell silent; one that was absent was never heard, as
+  // long as both ran.
+  const bool listened = peer.heard_ns > 0 || peer.state == "absent";
+  const std::int64_t since = peer.heard_ns > 0 ? peer.heard_ns : std::max(first, facts.epoch_ns);
+  const bool went_on = listened && std::min(last, facts.now_ns) > since + slack;
   if (went_on || its.alive) {
     const BoardFact* back = seen(its, facts.board);
     if (back != nullptr) {
@@ -192,6 +198,13 @@ Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::
     return {Cause::Network, board,
             fmt::format("{} went on running and was not heard: the network between the two carried nothing", board),
             evidence};
+  }
+  if (!listened && !its.stop_reason.empty() && last + slack > facts.now_ns) {
+    Answer answer = not_known(
+        fmt::format("{} reads nothing from {} and does not know when it fell silent; {} itself ran until about the end",
+                    facts.board, board, board));
+    answer.evidence = evidence;
+    return answer;
   }
   if (!its.stop_reason.empty()) {
     return {Cause::Board, board, fmt::format("the node of {} ended: {}", board, its.stop_reason), evidence};

@@ -24,6 +24,9 @@ std::string facts_text_here(const std::string& node, const RunView& run);
 Result<std::vector<explain::Facts>, base::Problem> facts_recorded(const std::filesystem::path& file,
                                                                   const std::string& variable);
 
+// Of two recordings of one board, which may contradict each other, neither is taken.
+std::string two_recordings(const std::string& board, const std::string& file);
+
 // Adds what module.xml or plant.xml says: who writes what, who waits for whom. Nothing if it cannot be read.
 void add_config(const std::string& config, explain::Facts& facts);
 

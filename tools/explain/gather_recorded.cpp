@@ -142,6 +142,10 @@ class Recorded {
 
 }  // namespace
 
+std::string two_recordings(const std::string& board, const std::string& file) {
+  return fmt::format("with {} there are two recordings of {}; give one of each board", file, board);
+}
+
 Result<std::vector<Facts>, Problem> facts_recorded(const std::filesystem::path& file, const std::string& variable) {
   std::vector<Facts> all;
   for (std::size_t sources = 1; all.size() < sources;) {

@@ -12,6 +12,7 @@
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 #include "tools/explain/board_runs.h"
+#include "tools/explain/gather.h"
 #include "tools/plant/check_chain.h"
 #include "tools/values/mirror_view.h"
 #include "tools/verbs/verbs.h"
@@ -115,7 +116,13 @@ Result<Runs, Failure> read_files(const Options& options, const std::vector<std::
     if (!some) {
       return Failure{kFailed, some.error().text};
     }
-    std::move(some->begin(), some->end(), std::back_inserter(runs));
+    for (auto& one : *some) {
+      const auto same = [&one](const auto& other) { return other.board() == one.board(); };
+      if (std::any_of(runs.begin(), runs.end(), same)) {
+        return Failure{kUsage, two_recordings(one.board(), file)};
+      }
+      runs.push_back(std::move(one));
+    }
   }
   return runs;
 }

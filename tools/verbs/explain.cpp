@@ -50,7 +50,13 @@ Result<std::vector<Facts>, Failure> gather(const Context& context, const Options
     if (!facts) {
       return Failure{kFailed, facts.error().text};
     }
-    std::move(facts->begin(), facts->end(), std::back_inserter(plant));
+    for (Facts& one : *facts) {
+      const auto same = [&one](const Facts& other) { return other.board == one.board && other.node == one.node; };
+      if (std::any_of(plant.begin(), plant.end(), same)) {
+        return Failure{kUsage, two_recordings(one.board.empty() ? one.node : one.board, file)};
+      }
+      plant.push_back(std::move(one));
+    }
   }
   if (plant.empty()) {
     const auto chosen = open_run(context.node);

@@ -72,6 +72,53 @@ TEST_F(ExplainPlant, Tells_a_board_without_power_from_a_pulled_cable) {
   }
 }
 
+// A chain of three boards: each reads of the one before it only. Whoever ends first is not blamed for the end.
+TEST_F(ExplainPlant, Blames_nobody_where_nothing_happened) {
+  std::string boards;
+  const std::vector<std::string> names{"one", "two", "three"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string period = std::to_string(2 * i + 1) + "ms";
+    boards += "<board name=\"" + board(names[i]) + "\"><module><filename>" AGE_MODULES "/age_" + std::to_string(i + 1) +
+              ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" + period +
+              "</period><priority>1</priority></module></board>";
+  }
+  const std::string chain = write(boards);
+  for (const char* until : {"500ms", "2s", "3s", "4001ms"}) {
+    for (const std::string& name : names) {
+      std::filesystem::remove(recording(name));
+    }
+    ASSERT_EQ(indurop({"run", chain, "--sim", "-q", "--until", until, "--record", path("r.mcap")}).wait(), 0);
+    for (const std::string& of : names) {
+      for (const std::string& by : names) {
+        if (of != by) {
+          const std::string cause = explain({board(of), "--from", recording(by), "--from", recording(of)}).first;
+          EXPECT_THAT(cause, testing::AnyOf("all-is-well", "not-known", "board")) << of << " by " << by << " " << until;
+          if (cause == "board") {
+            const Outcome said =
+                indurop({"explain", board(of), "--from", recording(by), "--from", recording(of)}).finish();
+            EXPECT_THAT(said.out, testing::HasSubstr("ended: end of the duration")) << "as it did";
+          }
+        }
+      }
+    }
+  }
+  for (const std::string& name : names) {
+    std::filesystem::remove(recording(name));
+  }
+  std::ofstream(path("kill.txt")) << "1s kill " << board("two") << "\n";
+  ASSERT_EQ(
+      indurop({"run", chain, "--sim", "-q", "--until", "3s", "--record", path("r.mcap"), "--script", path("kill.txt")})
+          .wait(),
+      0);
+  const std::pair<std::string, std::string> right{"board", board("two")};
+  EXPECT_EQ(explain({board("two"), "--from", recording("three"), "--from", recording("two")}), right);
+  EXPECT_EQ(explain({board("two"), "--from", recording("one"), "--from", recording("two")}), right);
+  const Outcome twice =
+      indurop({"explain", board("two"), "--from", recording("one"), "--from", recording("one")}).finish();
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_THAT(twice.err, testing::HasSubstr("two recordings of " + board("one")));
+}
+
 TEST_F(ExplainPlant, Chains_have_an_age_over_boards) {
   const auto ask = [&](const char* from, const char* to) {
     return indurop({"check", plant_, "--chain", from, to, "--network", "300us", "-o", "json"}).finish();
