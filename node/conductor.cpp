@@ -321,7 +321,7 @@ int run_plant(const Options& options) {
   }
   PlantScript script;
   if (ok && !options.simulation.script.empty()) {
-    script = read_script(options.simulation.script, names);
+    script = read_script(options.simulation.script, names, options.duration);
     diagnostics.insert(diagnostics.end(), script.diagnostics.begin(), script.diagnostics.end());
     ok = !base::has_error(script.diagnostics);
   }

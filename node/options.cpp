@@ -15,6 +15,33 @@ bool simulates_plant(const Options& options) {
          config::is_plant_file(options.config);
 }
 
+namespace {
+
+// Options that would do nothing, and what to do instead; empty: there are none.
+std::string idle_options(const Options& options) {
+  const bool replays = !options.replay.file.empty();
+  if (!replays && !options.replay.board.empty()) {
+    return "--replay-board is for --replay";
+  }
+  if (!replays && !options.replay.with.empty()) {
+    return "--with is for --replay; to run another file, name it in the configuration";
+  }
+  if (replays && options.duration) {
+    return "a replay ends with its recording; shorten that: indurop recording cut";
+  }
+  const bool part = options.simulation.conductor.has_value();
+  if (!part && !simulates_plant(options) &&
+      !(options.simulation.network.empty() && options.simulation.script.empty())) {
+    return "--network and --script are for --sim of all boards of a plant: name its manifest, and no --board";
+  }
+  if (options.require_rt && options.simulation.on) {
+    return "--require-rt and --sim: virtual time needs no rights; leave out one of them";
+  }
+  return "";
+}
+
+}  // namespace
+
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
   if (const char* named = std::getenv("INDUROP_NODE"); named != nullptr) {
@@ -34,6 +61,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     return std::nullopt;
   }
   exit_code = kUsage;
+  if (const std::string idle = idle_options(options); !idle.empty()) {
+    std::fprintf(stderr, "indurop-node: error: %s\n", idle.c_str());
+    return std::nullopt;
+  }
   if (!options.replay.file.empty()) {
     options.simulation.on = true;  // it has nothing to do with this machine, and leaves nothing
     options.tape_megabytes = 0;

@@ -25,8 +25,9 @@ constexpr std::array<std::pair<const char*, What>, 3> kWords{
 
 class ScriptReader {
  public:
-  ScriptReader(const std::string& file, const std::vector<std::string>& boards, PlantScript& script)
-      : boards_(boards), script_(script), report_(file, script.diagnostics) {}
+  ScriptReader(const std::string& file, const std::vector<std::string>& boards,
+               std::optional<std::chrono::nanoseconds> end, PlantScript& script)
+      : boards_(boards), end_(end), script_(script), report_(file, script.diagnostics) {}
 
   void read(std::string_view text) {
     for (int line = 1; !text.empty(); ++line) {
@@ -36,6 +37,8 @@ class ScriptReader {
     }
     std::stable_sort(script_.events.begin(), script_.events.end(),
                      [](const PlantEvent& a, const PlantEvent& b) { return a.at < b.at; });
+    look_at_the_end();
+    look_for_what_changes_nothing();
     report_.add_summary(script_.diagnostics);
   }
 
@@ -56,9 +59,12 @@ class ScriptReader {
                     "500ms kill sensor");
       return;
     }
-    const base::DurationText at = base::read_duration(time, true);
+    base::DurationText at = base::read_duration(time, true);
     if (!at.value) {
       report_.error(place, at.problem);
+    } else if (at.value->count() != 0 && time.find_first_not_of("0123456789") == std::string::npos) {
+      at.value.reset();
+      report_.error(place, fmt::format("write the unit of the time: {0}ms or {0}s", time));
     }
     const auto* const word =
         std::find_if(kWords.begin(), kWords.end(), [&](const auto& known) { return what == known.first; });
@@ -72,27 +78,60 @@ class ScriptReader {
     }
     if (at.value && word != kWords.end() && found != boards_.end()) {
       script_.events.push_back({*at.value, word->second, static_cast<std::size_t>(found - boards_.begin()),
-                                fmt::format("{} {}", what, board)});
+                                fmt::format("{} {}", what, board), place});
+    }
+  }
+
+  void look_at_the_end() {
+    const auto late = std::find_if(script_.events.begin(), script_.events.end(),
+                                   [this](const PlantEvent& event) { return end_ && event.at >= *end_; });
+    for (auto event = late; event != script_.events.end(); ++event) {
+      report_.warning(event->place, fmt::format("'{}' never happens: the run ends after {}", event->text,
+                                                base::format_duration(*end_)));
+    }
+    script_.events.erase(late, script_.events.end());
+  }
+
+  void look_for_what_changes_nothing() {
+    struct Board {
+      bool runs = true;
+      bool wired = true;
+    };
+    std::vector<Board> boards(boards_.size());
+    for (const PlantEvent& event : script_.events) {
+      Board& board = boards[event.board];
+      const Board before = board;
+      board.runs = event.what == What::Return || (board.runs && event.what != What::Kill);
+      board.wired = event.what == What::Return || (board.wired && event.what != What::Cut);
+      if (board.runs == before.runs && board.wired == before.wired) {
+        report_.warning(event.place, fmt::format("'{}' changes nothing: the board {} then", event.text,
+                                                 event.what == What::Return ? "is there"
+                                                 : event.what == What::Kill ? "is dead already"
+                                                                            : "is cut off already"));
+      }
     }
   }
 
   const std::vector<std::string>& boards_;
+  std::optional<std::chrono::nanoseconds> end_;
   PlantScript& script_;
   base::Diagnostics report_;
 };
 
 }  // namespace
 
-PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards) {
+PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards,
+                             std::optional<std::chrono::nanoseconds> end) {
   PlantScript script;
-  ScriptReader(file, boards, script).read(text);
+  ScriptReader(file, boards, end, script).read(text);
   return script;
 }
 
-PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards) {
+PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards,
+                        std::optional<std::chrono::nanoseconds> end) {
   const auto text = base::read_file(file, kMostBytes);
   if (text) {
-    return read_script_text(*text, file.string(), boards);
+    return read_script_text(*text, file.string(), boards, end);
   }
   PlantScript script;
   script.diagnostics.push_back(

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct PlantEvent {
   What what = What::Kill;
   std::size_t board = 0;
   std::string text;  // "kill sensor"
+  base::SourcePlace place;
 };
 
 struct PlantScript {
@@ -31,8 +33,11 @@ struct PlantScript {
   std::vector<base::Diagnostic> diagnostics;
 };
 
-// `file`: what the diagnostics are about.
-PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards);
-PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards);
+// What comes at `end` of the run or later is left out, with a warning; what changes nothing has one, too. `file`: what
+// the diagnostics are about.
+PlantScript read_script_text(std::string_view text, const std::string& file, const std::vector<std::string>& boards,
+                             std::optional<std::chrono::nanoseconds> end = {});
+PlantScript read_script(const std::filesystem::path& file, const std::vector<std::string>& boards,
+                        std::optional<std::chrono::nanoseconds> end = {});
 
 }  // namespace indurop::node

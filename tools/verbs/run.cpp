@@ -41,6 +41,10 @@ int run(Context& context, Request& request) {
       context.out.error("--local runs all boards, --board runs one of them: choose one");
       return kUsage;
     }
+    if (!options.node.empty()) {
+      context.out.error("--local: each node has the name of its board; leave out --node");
+      return kUsage;
+    }
     if (options.simulation.on) {
       context.out.error("--sim runs all boards of a plant on this host anyway: leave out --local");
       return kUsage;
