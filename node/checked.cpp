@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
@@ -26,16 +27,20 @@ struct Reading {
 bool take_files(const std::vector<std::string>& files, config::Config& config,
                 std::vector<base::Diagnostic>& diagnostics) {
   bool ok = true;
+  std::map<std::string, std::filesystem::path> taken;  // by module
+  const auto wrong = [&](const std::filesystem::path& file, std::string text) {
+    ok = false;
+    diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(text)});
+  };
   for (const std::filesystem::path file : files) {
     const auto module = std::find_if(config.modules.begin(), config.modules.end(), [&](const config::Module& one) {
       return one.name == file.stem() || one.file.filename() == file.filename();
     });
     if (module == config.modules.end()) {
-      ok = false;
-      diagnostics.push_back({base::Diagnostic::Severity::Error,
-                             file.string(),
-                             {},
-                             "no module has this name or such a file; rename the file"});
+      wrong(file, "no module has this name or such a file; rename the file");
+    } else if (const auto [first, fresh] = taken.emplace(module->name, file); !fresh) {
+      wrong(file, fmt::format("takes the place of module {}, as {} does; leave one of them out", module->name,
+                              first->second.string()));
     } else {
       module->file = std::filesystem::absolute(file);
     }

@@ -361,6 +361,10 @@ Ending Replay::conclude() {
     fmt::print("what {} of the runs read changed while they ran: {} of their values differ, which says nothing\n",
                disturbed, unclear_);
   }
+  if (runs_ == 0) {
+    console_.error("{} holds no run of these modules: nothing was compared", options_.replay.file.string());
+    return {kFailed, "the recording cannot be replayed"};
+  }
   if (differences_ == 0) {
     fmt::print("{} ticks, {} runs, {} values: equal\n", ticks_, runs_, values_);
     return {kOk, "end of the recording"};

@@ -66,8 +66,12 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   const Outcome same = replay({"--with", std::string(MODULE_DIR) + "/walker.so"});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
   const Outcome nobody = replay({"--with", "/nowhere/stranger.so"});
-  EXPECT_EQ(nobody.code, 4);
+  EXPECT_EQ(nobody.code, 1);
   EXPECT_CONTAINS(nobody.err, "no module has this name or such a file");
+  const std::string walker = std::string(MODULE_DIR) + "/walker.so";
+  const Outcome twice = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so", "--with", walker});
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_CONTAINS(twice.err, "takes the place of module walker, as ");
 }
 
 TEST_F(Recording, Tells_which_modules_were_started_anew) {

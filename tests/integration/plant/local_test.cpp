@@ -94,7 +94,7 @@ TEST_F(Local, Each_board_is_recorded_from_its_first_run_on) {
   const Outcome elsewhere = indurop({"replay", folder() / "all.mcap", "--board", board("sensor"), "--node",
                                      board("replay"), "--with", OTHER_CONTROLLER})
                                 .finish();
-  EXPECT_EQ(elsewhere.code, 4);
+  EXPECT_EQ(elsewhere.code, 1);
   EXPECT_THAT(elsewhere.err, HasSubstr("no module has this name or such a file"));
 }
 
@@ -196,6 +196,28 @@ TEST_F(Local, Without_saying_how_a_plant_is_not_run) {
   EXPECT_EQ(sut.wait(), 2);
   EXPECT_THAT(sut.err(), HasSubstr("--local"));
   EXPECT_THAT(sut.err(), HasSubstr("--board NAME"));
+}
+
+TEST_F(Local, Options_that_would_do_nothing_are_refused) {
+  const std::string plant = two_boards();
+  const std::string script = path("script.txt");
+  std::ofstream(script) << "1s kill " << board("sensor") << "\n";
+  const std::vector<std::pair<std::vector<std::string>, const char*>> wrong{
+      {{"--local", "--node", "x"}, "leave out --node"},
+      {{"--sim", "--board", board("sensor"), "--network", "delay=1ms"}, "for --sim of all boards"},
+      {{"--sim", "--board", board("sensor"), "--script", script}, "for --sim of all boards"},
+      {{"--sim", "--require-rt"}, "virtual time needs no rights"},
+      {{"--sim", "--replay-board", "x"}, "--replay-board is for --replay"},
+      {{"--sim", "--with", "x.so"}, "--with is for --replay"},
+      {{"--replay", "x.mcap", "--board", board("sensor"), "--until", "1s"}, "a replay ends with its recording"},
+  };
+  for (const auto& [more, why] : wrong) {
+    std::vector<std::string> words{"run", plant};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome sut = indurop(words).finish();
+    EXPECT_EQ(sut.code, 2) << why << sut.err;
+    EXPECT_THAT(sut.err, HasSubstr(why));
+  }
 }
 
 TEST_F(Local, A_board_the_plant_does_not_have_is_named_with_those_it_has) {
