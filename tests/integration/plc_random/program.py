@@ -23,6 +23,13 @@ EOF std iec irp shared before scan kept errno assert __FILE__ __LINE__ switch go
 virtual INT_MAX M_PI Image run main plc new_ new__ result_ value_type get any sequence octet in0_edge indurop_x void char""".split()
 
 
+MOST_LEVELS = 3  # of arrays in arrays, as the compiler says
+
+
+def levels(type_):
+    return 1 + levels(type_.element) if type_.kind == "array" else 0
+
+
 class Program:
     def __init__(self, seed, number):
         self.rng = random.Random(seed)
@@ -83,6 +90,8 @@ class Program:
 
     def array(self, name):
         element = self.any_type(0.5, False)
+        if levels(element) == MOST_LEVELS:
+            element = element.element
         bounds = tuple(self.bounds() for _ in range(self.rng.choice((1, 1, 1, 2, 3))))
         shown = ", ".join(f"{low}..{high}" for low, high in bounds)
         self.type_lines.append(f"{name} : ARRAY [{shown}] OF {element.name};")
