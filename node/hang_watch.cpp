@@ -30,8 +30,8 @@ bool is_debugged() {
 
 }  // namespace
 
-HangWatch::HangWatch(const scheduler::SimulatedKernel& kernel, scheduler::Engine& engine)
-    : kernel_(kernel), engine_(engine) {
+HangWatch::HangWatch(std::function<std::uint64_t()> progress, std::function<void()> end)
+    : progress_(std::move(progress)), end_(std::move(end)) {
   auto thread = rt::Thread::start({"irp-sim-watch", 0, -1}, [this] { loop(); });
   if (thread) {
     thread_ = std::move(thread).value();
@@ -45,17 +45,17 @@ HangWatch::~HangWatch() {
 
 void HangWatch::loop() {
   const bool debugged = is_debugged();
-  std::uint64_t before = kernel_.resumptions();
+  std::uint64_t before = progress_();
   rt::MonoTime since = rt::MonoClock::now();
   while (!stop_.load()) {
     rt::sleep_until(rt::MonoClock::now() + kLook);
-    const std::uint64_t now = kernel_.resumptions();
+    const std::uint64_t now = progress_();
     if (now != before) {
       before = now;
       since = rt::MonoClock::now();
     } else if (const bool ends = end_is_wanted();
                (ends || !debugged) && rt::MonoClock::now() - since > (ends ? kPatienceAtEnd : kPatience)) {
-      engine_.end_runs_in_progress();  // none if the node only stands
+      end_();
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include "base/duration.h"
 #include "config/check/determinism.h"
+#include "node/hang_watch.h"
 #include "rt/relax.h"
 #include "runtime/host.h"
 
@@ -105,6 +106,9 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
         std::find_if(configured.begin(), configured.end(), [&](const auto& module) { return module.name == name; });
     of_recording_.push_back(found == configured.end() ? kNoSuchModule
                                                       : static_cast<std::uint32_t>(found - configured.begin()));
+    if (found == configured.end()) {
+      console_.warning("module {} of the recording is not in this configuration: its runs are not repeated", name);
+    }
   }
   bool any = false;
   for (std::size_t i = 0; i < configured.size(); ++i) {
@@ -198,6 +202,9 @@ bool Replay::run_process(Module& module, const tape::RunTail& tail) {
 bool Replay::run_again(const recorder::RunWords& run) {
   const std::uint32_t index = configured(run.module);
   ticks_ = std::max(ticks_, run.tail.tick + 1);
+  if (index == kNoSuchModule && run.module < of_recording_.size()) {  // else values that nobody reads or writes
+    ++runs_not_here_;
+  }
   if (index == kNoSuchModule || !modules_[index]->runs || modules_[index]->apart) {
     return true;
   }
@@ -233,6 +240,7 @@ bool Replay::run_again(const recorder::RunWords& run) {
   module.codes.clear();
   module.answers.clear();
   ++runs_;
+  returned_.fetch_add(1, std::memory_order_relaxed);
   take_what_was_left(module);
   compare(module, index, run);
   return true;
@@ -323,6 +331,8 @@ Ending Replay::run() {
   }
   rt::install_guard_handlers();
   runner_.attach_thread();
+  HangWatch hang_watch([this] { return returned_.load(std::memory_order_relaxed); },
+                       [this] { runner_.enforce_budget(kernel_.now() + kPatience, true, 0); });
   const bool whole = replay(*recorded);
   runner_.detach_thread();
   run_.state.store(scheduler::NodeState::Stopping);
@@ -367,6 +377,10 @@ Ending Replay::conclude() {
   }
   if (differences_ == 0) {
     fmt::print("{} ticks, {} runs, {} values: equal\n", ticks_, runs_, values_);
+    if (runs_not_here_ > 0) {
+      console_.error("{} runs of modules that are not in this configuration were not repeated", runs_not_here_);
+      return {kFailed, "the recording was not replayed as a whole"};
+    }
     return {kOk, "end of the recording"};
   }
   fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks_, runs_, values_, differences_);

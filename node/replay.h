@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -123,6 +124,8 @@ class Replay {
   std::int64_t real_minus_node_ns_ = 0;
   std::uint64_t ticks_ = 0;
   std::uint64_t runs_ = 0;
+  std::atomic<std::uint64_t> returned_{0};  // the same, for who looks whether one hangs
+  std::uint64_t runs_not_here_ = 0;         // of modules that the configuration does not have
   std::uint64_t values_ = 0;
   std::uint64_t differences_ = 0;
   std::uint64_t unclear_ = 0;  // differences of runs whose inputs changed while they ran

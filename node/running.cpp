@@ -242,7 +242,8 @@ Result<void, Ending> Running::start_schedule() {
   }
   if (simulation_) {
     simulation_->watch_end([this] { return engine_.finished(); });
-    hang_watch_.emplace(simulation_->kernel(), engine_);
+    hang_watch_.emplace([this] { return simulation_->kernel().resumptions(); },
+                        [this] { engine_.end_runs_in_progress(); });
   }
   if (recording_ && !simulation_) {
     recording_->start(cores_without_modules(config, prepared_.rights));

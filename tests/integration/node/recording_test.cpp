@@ -74,6 +74,29 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(twice.err, "takes the place of module walker, as ");
 }
 
+TEST_F(Recording, Is_not_equal_as_a_whole_without_one_of_its_modules) {
+  ASSERT_EQ(run_to_end(threads(), {"--sim", "--until", "1s", "--record", file()}).code, 0);
+  const std::string fewer = write("fewer.xml", xml({kPlant[0], kPlant[1]}));
+  const Outcome sut = replay({"--config", fewer});
+  EXPECT_EQ(sut.code, 1) << sut.out;
+  EXPECT_CONTAINS(sut.err, "module event of the recording is not in this configuration");
+  EXPECT_CONTAINS(sut.err, "142 runs of modules that are not in this configuration were not repeated");
+  const Outcome nothing = replay({"--config", write("other.xml", xml({{.file = "layout.so", .name = "layout"}}))});
+  EXPECT_NE(nothing.code, 0) << nothing.out;
+}
+
+TEST_F(Recording, A_run_that_does_not_return_is_ended_in_the_replay_too) {
+  const std::vector<Module> modules = {
+      kPlant[0],
+      {.file = "faulty.so", .name = "stuck", .priority = 2, .properties = {{"fault", "loop"}, {"after", "20"}}}};
+  Program& sut = start(modules, {"--sim", "--until", "100ms", "--record", file()});
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file()); }));
+  EXPECT_EQ(sut.wait(), 1) << sut.err();
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, "values: equal");
+}
+
 TEST_F(Recording, Tells_which_modules_were_started_anew) {
   std::vector<Module> modules = {{.file = "counter.so", .name = "counter"},
                                  {.file = "keeper.so", .name = "keeper", .priority = 2},
