@@ -169,8 +169,7 @@ int connect(Handle& handle, const char* node) {
     impl.node = node;
     impl.own.reset();
   }
-  const Status status = impl.connect();
-  return -static_cast<int>(status.error().code);
+  return static_cast<int>(runtime::answer([&impl] { return -static_cast<std::int64_t>(impl.connect().error().code); }));
 }
 
 std::ptrdiff_t read(Handle& handle, std::string_view name, std::size_t size, void* to) {

@@ -64,9 +64,7 @@ void note_answer(std::int64_t code, const void* bytes, std::size_t size) noexcep
 std::int64_t see_confirmed(std::int64_t confirmed) noexcept {
   // As a code, the lowest number means something else.
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  const auto brings_bytes = [](std::int64_t) { return false; };
-  const std::int64_t code =
-      answer(nullptr, 0, brings_bytes, [confirmed] { return confirmed == abi::kNeverConfirmed ? kNever : confirmed; });
+  const std::int64_t code = answer([confirmed] { return confirmed == abi::kNeverConfirmed ? kNever : confirmed; });
   return code == kNever ? abi::kNeverConfirmed : code;
 }
 

@@ -63,6 +63,13 @@ std::int64_t answer(void* bytes, std::size_t size, Fills fills, Ask ask) {
   return then->code;
 }
 
+// Of those that give no more than a code.
+template <class Ask>
+std::int64_t answer(Ask ask) {
+  return answer(
+      nullptr, 0, [](std::int64_t) { return false; }, ask);
+}
+
 // Likewise around indurop_see_confirmed(). Real-time safe.
 std::int64_t see_confirmed(std::int64_t confirmed) noexcept;
 

@@ -102,7 +102,7 @@ std::int64_t now_ns() noexcept {
 }
 
 bool stop_requested() noexcept {
-  return runtime::Enrolment::get().stop_requested();
+  return runtime::answer([]() -> std::int64_t { return runtime::Enrolment::get().stop_requested() ? 1 : 0; }) != 0;
 }
 
 }  // namespace irp

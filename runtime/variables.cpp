@@ -73,7 +73,9 @@ void indurop_read_slow(const indurop::abi::RingHeader* ring, void* to, std::uint
 }
 
 bool indurop_read_together(indurop::abi::Piece* pieces, std::uint32_t count) noexcept {
-  return indurop::vars::read_together({pieces, count});
+  return indurop::runtime::answer([=]() -> std::int64_t {
+           return indurop::vars::read_together({pieces, count}) ? 1 : 0;
+         }) != 0;
 }
 
 void indurop_index_fault(const char* variable, std::uint64_t index, std::uint64_t bound) {

@@ -13,18 +13,6 @@ using ::testing::HasSubstr;
 
 class Local : public TurningTable {
  protected:
-  static std::string board_of(const std::string& name, const std::string& modules) {
-    return "<board name=\"" + board(name) + "\">" + modules + "</board>";
-  }
-  static std::string snapshot_module(const std::string& what, int period_ms, int priority,
-                                     const std::string& more = "") {
-    return "<module><filename>" SNAPSHOT_MODULES "/snapshot_" + what +
-           ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" +
-           std::to_string(period_ms) + "ms</period><priority>" + std::to_string(priority) + "</priority>" + more +
-           "</module>";
-  }
-  // Of the reader's figures.
-  static std::uint64_t seen(std::uint32_t field) { return number("control", "sn::seen", 8 * field); }
   Program& run(const std::string& plant, std::vector<std::string> more = {"-q"}) {
     more.insert(more.begin(), {"run", plant, "--local"});
     return indurop(more);
@@ -154,32 +142,6 @@ TEST_F(Local, A_standby_keeps_the_loop_closed) {
       EXPECT_TRUE(wait_until([&] { return torque("sensor") == 0; })) << "nobody is left";
     }
   }
-}
-
-// 24 variables in three frames, written in every millisecond.
-TEST_F(Local, What_one_module_writes_is_read_together_on_the_other_board) {
-  Program& sut = run(write(board_of("sensor", snapshot_module("writer", 1, 1)) +
-                           board_of("control", snapshot_module("reader", 1, 1))));
-  EXPECT_TRUE(wait_until([&] { return seen(3) >= 500; })) << sut.err();
-  EXPECT_EQ(seen(2), 0U) << "mixed";
-  EXPECT_GT(2 * seen(1), seen(0)) << "coherent, of all looks";
-}
-
-// The mirror is woken by another module while the writer is in the middle of its run.
-TEST_F(Local, What_a_module_has_half_written_is_not_sent) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP()
-      << "ThreadSanitizer's own locks let a pause of 2.5 ms last 300 at times, and the node shuts the module out";
-#endif
-  const std::string table = "<module><filename>" TWO_BOARDS
-                            "/table.so</filename><moduletype>thread</moduletype><operationtype>periodic"
-                            "</operationtype><period>1ms</period><priority>1</priority></module>";
-  const std::string pause = "<property><value name=\"pause_us\">2500</value></property>";
-  Program& sut = run(write(board_of("sensor", table + snapshot_module("writer", 4, 2, pause)) +
-                           board_of("control", snapshot_module("reader", 1, 1))));
-  EXPECT_TRUE(wait_until([&] { return seen(3) >= 100; })) << sut.err();
-  EXPECT_EQ(seen(2), 0U) << "mixed";
-  EXPECT_GT(2 * seen(1), seen(0)) << "coherent, of all looks";
 }
 
 TEST_F(Local, Errors_of_the_plant_are_said_once_and_nothing_runs) {

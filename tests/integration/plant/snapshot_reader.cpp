@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads all variables together and counts what it sees.
+// Reads all variables together and counts what it sees. With LOOKS_AS_PROCESS it is a process.
 #include "snapshot_variables.h"
 
 using namespace sn;
@@ -13,9 +13,7 @@ bool all_equal(const std::array<uint64_t, 20>& first, const Value&... values) {
   return first.front() == first.back() && ((values == first) && ...);
 }
 
-}  // namespace
-
-void onRun() {
+void look() {
   const auto all = snapshot(ALL_VARIABLES);
   const bool equal = std::apply([](const auto&... values) { return all_equal(values...); }, all.values());
   auto now = lock(seen);
@@ -26,4 +24,21 @@ void onRun() {
   last = all.get<0>()[0];
 }
 
+}  // namespace
+
+#ifdef LOOKS_AS_PROCESS
+int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;
+  }
+  while (irp::waitPeriod()) {
+    look();
+  }
+  return 0;
+}
+#else
+void onRun() {
+  look();
+}
 INDUROP_MODULE(run = &::onRun)
+#endif
