@@ -349,7 +349,7 @@ void Replay::tell_differences() {
       if (known.differing > 0) {
         lines.emplace_back(known.first_tick, fmt::format("  {} of {}: {} of {} runs, first at tick {}",
                                                          variable(known.variable).name, checked_.config.modules[i].name,
-                                                         known.differing, modules_[i]->next_number, known.first_tick));
+                                                         known.differing, known.compared, known.first_tick));
       }
     }
   }

@@ -57,7 +57,8 @@ class Replay {
     bool told = false;
     std::vector<std::uint8_t> cdr;
     std::vector<std::uint8_t> bytes;
-    std::uint64_t differing = 0;  // runs that left another value, what they read being the same
+    std::uint64_t compared = 0;   // runs whose value was compared, what they read being the same
+    std::uint64_t differing = 0;  // of these: that left another value
     std::uint64_t first_tick = 0;
   };
   // What a run left, by its track.

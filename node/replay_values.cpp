@@ -91,6 +91,7 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
     const vars::DirectoryEntry& entry = store.directory()[known.variable];
     now.resize(entry.value_size);
     ++values_;
+    known.compared += module.disturbed ? 0U : 1U;
     // What lies between the parts of a value differs as it likes.
     if (!store.read(entry, 0, now).ok() || now == known.bytes ||
         (recording::to_cdr(variable(known.variable).type, now, cdr).ok() && cdr == known.cdr)) {

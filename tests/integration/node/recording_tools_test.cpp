@@ -87,6 +87,9 @@ TEST_F(RecordingTools, A_part_is_replayed_as_far_as_it_can_be) {
   EXPECT_EQ(middle.code, 4) << "walker keeps something inside";
   EXPECT_CONTAINS(middle.err, "what it keeps inside may differ");
   EXPECT_CONTAINS(middle.err, "module walker: nt::pace was");
+  const auto runs = recording({"info", path("middle.mcap"), "-o", "json"}).json()["modules"][1]["runs"].get<int>();
+  EXPECT_CONTAINS(middle.out,
+                  "nt::pace of walker: " + std::to_string(runs) + " of " + std::to_string(runs) + " runs, ");
   EXPECT_FALSE(contains(middle.out, "of counter:")) << "counter does not, its inputs are there: " << middle.out;
   EXPECT_EQ(recording({"cut", file(), "--from", "5s", "-o", path("no.mcap")}).code, 1);
   EXPECT_FALSE(fs::exists(path("no.mcap")));
