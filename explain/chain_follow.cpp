@@ -10,7 +10,7 @@ namespace indurop::explain {
 namespace {
 
 // Results of looking for the run whose value another one began with.
-constexpr std::ptrdiff_t kNothing = -1;   // before anything is known
+constexpr std::ptrdiff_t kNothing = -1;   // of a run that was not read
 constexpr std::ptrdiff_t kForeign = -2;   // somebody else's
 constexpr std::ptrdiff_t kRepeated = -3;  // one of several
 // A value is not looked for further back than so many runs.
@@ -143,6 +143,7 @@ ChainAges follow_chain(std::span<const ChainStage> stages) {
     }
     ages.foreign += run == kForeign ? 1U : 0U;
     ages.repeated += run == kRepeated ? 1U : 0U;
+    ages.unread += run == kNothing ? 1U : 0U;
   }
   return ages;
 }

@@ -30,17 +30,20 @@ struct ChainStage {
   bool leaves = false;         // what it writes reaches the next stage through the network
 };
 
-// From the release of the run that wrote first to the release of one that wrote last.
+// From the release of the run that wrote first to the release of one that wrote last. A run that begins late may use
+// what was released after itself: that is not old at all.
 struct ChainSample {
   std::int64_t from_ns = 0;
   std::int64_t to_ns = 0;
-  [[nodiscard]] std::int64_t age() const noexcept { return to_ns - from_ns; }
+  [[nodiscard]] std::int64_t age() const noexcept { return to_ns > from_ns ? to_ns - from_ns : 0; }
 };
 
+// Together as many as the last stage has runs.
 struct ChainAges {
-  std::vector<ChainSample> samples;  // one for each run of the last stage, as far as it is clear
+  std::vector<ChainSample> samples;  // of each run for which it is clear
   std::uint64_t foreign = 0;         // a run began with what the stage before it had not left
   std::uint64_t repeated = 0;        // a value came through the network that may be of several runs
+  std::uint64_t unread = 0;          // the way back leads to runs that were not read: of before the first, or lost
 };
 
 // `stages` are not empty.

@@ -244,6 +244,8 @@ ChainAge chain_age(std::span<const std::vector<Timed>> boards, std::span<const C
     }
     begin = end;
   }
+  age.least = std::max(age.least, Nanos::zero());
+  age.most = std::max(age.most, Nanos::zero());
   return age;
 }
 

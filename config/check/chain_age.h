@@ -33,7 +33,7 @@ struct NetworkShare {
 };
 
 struct ChainAge {
-  base::Nanos least{};
+  base::Nanos least{};  // not negative: what is released after the last one's run, which begins late, is not old at all
   base::Nanos most{};
   std::size_t crossings = 0;  // ways through the network
   bool exact = true;          // one board and one core: `most` is reached

@@ -133,6 +133,7 @@ struct Measured {
   std::uint64_t disturbed = 0;     // not among them: something overran or was lost meanwhile
   std::int64_t disturbed_most = 0;
   std::uint64_t unclear = 0;
+  std::uint64_t unread = 0;
 };
 
 class Measurement {
@@ -162,6 +163,7 @@ class Measurement {
     const ChainAges ages = explain::follow_chain(stages);
     Measured measured;
     measured.unclear = ages.foreign + ages.repeated;
+    measured.unread = ages.unread;
     for (const explain::ChainSample& sample : ages.samples) {
       const bool disturbed = std::any_of(chain.modules.begin(), chain.modules.end(), [&](const Chain::Node& one) {
         return explain::was_disturbed(keepings_[one.first], sample);
@@ -242,7 +244,8 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
              time_cell(ages, count == 0 ? 0 : count - 1),
              {std::to_string(count), count},
              {std::to_string(measured.unclear), measured.unclear},
-             {std::to_string(measured.disturbed), measured.disturbed}});
+             {std::to_string(measured.disturbed), measured.disturbed},
+             {std::to_string(measured.unread), measured.unread}});
   if (context.format != Format::Table) {
     return within;
   }
@@ -277,7 +280,8 @@ int tell(Context& context, const Options& options, const ChainPlant& plant, cons
                {"MOST", "most_ns", Align::Right},
                {"RUNS", "runs", Align::Right},
                {"UNCLEAR", "unclear", Align::Right},
-               {"DISTURBED", "disturbed", Align::Right}});
+               {"DISTURBED", "disturbed", Align::Right},
+               {"UNREAD", "unread", Align::Right}});
   bool within = true;
   bool crosses = false;
   for (const Chain& chain : found) {

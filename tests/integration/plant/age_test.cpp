@@ -42,6 +42,14 @@ class AgeTest : public PlantTest {
     EXPECT_TRUE(json && (*json)["chains"].values().size() == 1) << sut.out;
     return json ? (*json)["chains"].values()[0] : base::Json();
   }
+  // All runs of the last module.
+  static std::int64_t counted(const base::Json& chain) {
+    std::int64_t sum = 0;
+    for (const char* part : {"runs", "unclear", "disturbed", "unread"}) {
+      sum += chain[part].integer().value_or(-1);
+    }
+    return sum;
+  }
   // What the last module said in a recording.
   static Truth truth(const std::string& file) {
     Truth found;
@@ -81,6 +89,7 @@ TEST_F(AgeTest, Of_one_board_is_what_the_values_say_and_reaches_what_is_predicte
   EXPECT_LE(sut["best_ns"].integer(), right.least);
   EXPECT_GT(sut["runs"].integer(), 1980);
   EXPECT_EQ(sut["unclear"].integer(), 0);
+  EXPECT_EQ(counted(sut), 2000);
 }
 
 TEST_F(AgeTest, Over_boards_is_what_the_values_say_and_within_what_is_predicted) {
@@ -103,6 +112,7 @@ TEST_F(AgeTest, Over_boards_is_what_the_values_say_and_within_what_is_predicted)
   EXPECT_GE(said.least, sut["best_ns"].integer());
   EXPECT_GT(sut["runs"].integer(), 2400);
   EXPECT_LE(sut["unclear"].integer(), 2) << "at the begin";
+  EXPECT_EQ(counted(sut), 2500);
 
   ASSERT_EQ(indurop({"recording", "join", first, second, "-o", path("both.mcap"), "-q"}).code, 0);
   const base::Json joined = ask({"--from", path("both.mcap"), "--network", "1100us"}, 0);

@@ -21,6 +21,7 @@ struct Version {
 struct Measured {
   std::int64_t least = INT64_MAX;
   std::int64_t most = INT64_MIN;
+  int younger = 0;  // runs that used what was released after them
 };
 
 // Goes through the plant with what every module wrote, link by link.
@@ -45,8 +46,10 @@ class Walk {
         const bool leaves = !last && links[i + 1].board != links[i].board;
         // Boards do not end at the same time, nor begin.
         if (last && run.release > 140 * kBasic && run.release < 220 * kBasic) {
-          measured.least = std::min(measured.least, run.release + phase - *origin);
-          measured.most = std::max(measured.most, run.release + phase - *origin);
+          const std::int64_t apart = run.release + phase - *origin;
+          measured.younger += apart < 0 ? 1 : 0;
+          measured.least = std::min(measured.least, std::max<std::int64_t>(apart, 0));
+          measured.most = std::max(measured.most, std::max<std::int64_t>(apart, 0));
         }
         if (!leaves) {
           next.push_back({run.end + phase, run.release, *origin});
@@ -86,6 +89,7 @@ TEST(ChainAge, Of_random_plants_is_never_above_what_is_predicted_and_on_one_boar
   int single = 0;
   int crossing = 0;
   int reached = 0;
+  int younger = 0;
   for (unsigned seed = 0; single + crossing < plants; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random{std::mt19937(seed)};
@@ -113,12 +117,15 @@ TEST(ChainAge, Of_random_plants_is_never_above_what_is_predicted_and_on_one_boar
     const Measured measured = Walk(runs, phases, network, random).along(links);
     ASSERT_LE(measured.most, sut.most.count());
     ASSERT_GE(measured.least, sut.least.count());
+    ASSERT_GE(sut.least.count(), 0);
+    younger += measured.younger;
     ASSERT_EQ(sut.exact, sut.crossings == 0);
     (sut.exact ? single : crossing) += 1;
     reached += sut.exact && static_cast<double>(measured.most) >= 0.95 * static_cast<double>(sut.most.count()) ? 1 : 0;
   }
   EXPECT_GE(reached * 100, 95 * single);
   EXPECT_GT(crossing, plants / 4);
+  EXPECT_GT(younger, 0);
 }
 
 TEST(ChainAge, Is_the_way_through_the_schedule) {

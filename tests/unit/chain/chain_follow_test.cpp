@@ -93,6 +93,7 @@ Played play(const std::vector<Runs>& runs, const std::vector<std::int64_t>& phas
 TEST(ChainFollow, Finds_the_right_run_or_none_in_random_plants) {
   std::size_t found = 0;
   std::size_t unclear = 0;
+  std::size_t younger = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random{std::mt19937(seed)};
@@ -118,8 +119,11 @@ TEST(ChainFollow, Finds_the_right_run_or_none_in_random_plants) {
     for (const ChainSample& sample : sut.samples) {
       ASSERT_TRUE(played.truth.contains(sample.to_ns));
       ASSERT_EQ(sample.from_ns, played.truth.at(sample.to_ns));
+      ASSERT_GE(sample.age(), 0);
+      younger += sample.from_ns > sample.to_ns ? 1U : 0U;
     }
     ASSERT_EQ(sut.foreign, 0U);
+    ASSERT_EQ(sut.samples.size() + sut.repeated + sut.unread, played.stages.back().runs.size());
     found += sut.samples.size();
     unclear += sut.repeated;
     if (changes == Changes::Always) {
@@ -138,6 +142,7 @@ TEST(ChainFollow, Finds_the_right_run_or_none_in_random_plants) {
   }
   EXPECT_GT(found, 10'000U);
   EXPECT_GT(unclear, 1000U) << "the plants are too easy";
+  EXPECT_GT(younger, 0U) << "no run began so late that it used what was released after it";
 }
 
 TEST(ChainFollow, A_run_that_was_not_read_makes_nobody_elses_value_its_own) {
@@ -149,6 +154,7 @@ TEST(ChainFollow, A_run_that_was_not_read_makes_nobody_elses_value_its_own) {
   EXPECT_EQ(sut.samples[0].age(), 0);
   EXPECT_EQ(sut.samples[1].from_ns, 200);
   EXPECT_EQ(sut.foreign, 1U);
+  EXPECT_EQ(sut.unread, 0U);
 }
 
 TEST(ChainFollow, A_value_that_somebody_else_wrote_is_nobodys) {
