@@ -69,6 +69,7 @@ constexpr auto kOrder = [](auto&& visit, auto& fact) {
   visit("action", fact.action);
   visit("what", fact.what);
   visit("value", fact.value);
+  visit("until_ns", fact.until_ns);
 };
 
 constexpr auto kKernel = [](auto&& visit, auto& fact) {

@@ -97,8 +97,32 @@ class Question {
     return answer;
   }
 
+  [[nodiscard]] const RunFact* last_before(std::uint64_t tick) const {
+    const RunFact* last = nullptr;
+    for (const RunFact& run : facts_.runs) {
+      last = run.module == index_ && run.tick < tick ? &run : last;
+    }
+    return last;
+  }
+
+  // Its newest fault is known with its reason; of older ones only that the run ended so.
   [[nodiscard]] Answer after_fault() const {
-    if (module_.state != "faulted" || module_.fault_tick > tick_) {
+    const RunFact* before = last_before(tick_);
+    // A run in which a process died may have no end, and its death is seen a little later.
+    const auto every =
+        static_cast<std::uint64_t>(std::max<std::int64_t>(module_.period_ns / facts_.basic_period_ns, 1));
+    const std::uint64_t seen = tick_ + (module_.type == "process" ? every : 0);
+    const bool newest = module_.faults > 0 && module_.fault_tick <= seen && !module_.fault.empty() &&
+                        (before == nullptr || before->tick <= module_.fault_tick) &&
+                        !ran_between(module_.fault_tick + 1, tick_);
+    if (!newest && before != nullptr && before->faulted) {
+      return {Cause::Fault,
+              module_.name,
+              fmt::format("the run of {} in {} ended by a fault, after which it did not run until {}", module_.name,
+                          at_tick(facts_, before->tick), place()),
+              {}};
+    }
+    if (!newest || module_.restarts > 0 || module_.state == "restarting") {
       return {};
     }
     return {Cause::Fault,
@@ -108,12 +132,15 @@ class Question {
             {fmt::format("faults: {}, state: {}", module_.faults, module_.state)}};
   }
 
-  // The newest order before the tick says so, or its state does.
+  // The newest order before the tick says so, or its state does. An order is noted when it has been obeyed.
   [[nodiscard]] Answer stopped() const {
     const OrderFact* last = nullptr;
     for (const OrderFact& order : facts_.orders) {
+      constexpr std::int64_t kNotedLater = 100'000'000;
       const bool meant = order.action == "stop" || order.action == "start" || order.action == "restart";
-      if (meant && order.what == module_.name && order.node_ns <= release_ns_) {
+      const bool obeyed = order.node_ns <= release_ns_ ||
+                          (order.action == "stop" && order.node_ns <= release_ns_ + kNotedLater && stands_until(order));
+      if (meant && order.what == module_.name && obeyed) {
         last = &order;
       }
     }
@@ -130,7 +157,7 @@ class Question {
   }
 
   [[nodiscard]] Answer restarting() const {
-    if (module_.type != "process" || module_.restarts == 0 || module_.faults == 0) {
+    if (module_.type != "process" || (module_.restarts == 0 && module_.state != "restarting") || module_.faults == 0) {
       return {};
     }
     const RunFact* before = nullptr;
@@ -150,6 +177,19 @@ class Question {
             module_.name,
             fmt::format("the process of {} had died and was being started again: {}", module_.name, module_.fault),
             {}};
+  }
+
+  [[nodiscard]] bool ran_between(std::uint64_t first, std::uint64_t last) const {
+    return std::any_of(facts_.runs.begin(), facts_.runs.end(), [&](const RunFact& run) {
+      return run.module == index_ && run.tick >= first && run.tick <= last;
+    });
+  }
+
+  // Nothing of it ran from the tick to the order.
+  [[nodiscard]] bool stands_until(const OrderFact& order) const {
+    return std::none_of(facts_.runs.begin(), facts_.runs.end(), [&](const RunFact& run) {
+      return run.module == index_ && run.end_ns > release_ns_ && run.start_ns < order.node_ns;
+    });
   }
 
   [[nodiscard]] bool ran_after(std::uint64_t tick) const {

@@ -72,7 +72,7 @@ class Old {
       : facts_(facts), variable_(variable), at_ns_(at_ns) {}
 
   Answer answer() const {
-    if (variable_.forced_until_ns > at_ns_) {
+    if (variable_.forced_until_ns > at_ns_ || was_forced()) {
       return forced();
     }
     if (variable_.writers.empty()) {
@@ -93,6 +93,12 @@ class Old {
   }
 
  private:
+  // At a time that is over.
+  [[nodiscard]] bool was_forced() const {
+    const OrderFact* order = last_order(facts_, variable_.name, at_ns_);
+    return order != nullptr && order->action == "force" && order->until_ns > at_ns_;
+  }
+
   [[nodiscard]] Answer forced() const {
     const OrderFact* order = last_order(facts_, variable_.name, at_ns_);
     if (order != nullptr && order->action == "force") {

@@ -77,7 +77,7 @@ void note(const std::string& board, const Command& command, const std::string& w
                        : command.action == Action::Force       ? "force"
                        : command.action == Action::Unforce     ? "unforce"
                                                                : "restart";
-  explain::note_order(board, {rt::now_ns(), 0, "somebody", command.host, action, what, value});
+  explain::note_order(board, {rt::now_ns(), 0, "somebody", command.host, action, what, value, 0});
 }
 
 void note_forces(const std::string& board, const Command& command) {

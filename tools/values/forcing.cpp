@@ -56,9 +56,10 @@ Status force_text(vars::Store& store, const Assignment& one, rt::MonoTime until)
 }
 
 void note_order(const Context& context, const vars::Store& store, const char* action, const std::string& name,
-                const std::string& value) {
+                const std::string& value, std::int64_t until_ns = 0) {
   if (context.values->here()) {
-    explain::note_order(context.node, {rt::to_ns(store.now()), 0, context.who, context.from, action, name, value});
+    explain::note_order(context.node,
+                        {rt::to_ns(store.now()), 0, context.who, context.from, action, name, value, until_ns});
   }
 }
 
@@ -119,7 +120,8 @@ int hold_values(Context& context, vars::Store& store, const std::vector<Assignme
       context.out.error(fmt::format("{} is not forced: {}", item.name, what_failed(forced.error())));
       return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
     }
-    note_order(context, store, "force", one);
+    note_order(context, store, "force", item.name, schema::format_value(item.place.type, one.bytes),
+               until == vars::kForever ? INT64_MAX : rt::to_ns(until));
   }
   return kOk;
 }

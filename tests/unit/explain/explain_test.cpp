@@ -88,6 +88,64 @@ TEST(Explain, What_is_not_known_is_said_with_its_reason) {
   EXPECT_THAT(why_late(facts, "writer", 3).text, HasSubstr("begins with tick 50"));
 }
 
+TEST(Explain, A_stop_is_noted_when_it_has_been_obeyed) {
+  Facts facts = board("here", 1000);
+  std::erase_if(facts.runs, [](const RunFact& run) { return run.tick > 500 && run.tick < 900; });
+  facts.orders.push_back({504 * kMs, 0, "ana", "", "stop", "writer", "", 0});
+  for (const std::uint64_t tick : {501U, 503U, 505U, 899U}) {
+    const Answer sut = why_late(facts, "writer", tick);
+    EXPECT_EQ(sut.cause, Cause::Stopped) << tick;
+    EXPECT_EQ(sut.culprit, "ana");
+  }
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 700 * kMs).culprit, "ana");
+  facts.orders[0].node_ns = 800 * kMs;
+  EXPECT_NE(why_late(facts, "writer", 503).cause, Cause::Stopped) << "that was later";
+}
+
+TEST(Explain, A_process_that_died_in_a_run_without_an_end_is_named) {
+  Facts facts = board("here", 1000);
+  facts.modules.push_back(periodic("proc", 10 * kMs));
+  ModuleFact& proc = facts.modules.back();
+  proc.type = "process";
+  proc.state = "restarting";
+  proc.faults = 1;
+  proc.fault_tick = 191;  // seen behind the run of tick 190
+  proc.fault = "signal 6 (Aborted)";
+  for (std::uint64_t tick = 0; tick < 190; tick += 10) {
+    const auto release = static_cast<std::int64_t>(tick) * kMs;
+    facts.runs.push_back({1, tick, release, release, release + 1000, false});
+  }
+  for (const std::uint64_t tick : {190U, 200U, 250U}) {
+    const Answer sut = why_late(facts, "proc", tick);
+    EXPECT_EQ(sut.cause, Cause::Fault) << tick;
+    EXPECT_EQ(sut.culprit, "proc");
+    EXPECT_THAT(sut.text, HasSubstr("signal 6"));
+  }
+}
+
+TEST(Explain, An_older_fault_is_known_by_its_run) {
+  Facts facts = board("here", 1000);
+  std::erase_if(facts.runs, [](const RunFact& run) { return run.tick > 300 && run.tick < 400; });
+  facts.runs[300].faulted = true;
+  facts.modules[0].state = "running";
+  facts.modules[0].faults = 2;
+  facts.modules[0].fault_tick = 950;
+  facts.modules[0].fault = "out of ink";
+  const Answer sut = why_late(facts, "writer", 350);
+  EXPECT_EQ(sut.cause, Cause::Fault);
+  EXPECT_THAT(sut.text, HasSubstr("in tick 300"));
+}
+
+TEST(Explain, A_force_that_is_over_is_known_for_its_time) {
+  Facts facts = board("here", 1000);
+  facts.orders.push_back({300 * kMs, 0, "bob", "", "force", "x", "8", 500 * kMs});
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Force);
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).culprit, "bob");
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 600 * kMs).cause, Cause::Unchanged) << "its time was over";
+  facts.orders.push_back({350 * kMs, 0, "bob", "", "unforce", "x", "", 0});
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "it was let go";
+}
+
 TEST(Explain, A_board_that_went_on_running_was_cut_off) {
   Facts other = board("other", 2999);
   other.boards.push_back({"here", "silent", {}, 1000 * kMs, 1, 0});
@@ -148,10 +206,10 @@ TEST(Explain, Who_forces_a_value_and_who_wrote_it_last) {
   Facts facts = board("here", 100);
   facts.changes.push_back({"x", "writer", 20, 20 * kMs});
   EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "writer");
-  facts.orders.push_back({30 * kMs, 0, "ana", "pc4", "set", "x", "7"});
+  facts.orders.push_back({30 * kMs, 0, "ana", "pc4", "set", "x", "7", 0});
   EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "ana");
   EXPECT_EQ(who_changed(facts, "x", 25 * kMs).culprit, "writer");
-  facts.orders.push_back({40 * kMs, 0, "bob", "", "force", "x", "8"});
+  facts.orders.push_back({40 * kMs, 0, "bob", "", "force", "x", "8", 0});
   facts.variables[0].forced_until_ns = INT64_MAX;
   const std::vector<Facts> plant{facts};
   EXPECT_EQ(why_old(plant, 0, "x", 100 * kMs).culprit, "bob");
