@@ -131,6 +131,22 @@ void NodeProcess::find_boards() {
   std::sort(boards_.begin(), boards_.end(), [](const Board& a, const Board& b) { return a.name < b.name; });
 }
 
+// A board that a script had killed and that is there again has new memory.
+void NodeProcess::look_for_returned() {
+  for (Board& board : boards_) {
+    const pid_t pid = vars::running_node(board.node);
+    if (pid == 0 || pid == board.run().node_pid.load()) {
+      continue;
+    }
+    auto opened =
+        vars::RunFile::open(board.node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
+    if (opened && static_cast<scheduler::RunBlock*>(opened->data())->node_pid.load() == pid) {
+      board.file = std::move(opened).value();
+      ++board.starts;
+    }
+  }
+}
+
 // Just before the next tick of all that run.
 bool NodeProcess::stands() const {
   std::int64_t epoch = boards_[0].run().epoch_ns;
@@ -173,6 +189,9 @@ void NodeProcess::wait_until_it_stands() {
     const bool ended = has_ended();
     if (boards_.empty() && !ended) {
       find_boards();
+    }
+    if (plant_) {
+      look_for_returned();
     }
     if (!boards_.empty() && stands()) {
       return;

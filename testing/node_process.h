@@ -33,6 +33,7 @@ class NodeProcess {
     std::string name;  // empty: the only one
     std::string node;
     vars::RunFile file;
+    std::uint64_t starts = 1;  // a script may kill it and have it return
     [[nodiscard]] scheduler::RunBlock& run() const noexcept { return *static_cast<scheduler::RunBlock*>(file.data()); }
   };
   // By name. At least one.
@@ -46,6 +47,7 @@ class NodeProcess {
  private:
   void wait_until_it_stands();
   void find_boards();
+  void look_for_returned();
   [[nodiscard]] bool stands() const;
   bool has_ended();
   void end() noexcept;

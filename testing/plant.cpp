@@ -20,6 +20,7 @@
 #include "schema/schema.h"
 #include "testing/golden.h"
 #include "testing/node_process.h"
+#include "vars/node_lock.h"
 #include "vars/store.h"
 
 namespace irp::testing {
@@ -61,21 +62,34 @@ struct Plant::Impl {
     schema::Place place;
     const vars::DirectoryEntry* entry = nullptr;
     vars::Store* store = nullptr;
+    std::size_t board = 0;
   };
 
   Impl(const std::filesystem::path& configuration, const Settings& settings)
       : name(new_name()),
         node(name, settings.board.empty() && is_plant(configuration), arguments_of(configuration, settings),
              settings.patience) {
-    for (const auto& board : node.boards()) {
+    attach();
+    if (node.boards().size() == 1) {
+      (void)irp::attach(node.boards()[0].node.c_str());  // what this program uses and the node lacks is said on stderr
+    }
+  }
+
+  // To all boards, again to those that were started again.
+  void attach() {
+    stores.resize(node.boards().size());
+    starts.resize(node.boards().size());
+    for (std::size_t i = 0; i < stores.size(); ++i) {
+      const auto& board = node.boards()[i];
+      if (starts[i] == board.starts) {
+        continue;
+      }
       auto attached = vars::Store::attach(board.node, vars::Mode::ReadWrite);
       if (!attached) {
         node.fail("the variables of the node cannot be reached");
       }
-      stores.push_back(std::make_unique<vars::Store>(std::move(attached).value()));
-    }
-    if (node.boards().size() == 1) {
-      (void)irp::attach(node.boards()[0].node.c_str());  // what this program uses and the node lacks is said on stderr
+      stores[i] = std::make_unique<vars::Store>(std::move(attached).value());
+      starts[i] = board.starts;
     }
   }
 
@@ -121,7 +135,7 @@ struct Plant::Impl {
       if (found) {
         ask_for_board(text);
       }
-      found = Part{std::move(place).value(), entry, &store};
+      found = Part{std::move(place).value(), entry, &store, board};
     }
     if (!found) {
       throw std::runtime_error(message);
@@ -137,7 +151,12 @@ struct Plant::Impl {
     return bytes;
   }
 
-  static void write(const Part& part, std::span<const std::uint8_t> from) {
+  void write(const Part& part, std::span<const std::uint8_t> from) const {
+    const auto& boards = node.boards();
+    if (boards.size() > 1 && vars::running_node(boards[part.board].node) == 0) {
+      throw std::runtime_error(fmt::format("board {} does not run: nobody would see {}", boards[part.board].name,
+                                           part.place.variable->name));
+    }
     if (!part.store->write(*part.entry, part.place.offset, from)) {
       throw std::runtime_error(fmt::format("{} cannot be written", part.place.variable->name));
     }
@@ -170,16 +189,19 @@ struct Plant::Impl {
   std::string name;
   indurop::testing::NodeProcess node;
   std::vector<std::unique_ptr<vars::Store>> stores;  // by board
+  std::vector<std::uint64_t> starts;                 // of the board that each is attached to
   indurop::testing::Trace trace;
 };
 
 void Plant::Impl::go(std::uint64_t ticks) {
   if (!trace.on()) {
     node.go(ticks);
+    attach();
     return;
   }
   for (std::uint64_t i = 0; i < ticks; ++i) {
     node.go(1);
+    attach();
     std::vector<std::string> values;
     for (const std::string& wanted : trace.names()) {
       const Part part = find(wanted);
@@ -278,7 +300,7 @@ void Plant::set_text(std::string_view name, const std::string& text, bool hold) 
     throw std::runtime_error(fmt::format("{}: {}", name, message));
   }
   if (!hold) {
-    Impl::write(part, bytes);
+    impl_->write(part, bytes);
   } else if (!part.store->force(*part.entry, part.place.offset, bytes, vars::kForever)) {
     throw std::runtime_error(
         fmt::format("{} cannot be forced: only numbers can, {} at a time", name, vars::kMostForces));
@@ -291,7 +313,7 @@ void Plant::set_bytes(std::string_view name, std::span<const std::uint8_t> from)
     throw std::runtime_error(fmt::format("{} is a {} of {} bytes, not of {}", name,
                                          schema::display_name(part.place.type), part.place.type.size(), from.size()));
   }
-  Impl::write(part, from);
+  impl_->write(part, from);
 }
 
 void Plant::unforce(std::string_view name) {

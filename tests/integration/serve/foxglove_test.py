@@ -46,8 +46,9 @@ def test_shows_what_is_asked_for_at_its_rate(setting):
     known = channels(client)
     assert "knu::Robot::joints[0].x" in known and "station::name" not in known and len(known) == 5, known
     client.say(op="subscribe", subscriptions=[{"id": 7, "channelId": known["knu::Robot::tick"]}])
-    times = [values(client)[1] for _ in range(5)]
-    assert all(b - a >= 40_000_000 for a, b in zip(times[1:], times[2:])), times
+    times = [values(client)[1] for _ in range(12)]
+    # Each but the first belongs to a 50 ms of its own, whenever in them it was taken.
+    assert times[-1] - times[1] > 9 * 50_000_000, times
     client.close()
 
 

@@ -146,6 +146,24 @@ TEST(PlantOfSeveralBoards, Says_that_a_name_is_on_several) {
               ThrowsMessage<std::runtime_error>(HasSubstr("there is no board contrl; there is control, sensor")));
 }
 
+TEST(PlantOfSeveralBoards, Has_a_board_again_that_returned) {
+  const std::filesystem::path script = std::filesystem::temp_directory_path() / ("back" + std::to_string(::getpid()));
+  std::ofstream(script) << "1s kill sensor\n1500ms return sensor\n";
+  Plant p(std::string(TWO_BOARDS) + "/plant.xml", {.arguments = {"--script", script.string()}});
+  p.run(1200ms);
+  EXPECT_THAT([&] { p.set("cell::target@sensor", 3.0); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("board sensor does not run")));
+  p.run(200ms);
+  const auto before = p.get<double>("cell::torque@control");
+  EXPECT_EQ(before, 0) << "it knows nothing of the table";
+  for (int i = 0; i < 10; ++i) {
+    p.run(100ms);
+  }
+  EXPECT_EQ(p.tick(), 2400U);
+  EXPECT_NE(p.get<double>("cell::torque@control"), 0) << "it does again";
+  std::filesystem::remove(script);
+}
+
 TEST(PlantOfSeveralBoards, Misses_a_board_that_was_killed) {
   const std::filesystem::path script = std::filesystem::temp_directory_path() / ("night" + std::to_string(::getpid()));
   std::ofstream(script) << "1s kill control\n";
