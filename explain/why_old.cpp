@@ -146,11 +146,17 @@ class Old {
       const auto first = static_cast<std::uint64_t>(module.offset_ns / facts_.basic_period_ns);
       due = facts_.tick > first ? first + (facts_.tick - 1 - first) / step * step : first;
     }
-    if (ran != nullptr && ran->tick >= due && !ran->faulted) {
-      return {Cause::Unchanged,
-              writer,
-              fmt::format("{} runs and leaves {} as it is", writer, variable_.name),
-              {fmt::format("{} ran last in {}", writer, at_tick(facts_, ran->tick))}};
+    // What a process left is known before its node has noted that the run is over.
+    const ChangeFact* change = last_change(facts_, variable_.name, at_ns_);
+    const bool wrote = change != nullptr && change->module == writer;
+    const bool newer = wrote && (ran == nullptr || change->time_ns > ran->end_ns);
+    if (newer ? change->tick >= due : ran != nullptr && ran->tick >= due && !ran->faulted) {
+      const std::string when =
+          fmt::format("{} ran last in {}", writer, at_tick(facts_, newer ? change->tick : ran->tick));
+      if (newer || (wrote && change->time_ns >= ran->start_ns)) {
+        return {Cause::AllIsWell, {}, fmt::format("{} changed {} in its last run", writer, variable_.name), {when}};
+      }
+      return {Cause::Unchanged, writer, fmt::format("{} runs and leaves {} as it is", writer, variable_.name), {when}};
     }
     const std::uint64_t asked =
         ran == nullptr || ran->faulted ? due : std::min<std::uint64_t>(due, next_due(*ran, module));

@@ -55,6 +55,46 @@ TEST(Explain, A_module_that_is_not_due_is_told_when_it_is) {
   EXPECT_THAT(sut.text, HasSubstr("next in tick 50"));
 }
 
+// By schedules whose changes are known: in every run, in every third and so on, with runs that take time and that do
+// not.
+TEST(Explain, A_value_that_changes_in_each_run_is_not_left_as_it_is) {
+  int fresh = 0;
+  int left = 0;
+  for (std::uint64_t every = 1; every <= 4; ++every) {
+    for (const std::int64_t takes : {std::int64_t{0}, std::int64_t{1000}}) {
+      for (std::uint64_t last = 20; last < 40; ++last) {
+        Facts facts = board("here", last);
+        for (RunFact& run : facts.runs) {
+          run.end_ns = run.start_ns + takes;
+          if (run.tick % every == 0) {
+            facts.changes.push_back({"x", "writer", run.tick, run.end_ns});
+          }
+        }
+        const bool changed = last % every == 0;
+        const Answer sut = why_old(std::span(&facts, 1), 0, "x", facts.now_ns);
+        ASSERT_EQ(sut.cause, changed ? Cause::AllIsWell : Cause::Unchanged) << last << " every " << every;
+        ASSERT_EQ(sut.text, changed ? "writer changed x in its last run" : "writer runs and leaves x as it is");
+        (changed ? fresh : left) += 1;
+      }
+    }
+  }
+  EXPECT_GT(fresh, 40);
+  EXPECT_GT(left, 40);
+}
+
+TEST(Explain, What_a_process_left_counts_before_its_node_has_noted_the_run) {
+  Facts facts = board("here", 50);
+  for (const RunFact& run : facts.runs) {
+    facts.changes.push_back({"x", "writer", run.tick, run.end_ns});
+  }
+  facts.runs.pop_back();
+  const Answer sut = why_old(std::span(&facts, 1), 0, "x", facts.now_ns);
+  EXPECT_EQ(sut.cause, Cause::AllIsWell) << sut.text;
+  ASSERT_EQ(sut.evidence.size(), 2U);
+  EXPECT_THAT(sut.evidence[0], HasSubstr("writer ran last in tick 50 "));
+  EXPECT_THAT(sut.evidence[1], HasSubstr("x changed last in tick 50 "));
+}
+
 TEST(Explain, What_is_said_at_the_end_of_a_recording_counts_not_what_was_at_its_begin) {
   Facts read;
   ASSERT_TRUE(read_facts(facts_text(reader("alive", 1000 * kMs)), read));
