@@ -139,6 +139,7 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());
   }
+  tell_of_conditions();
   return any;
 }
 

@@ -88,6 +88,7 @@ class Replay {
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
+  void tell_of_conditions() const;
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();

@@ -74,6 +74,16 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(twice.err, "takes the place of module walker, as ");
 }
 
+TEST_F(Recording, Says_that_the_condition_of_another_file_is_not_asked) {
+  ASSERT_EQ(run_to_end(threads(), {"--sim", "--until", "100ms", "--record", file()}).code, 0);
+  const std::string folder = std::string(MODULE_DIR) + "/";
+  const Outcome sut = replay({"--with", folder + "event.so", "--with", folder + "counter.so"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_CONTAINS(sut.err, "warning: module event runs when it ran in the recording: the condition of another file");
+  EXPECT_FALSE(contains(sut.err, "module counter runs")) << sut.err;
+  EXPECT_FALSE(contains(replay().err, "module event runs when"));
+}
+
 TEST_F(Recording, Is_not_equal_as_a_whole_without_one_of_its_modules) {
   ASSERT_EQ(run_to_end(threads(), {"--sim", "--until", "1s", "--record", file()}).code, 0);
   const std::string fewer = write("fewer.xml", xml({kPlant[0], kPlant[1]}));
