@@ -55,4 +55,15 @@ bool is_bare(const Expression& expression, const Program& program) {
   return false;
 }
 
+Elementary widest_of(const Expression& bare, const Program& program) {
+  const auto real = [&](const Expression& one) {
+    return is_bare(one, program) && widest_of(one, program) == Elementary::Lreal;
+  };
+  const bool is_real = std::holds_alternative<double>(bare.value) ||
+                       std::any_of(bare.operands.begin(), bare.operands.end(), real) ||
+                       std::any_of(bare.arguments.begin(), bare.arguments.end(),
+                                   [&](const ast::Argument& one) { return one.value && real(*one.value); });
+  return is_real ? Elementary::Lreal : Elementary::Lint;
+}
+
 }  // namespace indurop::plc

@@ -10,4 +10,8 @@ namespace indurop::plc {
 // Numbers without a type, operators between them, and library functions that give the type they are given.
 [[nodiscard]] bool is_bare(const ast::Expression& expression, const Program& program);
 
+// The type that holds what becomes of such an expression where nothing beside it says one: LINT, or LREAL if there is a
+// number with a point in it.
+[[nodiscard]] Elementary widest_of(const ast::Expression& bare, const Program& program);
+
 }  // namespace indurop::plc

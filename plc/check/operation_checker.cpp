@@ -63,7 +63,7 @@ bool ExpressionChecker::is_no_variable(const Expression& expression) const {
 }
 
 // The sides' values: first of one that has a type, which numbers without one on the other side take where nothing else
-// is wanted. False after an error.
+// is wanted. Where nothing says a type, none is too small: MAX(300, 1) * 300 > 30000. False after an error.
 bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
   Expression& a = expression.operands[0];
   Expression& b = expression.operands[1];
@@ -75,8 +75,16 @@ bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
     return value(a_value ? a : b, type) != nullptr && type != nullptr;
   }
   if (a_bare == b_bare) {
-    const bool fine = value(a, wanted) != nullptr;
-    return value(b, wanted) != nullptr && fine;
+    const Type* hint = wanted;
+    if (a_bare && wanted == nullptr) {
+      hint = context_.elementary(widest_of(expression, context_.program));
+    }
+    if (a_bare && expression.op == Operator::Modulo && hint->kind == Type::Kind::Elementary &&
+        is_real(hint->elementary)) {  // only whole numbers have it: the widest that become this REAL
+      hint = context_.elementary(hint->is(Elementary::Real) ? Elementary::Int : Elementary::Dint);
+    }
+    const bool fine = value(a, hint) != nullptr;
+    return value(b, hint) != nullptr && fine;
   }
   const Type* known = value(a_bare ? b : a, wanted);
   const Type* hint = wanted;
