@@ -132,7 +132,7 @@ BoardRecorder::Answer BoardRecorder::start(const std::vector<std::string>& names
                       .group = base::Launch::Group::Own,
                       .output = words.get(),
                       .fresh_signals = true,
-                      .ends_with_us = SIGINT};
+                      .ends_with_us = SIGTERM};
   if (past) {
     launch.words.emplace_back("--past");
   }

@@ -29,10 +29,11 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = &on_signal;
   sigemptyset(&action.sa_mask);
+  // Several may come at once, one for each thread of a parent that is killed.
+  sigaction(SIGTERM, &action, nullptr);
   // After the first one the default is back: a second Ctrl-C always ends the program.
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
   struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, nullptr);
