@@ -90,6 +90,7 @@ class ExpressionChecker {
   const Type* pointer_operation(ast::Expression& expression);
   const Type* pointer_comparison(ast::Expression& expression);
   bool assigned_pointer(ast::Expression& expression, const Type& to);
+  void complain_of_range(const Place& at, const Type& type, const Type& to);
   void cast(ast::Expression& expression, const Type& to);
   void count_enumerations(ast::Expression& expression);
   bool convert_enumeration(ast::Expression& expression, const Type& to);

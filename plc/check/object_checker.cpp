@@ -42,7 +42,7 @@ std::vector<const Variable*> parameters_of(const Pou& method) {
 }
 
 bool same_exactly(const Type* a, const Type* b) noexcept {
-  return a == b || (a != nullptr && b != nullptr && same_type(*a, *b) && in_range_of(*a, *b) && in_range_of(*b, *a));
+  return a == b || (a != nullptr && b != nullptr && same_type(*a, *b) && same_range(*a, *b));
 }
 
 // What two methods that stand for each other do not have in common; "" if nothing.

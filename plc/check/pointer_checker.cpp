@@ -73,6 +73,13 @@ const Type* ExpressionChecker::reference_itself(Expression& expression) {
   return type;
 }
 
+// What is written through the pointer would not be looked at.
+void ExpressionChecker::complain_of_range(const Place& at, const Type& type, const Type& to) {
+  context_.error(at, fmt::format("{} and what {} leads to have other limits, so a value could be written that is none "
+                                 "of them; use one type for both",
+                                 with_article(type), with_article(to)));
+}
+
 bool ExpressionChecker::bind(Expression& expression, const Type& to) {
   if (is_null(expression)) {
     return value(expression, nullptr) != nullptr;
@@ -84,6 +91,10 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
   if (to.element == nullptr || !stands_for(*type, *to.element)) {
     context_.error(expression.at, fmt::format("{} is not what a {} refers to, use a variable of that type",
                                               with_article(*type), to_string(to)));
+    return false;
+  }
+  if (!same_range(*type, *to.element)) {
+    complain_of_range(expression.at, *type, to);
     return false;
   }
   const Place at = expression.at;
@@ -108,6 +119,11 @@ bool ExpressionChecker::assigned_pointer(Expression& expression, const Type& to)
   }
   if (is_zero(expression) || context_.assignable(*expression.type, to)) {
     return true;
+  }
+  const Type* led_to = expression.type->kind == Type::Kind::Pointer ? expression.type->element : nullptr;
+  if (led_to != nullptr && to.element != nullptr && same_type(*led_to, *to.element)) {
+    complain_of_range(expression.at, *led_to, to);
+    return false;
   }
   context_.error(expression.at, fmt::format("{} is not {}, use ADR(), REF() or NULL", with_article(*expression.type),
                                             with_article(to)));

@@ -83,7 +83,15 @@ bool in_range_of(const Type& from, const Type& to) noexcept {
   if (from.kind == Type::Kind::Array && to.kind == Type::Kind::Array) {
     return in_range_of(*from.element, *to.element);
   }
+  if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer) {  // it is written to through both
+    return from.element == nullptr || to.element == nullptr || !same_type(*from.element, *to.element) ||
+           same_range(*from.element, *to.element);
+  }
   return !to.range || (from.range && from.range->low >= to.range->low && from.range->high <= to.range->high);
+}
+
+bool same_range(const Type& a, const Type& b) noexcept {
+  return in_range_of(a, b) && in_range_of(b, a);
 }
 
 bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
@@ -97,10 +105,13 @@ bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept {
     return widens(from.elementary, to.elementary) ||
            (dialect == Dialect::Codesys && converts_in_codesys(from.elementary, to.elementary));
   }
-  if (from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer && to.pointer == ast::PointerKind::PointerTo) {
+  const bool pointers = from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer;
+  if (pointers && !in_range_of(from, to)) {
+    return false;
+  }
+  if (pointers && to.pointer == ast::PointerKind::PointerTo) {
     return true;
   }
-  const bool pointers = from.kind == Type::Kind::Pointer && to.kind == Type::Kind::Pointer;
   if (pointers && from.element != nullptr && to.element != nullptr && stands_for(*from.element, *to.element)) {
     return true;
   }

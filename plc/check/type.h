@@ -80,8 +80,10 @@ struct Type {
 [[nodiscard]] bool same_type(const Type& a, const Type& b) noexcept;
 // Whether a variable of `from` can be used as one of `to`: a function block that extends the other, or implements it.
 [[nodiscard]] bool stands_for(const Type& from, const Type& to) noexcept;
-// Whether every value of `from` is one of `to`, as far as subranges say: also those in arrays.
+// Whether every value of `from` is one of `to`, as far as subranges say: also those in arrays and behind pointers.
 [[nodiscard]] bool in_range_of(const Type& from, const Type& to) noexcept;
+// Whether both have the same values, as far as subranges say: what is written through one is read through the other.
+[[nodiscard]] bool same_range(const Type& a, const Type& b) noexcept;
 // Whether a value of `from` can be assigned to a `to` without a conversion function.
 [[nodiscard]] bool assignable(const Type& from, const Type& to, Dialect dialect) noexcept;
 // The one of both that the other widens to; null if there is none. Texts: the longer one.
