@@ -2,6 +2,8 @@
 #include "plc/check/bare_number.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "plc/library/standard.h"
 
@@ -17,10 +19,13 @@ bool is_bare_call(const Expression& call, const Program& program) {
     return false;
   }
   const auto overloads = find_functions(callee.name);
-  if (overloads.size() != 1 || !std::holds_alternative<Generic>(overloads.front()->result)) {
+  const auto of_numbers = std::find_if(overloads.begin(), overloads.end(), [](const LibraryFunction* one) {
+    return std::holds_alternative<Generic>(one->result);  // MUL has forms for TIME, too
+  });
+  if (of_numbers == overloads.end()) {
     return false;
   }
-  const LibraryFunction& function = *overloads.front();
+  const LibraryFunction& function = **of_numbers;
   std::size_t next = 0;
   return std::all_of(call.arguments.begin(), call.arguments.end(), [&](const ast::Argument& argument) {
     const auto position = argument.name.empty() ? std::optional(next) : function.position(argument.name);
@@ -53,6 +58,17 @@ bool is_bare(const Expression& expression, const Program& program) {
       break;
   }
   return false;
+}
+
+bool computes(const Expression& bare) {
+  constexpr std::array<std::string_view, 6> kSelections{"MAX", "MIN", "LIMIT", "SEL", "MUX", "MOVE"};
+  const bool selects = bare.kind == Expression::Kind::Call &&
+                       std::any_of(kSelections.begin(), kSelections.end(),
+                                   [&](std::string_view one) { return same_name(bare.operands[0].name, one); });
+  return bare.kind == Expression::Kind::Binary || (bare.kind == Expression::Kind::Call && !selects) ||
+         (bare.kind == Expression::Kind::Unary && computes(bare.operands[0])) ||
+         std::any_of(bare.arguments.begin(), bare.arguments.end(),
+                     [](const ast::Argument& one) { return one.value && computes(*one.value); });
 }
 
 Elementary widest_of(const Expression& bare, const Program& program) {

@@ -151,6 +151,10 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
 
 const Type* CallChecker::library_function(Expression& call, std::vector<const LibraryFunction*> overloads,
                                           const Type* wanted) {
+  if (wanted == nullptr && is_bare(call, context_.program) &&
+      computes(call)) {  // where nothing says a type, none is too small
+    wanted = context_.elementary(widest_of(call, context_.program));
+  }
   const auto found = positions(call, *overloads.front());
   if (!found || !input_values(*found, overloads, wanted)) {
     return nullptr;
@@ -335,8 +339,17 @@ void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inpu
   Resolved& out = ExpressionChecker::resolved(at);
   out.function = choice.function;
   const bool real = choice.result != nullptr && is_real(choice.result->elementary);
-  if (context_.program.infinite_division && real && choice.function->cpp == "iec::div") {
+  const bool divides = choice.function->cpp == "iec::div";
+  if (context_.program.infinite_division && real && divides) {
     out.function = &infinite_division();
+  }
+  const auto whole_number = [&](const Expression* one) {
+    return is_bare(*one, context_.program) && widest_of(*one, context_.program) == Elementary::Lint;
+  };
+  if (divides && real && std::all_of(inputs.begin(), inputs.end(), whole_number)) {  // 1 / 2, which is known, is 0
+    context_.warning(at.at, fmt::format("this division of whole numbers becomes one of {}, because that is wanted; "
+                                        "write its numbers as 2.0 to say so",
+                                        name_of(choice.result->elementary)));
   }
   out.actuals.clear();
   for (std::size_t i = 0; i < inputs.size(); ++i) {

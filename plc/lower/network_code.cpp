@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "plc/library/standard.h"
 #include "plc/model/make.h"
 #include "plc/st/parser.h"
 
@@ -10,6 +13,24 @@ namespace indurop::plc::lower {
 namespace {
 
 using Kind = Element::Kind;
+
+// MAX(300, 1): nothing can change it.
+bool is_fixed(const ast::Expression& expression) {
+  switch (expression.kind) {
+    case ast::Expression::Kind::Literal:
+      return true;
+    case ast::Expression::Kind::Unary:
+    case ast::Expression::Kind::Binary:
+      return std::all_of(expression.operands.begin(), expression.operands.end(), is_fixed);
+    case ast::Expression::Kind::Call:
+      return expression.operands[0].kind == ast::Expression::Kind::Name && !expression.arguments.empty() &&
+             !find_functions(expression.operands[0].name).empty() &&
+             std::all_of(expression.arguments.begin(), expression.arguments.end(),
+                         [](const ast::Argument& one) { return !one.output && one.value && is_fixed(*one.value); });
+    default:
+      return false;
+  }
+}
 
 }  // namespace
 
@@ -100,6 +121,9 @@ Value NetworkCode::read(const Source& source, const Place& at, bool guarded) {
   }
   Output& found = output->second;
   const bool moved = found.written != lowered_.body.size();
+  if (found.deferred && is_fixed(found.value.expression) && (guarded || found.value.guard.empty())) {
+    return found.value;  // the same wherever it is written, and its type is that of the place
+  }
   if (found.deferred && (moved || uses(key) > 1 || (!guarded && !found.value.guard.empty()))) {
     keep(key, found);
   }

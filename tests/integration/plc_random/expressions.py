@@ -4,6 +4,7 @@ number that takes it."""
 
 import re
 
+import bare_numbers
 import functions as do
 import literals
 import scope as parts
@@ -146,6 +147,8 @@ class Maker:
             options = [self.times] * 4 + options + [self.conversion]
         if any(one.result is type_ for one in self.callable()):
             options = options + [self.user_call] * 2
+        if rng.random() < 0.2:
+            options = options + [bare_numbers.compared if type_.kind == "bool" else bare_numbers.converted]
         made = None
         while made is None:
             one = rng.choice(options)
@@ -155,6 +158,8 @@ class Maker:
     def operand(self, type_, depth, bare=False):
         """Of the type, narrower, or a bare number."""
         rng = self.rng
+        if bare and type_.kind in ("int", "real") and rng.random() < 0.1:
+            return bare_numbers.beside(self, type_)
         if bare and type_.kind in ("int", "real", "bits") and rng.random() < 0.4:
             value = literals.some_value(rng, type_)
             if type_.kind == "real" and value == int(value) and abs(value) < 1 << 20 and rng.random() < 0.3:
@@ -379,7 +384,7 @@ class Maker:
             return rng.choice(found) if found else None
         if plain.kind in ("int", "real", "bits") and rng.random() < 0.1 and type_.low is None:
             return literals.of_value(rng, plain, literals.some_value(rng, plain), typed=False)
-        made = self.operand(plain, depth)
+        made = self.operand(plain, depth, bare=type_.low is None and rng.random() < 0.1)
         if made is None:
             return self.into(type_, depth)
         run = widened(made, plain)

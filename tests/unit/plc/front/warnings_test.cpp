@@ -67,6 +67,18 @@ TEST(PlcWarnings, Two_REALs_that_are_compared_exactly) {
               Not(HasSubstr("exactly equal")));
 }
 
+TEST(PlcWarnings, A_division_of_whole_numbers_where_a_REAL_is_wanted) {
+  const std::string head = "PROGRAM Main VAR x : REAL; i : INT; b : BOOL; END_VAR ";
+  EXPECT_THAT(warnings(head + "x := (1/2) * x; END_PROGRAM"), HasSubstr("1 / 2 is 0, a division of whole numbers"));
+  for (const char* text : {"x := DIV(1, 2) * x;", "x := MAX(1, 2) / MAX(3, 4) * x;"}) {
+    EXPECT_THAT(warnings(head + text + " END_PROGRAM"),
+                HasSubstr("this division of whole numbers becomes one of REAL, because that is wanted"))
+        << text;
+  }
+  EXPECT_EQ(warnings(head + "i := DIV(7, 2) + 7 / 2; x := 7.0 / 2 * x; b := x > 0.5; b := DIV(7, 2) = 3; END_PROGRAM"),
+            "");
+}
+
 TEST(PlcWarnings, A_comma_behind_the_last_value_of_a_call) {
   const Compiled sut =
       compiled("PROGRAM Main VAR t : TON; i : INT; END_VAR t(IN := TRUE, PT := T#1s,); i := ABS(i,); END_PROGRAM");
