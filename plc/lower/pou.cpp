@@ -77,6 +77,8 @@ class PouLowering {
         charts_(pou_code, pou) {}
 
   void run() {
+    once(pou_code_.actions);
+    once(pou_code_.transitions);
     Lowered code =
         pou_code_.body.language == Language::Sfc ? chart(pou_code_.body, what_) : lower(pou_code_.body, what_, "");
     keep(code);
@@ -88,6 +90,19 @@ class PouLowering {
   }
 
  private:
+  // A name means one of them.
+  void once(std::vector<NamedBody>& bodies) {
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+      const auto known = std::find_if(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(i),
+                                      [&](const NamedBody& one) { return same_name(one.name, bodies[i].name); });
+      if (known != bodies.begin() + static_cast<std::ptrdiff_t>(i)) {
+        diagnostics_.error(bodies[i].at, fmt::format("'{}' is already declared at {}, rename one of them",
+                                                     bodies[i].name, to_string(known->at)));
+        bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(i--));
+      }
+    }
+  }
+
   // Variables that the translation needs, among those of the POU.
   void keep(Lowered& code) {
     for (ast::Variable& one : code.variables) {
