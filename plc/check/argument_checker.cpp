@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -19,8 +20,7 @@ using ast::Expression;
 // An array of as many dimensions and the same elements, whatever its bounds.
 bool fits_open(const Type& type, const Type& wanted) noexcept {
   return type.kind == Type::Kind::Array && type.dimensions.size() == wanted.dimensions.size() &&
-         same_type(*type.element, *wanted.element) && in_range_of(*type.element, *wanted.element) &&
-         in_range_of(*wanted.element, *type.element);
+         same_type(*type.element, *wanted.element) && same_range(*type.element, *wanted.element);
 }
 
 // What the argument is for, if that has a type such as ANY_NUM. Inputs count up `position`.
@@ -47,11 +47,40 @@ void CallChecker::in_out(const Expression& call, Expression& given, const Variab
   if (type != nullptr && wanted.open && fits_open(*type, wanted)) {
     return;
   }
-  if (type != nullptr && !(same_type(*type, wanted) && in_range_of(*type, wanted) && in_range_of(wanted, *type)) &&
+  if (type != nullptr && !(same_type(*type, wanted) && same_range(*type, wanted)) &&
       !(type->kind == Type::Kind::Block && stands_for(*type, wanted))) {
     context_.error(given.at, fmt::format("{} is VAR_IN_OUT and needs a variable of type {}, not {}", parameter.name,
                                          to_string(wanted), with_article(*type)));
   }
+}
+
+// A call without names gives each input that has no initial value of its own; false after an error. With names it may
+// leave out any, or all.
+bool CallChecker::all_given(const Expression& call, const Pou& pou) {
+  const std::vector<Resolved::Actual>& actuals = call.resolved->actuals;
+  const bool with_names = std::none_of(actuals.begin(), actuals.end(),
+                                       [](const Resolved::Actual& one) { return one.argument->name.empty(); });
+  const auto needs_value = [](const Variable& one) {
+    return one.section == ast::Section::Input && !one.declared->initial && !same_name(one.name, "EN");
+  };
+  if (with_names) {
+    const auto first = std::find_if(pou.variables.begin(), pou.variables.end(), needs_value);
+    if (actuals.empty() && call.resolved->enable == nullptr && first != pou.variables.end()) {
+      context_.warning(call.at, fmt::format("{} is called without a value for any input, so {} has that of its type; "
+                                            "give it",
+                                            pou.name, first->name));
+    }
+    return true;
+  }
+  for (const Variable& one : pou.variables) {
+    const bool given =
+        std::any_of(actuals.begin(), actuals.end(), [&](const auto& actual) { return actual.parameter == &one; });
+    if (needs_value(one) && !given) {
+      context_.error(call.at, fmt::format("{} needs a value for its input {}, give it", pou.name, one.name));
+      return false;
+    }
+  }
+  return true;
 }
 
 // An instance as an input: it is copied, as it is at the call.

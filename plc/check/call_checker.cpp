@@ -378,7 +378,7 @@ const Type* CallChecker::user_function(Expression& call, const Pou& pou) {
   }
   const std::size_t before = context_.diagnostics.errors();
   user_block(call, pou);
-  if (context_.diagnostics.errors() != before) {
+  if (context_.diagnostics.errors() != before || !all_given(call, pou)) {
     return nullptr;
   }
   // In the order of the declaration, with those that are not given.

@@ -46,6 +46,7 @@ class CallChecker {
   void library_block(ast::Expression& call, const LibraryBlock& block);
   void in_out(const ast::Expression& call, ast::Expression& given, const Variable& parameter);
   static std::vector<const Variable*> by_position(const ast::Expression& call, const Pou& pou);
+  bool all_given(const ast::Expression& call, const Pou& pou);
   void no_function(const ast::Expression& call);
   const Pou* generic_function(ast::Expression& call, const ast::Pou& tree);
   void instance_input(ast::Expression& given, const Variable& parameter);

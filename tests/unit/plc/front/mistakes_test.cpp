@@ -41,6 +41,48 @@ TEST(PlcMistakes, A_mistake_in_the_text_is_said_once) {
   }
 }
 
+// IEC 61131-3, 6.6.1.4.2: a call without names gives what there is, one with names as much as it likes. Inputs with an
+// initial value may be left out, as editors allow it.
+TEST(PlcMistakes, A_call_without_names_gives_all_inputs) {
+  const std::string head =
+      "FUNCTION F : INT VAR_INPUT a, b : INT; c : INT := 5; END_VAR VAR_OUTPUT d : INT; END_VAR F := a + b + c; d := "
+      "a; "
+      "END_FUNCTION FUNCTION None : INT None := 1; END_FUNCTION "
+      "FUNCTION_BLOCK B METHOD M : INT VAR_INPUT a : INT; b : INT; END_VAR M := a + b; END_METHOD END_FUNCTION_BLOCK "
+      "PROGRAM Main VAR i : INT; e : BOOL; m : B; END_VAR ";
+  for (const char* text : {"i := F(1);", "F(1);", "i := m.M(1);", "i := F(1, c := 2);"}) {
+    EXPECT_THAT(wrong(head + text + " END_PROGRAM"), HasSubstr(" needs a value for its input ")) << text;
+  }
+  for (const char* text :
+       {"i := F(1, 2);", "i := F(a := 1);", "i := F(c := 1, d => i);", "i := F(1, 2, 3);", "i := F(1, 2, 3, i);",
+        "i := F(1, 2, c := 3);", "i := m.M(1, 2);", "i := m.M(b := 1);", "F(EN := e, a := 1);", "i := None();"}) {
+    EXPECT_EQ(wrong(head + text + " END_PROGRAM"), "") << text;
+  }
+  for (const char* text : {"i := F();", "F();", "i := m.M();"}) {  // with names, of which there is none
+    EXPECT_THAT(messages(compiled(head + text + " END_PROGRAM")),
+                HasSubstr(" is called without a value for any input, so a has that of its type"))
+        << text;
+  }
+}
+
+TEST(PlcMistakes, An_action_is_declared_once) {
+  const std::string twice =
+      " VAR x : BOOL; END_VAR ACTION Act: x := TRUE; END_ACTION ACTION act: x := FALSE; END_ACTION Act();";
+  EXPECT_THAT(wrong("PROGRAM Main" + twice + " END_PROGRAM"),
+              HasSubstr("in.st:1:77: error: 'act' is already declared at"));
+  EXPECT_THAT(
+      wrong("FUNCTION_BLOCK F" + twice + " END_FUNCTION_BLOCK PROGRAM Main VAR f : F; END_VAR f.Act(); END_PROGRAM"),
+      HasSubstr("'act' is already declared at in.st:1:"));
+}
+
+TEST(PlcMistakes, An_action_of_a_program_may_be_called_as_one_of_a_block_it_uses) {
+  const std::string block =
+      "FUNCTION_BLOCK F VAR_OUTPUT q : BOOL; END_VAR ACTION Act: q := NOT q; END_ACTION q := TRUE; END_FUNCTION_BLOCK ";
+  EXPECT_EQ(wrong(block + "PROGRAM Main VAR f : F; x : BOOL; END_VAR ACTION Act: x := f.q; END_ACTION Act(); f.Act(); "
+                          "END_PROGRAM"),
+            "");
+}
+
 TEST(PlcMistakes, Globals_with_a_mistake_are_no_further_ones_where_they_are_used) {
   struct Row {
     const char* text;
