@@ -139,7 +139,7 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
       const Type* found = expressions_.value(*inputs[i], hint);
       fine = found != nullptr && fine;
       if (generic != nullptr && found != nullptr && found->kind == Type::Kind::Elementary &&
-          is_num(found->elementary)) {
+          is_num(found->elementary) && !untyped(*inputs[i])) {
         const Type* plain = context_.elementary(found->elementary);
         const Type*& known = beside[*generic];
         known = known == nullptr ? plain : context_.common_type(*known, *plain);
@@ -350,6 +350,9 @@ void CallChecker::apply(Expression& at, const Choice& choice, const Inputs& inpu
     context_.warning(at.at, fmt::format("this division of whole numbers becomes one of {}, because that is wanted; "
                                         "write its numbers as 2.0 to say so",
                                         name_of(choice.result->elementary)));
+  }
+  for (std::size_t i = 1; (choice.function->name == "EQ" || choice.function->name == "NE") && i < inputs.size(); ++i) {
+    expressions_.warn_about_exactness(at.at, *choice.types[i], *inputs[i - 1], *inputs[i]);
   }
   out.actuals.clear();
   for (std::size_t i = 0; i < inputs.size(); ++i) {

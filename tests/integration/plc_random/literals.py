@@ -35,11 +35,11 @@ def quoted(text):
 
 
 def duration(rng, ns):
-    """T#1d2h3m4s5ms6us7ns, some parts left out."""
+    """T#1d2h3m4s5ms6us7ns, the first parts left out or not: only the first number may overflow."""
     out, rest = "", abs(ns)
     for unit, size in (("d", 86400 * 10**9), ("h", 3600 * 10**9), ("m", 60 * 10**9), ("s", 10**9), ("ms", 10**6),
                        ("us", 10**3), ("ns", 1)):
-        if rest >= size and (rng.random() < 0.8 or unit == "ns" or rest % size):
+        if rest >= size and (out or rng.random() < 0.8 or unit == "ns" or rest % size):
             out += f"{rest // size}{unit}"
             rest %= size
     return rng.choice(("T#", "TIME#", "t#")) + ("-" if ns < 0 else "") + (out or "0s")
