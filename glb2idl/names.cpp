@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "glb2idl/text.h"
+#include "glb2idl/type_words.h"
 #include "schema/idl_word.h"
 
 namespace indurop::glb2idl {
@@ -210,6 +211,9 @@ std::optional<std::string> objection(std::string_view name, NameRole role, bool 
   const bool inner = role == NameRole::Field || role == NameRole::Parameter;
   if (keywords().contains(word)) {
     return "is a keyword";
+  }
+  if (fixed_type(name)) {
+    return "is a type";
   }
   if (macros().contains(word)) {
     return "is a macro of the system headers";
