@@ -86,26 +86,30 @@ plcopen::Document document_of(Project project, std::vector<st::WrittenBody> bodi
   return out;
 }
 
-plcopen::Document st_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+plcopen::Document st_document(std::string_view text, const Place& at, const ReadOptions& options,
+                              Diagnostics& diagnostics) {
   std::vector<st::WrittenBody> bodies;
-  Project project = st::parse_declarations({text, at}, bodies, diagnostics);
+  Project project = st::parse_declarations({text, at, options.in_editor}, bodies, diagnostics);
   return document_of(std::move(project), std::move(bodies));
 }
 
-plcopen::Document openplc_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+plcopen::Document openplc_document(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                                   Diagnostics& diagnostics) {
   std::vector<st::WrittenBody> bodies;
   Project project = openplc::read_project(text, at, &st::parse_declarations, bodies, diagnostics);
   return document_of(std::move(project), std::move(bodies));
 }
 
 template <network::Body::Language Language>
-plcopen::Document drawn_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+plcopen::Document drawn_document(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                                 Diagnostics& diagnostics) {
   std::vector<st::WrittenBody> bodies;
   Project project = openplc::read_drawn(text, at, Language, bodies, diagnostics);
   return document_of(std::move(project), std::move(bodies));
 }
 
-plcopen::Document xml_document(std::string_view text, const Place& at, Diagnostics& diagnostics) {
+plcopen::Document xml_document(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                               Diagnostics& diagnostics) {
   return plcopen::read_document(text, at.file == nullptr ? std::string() : *at.file, diagnostics);
 }
 
@@ -245,7 +249,7 @@ class FileReader {
     if (type->read != &read_xml) {
       diagnostics_.show_lines_of(file, *text);
     }
-    plcopen::Document made = type->read_document(*text, at, diagnostics_);
+    plcopen::Document made = type->read_document(*text, at, options_, diagnostics_);
     append(to.project, std::move(made.project));
     std::move(made.pous.begin(), made.pous.end(), std::back_inserter(to.pous));
   }
@@ -347,9 +351,8 @@ Project read_project(const std::vector<std::string>& files, const std::vector<st
   return reader.take();
 }
 
-plcopen::Document read_document(const std::vector<std::string>& files, const glb2idl::FileReader& read,
-                                Diagnostics& diagnostics) {
-  const ReadOptions options;
+plcopen::Document read_document(const std::vector<std::string>& files, const ReadOptions& options,
+                                const glb2idl::FileReader& read, Diagnostics& diagnostics) {
   FileReader reader(options, read, diagnostics);
   plcopen::Document out;
   for (const std::string& one : files) {

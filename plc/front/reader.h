@@ -21,7 +21,8 @@ namespace indurop::plc {
 using Reader = Project (*)(std::string_view text, const Place& at, const ReadOptions& options,
                            Diagnostics& diagnostics);
 
-using DocumentReader = plcopen::Document (*)(std::string_view text, const Place& at, Diagnostics& diagnostics);
+using DocumentReader = plcopen::Document (*)(std::string_view text, const Place& at, const ReadOptions& options,
+                                             Diagnostics& diagnostics);
 
 struct FileType {
   std::string_view ending;  // ".st"
@@ -36,7 +37,7 @@ struct FileType {
                                    Diagnostics& diagnostics);
 
 // The same with the code of all POUs as it is written or drawn, for those who show it or write it again.
-[[nodiscard]] plcopen::Document read_document(const std::vector<std::string>& files, const glb2idl::FileReader& read,
-                                              Diagnostics& diagnostics);
+[[nodiscard]] plcopen::Document read_document(const std::vector<std::string>& files, const ReadOptions& options,
+                                              const glb2idl::FileReader& read, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc

@@ -23,7 +23,7 @@ WatchPlan watch_plan(CompileOptions options, const glb2idl::FileReader& read) {
       }
     }
     Diagnostics quiet;  // all of it was said by the check
-    plan.document = read_document(options.files, read, quiet);
+    plan.document = read_document(options.files, {.in_editor = options.dialect == Dialect::Codesys}, read, quiet);
   }
   for (base::Diagnostic& one : diagnostics.list()) {
     if (one.severity == base::Diagnostic::Severity::Error) {  // the build has told the warnings

@@ -11,6 +11,7 @@
 #include "plc/front/reader.h"
 #include "plc/plcopen/project_writer.h"
 #include "tools/plc/plc_file.h"
+#include "tools/plc/plc_sources.h"
 
 namespace indurop::tools {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 struct Request {
   std::vector<std::string> files;
   std::string output;
+  std::optional<plc::Dialect> dialect;
 };
 
 std::string now() {
@@ -27,8 +29,10 @@ std::string now() {
 
 int export_plc(Context& context, const Request& request) {
   plc::Diagnostics diagnostics;
-  const plc::plcopen::Document document =
-      plc::read_document(with_project_files(request.files), &glb2idl::read_source_file, diagnostics);
+  const plc::ReadOptions reading{.in_editor = request.dialect == plc::Dialect::Codesys};
+  plc::plcopen::Document document =
+      plc::read_document(with_project_files(request.files), reading, &glb2idl::read_source_file, diagnostics);
+  document.project.dialect = request.dialect.value_or(document.project.dialect);
   plc::plcopen::WriteOptions options;
   options.name = std::filesystem::path(request.files.front()).stem().string();
   options.created = now();
@@ -60,6 +64,7 @@ void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
   made.add("files", "FILE", request->files, "The program: .st, PLCopen .xml or the OpenPLC Editor's project.json")
       .required();
   made.add("-o,--output", "FILE.xml", request->output, "Where to write it (default: to the terminal)");
+  add_plc_dialect(made, request->dialect);
 }
 
 }  // namespace indurop::tools

@@ -7,6 +7,7 @@
 #include "plc/front/reader.h"
 #include "plc/print/print.h"
 #include "tools/plc/plc_file.h"
+#include "tools/plc/plc_sources.h"
 
 namespace indurop::tools {
 namespace {
@@ -15,6 +16,7 @@ struct Request {
   std::vector<std::string> files;
   std::string svg;
   std::string pou;
+  std::optional<plc::Dialect> dialect;
 };
 
 std::string names_of(const plc::plcopen::Document& document) {
@@ -27,8 +29,9 @@ std::string names_of(const plc::plcopen::Document& document) {
 
 int print(Context& context, const Request& request) {
   plc::Diagnostics diagnostics;
+  const plc::ReadOptions reading{.in_editor = request.dialect == plc::Dialect::Codesys};
   plc::plcopen::Document document =
-      plc::read_document(with_project_files(request.files), &glb2idl::read_source_file, diagnostics);
+      plc::read_document(with_project_files(request.files), reading, &glb2idl::read_source_file, diagnostics);
   const auto bodies = plc::printed_bodies(document, request.pou);
   const bool only_svg = !request.svg.empty();
   const std::string out = diagnostics.failed() ? std::string()
@@ -68,6 +71,7 @@ void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
       .required();
   made.add("--svg", "FILE", request->svg, "Draw the networks into this SVG file instead");
   made.add("--pou", "NAME", request->pou, "This program, function or function block only");
+  add_plc_dialect(made, request->dialect);
 }
 
 }  // namespace indurop::tools

@@ -3,6 +3,16 @@
 
 namespace indurop::tools {
 
+void add_plc_dialect(base::Options& app, std::optional<plc::Dialect>& dialect) {
+  const base::Take take = [&dialect](const std::string& text) {
+    dialect = text == "codesys" ? plc::Dialect::Codesys : plc::Dialect::Iec;
+    return std::string();
+  };
+  app.add("--dialect", "DIALECT", take,
+          "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
+      .choices({"iec", "codesys"});
+}
+
 void add_plc_sources(base::Options& app, plc::CompileOptions& request) {
   app.add("files", "FILE", request.files,
           "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
@@ -14,13 +24,7 @@ void add_plc_sources(base::Options& app, plc::CompileOptions& request) {
       .one_at_a_time();
   app.add("--name", "NAME", request.name, "Name of the module (default: the first file's)");
   app.add("--namespace", "NAME", request.space, "Namespace of its shared variables (default: the module's name)");
-  const base::Take take = [&request](const std::string& text) {
-    request.dialect = text == "codesys" ? plc::Dialect::Codesys : plc::Dialect::Iec;
-    return std::string();
-  };
-  app.add("--dialect", "DIALECT", take,
-          "Whose rules convert values by themselves: iec or codesys (default: the editor's that wrote the files)")
-      .choices({"iec", "codesys"});
+  add_plc_dialect(app, request.dialect);
   const base::Take divide = [&request](const std::string& text) {
     request.infinite_division = text == "infinity";
     return std::string();

@@ -8,6 +8,9 @@
 
 namespace indurop::tools {
 
+// --dialect alone. `dialect` must live as long as the options.
+void add_plc_dialect(base::Options& app, std::optional<plc::Dialect>& dialect);
+
 // `request` must live as long as the options.
 void add_plc_sources(base::Options& app, plc::CompileOptions& request);
 

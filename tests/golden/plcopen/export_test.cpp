@@ -31,7 +31,7 @@ class Export : public ::testing::TestWithParam<fs::path> {
   }
   [[nodiscard]] plcopen::Document document(const std::string& file) {
     Diagnostics diagnostics;
-    plcopen::Document read = read_document({file}, reader(), diagnostics);
+    plcopen::Document read = read_document({file}, {}, reader(), diagnostics);
     EXPECT_FALSE(diagnostics.failed()) << base::to_text(diagnostics.list(), "");
     return read;
   }
@@ -167,7 +167,7 @@ TEST(Refused, What_the_format_does_not_have_is_an_error) {
       "FUNCTION_BLOCK B VAR r : REF_TO INT; END_VAR VAR_STAT s : INT; END_VAR ; END_FUNCTION_BLOCK\n";
   Diagnostics diagnostics;
   const plcopen::Document document = read_document(
-      {"in.st"}, [&](const std::string& name) { return glb2idl::ReadResult{text, name, ""}; }, diagnostics);
+      {"in.st"}, {}, [&](const std::string& name) { return glb2idl::ReadResult{text, name, ""}; }, diagnostics);
   ASSERT_FALSE(diagnostics.failed()) << base::to_text(diagnostics.list(), "");
   (void)plcopen::write_project(document, {"x", "2024-01-31T12:00:00"}, diagnostics);
   std::string all;
@@ -187,7 +187,7 @@ void expect_same_export(const std::string& text) {
     return glb2idl::ReadResult{name == "in.st" ? text : exported, name, ""};
   };
   Diagnostics diagnostics;
-  exported = plcopen::write_project(read_document({"in.st"}, reader, diagnostics), {"x", "2024-01-31T12:00:00"},
+  exported = plcopen::write_project(read_document({"in.st"}, {}, reader, diagnostics), {"x", "2024-01-31T12:00:00"},
                                     diagnostics);
   ASSERT_FALSE(diagnostics.failed()) << base::to_text(diagnostics.list(), "");
   CompileOptions options;
