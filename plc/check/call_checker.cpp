@@ -116,7 +116,9 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   if (!take_enable(call, whole_side)) {
     return nullptr;
   }
-  if (const auto pou = context_.program.pou_names.find(upper(callee.name)); pou != context_.program.pou_names.end()) {
+  const bool variable = context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr;
+  if (const auto pou = context_.program.pou_names.find(upper(callee.name));
+      pou != context_.program.pou_names.end() && !variable) {
     if (pou->second->tree->kind != ast::Pou::Kind::Function) {
       context_.error(call.at,
                      fmt::format("{} is not a function, declare an instance of it and call that", callee.name));
@@ -141,43 +143,6 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   }
   no_function(call);
   return nullptr;
-}
-
-// Why the name is none.
-void CallChecker::no_function(const Expression& call) {
-  const Expression& callee = call.operands[0];
-  if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
-    context_.error(call.at,
-                   fmt::format("'{}' is not a function; the call of a function block stands alone, its result is "
-                               "in an output",
-                               callee.name));
-    return;
-  }
-  if (callee.name.starts_with('@')) {
-    context_.error(call.at,
-                   "this C code gives the time as a number, declare the variable it goes to as UDINT or ULINT");
-    return;
-  }
-  if (same_name(callee.name, "__NEW") || same_name(callee.name, "__DELETE")) {
-    context_.error(call.at, fmt::format("{} is not supported, because a program that runs in real time asks for no "
-                                        "memory; declare the instance, or an array of them",
-                                        callee.name));
-    return;
-  }
-  if (const std::string why = why_left_out(context_.program.project, callee.name); !why.empty()) {
-    context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name, why));
-    return;
-  }
-  std::vector<std::string> known;
-  for (const LibraryFunction& one : library_functions()) {
-    known.push_back(one.name);
-  }
-  for (const Pou& one : context_.program.pous) {
-    known.push_back(one.name);
-  }
-  const std::string hint = did_you_mean(context_, callee.name, known);
-  context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name,
-                                      hint.empty() ? ", declare it as FUNCTION" : hint));
 }
 
 void CallChecker::statement(Expression& call) {

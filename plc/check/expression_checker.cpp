@@ -249,7 +249,7 @@ const Type* ExpressionChecker::bit(Expression& expression) {
     return part(expression, *base);
   }
   if (!has_bits || expression.bit >= bits_of(base->elementary)) {
-    context_.error(expression.at, fmt::format("{} has no bit {}", with_article(*base), expression.bit));
+    context_.error(expression.at, with_article(*base) + " has no such bit");
     return nullptr;
   }
   return context_.elementary(Elementary::Bool);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/check/identifier_checker.h"
 
+#include <fmt/format.h>
+
 #include "plc/model/identifier.h"
 
 namespace indurop::plc {
@@ -33,8 +35,11 @@ class Walk {
 
  private:
   void name(const std::string& text, const Place& at) {
+    const auto type = elementary_named(text);
     if (std::string why = why_no_name(text); !why.empty()) {
       context_.error(at, std::move(why));
+    } else if (type && (is_num(*type) || is_bit(*type))) {  // TIME is a function, too, and CHAR is one since edition 3
+      context_.error(at, fmt::format("'{}' is the name of a type and cannot be another's; use another one", text));
     }
   }
 

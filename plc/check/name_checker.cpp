@@ -137,36 +137,6 @@ const Type* ExpressionChecker::bare_enum_value(Expression& expression, const Typ
   return several ? nullptr : found;
 }
 
-const Type* ExpressionChecker::unknown(Expression& expression, const Type* wanted) {
-  std::pair<std::string, std::string> both;
-  if (const Type* found = bare_enum_value(expression, wanted, both)) {
-    return found;
-  }
-  if (same_name(expression.name, "NULL")) {
-    expression.resolved->constant = Integer{0};
-    expression.resolved->untyped = true;
-    return context_.elementary(Elementary::Int);
-  }
-  if (!both.first.empty()) {
-    context_.error(expression.at, fmt::format("'{0}' is a value of {1} and of {2}, write {1}#{0} or {2}#{0}",
-                                              expression.name, both.first, both.second));
-    return nullptr;
-  }
-  if (Global* shared = only_foreign_global(context_, expression.name)) {
-    return global(expression, *shared);
-  }
-  if (const auto pou = context_.program.pou_names.find(upper(expression.name));
-      pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Program) {
-    context_.error(expression.at,
-                   fmt::format("{} is a program, whose variables are its own; declare what others use as "
-                               "VAR_GLOBAL, or say --dialect codesys",
-                               pou->second->name));
-    return nullptr;
-  }
-  complain_undeclared(context_, expression.at, expression.name);
-  return nullptr;
-}
-
 Global* ExpressionChecker::program_named(std::string_view name) {
   Program& program = context_.program;
   const auto found = context_.codesys() ? program.pou_names.find(upper(name)) : program.pou_names.end();
@@ -364,6 +334,11 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
         known.push_back(one->name);
       }
     }
+  }
+  if (block.pou != nullptr && find_method(*block.pou, expression.name) != nullptr) {
+    context_.error(expression.at,
+                   fmt::format("'{0}' is a method of {1}, call it: {0}(...)", expression.name, to_string(block)));
+    return nullptr;
   }
   context_.error(expression.at, fmt::format("{} has no input or output '{}'{}", to_string(block), expression.name,
                                             did_you_mean(context_, expression.name, known)));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "plc/check/bare_number.h"
 #include "plc/check/call_checker.h"
@@ -161,19 +162,26 @@ const Type* ExpressionChecker::comparison(Expression& expression) {
   if (!is_enum) {
     fold(expression, *resolved(expression).operand);
   }
-  warn_about_exactness(expression);
+  if (!orders) {
+    warn_about_exactness(expression.at, *resolved(expression).operand, a, b);
+  }
   return context_.elementary(Elementary::Bool);
 }
 
-// Sums of REALs are rounded; a REAL that was never computed with, or is compared with 0, is what it is.
-void ExpressionChecker::warn_about_exactness(const Expression& expression) {
-  const Type& type = *expression.resolved->operand;
-  const bool exact = expression.op == Operator::Equal || expression.op == Operator::NotEqual;
-  const auto known = [](const Expression& one) { return constant_of(one) != nullptr; };
-  if (exact && type.kind == Type::Kind::Elementary && is_real(type.elementary) &&
-      std::none_of(expression.operands.begin(), expression.operands.end(), known)) {
-    context_.warning(expression.at, fmt::format("two {} are seldom exactly equal, compare ABS(a - b) with a tolerance",
-                                                name_of(type.elementary)));
+// Sums of REALs are rounded; one that is compared with 0 or 2.5 may never have been computed with.
+void ExpressionChecker::warn_about_exactness(const Place& at, const Type& type, const Expression& a,
+                                             const Expression& b) {
+  if (type.kind != Type::Kind::Elementary || !is_real(type.elementary)) {
+    return;
+  }
+  const auto exact = [](const Expression& one) {
+    const Constant* known = constant_of(one);
+    const auto* number = known != nullptr ? std::get_if<double>(known) : nullptr;
+    return known != nullptr && (number == nullptr || std::fmod(*number * 8, 1.0) == 0.0);
+  };
+  if (!exact(a) && !exact(b)) {
+    context_.warning(at, fmt::format("two {} are seldom exactly equal, compare ABS(a - b) with a tolerance",
+                                     name_of(type.elementary)));
   }
 }
 
@@ -184,7 +192,13 @@ const Type* ExpressionChecker::logic(Expression& expression, const Type* /*wante
     return is_elementary_bit(type) ||
            (context_.codesys() && type.kind == Type::Kind::Elementary && is_int(type.elementary));
   };
-  if (!meet(a, b) || !has_bits(*a.type) || !has_bits(*b.type)) {
+  const bool fits = meet(a, b) && has_bits(*a.type) && has_bits(*b.type);
+  if (expression.guards && !(fits && b.type->is(Elementary::Bool))) {
+    context_.error(b.at, fmt::format("the condition of a transition is a BOOL, not {}, compare it with something",
+                                     with_article(*b.type)));
+    return nullptr;
+  }
+  if (!fits) {
     context_.error(expression.at, fmt::format("AND, OR and XOR combine two BOOL or two bit strings, not {} and {}",
                                               with_article(*a.type), with_article(*b.type)));
     return nullptr;

@@ -35,6 +35,18 @@ bool read_alone(Context& context, ExpressionChecker& expressions, Statement& one
   return true;
 }
 
+// Whether something in the body of a loop leaves it.
+bool leaves(const ast::Body& body, bool innermost) {
+  return std::any_of(body.begin(), body.end(), [&](const Statement& one) {
+    using Kind = Statement::Kind;
+    const bool loop = one.kind == Kind::For || one.kind == Kind::While || one.kind == Kind::Repeat;
+    return one.kind == Kind::Return || one.kind == Kind::Jump || (one.kind == Kind::Exit && innermost) ||
+           leaves(one.body, innermost && !loop) ||
+           std::any_of(one.branches.begin(), one.branches.end(),
+                       [&](const ast::Branch& branch) { return leaves(branch.body, innermost); });
+  });
+}
+
 }  // namespace
 
 void StatementChecker::body(ast::Body& body) {
@@ -96,6 +108,7 @@ void StatementChecker::statement(Statement& one) {
     case Statement::Kind::While:
     case Statement::Kind::Repeat:
       condition(*one.value);
+      warn_about_endless(one);
       ++loops_;
       list(one.body);
       --loops_;
@@ -148,6 +161,15 @@ bool StatementChecker::action_with_values(Statement& one) {
   one = make::when(make::truth(one.at, true), std::move(before));
   statement(one);
   return true;
+}
+
+// WHILE TRUE that nothing leaves: the scan would not end.
+void StatementChecker::warn_about_endless(const Statement& one) {
+  const Constant* known = constant_of(*one.value);
+  const bool goes_on = one.kind == Statement::Kind::While;
+  if (known != nullptr && *known == Constant(goes_on) && !leaves(one.body, true)) {
+    context_.warning(one.at, "this loop never ends, and so does the scan; leave it with EXIT");
+  }
 }
 
 void StatementChecker::condition(ast::Expression& expression) {

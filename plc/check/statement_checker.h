@@ -25,6 +25,7 @@ class StatementChecker {
   void copy_instance(ast::Statement& one, const Type& to);
   bool infer(ast::Statement& one);
   bool action_with_values(ast::Statement& one);
+  void warn_about_endless(const ast::Statement& one);
   void condition(ast::Expression& expression);
   void if_statement(ast::Statement& one);
   void case_statement(ast::Statement& one);

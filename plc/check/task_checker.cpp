@@ -11,6 +11,7 @@
 
 #include "plc/check/global_table.h"
 #include "plc/check/reach.h"
+#include "plc/model/identifier.h"
 #include "plc/st/literal.h"
 
 namespace indurop::plc {
@@ -79,7 +80,15 @@ class TaskPlanner {
              std::any_of(all.begin(), all.end(), [&](const auto& one) { return same_name(one.name, name); });
     };
     const bool shared = std::any_of(configuration.resources.begin(), configuration.resources.end(), has);
-    return shared && !resource_->name.empty() ? resource_->name + "_" + name : name;
+    if (!shared || resource_->name.empty()) {
+      return name;
+    }
+    if (std::string why = why_no_name(resource_->name);
+        !why.empty()) {  // "Plc Logic" is fine where nothing is named so
+      context_.error(resource_->at, fmt::format("'{}' is in two resources, which tell them apart: {}", name, why));
+      return name;
+    }
+    return resource_->name + "_" + name;
   }
 
   void declare(const Task& task, const std::string& name) {

@@ -7,8 +7,6 @@
 
 namespace indurop::plc {
 
-inline constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
-
 // Fills Program::tasks. Without a configuration all programs run in one task of the default interval.
 void plan_tasks(Context& context);
 

@@ -157,7 +157,16 @@ void ExpressionChecker::note_write(const Expression& expression) {
     }
   }
   if (root.variable != nullptr) {
-    context_.pou->find(upper(root.variable->name))->written = true;
+    Variable& variable = *context_.pou->find(upper(root.variable->name));
+    const ast::Pou::Kind kind = context_.pou->tree->kind;
+    const bool keeps = kind == ast::Pou::Kind::FunctionBlock || kind == ast::Pou::Kind::Program;
+    if (keeps && variable.section == ast::Section::Input && variable.owner == context_.pou && !variable.written) {
+      context_.warning(expression.at,
+                       fmt::format("'{}' is an input, which the caller gives; what is written here stays "
+                                   "until then only",
+                                   variable.name));
+    }
+    variable.written = true;
   }
   if (root.meaning == Meaning::FunctionResult) {
     context_.pou->result_assigned = true;

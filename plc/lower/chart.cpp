@@ -91,7 +91,9 @@ class ChartLowering {
       }
       ast::Expression value = condition(transition, i);
       declare(ast::Section::Temp, fired(i), make::type(at, Elementary::Bool));
-      add(make::assign(make::name(at, fired(i)), make::both(std::move(ready), std::move(value))));
+      ast::Expression fires = make::both(std::move(ready), std::move(value));
+      fires.guards = true;
+      add(make::assign(make::name(at, fired(i)), std::move(fires)));
     }
   }
 

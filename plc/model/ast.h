@@ -81,6 +81,7 @@ struct Expression {
   LiteralValue value;                    // Literal
   std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
   std::string value_enum;                // Name: the type in Color#Red
+  bool guards = false;                   // Binary: what is right of AND is the condition of a transition
   bool of_this = false;                  // Name: THIS^.x was written, a variable of the instance
   bool as_truth = false;                 // at a contact or coil: a number of a .glb is a BOOL, 0 is FALSE
   unsigned bit = 0;

@@ -14,6 +14,8 @@
 namespace indurop::plc {
 
 // TASK fast (INTERVAL := T#10ms, PRIORITY := 1)
+inline constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
+
 struct Task {
   Place at;
   std::string name;

@@ -133,12 +133,21 @@ bool ConfigurationParser::resource_item(Resource& out) {
 // TASK name (INTERVAL := T#10ms, PRIORITY := 1);
 bool ConfigurationParser::task(Resource& out) {
   Task one;
+  const Token& at = in_.peek();
   one.at = in_.here();
   if (!name(one.name, "the task")) {
     return false;
   }
   if (!in_brackets([&] { return task_property(one); }, "behind the task's properties")) {
     return false;
+  }
+  if (one.interval_ns == std::optional<std::int64_t>(0)) {
+    if (one.single.empty()) {
+      in_.error(at, "INTERVAL is 0 and SINGLE is not given, so this task never runs; write INTERVAL := T#10ms");
+      one.interval_ns = kDefaultIntervalNs;
+    } else {
+      one.interval_ns.reset();
+    }
   }
   out.tasks.push_back(std::move(one));
   return in_.expect(";", "behind the task");
@@ -154,19 +163,29 @@ bool ConfigurationParser::task_property(Task& out) {
   if (!value) {
     return false;
   }
-  const auto* time = std::get_if<std::int64_t>(&value->value);
-  const auto* number = std::get_if<std::uint64_t>(&value->value);
-  if (word.is("INTERVAL") && time != nullptr && *time > 0) {
-    out.interval_ns = *time;
-  } else if (word.is("PRIORITY") && number != nullptr && value->kind == ast::Expression::Kind::Literal &&
-             *number <= std::numeric_limits<std::int32_t>::max()) {
-    out.priority = static_cast<std::int32_t>(*number);
-  } else if (word.is("SINGLE") &&
-             (value->kind == ast::Expression::Kind::Name || value->kind == ast::Expression::Kind::Direct)) {
-    out.single = value->kind == ast::Expression::Kind::Name ? value->name : ast::to_string(value->address);
+  const bool literal = value->kind == ast::Expression::Kind::Literal;
+  const auto* time = literal ? std::get_if<std::int64_t>(&value->value) : nullptr;
+  const auto* number = literal ? std::get_if<std::uint64_t>(&value->value) : nullptr;
+  if (word.is("INTERVAL")) {
+    const bool fine = time != nullptr && *time >= 0;
+    out.interval_ns = fine ? *time : kDefaultIntervalNs;
+    if (!fine) {
+      in_.error(at, "INTERVAL is a time such as T#10ms");
+    }
+  } else if (word.is("PRIORITY")) {
+    if (number != nullptr && *number <= std::numeric_limits<std::int32_t>::max()) {
+      out.priority = static_cast<std::int32_t>(*number);
+    } else {
+      in_.error(at, "PRIORITY is a whole number from 0, the most urgent, such as 1");
+    }
+  } else if (word.is("SINGLE")) {
+    if (value->kind == ast::Expression::Kind::Name || value->kind == ast::Expression::Kind::Direct) {
+      out.single = value->kind == ast::Expression::Kind::Name ? value->name : ast::to_string(value->address);
+    } else {
+      in_.error(at, "SINGLE is a global variable or an address, at whose rising edge the task runs");
+    }
   } else {
-    in_.error(at, "a task has INTERVAL := T#10ms, PRIORITY := 1 and SINGLE := a variable, correct it");
-    return false;
+    in_.error(word, fmt::format("a task has no '{}', only INTERVAL, PRIORITY and SINGLE", word.text));
   }
   return true;
 }

@@ -55,7 +55,7 @@ bool is_c_code(std::string_view pragma) {
     quote = quote == c ? '\0' : quote == '\0' && (c == '\'' || c == '"') ? c : quote;
     before = c;
   }
-  return pragma.starts_with('#');
+  return pragma.starts_with('#') || pragma.find("++") != std::string_view::npos;
 }
 
 class Lexer {

@@ -123,6 +123,7 @@ TimeValue duration(std::string_view text) {
   std::int64_t total = 0;
   std::size_t next_unit = 0;
   bool had_fraction = false;
+  bool first = true;
   if (text.empty()) {
     return wrong(kForm);
   }
@@ -142,7 +143,14 @@ TimeValue duration(std::string_view text) {
       return wrong(kForm);
     }
     had_fraction = !fraction.empty();
-    const auto part = scaled(whole, fraction, kUnits[next_unit++].ns);
+    const Unit& own = kUnits[next_unit++];
+    const auto part = scaled(whole, fraction, own.ns);
+    const Unit& larger = kUnits[&own == kUnits.data() ? 0 : next_unit - 2];
+    if (!first && part && *part >= larger.ns) {  // IEC 61131-3, 6.3.5: only the first unit may overflow
+      return wrong(fmt::format("only its first number may be so large: {} {} make one {}", larger.ns / own.ns, own.name,
+                               larger.name));
+    }
+    first = false;
     if (!part || __builtin_add_overflow(total, *part, &total)) {
       return wrong("it is longer than 292 years");
     }

@@ -83,6 +83,76 @@ TEST(PlcMistakes, An_action_of_a_program_may_be_called_as_one_of_a_block_it_uses
             "");
 }
 
+// What is wrong is named, not what follows from it.
+TEST(PlcMistakes, The_message_names_the_mistake) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  const std::string head =
+      "FUNCTION F : INT VAR_INPUT a : INT; END_VAR F := a; END_FUNCTION "
+      "FUNCTION_BLOCK B VAR_INPUT a : INT; END_VAR VAR_OUTPUT o : INT; END_VAR METHOD Init : INT VAR_INPUT c : INT; "
+      "END_VAR Init := c; END_METHOD o := a; END_FUNCTION_BLOCK "
+      "PROGRAM Main VAR i : INT; b : B; t : TIME; END_VAR ";
+  for (const auto& [text, message] : {
+           Row{"i := F;", "'F' is a function, call it: F(...)"},
+           Row{"i := ABS;", "'ABS' is a function, call it: ABS(...)"},
+           Row{"Init(3);", "Init is a method of B, call it of an instance: name.Init(...)"},
+           Row{"i := b.Init;", "'Init' is a method of B, call it: Init(...)"},
+           Row{"i := b(a := 3);", "'b' is not a function; the call of a function block stands alone"},
+           Row{"i.%X99 := TRUE;", "an INT has no such bit"},
+           Row{"t := T#1m90s;", "only its first number may be so large: 60 S make one M"},
+           Row{"t := T#1d24h;", "only its first number may be so large: 24 H make one D"},
+           Row{"{i++} i := 2;", "C code in { } is not supported"},
+       }) {
+    const Compiled sut = compiled(head + text + " END_PROGRAM");
+    EXPECT_FALSE(sut.ok) << text;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+  EXPECT_EQ(wrong(head + "t := T#25h15m; t := T#1h59m59s999ms; {region 'a++'} i.%X3 := t > T#1s; END_PROGRAM"), "");
+}
+
+TEST(PlcMistakes, The_condition_of_a_transition_is_a_BOOL) {
+  const auto chart = [](const std::string& condition) {
+    return "PROGRAM Main VAR x : BOOL; n : INT; END_VAR INITIAL_STEP A: END_STEP STEP B: END_STEP\n"
+           "TRANSITION FROM A TO B := " +
+           condition + "; END_TRANSITION\nTRANSITION FROM B TO A := x; END_TRANSITION END_PROGRAM";
+  };
+  for (const char* condition : {"5", "n", "n + 1"}) {
+    EXPECT_THAT(wrong(chart(condition)), HasSubstr("error: Main: the condition of a transition is a BOOL, not an INT"))
+        << condition;
+  }
+  EXPECT_EQ(wrong(chart("n > 5 AND x")), "");
+}
+
+TEST(PlcMistakes, Properties_of_tasks_are_said_one_by_one) {
+  const auto task = [](const std::string& properties) {
+    return "PROGRAM Main VAR x : BOOL; END_VAR x := NOT x; END_PROGRAM CONFIGURATION c VAR_GLOBAL g : BOOL; END_VAR "
+           "RESOURCE r ON pc TASK t (" +
+           properties + "); PROGRAM p WITH t : Main; END_RESOURCE END_CONFIGURATION";
+  };
+  struct Row {
+    const char* properties;
+    const char* message;
+  };
+  for (const auto& [properties, message] : {
+           Row{"INTERVAL := T#0s, PRIORITY := 1", "INTERVAL is 0 and SINGLE is not given, so this task never runs"},
+           Row{"INTERVAL := 10, PRIORITY := 1", "INTERVAL is a time such as T#10ms"},
+           Row{"INTERVAL := T#-1s, PRIORITY := 1", "INTERVAL is a time such as T#10ms"},
+           Row{"INTERVAL := T#1s, PRIORITY := -1", "PRIORITY is a whole number from 0"},
+           Row{"INTERVAL := T#1s, PRIORITY := 1.5", "PRIORITY is a whole number from 0"},
+           Row{"SINGLE := 3, INTERVAL := T#1s", "SINGLE is a global variable or an address"},
+           Row{"INTERVAL := T#1s, FOO := 1", "a task has no 'FOO', only INTERVAL, PRIORITY and SINGLE"},
+       }) {
+    const Compiled sut = compiled(task(properties));
+    EXPECT_FALSE(sut.ok) << properties;
+    EXPECT_EQ(sut.diagnostics.size(), 1U) << properties << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
+  EXPECT_EQ(wrong(task("SINGLE := g, INTERVAL := T#0s, PRIORITY := 1")), "") << "IEC 61131-3, 6.8.2: of events only";
+}
+
 TEST(PlcMistakes, Globals_with_a_mistake_are_no_further_ones_where_they_are_used) {
   struct Row {
     const char* text;
@@ -132,7 +202,8 @@ TEST(PlcMistakes, What_is_named_from_outside_is_there_and_fits) {
     const char* message;
   };
   const auto program = [](const std::string& access, const std::string& connections, const std::string& task) {
-    return "VAR_GLOBAL real : REAL; word : INT; END_VAR PROGRAM P VAR_INPUT k : INT; END_VAR VAR i AT %IW0 : INT; t : "
+    return "VAR_GLOBAL number : REAL; code : INT; END_VAR PROGRAM P VAR_INPUT k : INT; END_VAR VAR i AT %IW0 : INT; t "
+           ": "
            "TON; list : ARRAY[1..3] OF INT; END_VAR VAR_TEMP now : INT; END_VAR now := k + i + list[1]; t(IN := now > "
            "3); END_PROGRAM CONFIGURATION c " +
            (access.empty() ? "" : "VAR_ACCESS " + access + " END_VAR ") + "RESOURCE r ON pc TASK t (" + task +
@@ -150,22 +221,22 @@ TEST(PlcMistakes, What_is_named_from_outside_is_there_and_fits) {
            Row{"a : p.list[4] : INT;", "outside of 1..3"},
            Row{"a : p.k[1] : INT;", "no array"},
            Row{"a : p.i : INT READ_WRITE;", "an input is not written"},
-           Row{"word : p.k : INT;", "there is a variable 'word' already"},
+           Row{"code : p.k : INT;", "there is a variable 'code' already"},
            Row{"a : p.k : INT; a : p.k : INT;", "there is a variable 'a' already"},
        }) {
     EXPECT_THAT(wrong(program(text, "", every)), HasSubstr(message)) << text;
   }
   for (const auto& [text, message] : {
-           Row{"z := word", "P has no input 'z'"},
-           Row{"k := real", "a REAL is not given to an INT"},
+           Row{"z := code", "P has no input 'z'"},
+           Row{"k := number", "a REAL is not given to an INT"},
            Row{"k := 5.5", "5.5 does not fit INT"},
-           Row{"k := word, k := 5", "connected twice"},
+           Row{"k := code, k := 5", "connected twice"},
            Row{"t WITH t", "a task of its own for a function block"},
-           Row{"k => word", "P has no output 'k'"},
+           Row{"k => code", "P has no output 'k'"},
        }) {
     EXPECT_THAT(wrong(program("", text, every)), HasSubstr(message)) << text;
   }
-  const Compiled sut = compiled(program("", "", "SINGLE := real"));
+  const Compiled sut = compiled(program("", "", "SINGLE := number"));
   EXPECT_EQ(sut.diagnostics.size(), 1U) << messages(sut);
   EXPECT_THAT(messages(sut), HasSubstr("no global variable of this name that is a BOOL"));
 }

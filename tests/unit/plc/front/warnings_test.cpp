@@ -65,6 +65,12 @@ TEST(PlcWarnings, Two_REALs_that_are_compared_exactly) {
   EXPECT_THAT(warnings(head + "b := z <> x * y; END_PROGRAM"), HasSubstr("two LREAL are seldom exactly equal"));
   EXPECT_THAT(warnings(head + "b := x < y OR x = 0.0 OR x <> 2.5 OR i = 3; END_PROGRAM"),
               Not(HasSubstr("exactly equal")));
+  for (const char* text :
+       {"b := x = 0.1;", "b := EQ(x, y);", "b := NE(z, 3.3);", "b := ABS(x) <> 3.3;", "b := EQ(x, 0.1);"}) {
+    EXPECT_THAT(warnings(head + text + " END_PROGRAM"), HasSubstr("seldom exactly equal")) << text;
+  }
+  EXPECT_THAT(warnings(head + "b := EQ(i, 3) OR EQ(x, 1.0) OR NE(z, 0.0) OR GT(x, y); END_PROGRAM"),
+              Not(HasSubstr("exactly equal")));
 }
 
 TEST(PlcWarnings, A_division_of_whole_numbers_where_a_REAL_is_wanted) {
@@ -77,6 +83,33 @@ TEST(PlcWarnings, A_division_of_whole_numbers_where_a_REAL_is_wanted) {
   }
   EXPECT_EQ(warnings(head + "i := DIV(7, 2) + 7 / 2; x := 7.0 / 2 * x; b := x > 0.5; b := DIV(7, 2) = 3; END_PROGRAM"),
             "");
+}
+
+TEST(PlcWarnings, A_loop_that_nothing_ends) {
+  const std::string head = "PROGRAM Main VAR i : INT; END_VAR ";
+  for (const char* text : {"WHILE TRUE DO i := i + 1; END_WHILE;", "REPEAT i := i + 1; UNTIL FALSE END_REPEAT;",
+                           "WHILE 1 = 1 DO FOR i := 1 TO 3 DO EXIT; END_FOR; END_WHILE;"}) {
+    EXPECT_THAT(warnings(head + text + " END_PROGRAM"), HasSubstr("this loop never ends")) << text;
+  }
+  for (const char* text : {"WHILE TRUE DO i := i + 1; IF i > 3 THEN EXIT; END_IF; END_WHILE;",
+                           "REPEAT i := i + 1; IF i > 3 THEN RETURN; END_IF; UNTIL FALSE END_REPEAT;",
+                           "REPEAT i := i + 1; UNTIL TRUE END_REPEAT;", "WHILE i < 3 DO i := i + 1; END_WHILE;"}) {
+    EXPECT_EQ(warnings(head + text + " END_PROGRAM"), "") << text;
+  }
+}
+
+TEST(PlcWarnings, An_input_that_its_block_writes) {
+  const auto block = [](const std::string& kind, const std::string& rest) {
+    return kind + " VAR_INPUT a : INT; END_VAR a := a + 1; a := 2;" + rest;
+  };
+  const std::string main = " PROGRAM Main VAR f : F; END_VAR f(a := 1); END_PROGRAM";
+  const std::string said = warnings(block("FUNCTION_BLOCK F", " END_FUNCTION_BLOCK") + main);
+  EXPECT_THAT(said, HasSubstr("'a' is an input, which the caller gives"));
+  EXPECT_EQ(said.find("is an input"), said.rfind("is an input")) << "once";
+  EXPECT_EQ(warnings(block("FUNCTION G : INT", " G := a; END_FUNCTION") +
+                     " PROGRAM Main VAR i : INT; END_VAR i := G(1); END_PROGRAM"),
+            "")
+      << "in a function it is one more variable";
 }
 
 TEST(PlcWarnings, A_comma_behind_the_last_value_of_a_call) {

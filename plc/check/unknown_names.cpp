@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names that no declaration of a variable or function explains: what else they may be, or what is said about them.
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plc/check/call_checker.h"
+#include "plc/check/expression_checker.h"
+#include "plc/check/global_table.h"
+#include "plc/library/standard.h"
+
+namespace indurop::plc {
+
+using ast::Expression;
+
+const Type* ExpressionChecker::unknown(Expression& expression, const Type* wanted) {
+  std::pair<std::string, std::string> both;
+  if (const Type* found = bare_enum_value(expression, wanted, both)) {
+    return found;
+  }
+  if (same_name(expression.name, "NULL")) {
+    expression.resolved->constant = Integer{0};
+    expression.resolved->untyped = true;
+    return context_.elementary(Elementary::Int);
+  }
+  if (!both.first.empty()) {
+    context_.error(expression.at, fmt::format("'{0}' is a value of {1} and of {2}, write {1}#{0} or {2}#{0}",
+                                              expression.name, both.first, both.second));
+    return nullptr;
+  }
+  if (Global* shared = only_foreign_global(context_, expression.name)) {
+    return global(expression, *shared);
+  }
+  const auto pou = context_.program.pou_names.find(upper(expression.name));
+  const bool is_function =
+      pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Function;
+  if (is_function || !find_functions(expression.name).empty()) {
+    context_.error(expression.at, fmt::format("'{0}' is a function, call it: {0}(...)", expression.name));
+    return nullptr;
+  }
+  if (pou != context_.program.pou_names.end() && pou->second->tree->kind == ast::Pou::Kind::Program) {
+    context_.error(expression.at,
+                   fmt::format("{} is a program, whose variables are its own; declare what others use as "
+                               "VAR_GLOBAL, or say --dialect codesys",
+                               pou->second->name));
+    return nullptr;
+  }
+  complain_undeclared(context_, expression.at, expression.name);
+  return nullptr;
+}
+
+// Why the name is none.
+void CallChecker::no_function(const Expression& call) {
+  const Expression& callee = call.operands[0];
+  if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
+    context_.error(call.at,
+                   fmt::format("'{}' is not a function; the call of a function block stands alone, its result is "
+                               "in an output",
+                               callee.name));
+    return;
+  }
+  if (callee.name.starts_with('@')) {
+    context_.error(call.at,
+                   "this C code gives the time as a number, declare the variable it goes to as UDINT or ULINT");
+    return;
+  }
+  if (same_name(callee.name, "__NEW") || same_name(callee.name, "__DELETE")) {
+    context_.error(call.at, fmt::format("{} is not supported, because a program that runs in real time asks for no "
+                                        "memory; declare the instance, or an array of them",
+                                        callee.name));
+    return;
+  }
+  if (const std::string why = why_left_out(context_.program.project, callee.name); !why.empty()) {
+    context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name, why));
+    return;
+  }
+  std::vector<std::string> known;
+  for (const LibraryFunction& one : library_functions()) {
+    known.push_back(one.name);
+  }
+  for (const Pou& one : context_.program.pous) {
+    if (one.owner != nullptr && same_name(one.name, callee.name)) {
+      context_.error(call.at, fmt::format("{} is a method of {}, call it of an instance: name.{}(...)", one.name,
+                                          one.owner->name, one.name));
+      return;
+    }
+    if (one.owner == nullptr) {
+      known.push_back(one.name);
+    }
+  }
+  const std::string hint = did_you_mean(context_, callee.name, known);
+  context_.error(call.at, fmt::format("there is no function '{}'{}", callee.name,
+                                      hint.empty() ? ", declare it as FUNCTION" : hint));
+}
+
+}  // namespace indurop::plc
