@@ -67,6 +67,8 @@ class ExpressionChecker {
   // Null: it has none of that name.
   const Type* library_pin(ast::Expression& expression, const LibraryBlock& block);
   const Type* block_member(ast::Expression& expression, const Type& block);
+  // Says what a name behind the dot of an instance should have been.
+  void no_member(const ast::Expression& expression, const Type& block);
   const Type* namespace_member(ast::Expression& expression, const std::string& path);
   const Type* index(ast::Expression& expression);
   const Type* bit(ast::Expression& expression);

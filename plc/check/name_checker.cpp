@@ -282,13 +282,9 @@ const Type* ExpressionChecker::library_pin(Expression& expression, const Library
 }
 
 const Type* ExpressionChecker::block_member(Expression& expression, const Type& block) {
-  std::vector<std::string> known;
   if (block.block != nullptr) {
     if (const Type* pin = library_pin(expression, *block.block)) {
       return pin;
-    }
-    for (const LibraryParameter& one : block.block->outputs) {
-      known.push_back(one.name);
     }
   } else if (block.pou != nullptr) {
     Variable* found = block.pou->find(upper(expression.name));
@@ -329,19 +325,8 @@ const Type* ExpressionChecker::block_member(Expression& expression, const Type& 
                                  found->name, to_string(block)));
       return nullptr;
     }
-    for (const Variable* one : all_variables(*block.pou)) {
-      if (one->section == ast::Section::Output) {
-        known.push_back(one->name);
-      }
-    }
   }
-  if (block.pou != nullptr && find_method(*block.pou, expression.name) != nullptr) {
-    context_.error(expression.at,
-                   fmt::format("'{0}' is a method of {1}, call it: {0}(...)", expression.name, to_string(block)));
-    return nullptr;
-  }
-  context_.error(expression.at, fmt::format("{} has no input or output '{}'{}", to_string(block), expression.name,
-                                            did_you_mean(context_, expression.name, known)));
+  no_member(expression, block);
   return nullptr;
 }
 

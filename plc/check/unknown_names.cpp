@@ -52,6 +52,27 @@ const Type* ExpressionChecker::unknown(Expression& expression, const Type* wante
   return nullptr;
 }
 
+void ExpressionChecker::no_member(const Expression& expression, const Type& block) {
+  std::vector<std::string> known;
+  if (block.block != nullptr) {
+    for (const LibraryParameter& one : block.block->outputs) {
+      known.push_back(one.name);
+    }
+  } else if (block.pou != nullptr && find_method(*block.pou, expression.name) != nullptr) {
+    context_.error(expression.at,
+                   fmt::format("'{0}' is a method of {1}, call it: {0}(...)", expression.name, to_string(block)));
+    return;
+  } else if (block.pou != nullptr) {
+    for (const Variable* one : all_variables(*block.pou)) {
+      if (one->section == ast::Section::Output) {
+        known.push_back(one->name);
+      }
+    }
+  }
+  context_.error(expression.at, fmt::format("{} has no input or output '{}'{}", to_string(block), expression.name,
+                                            did_you_mean(context_, expression.name, known)));
+}
+
 // Why the name is none.
 void CallChecker::no_function(const Expression& call) {
   const Expression& callee = call.operands[0];
