@@ -22,6 +22,9 @@ Answer why_old(std::span<const Facts> plant, std::size_t asked, const std::strin
 // Why a board is not heard any more; likewise.
 Answer why_gone(std::span<const Facts> plant, std::size_t asked, const std::string& board);
 
+// Why a board's own node has ended, by what is known of it alone.
+Answer why_ended(const Facts& facts);
+
 // Who set, forced or wrote a variable last before a time.
 Answer who_changed(const Facts& facts, const std::string& variable, std::int64_t at_ns);
 

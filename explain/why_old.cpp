@@ -234,6 +234,28 @@ Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::
 
 }  // namespace
 
+Answer why_ended(const Facts& facts) {
+  if (facts.alive) {
+    return {Cause::AllIsWell, {}, fmt::format("the node of {} runs", facts.board), {}};
+  }
+  std::int64_t last = 0;
+  for (const RunFact& run : facts.runs) {
+    last = std::max(last, run.end_ns);
+  }
+  const std::string when_last = last > 0 ? fmt::format("the last run that is known was in {}", when(facts, last))
+                                         : std::string("no run of it is known");
+  if (!facts.stop_reason.empty()) {
+    return {Cause::Board,
+            facts.board,
+            fmt::format("the node of {} ended: {}", facts.board, facts.stop_reason),
+            {when_last}};
+  }
+  Answer answer = not_known(fmt::format(
+      "the recording does not say that {} stopped; give those of other boards, which heard it", facts.board));
+  answer.evidence.push_back(when_last);
+  return answer;
+}
+
 Answer why_gone(std::span<const Facts> plant, std::size_t asked, const std::string& board) {
   const Facts& facts = plant[asked];
   const BoardFact* peer = seen(facts, board);

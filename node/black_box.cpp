@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/read_file.h"
 #include "explain/facts_json.h"
 #include "explain/kernel_log.h"
+#include "explain/orders.h"
 #include "explain/run_facts.h"
+#include "mirror/frames/mirror_block.h"
 #include "node/facts_part.h"
 #include "node/record_part.h"
 #include "recorder/boxes.h"
@@ -17,13 +20,13 @@
 #include "vars/box_wish.h"
 #include "vars/retain.h"
 #include "vars/run_file.h"
+#include "vars/shm_file.h"
 
 namespace indurop::node {
 namespace {
 
 constexpr std::chrono::milliseconds kAfterwards{200};  // what follows a fault tells something too
 constexpr std::chrono::minutes kBetween{1};
-constexpr std::chrono::seconds kBetweenWishes{10};
 constexpr std::chrono::milliseconds kLookForWish{100};
 constexpr std::uint64_t kManyOverruns = 10;  // within a second
 
@@ -81,6 +84,11 @@ void tell(const Result<std::filesystem::path, base::Problem>& box, const std::st
   }
 }
 
+template <std::size_t N>
+std::string text_of(const char (&text)[N]) {
+  return {text, ::strnlen(text, N)};
+}
+
 // Empty if the block makes no sense any more.
 std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock& run, std::size_t size) {
   const bool sound = run.total_size <= size && run.modules_offset >= sizeof run &&
@@ -91,6 +99,15 @@ std::string facts_of_crashed(const std::string& node, const scheduler::RunBlock&
   }
   explain::Facts facts = explain::facts_of(run, false);
   explain::add_kernel(node, facts);
+  const auto file = vars::ShmFile::open(vars::mirror_file(node), vars::Mode::ReadOnly);
+  if (const auto* boards = file ? mirror::mirror_block_in({file->data(), file->size()}) : nullptr; boards != nullptr) {
+    explain::add_boards(*boards, facts);
+  }
+  facts.orders = explain::read_orders(node, run.started_wall_ns);
+  facts.board = text_of(run.board);
+  facts.stop_reason = "its process died in the middle of its work";
+  facts.now_ns = run.epoch_ns + static_cast<std::int64_t>(run.tick.load()) * run.basic_period_ns;
+  facts.wall_minus_node_ns = rt::wall_ns() - rt::now_ns();
   return explain::facts_text(facts);
 }
 
@@ -98,17 +115,21 @@ recorder::About about_crashed(const std::string& node, const scheduler::RunBlock
                               const vars::Store& store) {
   recorder::About about;
   about.node = node;
-  about.config = std::string(run.config_file, ::strnlen(run.config_file, sizeof run.config_file));
-  about.deployment = std::string(run.deployment, ::strnlen(run.deployment, sizeof run.deployment));
+  const std::string config = text_of(run.config_file);
+  about.board = text_of(run.board);
+  about.config = about.board.empty() ? config : text_of(run.plant_file);
+  about.deployment = text_of(run.deployment);
   about.basic_period_ns = run.basic_period_ns;
   about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
+  if (auto text = base::read_file(config)) {
+    about.files.emplace_back(std::filesystem::path(config).filename().string(), *std::move(text));
+  }
   if (const auto facts = facts_of_crashed(node, run, size); !facts.empty()) {
     about.files.emplace_back(explain::kFactsFile, facts);
   }
   const std::uint64_t end = run.modules_offset + run.module_count * sizeof(scheduler::ModuleRecord);
   for (std::uint32_t i = 0; run.modules_offset < size && end <= size && i < run.module_count; ++i) {
-    const auto& name = run.modules()[i].name;
-    about.modules.emplace_back(name, ::strnlen(name, sizeof name));
+    about.modules.push_back(text_of(run.modules()[i].name));
   }
   return about;
 }
@@ -134,7 +155,9 @@ void keep_box_of_crash(const std::string& node, const Console& console) {
 
 BlackBox::BlackBox(const Options& options, const Checked& checked, const Prepared& prepared, const BoardMirror& mirror,
                    Console& console)
-    : options_(options), checked_(checked), prepared_(prepared), mirror_(mirror), console_(console) {}
+    : options_(options), checked_(checked), prepared_(prepared), mirror_(mirror), console_(console) {
+  vars::refuse_boxes_until(options.node, 0);  // of an earlier run
+}
 
 BlackBox::~BlackBox() {
   if (writer_.joinable()) {
@@ -189,7 +212,10 @@ void BlackBox::look_for_wish(rt::MonoTime now) {
   if (wish && due_ == rt::MonoTime{} && now >= next_wish_) {
     wish_ = *std::move(wish);
     due_ = now + kAfterwards;
-    next_wish_ = now + kBetweenWishes;
+    next_wish_ = now + vars::kBetweenBoxes;
+    vars::refuse_boxes_until(options_.node, rt::to_ns(next_wish_));
+  } else if (wish && due_ != rt::MonoTime{} && !wish_.empty()) {
+    wish_ += "; " + *wish;
   }
 }
 

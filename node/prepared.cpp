@@ -128,6 +128,8 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
   auto setup = make_run_setup(checked.config, checked.check, options.node,
                               {rights->core, rights->realtime() || options.simulation.on});
   setup.deployment = options.deployment;
+  setup.board = options.board;
+  setup.plant_file = options.board.empty() ? "" : std::filesystem::absolute(options.config).string();
   auto file = vars::RunFile::create(options.node, scheduler::run_block_size(setup));
   if (!file) {
     return no_memory("the run's shared memory", file.error(), console);
@@ -145,7 +147,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     retainer = std::make_unique<Retainer>(*store, options.node);
     begin_values(*store, *retainer, previous_run_ended_well, console);
   }
-  auto tape = make_tape(options, checked, setup.basic_period_ns, *store);
+  auto tape = make_tape(options, checked, setup.basic_period_ns, *store, console);
   if (!tape) {
     return no_memory("the tape", tape.error(), console);
   }

@@ -2,10 +2,12 @@
 #include "node/tape_part.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "base/duration.h"
 #include "tape/plan.h"
 
 namespace indurop::node {
@@ -30,7 +32,8 @@ std::map<std::string, tape::ModuleAccess> scheduled(const config::Config& config
 }  // namespace
 
 Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Checked& checked,
-                                              std::int64_t basic_period_ns, const vars::Store& store) {
+                                              std::int64_t basic_period_ns, const vars::Store& store,
+                                              const Console& console) {
   if (options.tape_megabytes == 0) {
     (void)vars::remove_shm_file(vars::tape_file(options.node));  // of an earlier run
     return std::unique_ptr<tape::Tape>();
@@ -58,6 +61,11 @@ Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Chec
     accesses.push_back(std::move(access));
   }
   const auto plan = tape::plan_tape(accesses, directory, basic_period_ns, kReachNs, options.tape_megabytes * kMegabyte);
+  if (plan.reach_ns < kReachNs && !options.simulation.on) {
+    console.info("the tape tells of the last {} at least, two seconds want --tape {}",
+                 base::format_duration(std::chrono::milliseconds(plan.reach_ns / 1'000'000)),
+                 (plan.bytes_wanted + kMegabyte - 1) / kMegabyte);
+  }
   return tape::Tape::create(options.node, store, plan, checked.config.modules.size());
 }
 

@@ -9,13 +9,16 @@
 #include <memory>
 
 #include "node/checked.h"
+#include "node/console.h"
 #include "tape/tape.h"
 #include "vars/store.h"
 
 namespace indurop::node {
 
-// Null if the options want none. Errors: those of tape::Tape::create().
+// Null if the options want none. Says on the console if it will tell of less than two seconds.
+// Errors: those of tape::Tape::create().
 Result<std::unique_ptr<tape::Tape>> make_tape(const Options& options, const Checked& checked,
-                                              std::int64_t basic_period_ns, const vars::Store& store);
+                                              std::int64_t basic_period_ns, const vars::Store& store,
+                                              const Console& console);
 
 }  // namespace indurop::node

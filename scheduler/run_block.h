@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 5;
+inline constexpr std::uint32_t kRunAbi = 6;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -175,6 +175,8 @@ struct RunBlock {
   std::uint64_t total_size;
   char node_name[48];
   char config_file[256];
+  char board[48];  // of a plant, and the plant's file; empty: none
+  char plant_file[256];
   char deployment[72];  // id of what was deployed; empty: the node was started by hand
   std::atomic<std::int32_t> node_pid;
   std::uint64_t node_start_time;  // field 22 of /proc/PID/stat

@@ -99,6 +99,8 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
   block.total_size = at.total;
   rt::copy_text(block.node_name, setup.node_name);
   rt::copy_text(block.config_file, setup.config_file);
+  rt::copy_text(block.board, setup.board);
+  rt::copy_text(block.plant_file, setup.plant_file);
   rt::copy_text(block.deployment, setup.deployment);
   block.basic_period_ns = setup.basic_period_ns;
   block.macro_period_ns = setup.macro_period_ns;

@@ -30,6 +30,8 @@ struct ModuleSetup {
 struct RunBlockSetup {
   std::string node_name;
   std::string config_file;
+  std::string board;       // of a plant; empty: none
+  std::string plant_file;  // likewise
   std::string deployment;
   std::int64_t basic_period_ns = 0;
   std::int64_t macro_period_ns = 0;

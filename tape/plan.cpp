@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t kLeastWords = 1024;
 constexpr std::uint64_t kLeastRuns = 8;  // of the longest kind that a track holds, so that readers can follow
 constexpr std::uint64_t kLargestShare = 8;
+constexpr std::uint64_t kReadingsWords = 4;  // two of the clock
 
 void sort_once(std::vector<std::uint32_t>& indices) {
   std::sort(indices.begin(), indices.end());
@@ -34,18 +35,54 @@ TrackPlan sort_out(const ModuleAccess& access, const std::vector<bool>& taped) {
   return track;
 }
 
-// Of a run in which everything changed, before and while it ran.
+// Of a run in which everything changed, before and while it ran; one value is told again.
 std::uint64_t longest_run(const TrackPlan& track, std::span<const vars::DirectoryEntry> directory) {
-  std::uint64_t words = 1 + kRunWords;
+  std::uint64_t words = 1 + kRunWords + kReadingsWords;
+  std::uint64_t largest = 0;
   const auto add = [&](const std::vector<std::uint32_t>& indices, std::uint64_t times) {
     for (const std::uint32_t i : indices) {
       words += times * (1 + words_of(directory[i].value_size));
+      largest = std::max(largest, 1 + words_of(directory[i].value_size));
     }
   };
   add(track.only_read, 2);
   add(track.both, 2);
   add(track.only_written, 1);
-  return words;
+  return words + largest;
+}
+
+// Of a ring that is to hold so many runs for a reader, who begins behind what is being overwritten, at a mark.
+std::uint64_t words_for(double runs, std::uint64_t run) {
+  return static_cast<std::uint64_t>(std::ceil((runs + 2) * static_cast<double>(run) * kMarks / (kMarks - 2)));
+}
+
+struct Need {
+  std::uint64_t least = 0;  // words; powers of two
+  double wanted = 0;        // words
+};
+
+// Halves rings until they keep to `bytes`, as far as each has what it needs at least: always that which tells longest.
+void shrink(std::vector<TrackPlan>& tracks, const std::vector<Need>& needs, std::uint64_t bytes) {
+  std::uint64_t sum = 0;
+  for (const TrackPlan& track : tracks) {
+    sum += track.words * sizeof(std::uint64_t);
+  }
+  while (sum > bytes) {
+    std::size_t longest = tracks.size();
+    double most = 0;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      const double share = static_cast<double>(tracks[i].words) / needs[i].wanted;
+      if (tracks[i].words > needs[i].least && share > most) {
+        longest = i;
+        most = share;
+      }
+    }
+    if (longest == tracks.size()) {
+      return;
+    }
+    tracks[longest].words /= 2;
+    sum -= tracks[longest].words * sizeof(std::uint64_t);
+  }
 }
 
 std::vector<std::uint32_t> known_to_nobody(std::span<const ModuleAccess> modules, std::size_t variables) {
@@ -79,21 +116,23 @@ TapePlan plan_tape(std::span<const ModuleAccess> modules, std::span<const vars::
   if (auto others = known_to_nobody(modules, directory.size()); !others.empty()) {
     all.push_back({kOthers, basic_period_ns, std::move(others), {}});
   }
-  std::vector<double> wanted;
-  double sum = 0;
+  std::vector<Need> needs;
   for (const ModuleAccess& access : all) {
-    plan.tracks.push_back(sort_out(access, plan.taped));
-    const auto runs = static_cast<double>(reach_ns) / static_cast<double>(std::max<std::int64_t>(access.period_ns, 1));
-    wanted.push_back(runs * static_cast<double>(longest_run(plan.tracks.back(), directory)));
-    sum += wanted.back();
+    TrackPlan& track = plan.tracks.emplace_back(sort_out(access, plan.taped));
+    const std::uint64_t run = longest_run(track, directory);
+    const double runs =
+        static_cast<double>(reach_ns) / static_cast<double>(std::max<std::int64_t>(access.period_ns, 1));
+    const std::uint64_t wanted = std::max(words_for(runs, run), kLeastWords);
+    needs.push_back({std::bit_ceil(std::max(kLeastWords, kLeastRuns * run)), static_cast<double>(wanted)});
+    track.words = std::max(needs.back().least, std::bit_ceil(wanted));
+    plan.bytes_wanted += track.words * sizeof(std::uint64_t);
   }
-  const double share = std::min(1.0, static_cast<double>(bytes) / (sizeof(std::uint64_t) * std::max(sum, 1.0)));
+  shrink(plan.tracks, needs, bytes);
+  double share = 1;
   for (std::size_t i = 0; i < plan.tracks.size(); ++i) {
-    const std::uint64_t least = std::max(kLeastWords, kLeastRuns * longest_run(plan.tracks[i], directory));
-    // Downwards, so that together they keep to `bytes`, but for what each needs at least.
-    const auto fits = std::bit_floor(static_cast<std::uint64_t>(wanted[i] * share) + 1);
-    plan.tracks[i].words = std::max(std::bit_ceil(least), fits);
+    share = std::min(share, static_cast<double>(plan.tracks[i].words) / needs[i].wanted);
   }
+  plan.reach_ns = static_cast<std::int64_t>(share * static_cast<double>(reach_ns));
   return plan;
 }
 

@@ -29,12 +29,16 @@ struct TrackPlan {
 
 struct TapePlan {
   std::vector<TrackPlan> tracks;
-  std::vector<bool> taped;  // of each variable of the directory
+  std::vector<bool> taped;         // of each variable of the directory
+  std::int64_t reach_ns = 0;       // what a reader finds at least, of the module of which there is least
+  std::uint64_t bytes_wanted = 0;  // so that this would be what was asked for
 };
 
-// The tracks tell `reach_ns` if every value changes at every run, or as much of it as fits into `bytes` together; what
-// tells less for one module does so for all. Variables that no module of the schedule knows get a track of their own,
-// which is written in each basic period. A value that is larger than an eighth of `bytes` is on no track.
+// A reader finds the last `reach_ns` on the tracks even if every value changes at every run and each run asks twice for
+// the time, or as much of it as fits into `bytes` together; what is told less of is told about as long of all modules.
+// What functions and channels gave to runs takes its place from that. Variables that no module of the schedule knows
+// get a track of their own, which is written in each basic period. A value that is larger than an eighth of `bytes` is
+// on no track.
 TapePlan plan_tape(std::span<const ModuleAccess> modules, std::span<const vars::DirectoryEntry> directory,
                    std::int64_t basic_period_ns, std::int64_t reach_ns, std::uint64_t bytes);
 

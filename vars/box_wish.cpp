@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <filesystem>
 #include <system_error>
 
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "rt/clock.h"
 #include "vars/retain.h"
 
 namespace indurop::vars {
@@ -19,9 +21,37 @@ std::filesystem::path file_of(const std::string& node) {
   return state_directory(node) / "keep-box";
 }
 
+std::filesystem::path refusal_of(const std::string& node) {
+  return state_directory(node) / "keep-box.not-before";
+}
+
+// What is further away than it can be is of another boot.
+bool refuses(const std::string& node) {
+  const auto text = base::read_file(refusal_of(node), kLongest);
+  std::int64_t until_ns = 0;
+  if (text) {
+    std::from_chars(text->data(), text->data() + text->size(), until_ns);
+  }
+  const std::int64_t left_ns = until_ns - rt::now_ns();
+  return left_ns > 0 && left_ns <= std::chrono::nanoseconds(kBetweenBoxes).count();
+}
+
 }  // namespace
 
+void refuse_boxes_until(const std::string& node, std::int64_t monotonic_ns) {
+  const std::filesystem::path file = refusal_of(node);
+  std::error_code ignored;
+  if (monotonic_ns == 0) {
+    std::filesystem::remove(file, ignored);
+  } else {
+    (void)base::replace_file(file, std::to_string(monotonic_ns), base::Durable::No);
+  }
+}
+
 Status wish_box(const std::string& node, const std::string& why) {
+  if (refuses(node)) {
+    return Error{Errc::Busy, 0, kBoxesTooClose};
+  }
   const std::filesystem::path file = file_of(node);
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);

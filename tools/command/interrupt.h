@@ -12,7 +12,8 @@ namespace indurop::tools {
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 [[nodiscard]] int interrupt_code() noexcept;  // 130, 143
-// For a verb that Ctrl-C ends as wished: what it does at its end may wait again. The next Ctrl-C ends the program.
+// For a verb that Ctrl-C ends as wished: what it does at its end may wait again, and its code is that of the program.
+// The next Ctrl-C ends the program.
 void take_interrupt() noexcept;
 
 // Sleeps until CLOCK_MONOTONIC `deadline_ns` or a signal, or, if `fd` >= 0, until it can be read.

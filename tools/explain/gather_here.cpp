@@ -70,6 +70,7 @@ Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std
   if (facts.stop_reason.empty() && !run.node_alive()) {
     facts.stop_reason = "its process died in the middle of its work";
   }
+  facts.board = fixed_text(run.block().board);
   add_mirror(node, facts);
   facts.orders = explain::read_orders(node, run.block().started_wall_ns);
   facts.now_ns = now_ns;

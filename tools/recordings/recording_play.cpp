@@ -48,12 +48,12 @@ bool named(const Options& options, const std::string& name) {
 }
 
 // What modules of the node do not write themselves, or what was asked for by name.
-Result<Playlist, Problem> choose(Context& context, const Options& options, const recording::McapReader& reader,
+Result<Playlist, Failure> choose(Context& context, const Options& options, const recording::McapReader& reader,
                                  const vars::Store& store) {
   const recorder::Sources sources = recorder::find_sources(reader);
   const auto source = recorder::choose_source(sources, options.board, options.file.string());
   if (!source) {
-    return source.error();
+    return Failure{kFailed, source.error().text};
   }
   const KnownUses uses = known_uses(context.node);
   Playlist list;
@@ -68,8 +68,8 @@ Result<Playlist, Problem> choose(Context& context, const Options& options, const
     const auto& channel = reader.contents().channels.at(id);
     const auto schema = reader.contents().schemas.find(channel.schema);
     if (schema == reader.contents().schemas.end() || schema->second.data != recording::omg_idl(variable.type).text) {
-      return Problem{
-          fmt::format("{} has another type in node {} than in {}", place.name, context.node, options.file.string())};
+      return Failure{kSchemaMismatch, fmt::format("{} has another type in node {} than in {}", place.name, context.node,
+                                                  options.file.string())};
     }
     const auto use = uses.find(place.name);
     if (options.names.empty() && use != uses.end() && !use->second.writers.empty()) {
@@ -79,10 +79,24 @@ Result<Playlist, Problem> choose(Context& context, const Options& options, const
     list[id] = {entry, &variable, {}};
   }
   if (list.empty()) {
-    return Problem{written > 0 ? "modules of the node write all of these variables themselves; name those to be written"
+    return Failure{kFailed,
+                   written > 0 ? "modules of the node write all of these variables themselves; name those to be written"
                                : "none of the recorded variables is in the node"};
   }
   return list;
+}
+
+// Writing to a forced value is for nothing. The names, empty: none is.
+std::string forced_of(const Playlist& list, const vars::Store& store) {
+  std::string names;
+  for (const vars::Force& force : store.forces()) {
+    for (const auto& [id, played] : list) {
+      if (force.variable == played.entry) {
+        names += (names.empty() ? "" : ", ") + played.variable->name;
+      }
+    }
+  }
+  return names;
 }
 
 struct Done {
@@ -146,7 +160,11 @@ int play(Context& context, const Options& options) {
   }
   auto list = choose(context, options, *reader, *store);
   if (!list) {
-    context.out.error(list.error().text);
+    return report(context.out, list.error());
+  }
+  if (const std::string forced = forced_of(*list, *store); !forced.empty()) {
+    context.out.error(
+        fmt::format("{}: forced, what is written has no effect; release it first: indurop unforce", forced));
     return kFailed;
   }
   const auto done = play_all(options, *reader, *store, *list);
@@ -159,7 +177,11 @@ int play(Context& context, const Options& options) {
     context.out.error(
         fmt::format("{} values could not be written: their variables were held by somebody", done->refused));
   }
-  return done->refused > 0 ? kFailed : kOk;
+  const std::string forced = forced_of(*list, *store);
+  if (!forced.empty()) {
+    context.out.error(fmt::format("{}: forced meanwhile, not all that was written had an effect", forced));
+  }
+  return done->refused > 0 || !forced.empty() ? kFailed : kOk;
 }
 
 }  // namespace

@@ -340,7 +340,7 @@ Action declare(base::Options& app, Context& context) {
       .required()
       .completes(base::Completion::Variable);
   add_time_option(app, "--duration", options->duration_ns,
-                  "Follow from now on for so long (default: what is on the tape, about the last two seconds)");
+                  "Follow from now on for so long (default: what is on the tape, two seconds or more)");
   app.add("--from", "FILE.mcap", options->files,
           "Follow in a recording; of a plant, in one of each board or in a joined one")
       .completes(base::Completion::File);

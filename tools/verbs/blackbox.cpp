@@ -258,7 +258,9 @@ int keep(Context& context, const std::string& why) {
     return kUnreachable;
   }
   if (const Status wished = vars::wish_box(*node, why.empty() ? "wanted by a user" : why); !wished) {
-    context.out.error(fmt::format("{} cannot be written", vars::state_directory(*node).string()));
+    context.out.error(wished.error().code == Errc::Busy
+                          ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
+                          : fmt::format("{} cannot be written", vars::state_directory(*node).string()));
     return kFailed;
   }
   context.out.note(fmt::format("node '{}' keeps its black box; indurop blackbox lists it in a moment", *node));

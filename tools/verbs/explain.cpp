@@ -142,6 +142,11 @@ Result<std::vector<Asked>, Failure> ask(const std::vector<Facts>& plant, const O
       names.push_back(board.name);
     }
   }
+  for (const Facts& facts : plant) {
+    if (!facts.board.empty() && facts.board == options.what) {
+      return std::vector<Asked>{{fmt::format("why did board {} end?", options.what), explain::why_ended(facts)}};
+    }
+  }
   return Failure{kFailed, fmt::format("there is no module, variable or board '{}'.{}", options.what,
                                       did_you_mean(options.what, names))};
 }

@@ -23,7 +23,6 @@
 #include "tools/command/units.h"
 #include "tools/explain/gather.h"
 #include "tools/plant/record_with_agents.h"
-#include "tools/values/mirror_view.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 #include "vars/names_of_nothing.h"
@@ -56,18 +55,17 @@ recorder::About about(const ChosenRun& chosen, const vars::Store& store) {
   const scheduler::RunBlock& run = chosen.run.block();
   recorder::About about;
   about.node = chosen.node;
-  about.config = fixed_text(run.config_file);
+  const std::string config = fixed_text(run.config_file);
+  about.board = fixed_text(run.board);
+  about.config = about.board.empty() ? config : fixed_text(run.plant_file);
   about.deployment = fixed_text(run.deployment);
-  if (const auto mirror = view_mirror(chosen.node)) {
-    about.board = mirror->board;
-  }
   about.basic_period_ns = run.basic_period_ns;
   about.real_minus_node_ns = rt::wall_ns() - rt::to_ns(store.now());
   for (std::uint32_t i = 0; i < chosen.run.module_count(); ++i) {
     about.modules.push_back(fixed_text(chosen.run.module(i).name));
   }
-  if (auto text = base::read_file(about.config)) {
-    about.files.emplace_back(std::filesystem::path(about.config).filename().string(), *std::move(text));
+  if (auto text = base::read_file(config)) {
+    about.files.emplace_back(std::filesystem::path(config).filename().string(), *std::move(text));
   }
   // Already at the begin: whoever reads it knows that the end of this recording is not that of the node.
   about.files.emplace_back(explain::kFactsFile, facts_text_here(chosen.node, chosen.run));
@@ -134,6 +132,19 @@ bool tell_missing(Context& context, const Recorded& node, const recorder::Record
   return recorder.counts().lost.empty();
 }
 
+// False if the node did not come to its end by itself. Of one that did its recording is whole.
+bool tell_death(Context& context, const Recorded& node) {
+  const RunView& run = node.chosen.run;
+  const auto state = run.block().state.load();
+  if (run.node_alive() || state == scheduler::NodeState::Stopped || state == scheduler::NodeState::Failed) {
+    return true;
+  }
+  context.out.error(fmt::format("{} {} crashed or was killed: of it the recording ends at about tick {}",
+                                node.board.empty() ? "node" : "board",
+                                node.board.empty() ? node.chosen.node : node.board, run.block().tick.load()));
+  return false;
+}
+
 int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
   bool whole = true;
   std::uint64_t runs = 0;
@@ -142,6 +153,7 @@ int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const recorder::Recorder& recorder = parts.recorders()[i];
     whole = tell_missing(context, *nodes[i], recorder) && whole;
+    whole = tell_death(context, *nodes[i]) && whole;
     runs += recorder.counts().runs;
     values += recorder.counts().values;
     variables += recorder.variables();
@@ -154,7 +166,7 @@ int tell(Context& context, const Nodes& nodes, const recorder::Parts& parts) {
 }
 
 // Opens a node and adds it to both; null, or what prevents that.
-std::optional<Failure> add_node(Context& context, const std::string& board, const Options& options, Nodes& nodes,
+std::optional<Failure> add_node(Context& context, const std::string& board, Nodes& nodes,
                                 std::vector<recorder::Taped>& taped) {
   auto chosen = open_run(board.empty() ? context.node : board);
   if (!chosen) {
@@ -177,10 +189,6 @@ std::optional<Failure> add_node(Context& context, const std::string& board, cons
   }
   nodes.push_back(std::make_unique<Recorded>(Recorded{std::move(*chosen), std::move(*store), board}));
   recorder::About said = about(nodes.back()->chosen, nodes.back()->store);
-  if (!board.empty()) {
-    said.board = board;
-    said.config = std::filesystem::absolute(options.plant).string();
-  }
   taped.push_back({board.empty() ? "" : board + "/", std::move(said), &nodes.back()->store, std::move(*follower)});
   return std::nullopt;
 }
@@ -191,7 +199,7 @@ std::vector<BoardElsewhere> add_boards(Context& context, const Options& options,
   std::vector<BoardElsewhere> elsewhere;
   for (const config::Board& board : plant.boards) {
     const auto failure = options.remote ? std::optional<Failure>(Failure{kUnreachable, {}})
-                                        : add_node(context, board.name, options, nodes, taped);
+                                        : add_node(context, board.name, nodes, taped);
     if (failure) {
       elsewhere.push_back({board.name, failure->code == kUnreachable ? "" : failure->text});
     }
@@ -212,12 +220,15 @@ int record_here(Context& context, const Options& options, const std::filesystem:
     parts->learn();
   }
   const auto done = go_on(options, nodes, *parts);
-  const int told = tell(context, nodes, *parts);
+  int code = tell(context, nodes, *parts);
   if (!done) {
     context.out.error(done.error().text + "; the recording ends here");
-    return kFailed;
+    code = kFailed;
   }
-  return told;
+  if (code != kOk) {
+    take_interrupt();  // that something is missing says more than that somebody ended it
+  }
+  return code;
 }
 
 int record_plant(Context& context, Options& options) {
@@ -266,7 +277,7 @@ int record(Context& context, Options& options) {
   }
   Nodes nodes;
   std::vector<recorder::Taped> taped;
-  if (const auto failure = add_node(context, "", options, nodes, taped)) {
+  if (const auto failure = add_node(context, "", nodes, taped)) {
     return report(context.out, *failure);
   }
   return record_here(context, options, options.file, nodes, std::move(taped), options.names);

@@ -127,7 +127,8 @@ TEST_F(Record, Boards_that_fail_meanwhile_give_what_they_have_and_are_named) {
   const Outcome done = desk.finish();
   EXPECT_EQ(done.code, 1);
   EXPECT_THAT(done.err, HasSubstr("board " + board("a") + ": its agent"));
-  EXPECT_THAT(done.err, HasSubstr("board " + board("b") + ": its recording had ended before: its node ended"));
+  EXPECT_THAT(done.err, HasSubstr("board " + board("b") + ": its recording had ended before: node " + board("b") +
+                                  " crashed or was killed"));
   EXPECT_EQ(info(path("run.mcap"))["nodes"].size(), 2U);
 }
 

@@ -109,6 +109,18 @@ TEST_F(RecordingTools, Play_gives_a_running_node_what_no_module_writes) {
   EXPECT_EQ(recording({"play", file(), "--node", node()}).code, 1) << "nobody runs";
 }
 
+TEST_F(RecordingTools, Play_refuses_what_is_forced) {
+  Program& sut = start_and_wait({{.file = "walker.so", .name = "walker", .period = "2ms"}});
+  ASSERT_EQ(indurop({"force", "nt::counted", "7", "--node", node()}).code, 0);
+  const Outcome refused = recording({"play", file(), "--node", node(), "--speed", "100"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_CONTAINS(refused.err, "nt::counted: forced, what is written has no effect");
+  EXPECT_FALSE(contains(refused.err, "wrote ")) << refused.err;
+  EXPECT_EQ(recording({"play", file(), "nt::kept", "--node", node(), "--speed", "100"}).code, 0);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 // Whatever is wrong with a file: a message, no crash, and what was begun is removed.
 TEST_F(RecordingTools, Damaged_files_are_told_and_read_as_far_as_they_go) {
   const std::string whole = text_of(file());

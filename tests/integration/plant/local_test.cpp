@@ -10,12 +10,22 @@ namespace {
 
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Local : public TurningTable {
  protected:
   Program& run(const std::string& plant, std::vector<std::string> more = {"-q"}) {
     more.insert(more.begin(), {"run", plant, "--local"});
     return indurop(more);
+  }
+  // A recording of the board control, begun when its controller knew something already.
+  void expect_use_of(const std::string& recording, const std::string& why_ended) {
+    const Outcome again = indurop({"replay", recording, "--node", board("replay")}).finish();
+    EXPECT_TRUE(again.code == 0 || again.code == 4) << again.err;
+    EXPECT_THAT(again.out, HasSubstr(" runs, "));
+    const Outcome why = indurop({"explain", board("control"), "--from", recording}).finish();
+    EXPECT_EQ(why.code, 0) << why.err;
+    EXPECT_THAT(why.out, HasSubstr(why_ended));
   }
 };
 
@@ -59,6 +69,21 @@ TEST_F(Local, All_boards_are_recorded_in_one_file_and_each_is_replayed) {
   }
 }
 
+TEST_F(Local, A_board_that_is_killed_while_all_are_recorded_is_named) {
+  const std::string plant = two_boards();
+  Program& sut = run(plant);
+  ASSERT_TRUE(wait_until([&] { return controlled(); })) << sut.err();
+  const std::string file = folder() / "plant.mcap";
+  Program& recorder = indurop({"record", "--plant", plant, "-o", file});
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file); }));
+  ASSERT_EQ(::kill(pid_of("sensor"), SIGKILL), 0);
+  sut.signal(SIGINT);
+  sut.wait();
+  EXPECT_EQ(recorder.wait(), 1) << recorder.err();
+  EXPECT_THAT(recorder.err(), HasSubstr("board " + board("sensor") + " crashed or was killed"));
+  EXPECT_THAT(recorder.err(), Not(HasSubstr("board " + board("control") + " crashed")));
+}
+
 TEST_F(Local, Each_board_is_recorded_from_its_first_run_on) {
   const std::string plant = two_boards();
   const std::string file = folder() / "r.mcap";
@@ -100,6 +125,16 @@ TEST_F(Local, A_killed_board_leaves_the_others_running_and_can_come_back) {
   EXPECT_TRUE(sut.running());
   indurop({"run", plant, "--board", board("control"), "--one-host", "-q"});
   EXPECT_TRUE(wait_until([&] { return controlled(); }));
+  const std::string boxes = indurop({"blackbox", "--node", board("control"), "-o", "csv"}).finish().out;
+  const std::size_t file = boxes.rfind(',') + 1;  // the last column
+  ASSERT_TRUE(boxes.ends_with(".mcap\n")) << boxes;
+  expect_use_of(boxes.substr(file, boxes.size() - file - 1),
+                "the node of " + board("control") + " ended: its process died in the middle of its work");
+  const std::string live = folder() / "live.mcap";
+  EXPECT_EQ(indurop({"record", "--node", board("control"), "-o", live, "--duration", "200ms"}).wait(), 0);
+  expect_use_of(live, "the recording does not say that " + board("control") + " stopped");
+  const Outcome now = indurop({"explain", board("control"), "--node", board("control")}).finish();
+  EXPECT_THAT(now.out, HasSubstr("the node of " + board("control") + " runs"));
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 143);
 }

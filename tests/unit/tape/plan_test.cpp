@@ -87,5 +87,18 @@ TEST(Plan, Keeps_to_the_memory_and_gives_each_what_it_needs) {
   }
 }
 
+TEST(Plan, Says_what_it_reaches_and_what_more_wants) {
+  const std::vector<ModuleAccess> modules = {{0, 1'000'000, {0}, {1}}, {1, 10'000'000, {1}, {2}}};
+  const auto variables = directory({800, 800, 800});
+  const TapePlan ample = plan_tape(modules, variables, 1'000'000, 2'000'000'000, 100'000'000);
+  EXPECT_GE(ample.reach_ns, 2'000'000'000);
+  const TapePlan exact = plan_tape(modules, variables, 1'000'000, 2'000'000'000, ample.bytes_wanted);
+  EXPECT_GE(exact.reach_ns, 2'000'000'000);
+  const TapePlan little = plan_tape(modules, variables, 1'000'000, 2'000'000'000, 1'000'000);
+  EXPECT_EQ(little.bytes_wanted, ample.bytes_wanted);
+  EXPECT_GT(little.reach_ns, 100'000'000) << "of five megabytes one";
+  EXPECT_LT(little.reach_ns, 1'000'000'000);
+}
+
 }  // namespace
 }  // namespace indurop::tape
