@@ -36,8 +36,8 @@ std::string describe(int status) {
 }  // namespace
 
 Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
-                     Console& console, FailSafe& failsafe)
-    : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe) {
+                     Console& console, FailSafe& failsafe, tape::Tape* tape)
+    : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe), tape_(tape) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     if (config.modules[i].type == scheduler::ModuleType::Process) {
       children_.push_back(Child{i, &config.modules[i], -1, {}, {}, false});
@@ -154,6 +154,11 @@ void Processes::died(Child& child, int status, rt::MonoTime schedule) {
   if (child.module->operation == Operation::NonReal && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     module.state.store(ModuleState::Exited, std::memory_order_release);
     return;
+  }
+  if (tape_ != nullptr) {
+    const scheduler::ProcessSlot& at = slot(child);
+    tape_->end_of_dead(child.index,
+                       {0, 0, at.release_tick.load(), at.release_ns.load(), at.start_ns.load(), rt::to_ns(schedule)});
   }
   const bool was_starting = module.state.load(std::memory_order_acquire) == ModuleState::Starting;
   module.state.store(ModuleState::Restarting, std::memory_order_release);

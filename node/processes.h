@@ -15,13 +15,15 @@
 #include "node/console.h"
 #include "node/failsafe.h"
 #include "scheduler/run_block.h"
+#include "tape/tape.h"
 
 namespace indurop::node {
 
 class Processes {
  public:
+  // Everything is borrowed; `tape`: null if there is none.
   Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
-            FailSafe& failsafe);
+            FailSafe& failsafe, tape::Tape* tape);
   ~Processes();
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
@@ -77,6 +79,7 @@ class Processes {
   bool realtime_;
   Console& console_;
   FailSafe& failsafe_;
+  tape::Tape* tape_;
   std::vector<Child> children_;
   std::string reason_;
 };

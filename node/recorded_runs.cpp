@@ -12,11 +12,11 @@ namespace indurop::node {
 
 using base::Problem;
 
-Result<RecordedRuns, Problem> RecordedRuns::open(const std::filesystem::path& path, const std::string& board,
-                                                 const vars::Store& store) {
+Result<RecordedRuns, Unfit> RecordedRuns::open(const std::filesystem::path& path, const std::string& board,
+                                               const vars::Store& store) {
   auto reader = recording::McapReader::open(path);
   if (!reader) {
-    return std::move(reader).error();
+    return Unfit{reader.error().text};
   }
   RecordedRuns runs(std::move(reader).value());
   if (auto matched = runs.match(store, board, path.string()); !matched) {
@@ -25,12 +25,12 @@ Result<RecordedRuns, Problem> RecordedRuns::open(const std::filesystem::path& pa
   return runs;
 }
 
-Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
+Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
   const recording::Contents& contents = reader_.contents();
   const recorder::Sources sources = recorder::find_sources(reader_);
   const auto source = recorder::choose_source(sources, board, name);
   if (!source) {
-    return source.error();
+    return Unfit{source.error().text};
   }
   modules_ = sources.all[*source].modules;
   std::string changed;
@@ -58,10 +58,10 @@ Result<void, Problem> RecordedRuns::match(const vars::Store& store, const std::s
     variables_[id] = static_cast<std::uint32_t>(entry - store.directory().data());
   }
   if (!changed.empty()) {
-    return Problem{
-        fmt::format("{} has another type in this configuration than in {}: replay with the modules that "
-                    "were recorded",
-                    changed, name)};
+    return Unfit{fmt::format("{} has another type in this configuration than in {}: replay with the modules that "
+                             "were recorded",
+                             changed, name),
+                 kSchemaMismatch};
   }
   return {};
 }

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/exit_code.h"
 #include "base/problem.h"
 #include "recorder/run_words.h"
 #include "recording/mcap_reader.h"
@@ -40,12 +41,18 @@ struct RecordedTold {
   recorder::ToldWords words;
 };
 
+// Why it is of no use, and the exit code that says so.
+struct Unfit {
+  std::string text;
+  int code = kFailed;
+};
+
 class RecordedRuns {
  public:
   // `board`: whose runs, of a file that was joined; else empty. The store is borrowed. Errors: no recording of runs, or
-  // none of this board; a variable has another type now.
-  static Result<RecordedRuns, base::Problem> open(const std::filesystem::path& path, const std::string& board,
-                                                  const vars::Store& store);
+  // none of this board; a variable has another type now (kSchemaMismatch).
+  static Result<RecordedRuns, Unfit> open(const std::filesystem::path& path, const std::string& board,
+                                          const vars::Store& store);
 
   // The next one; nullopt behind the last. What it points to is valid until the next call.
   // Errors: a part of the file is damaged; the next call goes on behind it.
@@ -59,7 +66,7 @@ class RecordedRuns {
 
  private:
   explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
-  Result<void, base::Problem> match(const vars::Store& store, const std::string& board, const std::string& name);
+  Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
 
   recording::McapReader reader_;
   std::vector<std::string> modules_;

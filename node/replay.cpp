@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
+#include <utility>
 
 #include "base/duration.h"
 #include "config/check/determinism.h"
 #include "node/hang_watch.h"
-#include "rt/relax.h"
 #include "runtime/host.h"
 
 namespace indurop::node {
@@ -20,9 +19,7 @@ using scheduler::ModuleType;
 using scheduler::Operation;
 
 constexpr std::chrono::seconds kPatience{10};  // with a process, in real time
-constexpr int kLooksBeforeSleep = 2000;
 constexpr std::chrono::microseconds kPause{50};
-constexpr std::size_t kShown = 10;
 
 bool names(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -62,7 +59,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
       kernel_({&prepared.store->virtual_time(), &run_.virtual_ns}),
       runner_(run_, kernel_, hooks(), trace_, 1),
       phases_(checked.config, run_, loaded.libraries, console, signals, hooks(), kernel_),
-      processes_(checked.config, run_, options.node, false, console, *prepared.failsafe) {
+      processes_(checked.config, run_, options.node, false, console, *prepared.failsafe, nullptr) {
   kernel_.set(rt::kNanosPerSecond);
   for (std::size_t i = 0; i < checked.config.modules.size(); ++i) {
     modules_.push_back(std::make_unique<Module>());
@@ -110,14 +107,12 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
       console_.warning("module {} of the recording is not in this configuration: its runs are not repeated", name);
     }
   }
-  bool any = false;
   for (std::size_t i = 0; i < configured.size(); ++i) {
     Module& module = *modules_[i];
     const bool known = names(recorded.modules(), configured[i].name);
     module.why_not =
         known ? reason_to_leave_out(configured[i], checked_.check.facts[i].file.imports) : "it is not in the recording";
     module.runs = module.why_not.empty();
-    any = any || module.runs;
     if (!module.runs) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", configured[i].name,
                     module.why_not);
@@ -136,6 +131,8 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
       }
     }
   }
+  look_ahead();
+  const bool any = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) { return module->runs; });
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());
   }
@@ -175,29 +172,22 @@ std::vector<tape::RetoldAnswer> Replay::Module::told() const {
   return all;
 }
 
-// A process has all the time there is, as long as it lives.
-bool Replay::run_process(Module& module, const tape::RunTail& tail) {
-  scheduler::ProcessSlot& slot = *module.state.slot;
-  retold_->give(module.clock, module.told());
-  const std::uint64_t release = slot.released.load() + 1;
-  slot.release_ns.store(tail.release_ns);
-  slot.release_tick.store(tail.tick);
-  slot.released.store(release, std::memory_order_release);
-  slot.wake.wake();
-  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
-  for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
-    if (looks < kLooksBeforeSleep) {
-      rt::relax();
-      continue;
-    }
-    std::this_thread::sleep_for(kPause);
-    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
-    if (rt::MonoClock::now() > until || module.state.record->state.load() != ModuleState::Running) {
-      console_.error("module {} did not end its run of tick {}", module.state.record->name, tail.tick);
-      return false;
-    }
+// Runs before this one may be missing, and what they were told with them.
+void Replay::note_gap(Module& module, const recorder::RunWords& run) {
+  const std::uint64_t missing = run.tail.number - module.next_number;
+  module.missing += missing;
+  module.next_number = run.tail.number + 1;
+  if (module.seen > 0 && missing > 0) {
+    forget(module);
   }
-  return true;
+  if (!knows_inputs(module)) {
+    ++module.missing;
+    ++module.too_early;
+  } else if (const std::uint64_t all = std::exchange(module.missing, 0); all > 0) {
+    console_.warning(
+        "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on", all,
+        module.state.record->name, run.tail.tick);
+  }
 }
 
 bool Replay::run_again(const recorder::RunWords& run) {
@@ -206,28 +196,44 @@ bool Replay::run_again(const recorder::RunWords& run) {
   if (index == kNoSuchModule && run.module < of_recording_.size()) {  // else values that nobody reads or writes
     ++runs_not_here_;
   }
-  if (index == kNoSuchModule || !modules_[index]->runs || modules_[index]->apart) {
+  if (index == kNoSuchModule || modules_[index]->apart) {
     return true;
   }
   Module& module = *modules_[index];
-  if (run.tail.number != module.next_number) {
-    console_.warning(
-        "{} runs of {} before tick {} are not in the recording: what it keeps inside may differ from here on",
-        run.tail.number - module.next_number, module.state.record->name, run.tail.tick);
+  if (!module.runs) {
+    module.left_out += module.unknown_inputs.empty() ? 0U : 1U;
+    return true;
   }
-  module.next_number = run.tail.number + 1;
+  note_gap(module, run);
+  module.anew = module.anew || run.anew;
+  const bool can = knows_inputs(module);
+  const bool going_on = !can || repeat(module, index, run);
+  module.clock.clear();
+  module.codes.clear();
+  module.answers.clear();
+  take_what_was_left(module);
+  ++module.seen;
+  if (can && going_on) {
+    compare(module, index, run);
+  }
+  return going_on;
+}
+
+// False: it cannot go on.
+bool Replay::repeat(Module& module, std::uint32_t index, const recorder::RunWords& run) {
   run_.epoch_ns = run.tail.release_ns - static_cast<std::int64_t>(run.tail.tick) * run_.basic_period_ns;
   run_.tick.store(run.tail.tick + 1);
   // One that asks again and again waits for a time: behind what is known of its clock, that has come.
   kernel_.set(module.clock.size() < std::size_t{tape::kMostReadings} ? run.tail.start_ns : run.tail.end_ns);
-  if (run.anew && !start_anew(module, index)) {
-    return false;
-  }
   give_inputs(module);
-  if (module.state.task.type == ModuleType::Process) {
-    if (!run_process(module, run.tail)) {
+  if (std::exchange(module.anew, false)) {
+    if (!start_anew(module, index)) {
       return false;
     }
+    give_inputs(module);  // its start may have written
+  }
+  if (module.state.task.type == ModuleType::Process) {
+    run_process(module, index, run.tail);
   } else {
     scheduler::TaskState* state = &module.state;
     const std::vector<tape::RetoldAnswer> answers = module.told();
@@ -237,13 +243,9 @@ bool Replay::run_again(const recorder::RunWords& run) {
     runtime::set_clock_readings({});
     runtime::set_answers({});
   }
-  module.clock.clear();
-  module.codes.clear();
-  module.answers.clear();
   ++runs_;
+  ++module.repeated;
   returned_.fetch_add(1, std::memory_order_relaxed);
-  take_what_was_left(module);
-  compare(module, index, run);
   return true;
 }
 
@@ -325,7 +327,7 @@ Ending Replay::run() {
   auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, *prepared_.store);
   if (!recorded) {
     console_.error("{}", recorded.error().text);
-    return {kFailed, "the recording cannot be replayed"};
+    return {recorded.error().code, "the recording cannot be replayed"};
   }
   if (!begin(*recorded)) {
     return {kFailed, "the recording cannot be replayed"};
@@ -341,52 +343,6 @@ Ending Replay::run() {
   runtime::stop_function_servers();
   (void)phases_.call_all("stop", &ModuleDescriptor::stop);
   return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};
-}
-
-void Replay::tell_differences() {
-  std::vector<std::pair<std::uint64_t, std::string>> lines;
-  for (std::size_t i = 0; i < modules_.size(); ++i) {
-    for (const Known& known : modules_[i]->known) {
-      if (known.differing > 0) {
-        lines.emplace_back(known.first_tick, fmt::format("  {} of {}: {} of {} runs, first at tick {}",
-                                                         variable(known.variable).name, checked_.config.modules[i].name,
-                                                         known.differing, known.compared, known.first_tick));
-      }
-    }
-  }
-  std::sort(lines.begin(), lines.end());
-  for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i) {
-    fmt::print("{}\n", lines[i].second);
-  }
-  if (lines.size() > kShown) {
-    fmt::print("  and {} other variables\n", lines.size() - kShown);
-  }
-}
-
-Ending Replay::conclude() {
-  std::uint64_t disturbed = 0;
-  for (const auto& module : modules_) {
-    disturbed += module->disturbed_runs;
-  }
-  if (disturbed > 0) {
-    fmt::print("what {} of the runs read changed while they ran: {} of their values differ, which says nothing\n",
-               disturbed, unclear_);
-  }
-  if (runs_ == 0) {
-    console_.error("{} holds no run of these modules: nothing was compared", options_.replay.file.string());
-    return {kFailed, "the recording cannot be replayed"};
-  }
-  if (differences_ == 0) {
-    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks_, runs_, values_);
-    if (runs_not_here_ > 0) {
-      console_.error("{} runs of modules that are not in this configuration were not repeated", runs_not_here_);
-      return {kFailed, "the recording was not replayed as a whole"};
-    }
-    return {kOk, "end of the recording"};
-  }
-  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks_, runs_, values_, differences_);
-  tell_differences();
-  return {kCheckFailed, "the replay differs from the recording"};
 }
 
 }  // namespace indurop::node

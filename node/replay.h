@@ -55,6 +55,9 @@ class Replay {
     bool read = false;
     bool written = false;
     bool told = false;
+    bool ever_told = false;  // somewhere in the recording
+    bool ever_compared = false;
+    std::uint64_t told_run = 0;  // of Module::seen, when it was told last
     std::vector<std::uint8_t> cdr;
     std::vector<std::uint8_t> bytes;
     std::uint64_t compared = 0;   // runs whose value was compared, what they read being the same
@@ -70,7 +73,13 @@ class Replay {
   };
   struct Module {
     bool runs = false;
-    std::string why_not;  // it does not run; empty: it is not in this configuration
+    std::string why_not;          // it does not run; empty: it is not in this configuration
+    std::string unknown_inputs;   // variables that it reads and the recording does not tell; empty: none
+    std::uint64_t left_out = 0;   // runs that were not repeated, for that
+    std::uint64_t too_early = 0;  // likewise, because not all of what they began with is told before them
+    std::uint64_t missing = 0;    // not repeated before the next one that is
+    std::uint64_t repeated = 0;
+    std::uint64_t seen = 0;  // runs in the recording
     std::vector<Known> known;
     std::vector<Left> left;           // of the run that is being read
     std::vector<std::int64_t> clock;  // what it was told then
@@ -81,29 +90,40 @@ class Replay {
     scheduler::TaskState state;
     std::uint64_t count = 0;
     std::uint64_t next_number = 0;
+    bool anew = false;       // it is to be started anew before it runs again
+    bool died = false;       // its process
     bool disturbed = false;  // somebody changed what it reads while it ran
     std::uint64_t disturbed_runs = 0;
+    bool faulted_alike = false;
     bool apart = false;  // it faulted here and not there, or the other way round
   };
 
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
   void tell_of_conditions() const;
+  void look_ahead();
+  bool learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const;
+  void leave_out_if_unknown(Module& module, const std::string& name);
   bool begin(const RecordedRuns& recorded);
   bool take(const RecordedValue& value);
   bool start_modules();
   bool replay(RecordedRuns& recorded);
   bool run_again(const recorder::RunWords& run);
+  void note_gap(Module& module, const recorder::RunWords& run);
+  bool repeat(Module& module, std::uint32_t index, const recorder::RunWords& run);
   bool start_anew(Module& module, std::uint32_t index);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());
-  bool run_process(Module& module, const tape::RunTail& tail);
+  void run_process(Module& module, std::uint32_t index, const tape::RunTail& tail);
+  [[nodiscard]] static bool knows_inputs(const Module& module) noexcept;
+  static void forget(Module& module) noexcept;
   void give_inputs(Module& module);
   void take_what_was_left(Module& module);
   void compare(Module& module, std::uint32_t index, const recorder::RunWords& run);
   void differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
                const std::vector<std::uint8_t>& now);
   Ending conclude();
+  bool tell_left_out();
   void tell_differences();
   scheduler::Hooks hooks();
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay does about what its values do not tell: modules that were started anew are so again, conditions are not
-// asked.
+// What a replay does about what its values do not tell: processes run and die, modules that were started anew are so
+// again, conditions are not asked.
 
 #include <algorithm>
 #include <filesystem>
 #include <thread>
 
 #include "node/replay.h"
+#include "rt/relax.h"
 
 namespace indurop::node {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
 constexpr std::chrono::milliseconds kPause{1};
+constexpr int kLooksBeforeSleep = 2000;
+constexpr std::chrono::microseconds kShortPause{50};
 
 }  // namespace
 
@@ -44,6 +47,34 @@ bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
   return call != nullptr && phases_.conclude(std::move(call));
 }
 
+// A process has all the time there is, as long as it lives. One that dies stays so until it is started anew.
+void Replay::run_process(Module& module, std::uint32_t index, const tape::RunTail& tail) {
+  scheduler::ProcessSlot& slot = *module.state.slot;
+  retold_->give(module.clock, module.told());
+  const std::uint64_t release = slot.released.load() + 1;
+  slot.release_ns.store(tail.release_ns);
+  slot.release_tick.store(tail.tick);
+  slot.released.store(release, std::memory_order_release);
+  slot.wake.wake();
+  const rt::MonoTime until = rt::MonoClock::now() + kPatience;
+  for (int looks = 0; slot.done.load(std::memory_order_acquire) != release; ++looks) {
+    if (looks < kLooksBeforeSleep) {
+      rt::relax();
+      continue;
+    }
+    std::this_thread::sleep_for(kShortPause);
+    if (rt::MonoClock::now() > until) {
+      processes_.kill_hanging(index);
+    }
+    (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
+    if (module.state.record->state.load() != scheduler::ModuleState::Running) {
+      module.died = true;
+      processes_.stop(index, rt::MonoClock::now());
+      return;
+    }
+  }
+}
+
 bool Replay::restart_process(std::uint32_t index) {
   const rt::MonoTime until = rt::MonoClock::now() + kPatience;
   processes_.stop(index, rt::MonoClock::now());
@@ -63,6 +94,7 @@ bool Replay::restart_process(std::uint32_t index) {
 bool Replay::start_anew(Module& module, std::uint32_t index) {
   bool good = true;
   if (module.state.task.type == scheduler::ModuleType::Process) {
+    module.died = false;
     good = restart_process(index);
   } else {
     (void)call(index, "stop", libraries_[index].functions().stop);  // that it failed is said

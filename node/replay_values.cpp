@@ -36,6 +36,7 @@ bool Replay::take(const RecordedValue& value) {
   if (value.words.kind == tape::EntryKind::Before) {
     Known& known = module.known[place->second];
     known.told = true;
+    known.told_run = module.seen;
     known.cdr.assign(value.cdr.begin(), value.cdr.end());
     known.bytes = std::move(bytes);
   } else {
@@ -60,16 +61,17 @@ void Replay::take_what_was_left(Module& module) {
   for (Left& left : module.left) {
     Known& known = module.known[left.place];
     known.told = true;
+    known.told_run = module.seen;
     known.cdr = std::move(left.cdr);
     known.bytes = std::move(left.bytes);
     module.disturbed = module.disturbed || left.kind == tape::EntryKind::During;
   }
   module.left.clear();
-  module.disturbed_runs += module.disturbed ? 1U : 0U;
 }
 
 void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWords& run) {
-  const bool faulted = module.state.record->state.load() == ModuleState::Faulted;
+  module.disturbed_runs += module.disturbed ? 1U : 0U;
+  const bool faulted = module.died || module.state.record->state.load() == ModuleState::Faulted;
   if (faulted != run.faulted) {
     module.apart = true;
     ++differences_;
@@ -78,6 +80,7 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
                    faulted ? fmt::format(": {}", module.state.record->last_fault) : "");
     return;
   }
+  module.faulted_alike = module.faulted_alike || faulted;
   if (faulted) {
     return;  // what it left was half a run's, and then its fail-safe values
   }
@@ -91,6 +94,7 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
     const vars::DirectoryEntry& entry = store.directory()[known.variable];
     now.resize(entry.value_size);
     ++values_;
+    known.ever_compared = true;
     known.compared += module.disturbed ? 0U : 1U;
     // What lies between the parts of a value differs as it likes.
     if (!store.read(entry, 0, now).ok() || now == known.bytes ||

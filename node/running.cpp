@@ -49,7 +49,8 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       engine_(run_, tasks_, engine_settings(), hooks(), kernel_),
       phases_(checked.config, run_, loaded.libraries, console, signals, plain_hooks(), kernel_),
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
-      processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe),
+      processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe,
+                 prepared.tape.get()),
       commands_(ModuleCommands::Parts{checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
                                       phases_, *prepared.failsafe, console, prepared.tape.get()}) {}
 

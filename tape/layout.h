@@ -16,7 +16,7 @@
 namespace indurop::tape {
 
 inline constexpr std::uint64_t kTapeMagic = 0x3145504154444e49ULL;  // "INDTAPE1"
-inline constexpr std::uint32_t kTapeAbi = 3;
+inline constexpr std::uint32_t kTapeAbi = 4;
 
 enum class EntryKind : std::uint32_t {
   Before = 1,  // value a run begins with
@@ -84,6 +84,11 @@ struct TapeTrack {
   std::atomic<std::uint64_t> runs;              // written so far: the number of the next one
   alignas(64) std::atomic<std::uint64_t> head;  // words written so far, whole runs only
   std::atomic<std::uint64_t> claimed;           // words up to this one, less the ring's size, may be overwritten
+  // Of the run that has begun and not ended: words up to this one are its, those behind `head`; none if `open` is not
+  // larger than that. With them who died in it is known.
+  std::atomic<std::uint64_t> open;
+  std::atomic<std::uint64_t> open_order;  // of its begin
+  std::atomic<std::uint64_t> open_flags;
   // Where runs begin, about one for each part of the ring: whoever was overtaken goes on there.
   std::atomic<std::uint64_t> marks[kMarks];
 };

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "tape/check.h"
 #include "tape/layout.h"
 #include "vars/process.h"
 
@@ -71,7 +72,7 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
   if (!file) {
     return file.error();
   }
-  std::unique_ptr<Tape> tape(new Tape(std::move(file).value()));
+  std::unique_ptr<Tape> tape(new Tape(std::move(file).value(), store));
   std::byte* const memory = tape->file_.data();
   auto& header = *reinterpret_cast<TapeHeader*>(memory);
   header.abi = kTapeAbi;
@@ -104,6 +105,16 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
     return published.error();
   }
   return tape;
+}
+
+void Tape::end_of_dead(std::uint32_t module, const RunTail& times) {
+  const auto& header = header_of(file_.data());
+  auto* const tracks = reinterpret_cast<TapeTrack*>(file_.data() + header.tracks_offset);
+  for (std::uint32_t i = 0; i < header.track_count; ++i) {
+    if (tracks[i].module == module) {
+      Track(file_.data(), tracks[i], store_).end_of_dead(times);
+    }
+  }
 }
 
 }  // namespace indurop::tape

@@ -32,12 +32,17 @@ class Tape {
   // Of what no module of the schedule knows; null: there is nothing of that kind. Real-time safe.
   [[nodiscard]] Track* others() const noexcept { return others_; }
 
+  // The process of this module is gone: what it was in the middle of is a run that ended by a fault. Not real-time
+  // safe.
+  void end_of_dead(std::uint32_t module, const RunTail& times);
+
   void prefault() const noexcept { file_.prefault(); }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return file_.size(); }
 
  private:
-  explicit Tape(vars::ShmFile&& file) : file_(std::move(file)) {}
+  Tape(vars::ShmFile&& file, const vars::Store& store) : file_(std::move(file)), store_(store) {}
   vars::ShmFile file_;
+  const vars::Store& store_;
   std::vector<std::unique_ptr<Track>> tracks_;
   std::vector<Track*> by_module_;
   Track* others_ = nullptr;

@@ -117,6 +117,14 @@ void Track::begin() noexcept {
   for (std::size_t i = 0; i < reads_end_; ++i) {
     tell_changed(items_[i], EntryKind::Before, all_);
   }
+  shared_.open_order.store(order_, kRelaxed);
+  shared_.open_flags.store(anew_.load(kRelaxed), kRelaxed);
+  show_open();
+}
+
+// What is told so far belongs to the run under way, whatever becomes of its writer.
+void Track::show_open() noexcept {
+  shared_.open.store(at_, std::memory_order_release);
 }
 
 void Track::clock(std::int64_t ns) noexcept {
@@ -125,6 +133,7 @@ void Track::clock(std::int64_t ns) noexcept {
     claim(2);
     put_head(EntryKind::Clock, 0);
     put(static_cast<std::uint64_t>(ns));
+    show_open();
   }
 }
 
@@ -143,6 +152,17 @@ void Track::told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcep
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + from, std::min(sizeof word, bytes.size() - from));
     put(word);
+  }
+  show_open();
+}
+
+void Track::end_of_dead(RunTail times) noexcept {
+  at_ = shared_.open.load(std::memory_order_acquire);
+  if (at_ > head_) {
+    order_ = shared_.open_order.load(kRelaxed);
+    anew_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
+    times.start_ns = std::max(times.start_ns, times.release_ns);
+    publish(times, kFaulted);
   }
 }
 

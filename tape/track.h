@@ -29,6 +29,9 @@ class Track {
   void told(std::int64_t code, std::span<const std::uint8_t> bytes) noexcept;
   // What it left; from then on readers see the run. Real-time safe.
   void end(const RunTail& times, std::uint32_t flags) noexcept;
+  // Whoever wrote this track died in the middle of a run: what it told of it is a run that ended by a fault. Nothing if
+  // it was in none. By one who goes on behind it, before anything else. Not real-time safe.
+  void end_of_dead(RunTail times) noexcept;
   // A run that is only a look: nothing is written if nothing changed. Real-time safe.
   void look(const RunTail& times) noexcept;
 
@@ -44,6 +47,7 @@ class Track {
   bool tell_changed(Item& item, EntryKind kind, bool anyway) noexcept;
   void tell(Item& item, EntryKind kind) noexcept;
   void tell_next_again() noexcept;
+  void show_open() noexcept;
   void publish(RunTail tail, std::uint32_t flags) noexcept;
   void claim(std::uint64_t words) noexcept;
   void put(std::uint64_t word) noexcept;

@@ -6,6 +6,7 @@
 //   deaf            enrols, then neither waits again nor minds SIGTERM
 //   loop N          never returns from run N
 //   die N           SIGKILLs itself in run N
+//   change N        SIGKILLs itself when the count of counter.so has passed a multiple of N since it was started
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -29,6 +30,8 @@ int main(int argc, char** argv) {
   if (irp::initPeriodExe() < 0) {
     return 1;
   }
+  const std::uint32_t each = how == "change" ? static_cast<std::uint32_t>(number) : 0;
+  const std::uint32_t at_first = each > 0 ? nt::counted / each : 0;
   int runs = 0;
   while (irp::waitPeriod()) {
     ++nt::process_runs;
@@ -43,7 +46,7 @@ int main(int argc, char** argv) {
       for (volatile bool forever = true; forever;) {
       }
     }
-    if (how == "die" && runs == number) {
+    if ((how == "die" && runs == number) || (each > 0 && nt::counted / each != at_first)) {
       ::kill(::getpid(), SIGKILL);
     }
   }

@@ -223,6 +223,32 @@ TEST_F(Recording, Is_kept_when_a_module_faults) {
   EXPECT_CONTAINS(again.out, " runs, ") << again.err;
 }
 
+TEST_F(Recording, Is_not_said_to_be_kept_when_it_is_not) {
+  Program& sut = start_and_wait(threads());
+  EXPECT_EQ(indurop({"blackbox", "keep", "mine", "--node", node()}).code, 0);
+  ASSERT_TRUE(sut.says("mine: what led to it is in ")) << sut.err();
+  const Outcome second = indurop({"blackbox", "keep", "yours", "--node", node()});
+  EXPECT_EQ(second.code, 1);
+  EXPECT_CONTAINS(second.err, "it has just kept a black box, and keeps another ten seconds after that at the earliest");
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  Program& next = start_and_wait(threads());
+  EXPECT_EQ(indurop({"blackbox", "keep", "ours", "--node", node()}).code, 0) << "another run begins anew";
+  ASSERT_TRUE(next.says("ours: what led to it is in ")) << next.err();
+  next.signal(SIGTERM);
+  EXPECT_EQ(next.wait(), 0);
+}
+
+TEST_F(Recording, Of_a_node_that_is_killed_says_so) {
+  Program& sut = start_and_wait(threads());
+  Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file()); }));
+  sut.kill();
+  sut.wait();
+  EXPECT_EQ(recorder.wait(), 1);
+  EXPECT_CONTAINS(recorder.err(), "node " + node() + " crashed or was killed: of it the recording ends at about tick ");
+}
+
 TEST_F(Recording, Is_kept_by_the_next_run_when_the_node_crashed) {
   Program& first = start_and_wait(threads());
   ASSERT_TRUE(runs_reach("counter", 100));
@@ -247,7 +273,7 @@ TEST_F(Recording, Of_other_variables_is_not_replayed) {
       0);
   const std::string now = write("now.xml", xml({{.file = "layout_new.so", .name = "layout"}}));
   const Outcome refused = replay({"--config", now});
-  EXPECT_EQ(refused.code, 1) << refused.err;
+  EXPECT_EQ(refused.code, 8) << refused.err;
   EXPECT_CONTAINS(refused.err, "has another type in this configuration");
   write("run.txt", "no recording");
   EXPECT_EQ(indurop({"replay", folder() / "run.txt"}).code, 1);

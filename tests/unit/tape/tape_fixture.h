@@ -58,6 +58,7 @@ class Plant {
   [[nodiscard]] const std::string& node() const { return node_.name(); }
   vars::Store& store() { return store_; }
   Track& track(std::uint32_t module) { return *tape_->of(module); }
+  Tape& tape() { return *tape_; }
   Track& others() { return *tape_->others(); }
   Follower follow(bool from_start = true) { return Follower::open(node_.name(), from_start).value(); }
 

@@ -28,6 +28,74 @@ struct Believed {
   }
 };
 
+// The plant's tape is made for 100 ms and runs of 1 ms.
+TEST(Track, Holds_the_runs_it_was_made_for_when_everything_changes_in_each) {
+  Plant plant("reach", {{"abd", "bcde"}});
+  Track& sut = plant.track(0);
+  for (std::uint64_t tick = 0; tick < 2000; ++tick) {
+    plant.put("a", static_cast<std::uint8_t>(tick));
+    plant.put("b", static_cast<std::uint32_t>(tick));
+    plant.put("d", static_cast<double>(tick));
+    sut.begin();
+    sut.clock(1);
+    sut.clock(2);
+    plant.put("a", static_cast<std::uint8_t>(tick + 1));
+    plant.put("b", static_cast<std::uint32_t>(tick + 1));
+    plant.put("c", static_cast<double>(tick));
+    plant.put("d", static_cast<double>(tick + 1));
+    plant.put("e", static_cast<std::uint8_t>(tick));
+    sut.end(Plant::at(tick), 0);
+    if (tick >= 100) {
+      Follower reader = plant.follow();
+      tape::Run run;
+      ASSERT_TRUE(reader.next(0, run));
+      ASSERT_LE(run.tail.tick, tick - 99);
+    }
+  }
+}
+
+TEST(Track, A_run_in_which_its_process_died_is_told_as_a_fault) {
+  Plant plant("dead", {{"ab", "bc"}});
+  Follower reader = plant.follow();
+  tape::Run run;
+  {
+    Member process = Member::open(plant.node(), 0, plant.store()).value();
+    process.track().begin();
+    process.track().end(Plant::at(0), 0);
+    plant.tape().end_of_dead(0, Plant::at(5));
+    ASSERT_TRUE(reader.next(0, run));
+    EXPECT_FALSE(reader.next(0, run)) << "it was in no run";
+    plant.put<std::uint8_t>("a", 3);
+    process.track().begin();
+    process.track().clock(77);
+    process.track().told(5, std::vector<std::uint8_t>{9, 8});
+  }
+  EXPECT_FALSE(reader.next(0, run));
+  plant.tape().end_of_dead(0, Plant::at(1));
+  ASSERT_TRUE(reader.next(0, run));
+  EXPECT_EQ(run.flags, std::uint32_t{kFaulted});
+  EXPECT_EQ(run.tail.number, 1U);
+  EXPECT_EQ(run.tail.order, 1U);
+  EXPECT_EQ(run.tail.tick, 1U);
+  EXPECT_THAT(run.clock, testing::ElementsAre(77));
+  ASSERT_EQ(run.told.size(), 1U);
+  ASSERT_EQ(run.values.size(), 1U);
+  EXPECT_EQ(run.values[0].variable, plant.index("a"));
+  {
+    Member anew = Member::open(plant.node(), 0, plant.store()).value();
+    anew.track().begin();
+  }
+  plant.tape().end_of_dead(0, Plant::at(2));
+  ASSERT_TRUE(reader.next(0, run));
+  EXPECT_EQ(run.flags, std::uint32_t{kFaulted} | std::uint32_t{kAnew}) << "in its first run";
+  Member third = Member::open(plant.node(), 0, plant.store()).value();
+  third.track().begin();
+  third.track().end(Plant::at(3), 0);
+  ASSERT_TRUE(reader.next(0, run));
+  EXPECT_EQ(run.flags, std::uint32_t{kAnew});
+  EXPECT_EQ(run.tail.number, 3U);
+}
+
 TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
   Plant plant("track", {{"ab", "bc"}});
   Track& sut = plant.track(0);
@@ -75,7 +143,7 @@ TEST(Track, Tells_what_a_run_began_with_and_what_it_left) {
 }
 
 TEST(Track, What_a_run_is_told_is_bounded_and_what_is_too_long_is_named) {
-  Plant plant("toldmuch", {{"a", ""}});
+  Plant plant("toldmuch", {{"a", ""}}, 16 * 1024);
   Track& sut = plant.track(0);
   Follower reader = plant.follow();
   const std::vector<std::uint8_t> large(1U << 20U, 7);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replays of recordings that do not tell everything: chosen variables, runs that are missing, processes that died.
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "node_fixture.h"
+#include "tests/support/wait_until.h"
+
+namespace indurop::test {
+namespace {
+
+class ReplayOfLess : public NodeTest {
+ protected:
+  [[nodiscard]] std::string file() const { return folder() / "run.mcap"; }
+  Outcome replay(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words = {"replay", file(), "--node", node() + "-r"};
+    words.insert(words.end(), more.begin(), more.end());
+    return indurop(words);
+  }
+  static Module process(const std::string& how) {
+    return {.file = "process.exe",
+            .name = "process",
+            .type = "process",
+            .period = "5ms",
+            .priority = 3,
+            .more = how + "<restart delay=\"50ms\" max=\"100\"/>"};
+  }
+  const Module kCounter{.file = "counter.so", .name = "counter", .priority = 1};
+  const Module kWalker{.file = "walker.so", .name = "walker", .period = "2ms", .priority = 2};
+};
+
+TEST_F(ReplayOfLess, Chosen_variables_are_compared_where_all_inputs_are_recorded) {
+  Program& sut = start_and_wait({kCounter, kWalker, process("")});
+  ASSERT_TRUE(runs_reach("walker", 20));
+  const Outcome recorded =
+      indurop({"record", "nt::counted", "nt::kept", "nt::pace", "-o", file(), "--duration", "300ms"});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 1) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_CONTAINS(again.err, "module walker does not run: the recording does not tell what it reads, nt::walked;");
+  EXPECT_CONTAINS(again.err, "runs of walker could not be repeated: the recording does not tell what it reads");
+  EXPECT_CONTAINS(again.err, "runs of process could not be repeated: the recording does not tell what it reads");
+  EXPECT_FALSE(contains(again.err, "of counter could not")) << again.err;
+}
+
+TEST_F(ReplayOfLess, Nothing_that_a_module_wrote_is_no_comparison_of_it) {
+  Program& sut = start_and_wait({kCounter, {.file = "keeper.so", .name = "keeper", .priority = 2}});
+  ASSERT_TRUE(runs_reach("keeper", 20));
+  ASSERT_EQ(indurop({"record", "nt::counted", "nt::kept", "-o", file(), "--duration", "200ms"}).code, 0);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 1) << again.out << again.err;
+  EXPECT_CONTAINS(again.err,
+                  "runs of keeper were repeated, but not compared: the recording does not tell what it wrote");
+}
+
+// counter knows only what it reads: behind a gap it has to be given that anew.
+TEST_F(ReplayOfLess, Runs_behind_missing_ones_wait_for_what_they_read) {
+  Program& sut = start_and_wait({kCounter});
+  Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file()); }));
+  ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 100));
+  recorder.signal(SIGSTOP);
+  ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 10'000));  // more than the tape holds
+  recorder.signal(SIGCONT);
+  ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 100));
+  recorder.signal(SIGINT);
+  EXPECT_EQ(recorder.wait(), 1) << "runs are missing: " << recorder.err();
+  EXPECT_CONTAINS(recorder.err(), "runs of counter are not in the recording");
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_CONTAINS(again.err, "runs of counter before tick ");
+}
+
+TEST_F(ReplayOfLess, A_process_that_died_dies_again) {
+  SKIP_CRASHES_UNDER_TSAN();
+  const std::vector<Module> modules = {kCounter, kWalker,
+                                       process("<argument>change</argument><argument>100</argument>")};
+  const Outcome recorded = run_to_end(modules, {"--sim", "--until", "1s", "--record", file()});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  const auto info = indurop({"recording", "info", file(), "-o", "json"}).json();
+  EXPECT_GT(info["modules"][2]["faults"], 2) << info;
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+
+  const Outcome mended = replay({"--config", write("mended.xml", xml({kCounter, kWalker, process("")}))});
+  EXPECT_EQ(mended.code, 4) << mended.out << mended.err;
+  EXPECT_CONTAINS(mended.err, "module process faulted in the recording and does not now");
+  EXPECT_FALSE(contains(mended.out, "of walker")) << mended.out;
+}
+
+TEST_F(ReplayOfLess, A_process_that_dies_only_now_does_not_end_the_replay) {
+  const Outcome recorded = run_to_end({kCounter, kWalker, process("")}, {"--sim", "--until", "1s", "--record", file()});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  const std::string broken =
+      write("broken.xml", xml({kCounter, kWalker, process("<argument>die</argument><argument>40</argument>")}));
+  const Outcome again = replay({"--config", broken});
+  EXPECT_EQ(again.code, 4) << again.out << again.err;
+  EXPECT_CONTAINS(again.err,
+                  "tick 195: module process did not fault in the recording and faults now: ended by signal 9");
+  EXPECT_CONTAINS(again.out, "1000 ticks, 1540 runs, ");
+}
+
+}  // namespace
+}  // namespace indurop::test
