@@ -88,7 +88,8 @@ std::string missing_command(const std::vector<std::string>& extra, const Command
 std::string wrong_words(const CLI::ParseError& error, const CLI::App& app, const CommandText& command) {
   std::vector<OptionText> options;
   options_of(command, app, options);
-  const std::vector<std::string> extra = app.remaining(true);
+  std::vector<std::string> extra = app.remaining(true);
+  std::erase(extra, "--");  // where an error stopped the parser, it is left like a word
   const bool strange = std::any_of(extra.begin(), extra.end(), [](const auto& word) { return word.starts_with('-'); });
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || strange) {
     return too_many(extra, options);

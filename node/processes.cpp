@@ -138,6 +138,15 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
   return !reason_.empty();
 }
 
+std::optional<rt::MonoTime> Processes::next_restart() const noexcept {
+  std::optional<rt::MonoTime> next;
+  for (const Child& child : children_) {
+    const bool waits = child.pid <= 0 && run_.modules()[child.index].state.load() == ModuleState::Restarting;
+    next = waits && (!next || child.restart_at < *next) ? child.restart_at : next;
+  }
+  return next;
+}
+
 void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
   scheduler::ModuleRecord& module = record(child);
   scheduler::record_fault(module, kind, run_.tick.load(std::memory_order_relaxed), text);

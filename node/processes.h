@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ class Processes {
   // `now` is real time, `schedule` that of the schedule, by which restarts are due.
   bool supervise(rt::MonoTime now, rt::MonoTime schedule);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+  // When the next one is to be started again, by the schedule's time; nullopt: none is.
+  [[nodiscard]] std::optional<rt::MonoTime> next_restart() const noexcept;
   // One of them alone. stop() only asks; supervise() sees to its end, which is no fault, and has_ended() tells of it.
   // start(): false if it cannot be launched (said on the console).
   void stop(std::uint32_t module, rt::MonoTime now);

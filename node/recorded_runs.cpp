@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "explain/facts_json.h"
 #include "recorder/sources.h"
 #include "recording/omg_idl.h"
 
@@ -33,6 +35,8 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
     return Unfit{source.error().text};
   }
   modules_ = sources.all[*source].modules;
+  prefix_ = sources.all[*source].prefix;
+  format_ = std::max<std::int64_t>(sources.all[*source].number("format"), 1);
   std::string changed;
   for (const auto& [id, place] : sources.channels) {
     if (place.source != *source) {
@@ -64,6 +68,17 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
                  kSchemaMismatch};
   }
   return {};
+}
+
+std::vector<explain::ModuleFact> RecordedRuns::module_facts() const {
+  explain::Facts facts;
+  for (const recording::McapAttachmentIndex& index : reader_.contents().attachments) {
+    const bool own = index.name == prefix_ + std::string(explain::kFactsFile);
+    if (const auto bytes = own ? reader_.attachment(index) : Problem{}; bytes) {
+      (void)explain::read_facts({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, facts);
+    }
+  }
+  return std::move(facts.modules);
 }
 
 Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {

@@ -16,6 +16,7 @@
 
 #include "base/exit_code.h"
 #include "base/problem.h"
+#include "explain/facts.h"
 #include "recorder/run_words.h"
 #include "recording/mcap_reader.h"
 #include "vars/store.h"
@@ -59,6 +60,10 @@ class RecordedRuns {
   using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedTold>;
   Result<std::optional<Item>, base::Problem> next();
 
+  // kRecordingFormat of who recorded it.
+  [[nodiscard]] std::int64_t format() const noexcept { return format_; }
+  // What is known of the modules; empty: the recording does not say it.
+  [[nodiscard]] std::vector<explain::ModuleFact> module_facts() const;
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
   [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
   // The recording was ended, not cut off.
@@ -69,6 +74,8 @@ class RecordedRuns {
   Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
 
   recording::McapReader reader_;
+  std::string prefix_;  // of names in the file
+  std::int64_t format_ = 1;
   std::vector<std::string> modules_;
   std::map<std::uint16_t, std::uint32_t> variables_;  // by channel
   std::vector<std::string> unknown_;

@@ -137,6 +137,8 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
     console_.error("no module of {} can run again", options_.replay.file.string());
   }
   tell_of_conditions();
+  tell_of_format(recorded);
+  tell_of_schedule(recorded);
   return any;
 }
 

@@ -101,6 +101,8 @@ class Replay {
   [[nodiscard]] std::uint32_t configured(std::uint32_t recorded) const noexcept;
   bool choose_modules(const RecordedRuns& recorded);
   void tell_of_conditions() const;
+  void tell_of_format(const RecordedRuns& recorded) const;
+  void tell_of_schedule(const RecordedRuns& recorded) const;
   void look_ahead();
   bool learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const;
   void leave_out_if_unknown(Module& module, const std::string& name);

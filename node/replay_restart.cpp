@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a replay does about what its values do not tell: processes run and die, modules that were started anew are so
-// again, conditions are not asked.
+// again.
 
-#include <algorithm>
-#include <filesystem>
 #include <thread>
 
 #include "node/replay.h"
@@ -18,23 +16,6 @@ constexpr int kLooksBeforeSleep = 2000;
 constexpr std::chrono::microseconds kShortPause{50};
 
 }  // namespace
-
-// Another file's condition could be true at other times.
-void Replay::tell_of_conditions() const {
-  const auto& with = options_.replay.with;
-  for (std::size_t i = 0; i < modules_.size(); ++i) {
-    const config::Module& module = checked_.config.modules[i];
-    const bool other = std::any_of(with.begin(), with.end(), [&](const std::string& file) {
-      return module.file == std::filesystem::absolute(file);
-    });
-    if (other && modules_[i]->runs && module.operation == scheduler::Operation::Sporadic) {
-      console_.warning(
-          "module {} runs when it ran in the recording: the condition of another file is not asked; to see when it is "
-          "true, simulate or run it",
-          module.name);
-    }
-  }
-}
 
 bool Replay::call(std::uint32_t index, const char* phase, void (*function)()) {
   if (function == nullptr) {

@@ -202,6 +202,15 @@ Result<void, Ending> Running::launch_processes() {
   return {};
 }
 
+// In a simulation: deaths and restarts where they are, whatever the steps. Returns when one is to be started again.
+rt::MonoTime Running::attend_processes() {
+  const rt::MonoTime now = rt::MonoClock::now();
+  if (processes_.supervise(now, kernel_.now()) || !await_processes(now + kEnrolInSimulation)) {
+    engine_.request_stop();
+  }
+  return processes_.next_restart().value_or(scheduler::SimulatedKernel::kNever);
+}
+
 // Until all of them are ready, or the time has come. False if one of them ends the run.
 bool Running::await_processes(rt::MonoTime until) {
   while (!processes_.ready() && rt::MonoClock::now() < until && signals_.wait(kLook / 10) == 0) {
@@ -243,6 +252,7 @@ Result<void, Ending> Running::start_schedule() {
   }
   if (simulation_) {
     simulation_->watch_end([this] { return engine_.finished(); });
+    simulation_->attend_by([this] { return attend_processes(); });
     hang_watch_.emplace([this] { return simulation_->kernel().resumptions(); },
                         [this] { engine_.end_runs_in_progress(); });
   }

@@ -45,6 +45,7 @@ class Running {
   Result<void, Ending> start_schedule();
   [[nodiscard]] std::uint64_t ticks() const noexcept;
   scheduler::Kernel& make_kernel();
+  rt::MonoTime attend_processes();
   bool await_processes(rt::MonoTime until);
   int pass();
   scheduler::Hooks hooks();

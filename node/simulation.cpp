@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/simulation.h"
 
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <utility>
@@ -46,8 +47,16 @@ int Simulation::pass(std::chrono::nanoseconds look) {
   if (settings_.step) {
     return step();
   }
-  kernel_.sleep_until(kernel_.now() + look);
+  go_to(kernel_.now() + look);
   return keep_pace();
+}
+
+// With the stops that processes want.
+void Simulation::go_to(rt::MonoTime until) {
+  for (rt::MonoTime next = attend_(); next < until && !ended_(); next = attend_()) {
+    kernel_.sleep_until(std::max(next, kernel_.now()));
+  }
+  kernel_.sleep_until(until);
 }
 
 // As far as the plant is, until so much time has passed.
@@ -75,7 +84,7 @@ int Simulation::follow(std::chrono::nanoseconds look) {
       link_.arrived(message);
       kernel_.sleep_until(kernel_.now());  // whom it woke
     }
-    kernel_.sleep_until(rt::mono_time(order.until_ns));
+    go_to(rt::mono_time(order.until_ns));
     if (!answer()) {
       return SIGTERM;
     }
@@ -121,7 +130,7 @@ int Simulation::step() {
     return order.signal;
   }
   stands_at_ += std::chrono::nanoseconds(order.ticks * run_.basic_period_ns);
-  kernel_.sleep_until(stands_at_);
+  go_to(stands_at_);
   tell_place(run_.tick.load(), run_.basic_period_ns);
   return signals_.wait(std::chrono::nanoseconds{0});
 }

@@ -39,6 +39,9 @@ class Simulation {
   };
   void connect(Link link) { link_ = std::move(link); }
   void watch_end(std::function<bool()> ended) { ended_ = std::move(ended); }
+  // Called where something from outside may have happened, before time goes on, and at the time that it said last: what
+  // is to be done for processes.
+  void attend_by(std::function<rt::MonoTime()> attend) { attend_ = std::move(attend); }
 
   // Lets `look` of virtual time pass, in --step mode what standard input asks for. Returns a stop signal, 0 if none has
   // come.
@@ -51,6 +54,7 @@ class Simulation {
   bool answer();
   int keep_pace();
   int step();
+  void go_to(rt::MonoTime until);
 
   const config::Simulation& settings_;
   scheduler::RunBlock& run_;
@@ -64,6 +68,7 @@ class Simulation {
   bool left_ = false;
   Link link_;
   std::function<bool()> ended_;
+  std::function<rt::MonoTime()> attend_ = [] { return scheduler::SimulatedKernel::kNever; };
   bool ready_told_ = false;
   std::int64_t busy_ns_ = 0;  // processor time of this thread at the last answer
 };

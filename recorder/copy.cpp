@@ -46,29 +46,48 @@ Result<void, Problem> copy_metadata(const recording::McapReader& from, const std
 
 }  // namespace
 
-Result<ChannelMap, Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
-                                       recording::McapWriter& to) {
+Result<ChannelMap, Problem> copy_channels(const recording::McapReader& from, const std::string& prefix,
+                                          recording::McapWriter& to, std::map<std::string, std::uint16_t>& topics) {
   ChannelMap channels;
   std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}};
-  for (const auto& [id, schema] : from.contents().schemas) {
-    auto added = to.add_schema(schema.name, schema.encoding, schema.data);
-    if (!added) {
-      return std::move(added).error();
-    }
-    schemas[id] = *added;
-  }
   for (const auto& [id, channel] : from.contents().channels) {
-    auto added = to.add_channel(schemas[channel.schema], prefix + channel.topic, channel.encoding, channel.metadata);
+    const std::string topic = prefix + channel.topic;
+    if (const auto known = topics.find(topic); known != topics.end()) {
+      channels[id] = known->second;
+      continue;
+    }
+    const auto schema = from.contents().schemas.find(channel.schema);
+    if (schema != from.contents().schemas.end() && !schemas.contains(channel.schema)) {
+      auto added = to.add_schema(schema->second.name, schema->second.encoding, schema->second.data);
+      if (!added) {
+        return std::move(added).error();
+      }
+      schemas[channel.schema] = *added;
+    }
+    auto added = to.add_channel(schemas[channel.schema], topic, channel.encoding, channel.metadata);
     if (!added) {
       return std::move(added).error();
     }
-    channels[id] = *added;
+    channels[id] = topics[topic] = *added;
   }
-  if (auto attached = copy_attachments(from, prefix, to); !attached) {
-    return std::move(attached).error();
+  return channels;
+}
+
+Result<void, Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
+                                 recording::McapWriter& to) {
+  auto attached = copy_attachments(from, prefix, to);
+  return attached ? copy_metadata(from, prefix, to) : attached;
+}
+
+Result<ChannelMap, Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
+                                       recording::McapWriter& to) {
+  std::map<std::string, std::uint16_t> topics;
+  auto channels = copy_channels(from, prefix, to, topics);
+  if (!channels) {
+    return channels;
   }
-  if (auto said = copy_metadata(from, prefix, to); !said) {
-    return std::move(said).error();
+  if (auto about = copy_about(from, prefix, to); !about) {
+    return std::move(about).error();
   }
   return channels;
 }

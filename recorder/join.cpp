@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "recorder/copy.h"
+#include "recorder/run_words.h"
 #include "recorder/sources.h"
 #include "recording/mcap_reader.h"
 #include "recording/mcap_writer.h"
@@ -18,19 +20,68 @@ namespace {
 using base::Problem;
 
 struct Part {
+  std::string file;
   recording::McapReader reader;
+  Sources sources;
   std::vector<std::string> names;
-  std::string prefix;  // of its topics, if it is of one
   ChannelMap channels;
-  std::optional<recording::McapMessage> message;  // the next one
 };
 
-Result<void, Problem> advance(Part& source) {
-  auto next = source.reader.next();
-  if (!next) {
-    return std::move(next).error();
+// A recording, maybe in parts, which are read one behind the other.
+struct Chain {
+  std::string prefix;  // of its topics, if it is of one node
+  std::vector<Part> parts;
+  std::size_t at = 0;
+  std::optional<recording::McapMessage> message;  // the next one
+  std::map<std::pair<std::size_t, std::uint32_t>, std::pair<std::uint64_t, std::size_t>>
+      last;  // run of a module, its part
+};
+
+bool simulated(const Part& part) {
+  return part.sources.all.front().number("real_minus_node_ns") == 0;
+}
+
+// Its clock, to the nanosecond, was looked at once for all parts.
+bool of_one_recording(const Part& a, const Part& b) {
+  return !simulated(a) && a.names == b.names &&
+         std::equal(a.sources.all.begin(), a.sources.all.end(), b.sources.all.begin(), b.sources.all.end(),
+                    [](const Source& one, const Source& other) { return one.about == other.about; });
+}
+
+Problem two_of_one(const std::string& file, const std::string& name) {
+  return {fmt::format("{} is of {}, as another of the files: join one of each, or parts of one recording", file, name)};
+}
+
+// False if a run was there before: these are no parts of one recording.
+bool goes_on(Chain& chain) {
+  const Part& part = chain.parts[chain.at];
+  const auto place = part.sources.channels.find(chain.message->channel);
+  if (chain.parts.size() == 1 || place == part.sources.channels.end() || place->second.kind != ChannelKind::Run) {
+    return true;
   }
-  source.message = *std::move(next);
+  const auto run = run_from_cdr(chain.message->data.view);
+  if (!run) {
+    return true;
+  }
+  auto& [number, where] = chain.last[{place->second.source, run->module}];
+  const bool later = where == chain.at + 1 || where == 0 || run->tail.number > number;
+  number = std::max(number, run->tail.number);
+  where = chain.at + 1;
+  return later;
+}
+
+Result<void, Problem> advance(Chain& chain) {
+  for (; chain.at < chain.parts.size(); ++chain.at) {
+    auto next = chain.parts[chain.at].reader.next();
+    if (!next) {
+      return std::move(next).error();
+    }
+    chain.message = *std::move(next);
+    if (chain.message) {
+      return goes_on(chain) ? Result<void, Problem>()
+                            : two_of_one(chain.parts[chain.at].file, chain.parts[chain.at].names.front());
+    }
+  }
   return {};
 }
 
@@ -39,33 +90,32 @@ Result<Part, Problem> open(const std::filesystem::path& file) {
   if (!reader) {
     return std::move(reader).error();
   }
-  const Sources sources = find_sources(*reader);
+  Sources sources = find_sources(*reader);
   if (sources.all.empty()) {
     return Problem{fmt::format("{} is no recording of indurop record or run --record", file.string())};
   }
-  Part part{std::move(reader).value(), {}, {}, {}, std::nullopt};
-  for (const Source& source : sources.all) {
+  Part part{file.string(), std::move(reader).value(), std::move(sources), {}, {}};
+  for (const Source& source : part.sources.all) {
     const std::string board = source.text("board");
     part.names.push_back(!source.prefix.empty() ? source.name() : board.empty() ? source.text("node") : board);
-    part.prefix = source.prefix.empty() ? part.names.back() + "/" : "";
   }
   return part;
 }
 
-Result<void, Problem> copy_messages(std::vector<Part>& sources, recording::McapWriter& writer, Joined& joined) {
+Result<void, Problem> copy_messages(std::vector<Chain>& chains, recording::McapWriter& writer, Joined& joined) {
   for (;;) {
-    Part* first = nullptr;
-    for (Part& source : sources) {
-      if (source.message && (first == nullptr || source.message->log_time_ns < first->message->log_time_ns)) {
-        first = &source;
+    Chain* first = nullptr;
+    for (Chain& chain : chains) {
+      if (chain.message && (first == nullptr || chain.message->log_time_ns < first->message->log_time_ns)) {
+        first = &chain;
       }
     }
     if (first == nullptr) {
       return writer.close();
     }
     const recording::McapMessage& message = *first->message;
-    if (auto written = writer.write(first->channels[message.channel], message.log_time_ns, message.publish_time_ns,
-                                    message.sequence, message.data.view);
+    if (auto written = writer.write(first->parts[first->at].channels[message.channel], message.log_time_ns,
+                                    message.publish_time_ns, message.sequence, message.data.view);
         !written) {
       return written;
     }
@@ -76,48 +126,89 @@ Result<void, Problem> copy_messages(std::vector<Part>& sources, recording::McapW
   }
 }
 
-Result<std::vector<Part>, Problem> open_all(const std::vector<std::filesystem::path>& files, Joined& joined) {
-  std::vector<Part> sources;
-  for (const std::filesystem::path& file : files) {
-    auto source = open(file);
-    if (!source) {
-      return std::move(source).error();
+// To the chain that it belongs to, or as one of its own.
+Result<void, Problem> sort_in(Part part, std::vector<Chain>& chains, Joined& joined) {
+  for (Chain& chain : chains) {
+    const Part& other = chain.parts.front();
+    if (simulated(part) != simulated(other)) {
+      return Problem{fmt::format("{} is of a simulation, {} is not: they have no common time",
+                                 simulated(part) ? part.file : other.file, simulated(part) ? other.file : part.file)};
     }
-    for (const std::string& name : source->names) {
-      if (std::find(joined.names.begin(), joined.names.end(), name) != joined.names.end()) {
-        return Problem{fmt::format("{} is of {}, as another of the files: join one of each", file.string(), name)};
-      }
-      joined.names.push_back(name);
+    if (of_one_recording(part, other)) {
+      chain.parts.push_back(std::move(part));
+      return {};
     }
-    sources.push_back(std::move(source).value());
   }
-  return sources;
+  for (const std::string& name : part.names) {
+    if (std::find(joined.names.begin(), joined.names.end(), name) != joined.names.end()) {
+      return two_of_one(part.file, name);
+    }
+  }
+  joined.names.insert(joined.names.end(), part.names.begin(), part.names.end());
+  Chain& chain = chains.emplace_back();
+  chain.prefix = part.sources.all.front().prefix.empty() ? part.names.front() + "/" : "";
+  chain.parts.push_back(std::move(part));
+  return {};
+}
+
+Result<std::vector<Chain>, Problem> open_all(const std::vector<std::filesystem::path>& files, Joined& joined) {
+  std::vector<Chain> chains;
+  for (const std::filesystem::path& file : files) {
+    auto part = open(file);
+    if (!part) {
+      return std::move(part).error();
+    }
+    if (auto sorted = sort_in(std::move(part).value(), chains, joined); !sorted) {
+      return std::move(sorted).error();
+    }
+  }
+  for (Chain& chain : chains) {
+    // They begin with what was known, which may be old.
+    std::stable_sort(chain.parts.begin(), chain.parts.end(), [](const Part& a, const Part& b) {
+      return a.reader.contents().span_ns().second < b.reader.contents().span_ns().second;
+    });
+  }
+  if (chains.size() == 1 && chains.front().parts.size() > 1) {
+    chains.front().prefix.clear();
+  }
+  return chains;
+}
+
+Result<void, Problem> copy_frames(Chain& chain, recording::McapWriter& writer) {
+  std::map<std::string, std::uint16_t> topics;
+  for (Part& part : chain.parts) {
+    auto channels = copy_channels(part.reader, chain.prefix, writer, topics);
+    if (!channels) {
+      return std::move(channels).error();
+    }
+    part.channels = *std::move(channels);
+  }
+  return copy_about(chain.parts.back().reader, chain.prefix, writer);
 }
 
 }  // namespace
 
 Result<Joined, Problem> join(const std::vector<std::filesystem::path>& files, const std::filesystem::path& to) {
   Joined joined;
-  auto sources = open_all(files, joined);
-  if (!sources) {
-    return std::move(sources).error();
+  auto chains = open_all(files, joined);
+  if (!chains) {
+    return std::move(chains).error();
   }
   auto writer = recording::McapWriter::create(to, {});
   if (!writer) {
     return std::move(writer).error();
   }
   const auto copy = [&]() -> Result<void, Problem> {
-    for (Part& source : *sources) {
-      auto channels = copy_frame(source.reader, source.prefix, *writer);
-      if (!channels) {
-        return std::move(channels).error();
+    for (Chain& chain : *chains) {
+      auto done = copy_frames(chain, *writer);
+      if (done) {
+        done = advance(chain);
       }
-      source.channels = *std::move(channels);
-      if (auto advanced = advance(source); !advanced) {
-        return advanced;
+      if (!done) {
+        return done;
       }
     }
-    return copy_messages(*sources, *writer, joined);
+    return copy_messages(*chains, *writer, joined);
   };
   if (auto copied = copy(); !copied) {
     std::error_code ignored;

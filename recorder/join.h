@@ -19,9 +19,11 @@ struct Joined {
   std::vector<std::string> names;  // of the boards or nodes, in the order of the files
 };
 
-// Topics are NAME/TOPIC, NAME is that of the file's board, else of its node; those of a joined file are so already.
-// Attachments and metadata come along, so named. Errors: a file cannot be read or is none of ours, or is damaged; two
-// are of one board; `to` is there already or cannot be written. What was begun is removed then.
+// Topics are NAME/TOPIC, NAME is that of the file's board, else of its node; those of a joined file are so already, and
+// parts of one recording of one node alone become a recording of this node. Attachments and metadata come along, so
+// named; of parts those of the last. Errors: a file cannot be read or is none of ours, or is damaged; two are of one
+// board, but not parts of one recording; some are of simulations, others not; `to` is there already or cannot be
+// written. What was begun is removed then.
 Result<Joined, base::Problem> join(const std::vector<std::filesystem::path>& files, const std::filesystem::path& to);
 
 }  // namespace indurop::recorder

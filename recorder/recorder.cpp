@@ -120,7 +120,8 @@ Result<void, Problem> Recorder::begin_file() {
     }
   }
   return writer_->metadata(prefix_ + kNodeMetadata,
-                           {{"node", about_.node},
+                           {{"format", std::to_string(kRecordingFormat)},
+                            {"node", about_.node},
                             {"config", about_.config},
                             {"board", about_.board},
                             {"deployment", about_.deployment},

@@ -16,6 +16,10 @@
 
 namespace indurop::recorder {
 
+// Raised with whatever replays need and recordings of before lack; those that do not say theirs have 1.
+// 2: what snapshot(), valid(), age(), channels and the request to stop told runs.
+inline constexpr std::int64_t kRecordingFormat = 2;
+
 inline constexpr std::string_view kRunsTopic = "indurop/runs";
 inline constexpr std::string_view kRunSchema = "indurop::Run";
 extern const std::string_view kRunIdl;

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "testing/golden.h"
 #include "testing/node_process.h"
 #include "vars/node_lock.h"
+#include "vars/process.h"
 #include "vars/store.h"
 
 namespace irp::testing {
@@ -29,6 +31,7 @@ namespace {
 namespace schema = indurop::schema;
 namespace vars = indurop::vars;
 namespace scheduler = indurop::scheduler;
+using namespace std::chrono_literals;
 
 std::string new_name() {
   static std::atomic<unsigned> count{0};
@@ -350,7 +353,11 @@ void Plant::kill(std::string_view module) {
   if (pid <= 0) {
     throw std::runtime_error(fmt::format("{} has no process that could be killed", module));
   }
+  const std::uint64_t started = vars::process_start_time(pid);
   ::kill(pid, SIGKILL);
+  while (vars::process_alive(pid, started)) {  // its node looks for that before time goes on
+    std::this_thread::sleep_for(1ms);
+  }
 }
 
 void Plant::trace(std::vector<std::string> names) {

@@ -45,6 +45,7 @@ constexpr std::array kRandom{Symbol{"rand", "rand"},
                              Symbol{"getentropy", "getentropy"},
                              Symbol{"arc4random*", "arc4random"},
                              Symbol{"_ZNSt13random_device*", "std::random_device"}};
+constexpr std::array kIds{Symbol{"getpid", "getpid"}, Symbol{"getppid", "getppid"}, Symbol{"gettid", "gettid"}};
 constexpr std::array kNetwork{Symbol{"socket", "socket"},   Symbol{"recv", "recv"},     Symbol{"recvfrom", "recvfrom"},
                               Symbol{"recvmsg", "recvmsg"}, Symbol{"accept", "accept"}, Symbol{"accept4", "accept4"}};
 constexpr std::array kFiles{Symbol{"open", "open"},
@@ -65,9 +66,13 @@ constexpr std::array kThreads{Symbol{"pthread_create", "pthread_create"},
                               Symbol{"fork", "fork"},
                               Symbol{"popen", "popen"},
                               Symbol{"system", "system"}};
-constexpr std::array kSources{Source{"real time", kTime},         Source{"waiting in real time", kWaiting},
-                              Source{"random numbers", kRandom},  Source{"the network", kNetwork},
-                              Source{"files or devices", kFiles}, Source{"threads or processes of its own", kThreads}};
+constexpr std::array kSources{Source{"real time", kTime},
+                              Source{"waiting in real time", kWaiting},
+                              Source{"random numbers", kRandom},
+                              Source{"numbers of processes", kIds},
+                              Source{"the network", kNetwork},
+                              Source{"files or devices", kFiles},
+                              Source{"threads or processes of its own", kThreads}};
 
 bool is(std::string_view import, std::string_view symbol) {
   return symbol.ends_with('*') ? import.starts_with(symbol.substr(0, symbol.size() - 1)) : import == symbol;

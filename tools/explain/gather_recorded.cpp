@@ -143,7 +143,10 @@ class Recorded {
 }  // namespace
 
 std::string two_recordings(const std::string& board, const std::string& file) {
-  return fmt::format("with {} there are two recordings of {}; give one of each board", file, board);
+  return fmt::format(
+      "with {} there are two recordings of {}; give one of each board, and put parts of one together first: "
+      "indurop recording join",
+      file, board);
 }
 
 Result<std::vector<Facts>, Problem> facts_recorded(const std::filesystem::path& file, const std::string& variable) {

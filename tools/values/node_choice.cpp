@@ -44,12 +44,14 @@ Result<std::string, Failure> named_node(const std::string& name, const char* ori
   if (contains(names, name)) {
     return name;
   }
-  return Failure{kUnreachable,
-                 names.empty() ? fmt::format("there is no node '{}', nor any other on this machine. Start one: indurop "
-                                             "run module.xml",
-                                             name)
-                               : fmt::format("there is no node '{}'.{} Nodes here: {}", name, did_you_mean(name, names),
-                                             fmt::join(names, ", "))};
+  const auto running = running_nodes();
+  return Failure{
+      kUnreachable,
+      running.empty()
+          ? fmt::format("there is no node '{}'.{} None runs on this machine. Start one: indurop run module.xml", name,
+                        did_you_mean(name, names))
+          : fmt::format("there is no node '{}'.{} Nodes that run here: {}", name, did_you_mean(name, running),
+                        fmt::join(running, ", "))};
 }
 
 // Empty if the name, with or without a port, is that of a machine.

@@ -268,8 +268,10 @@ bool add_row(Context& context, const Measurement& measurement, const Chain& chai
 // What was measured of all ways. Returns the exit code.
 int tell(Context& context, const Options& options, const ChainPlant& plant, const std::vector<Chain>& found,
          const Runs& runs) {
+  // What boards measure now says nothing of a recording.
+  const auto boards = options.files.empty() ? plant.boards() : std::span<const config::BoardView>{};
   const NetworkTime network =
-      network_time(plant.boards(), options.network_ns > 0 ? std::optional(Nanos(options.network_ns)) : std::nullopt);
+      network_time(boards, options.network_ns > 0 ? std::optional(Nanos(options.network_ns)) : std::nullopt);
   const Measurement measurement(plant, runs);
   Table table({{"WAY", "way"},
                {"BEST", "best_ns", Align::Right},

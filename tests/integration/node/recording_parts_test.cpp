@@ -77,6 +77,45 @@ TEST_F(RecordingParts, Begin_with_what_was_known) {
   EXPECT_EQ(second.code, 0) << second.out << second.err;
 }
 
+TEST_F(RecordingParts, Are_put_together_again) {
+  Program& sut = start_and_wait(kCounter);
+  for (const char* name : {"run.mcap", "other.mcap"}) {
+    ASSERT_EQ(indurop({"record", "-o", (folder() / name).string(), "--split", "300ms", "--duration", "1s"}).code, 0);
+  }
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const auto runs_of = [&](const std::string& file) {
+    return indurop({"recording", "info", (folder() / file).string(), "-o", "json"}).json()["modules"][0]["runs"];
+  };
+  const auto join = [&](const std::vector<std::string>& files, const std::string& to) {
+    std::vector<std::string> words = {"recording", "join", "-o", (folder() / to).string()};
+    for (const std::string& file : files) {
+      words.push_back((folder() / file).string());
+    }
+    return indurop(words);
+  };
+  const Outcome joined = join({"run.0003.mcap", "run.0001.mcap", "run.0002.mcap"}, "all.mcap");
+  ASSERT_EQ(joined.code, 0) << joined.err;
+  std::uint64_t runs = 0;
+  for (const char* part : {"run.0001.mcap", "run.0002.mcap", "run.0003.mcap"}) {
+    runs += runs_of(part).get<std::uint64_t>();
+  }
+  EXPECT_EQ(runs_of("all.mcap"), runs);
+  const Outcome again = replay(folder() / "all.mcap");
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, ", " + std::to_string(runs) + " runs, ");
+  EXPECT_CONTAINS(join({"run.0001.mcap", "run.0001.mcap"}, "x.mcap").err,
+                  "join one of each, or parts of one recording");
+  EXPECT_CONTAINS(join({"run.0001.mcap", "other.0002.mcap"}, "x.mcap").err, "join one of each");
+  EXPECT_FALSE(fs::exists(folder() / "x.mcap"));
+  const Outcome explained = indurop({"explain", "counter", "--from", (folder() / "run.0001.mcap").string(), "--from",
+                                     (folder() / "run.0002.mcap").string()});
+  EXPECT_EQ(explained.code, 2);
+  EXPECT_CONTAINS(explained.err, "put parts of one together first: indurop recording join");
+  ASSERT_EQ(run_to_end(kCounter, {"--sim", "--until", "100ms", "--record", (folder() / "sim.mcap").string()}).code, 0);
+  EXPECT_CONTAINS(join({"run.0001.mcap", "sim.mcap"}, "x.mcap").err, "they have no common time");
+}
+
 TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
   Program& sut = start_and_wait(kCounter);
   std::uint64_t whole = 0;

@@ -2,6 +2,8 @@
 // Replays of recordings that do not tell everything: chosen variables, runs that are missing, processes that died.
 
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
@@ -96,6 +98,33 @@ TEST_F(ReplayOfLess, A_process_that_died_dies_again) {
   EXPECT_EQ(mended.code, 4) << mended.out << mended.err;
   EXPECT_CONTAINS(mended.err, "module process faulted in the recording and does not now");
   EXPECT_FALSE(contains(mended.out, "of walker")) << mended.out;
+}
+
+TEST_F(ReplayOfLess, Says_that_another_schedule_changes_nothing) {
+  ASSERT_EQ(run_to_end({kCounter, kWalker}, {"--sim", "--until", "100ms", "--record", file()}).code, 0);
+  Module slower = kWalker;
+  slower.period = "4ms";
+  Module later = kCounter;
+  later.priority = 5;
+  const Outcome again = replay({"--config", write("other.xml", xml({later, slower}))});
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.err, "module walker has a period of 4 ms in this configuration and had one of 2 ms");
+  EXPECT_CONTAINS(again.err, "module counter has priority 5 in this configuration and had 1");
+  EXPECT_TRUE(replay().err.empty()) << "the same schedule";
+}
+
+// A recording that does not say its format is one of before there were some.
+TEST_F(ReplayOfLess, Says_that_an_older_recording_tells_less) {
+  ASSERT_EQ(run_to_end({kCounter}, {"--sim", "--until", "100ms", "--record", file()}).code, 0);
+  std::ifstream in(file(), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = bytes.find("format");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 6, "tamrof");
+  std::ofstream(file(), std::ios::binary) << bytes;
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.err, "the recording is of an older release: what snapshot()");
 }
 
 TEST_F(ReplayOfLess, A_process_that_dies_only_now_does_not_end_the_replay) {

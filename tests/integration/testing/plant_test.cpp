@@ -104,6 +104,25 @@ TEST(PlantUnderTest, Repeats_a_crash_of_a_process_and_its_return) {
   EXPECT_EQ(first, story());
 }
 
+// The same after any number of calls: a death is noticed where the test stands, a restart comes at its time.
+TEST(PlantUnderTest, A_death_and_a_return_do_not_depend_on_how_the_time_is_cut) {
+  const auto runs = [](std::chrono::milliseconds cut) {
+    Plant p(kConfiguration);
+    p.run(53ms);
+    p.kill("cntr4");
+    for (std::chrono::milliseconds passed{0}; passed < 300ms; passed += cut) {
+      p.run(cut);
+    }
+    return std::pair(p.module("cntr4").runs, p.module("cntr4").restarts);
+  };
+  const auto whole = runs(300ms);
+  EXPECT_EQ(whole.second, 1U);
+  EXPECT_GT(whole.first, 200U);
+  for (const auto cut : {1ms, 4ms, 10ms, 100ms}) {
+    EXPECT_EQ(runs(cut), whole) << cut.count();
+  }
+}
+
 TEST(PlantUnderTest, Names_the_first_difference_from_a_golden_signal) {
   const std::string file = ::testing::TempDir() + "signal-" + std::to_string(::getpid()) + ".csv";
   const auto difference = [&file](double at_tick_5) {

@@ -104,6 +104,7 @@ TEST(Options, What_is_wrong_names_the_option) {
       {{"--one-host"}, "--one-host requires --board"},
       {{"--cuont=3"}, "there is no option --cuont; did you mean --count?"},
       {{"--zzzzz"}, "there is no option --zzzzz"},
+      {{"--count", "x", "--", "in.xml"}, "--count: 'x' is no whole number from 0 on"},
   };
   for (const auto& [words, text] : cases) {
     Sample sut;
