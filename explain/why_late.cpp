@@ -173,9 +173,12 @@ class Question {
     if (!died_between) {
       return {};
     }
+    const bool stays = module_.state == "faulted" && next == nullptr && module_.fault_tick <= tick_;
     return {Cause::Fault,
             module_.name,
-            fmt::format("the process of {} had died and was being started again: {}", module_.name, module_.fault),
+            fmt::format("the process of {} had died and {}: {}", module_.name,
+                        stays ? "stays stopped, as often as it was started again" : "was being started again",
+                        module_.fault),
             {}};
   }
 

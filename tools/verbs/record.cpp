@@ -210,7 +210,9 @@ std::vector<BoardElsewhere> add_boards(Context& context, const Options& options,
 // Records nodes of this host.
 int record_here(Context& context, const Options& options, const std::filesystem::path& file, const Nodes& nodes,
                 std::vector<recorder::Taped> taped, const std::vector<std::string>& names) {
-  be_gentle(nodes.front()->chosen.node);
+  for (const auto& node : nodes) {
+    be_gentle(node->chosen.node);
+  }
   auto parts = recorder::Parts::create(file, options.limits, std::move(taped), names);
   if (!parts) {
     context.out.error(parts.error().text);

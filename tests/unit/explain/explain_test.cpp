@@ -9,6 +9,7 @@ namespace indurop::explain {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int64_t kMs = 1'000'000;
 
@@ -160,7 +161,11 @@ TEST(Explain, A_process_that_died_in_a_run_without_an_end_is_named) {
     EXPECT_EQ(sut.cause, Cause::Fault) << tick;
     EXPECT_EQ(sut.culprit, "proc");
     EXPECT_THAT(sut.text, HasSubstr("signal 6"));
+    EXPECT_THAT(sut.text, Not(HasSubstr("stays stopped")));
   }
+  facts.modules.back().state = "faulted";  // it was started again as often as it may be
+  facts.modules.back().restarts = 3;
+  EXPECT_THAT(why_late(facts, "proc", 250).text, HasSubstr("stays stopped"));
 }
 
 TEST(Explain, An_older_fault_is_known_by_its_run) {
