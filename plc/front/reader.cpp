@@ -93,6 +93,13 @@ plcopen::Document st_document(std::string_view text, const Place& at, const Read
   return document_of(std::move(project), std::move(bodies));
 }
 
+plcopen::Document twincat_document(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                                   Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> bodies;
+  Project project = twincat::read_declarations(text, at, bodies, diagnostics);
+  return document_of(std::move(project), std::move(bodies));
+}
+
 plcopen::Document openplc_document(std::string_view text, const Place& at, const ReadOptions& /*options*/,
                                    Diagnostics& diagnostics) {
   std::vector<st::WrittenBody> bodies;
@@ -120,11 +127,11 @@ std::span<const FileType> file_types() {
   static constexpr std::array kTypes{
       FileType{".st", &read_st, &st_document},
       FileType{".xml", &read_xml, &xml_document},
-      FileType{".TcPOU", &read_twincat},
-      FileType{".TcDUT", &read_twincat},
-      FileType{".TcGVL", &read_twincat},
-      FileType{".TcIO", &read_twincat},
-      FileType{".TcTTO", &read_twincat},
+      FileType{".TcPOU", &read_twincat, &twincat_document},
+      FileType{".TcDUT", &read_twincat, &twincat_document},
+      FileType{".TcGVL", &read_twincat, &twincat_document},
+      FileType{".TcIO", &read_twincat, &twincat_document},
+      FileType{".TcTTO", &read_twincat, &twincat_document},
       FileType{".exp", &read_st, &st_document},
       FileType{".il", &read_st, &st_document},
       FileType{".dt", &read_st, &st_document},
@@ -235,17 +242,18 @@ class FileReader {
   void document(const std::string& file, plcopen::Document& to) {
     Place at = place_of(file);
     const FileType* type = type_of(file);
-    if (type == nullptr || type->read_document == nullptr) {
-      diagnostics_.error(
-          at, "files of TwinCAT are not read here, only texts, PLCopen .xml and those of the OpenPLC Editor");
-      return;
-    }
     const auto text = bytes_of(file);
     if (!text) {
       return;
     }
     at.line = 1;
     at.column = 1;
+    if (type == nullptr) {  // a project of TwinCAT
+      for (const std::string& one : twincat::files_of_project(*text, at, diagnostics_)) {
+        document(one, to);
+      }
+      return;
+    }
     if (type->read != &read_xml) {
       diagnostics_.show_lines_of(file, *text);
     }

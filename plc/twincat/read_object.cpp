@@ -203,6 +203,41 @@ class ObjectReader {
   Diagnostics& diagnostics_;
 };
 
+network::Body written_body(const Node& node) {
+  network::Body out;
+  out.language = network::Body::Language::St;
+  out.at = node.at;
+  out.text_at = node.at;
+  const Node* code = node.child("Implementation");
+  if (const Node* text = code == nullptr ? nullptr : code->child("ST")) {
+    out.text = text->text;
+    out.text_at = text->text_at;
+  }
+  return out;
+}
+
+// The statements of a <POU> and of its actions.
+st::WrittenBody written_code(const Node& node) {
+  st::WrittenBody out;
+  out.code.body = written_body(node);
+  for (const Node& part : node.children) {
+    if (part.name == "Action") {
+      out.code.actions.push_back({part.at, std::string(part.attribute("Name")), written_body(part)});
+    }
+  }
+  return out;
+}
+
+std::optional<Node> read_root(std::string_view bytes, const Place& at, Diagnostics& diagnostics) {
+  auto root = plcopen::read_xml(bytes, at.file, diagnostics);
+  if (root && root->name != "TcPlcObject") {
+    diagnostics.error(root->at,
+                      fmt::format("<{}> is not an object of TwinCAT, whose root is <TcPlcObject>", root->name));
+    return std::nullopt;
+  }
+  return root;
+}
+
 bool is_object(std::string_view file) {
   constexpr std::array<std::string_view, 5> kEndings{".TCPOU", ".TCDUT", ".TCGVL", ".TCIO", ".TCTTO"};
   const std::string capitals = upper(file);
@@ -222,16 +257,24 @@ void collect(const Node& node, std::vector<std::string>& out) {
 
 Project read_object(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& others,
                     Diagnostics& diagnostics) {
-  const auto root = plcopen::read_xml(bytes, at.file, diagnostics);
+  const auto root = read_root(bytes, at, diagnostics);
+  return root ? ObjectReader(at, others, diagnostics).read(*root) : Project();
+}
+
+Project read_declarations(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& bodies,
+                          Diagnostics& diagnostics) {
+  const auto root = read_root(bytes, at, diagnostics);
   if (!root) {
     return {};
   }
-  if (root->name != "TcPlcObject") {
-    diagnostics.error(root->at,
-                      fmt::format("<{}> is not an object of TwinCAT, whose root is <TcPlcObject>", root->name));
-    return {};
+  std::vector<st::WrittenBody> others;
+  Project out = ObjectReader(at, others, diagnostics).read(*root);
+  const Node* pou = root->child("POU");
+  if (pou != nullptr && out.pous.size() == 1) {  // a file has one
+    out.pous.front().body.clear();
+    bodies.push_back(written_code(*pou));
   }
-  return ObjectReader(at, others, diagnostics).read(*root);
+  return out;
 }
 
 std::vector<std::string> files_of_project(std::string_view bytes, const Place& at, Diagnostics& diagnostics) {

@@ -18,6 +18,10 @@ namespace indurop::plc::twincat {
 [[nodiscard]] Project read_object(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& others,
                                   Diagnostics& diagnostics);
 
+// The same for those who show it: no POU has statements, `bodies` has the text of each.
+[[nodiscard]] Project read_declarations(std::string_view bytes, const Place& at, std::vector<st::WrittenBody>& bodies,
+                                        Diagnostics& diagnostics);
+
 // The files of a project that hold its program, with the folder of the project before them.
 [[nodiscard]] std::vector<std::string> files_of_project(std::string_view bytes, const Place& at,
                                                         Diagnostics& diagnostics);

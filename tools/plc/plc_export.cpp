@@ -61,7 +61,8 @@ void add_plc_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
   base::Options& made =
       app.command("export", "Write a program as PLCopen XML, which Beremiz, the OpenPLC editor and CODESYS import",
                   [request, chosen] { *chosen = [request](Context& c) { return export_plc(c, *request); }; });
-  made.add("files", "FILE", request->files, "The program: .st, PLCopen .xml or the OpenPLC Editor's project.json")
+  made.add("files", "FILE", request->files,
+           "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
       .required();
   made.add("-o,--output", "FILE.xml", request->output, "Where to write it (default: to the terminal)");
   add_plc_dialect(made, request->dialect);

@@ -67,7 +67,8 @@ void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
   base::Options& made =
       app.command("print", "Print a program, its networks as text or as a picture",
                   [request, chosen] { *chosen = [request](Context& c) { return print(c, *request); }; });
-  made.add("files", "FILE", request->files, "The program: .st, PLCopen .xml or the OpenPLC Editor's project.json")
+  made.add("files", "FILE", request->files,
+           "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
       .required();
   made.add("--svg", "FILE", request->svg, "Draw the networks into this SVG file instead");
   made.add("--pou", "NAME", request->pou, "This program, function or function block only");

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "plc/front/library_file.h"
+#include "plc/front/reader.h"
 #include "tests/unit/plc/front/compiled.h"
 
 namespace indurop::plc {
@@ -77,6 +78,25 @@ TEST(PlcFiles, A_project_of_TwinCAT_names_its_files) {
   ASSERT_TRUE(sut.ok) << messages(sut);
   EXPECT_EQ(sut.modules.at(0).period_ns, 2'000'000);
   EXPECT_EQ(sut.dialect, Dialect::Codesys);
+}
+
+TEST(PlcFiles, A_project_of_TwinCAT_is_shown_as_it_is_written) {
+  const Files files = twincat();
+  const glb2idl::FileReader read = [&](const std::string& name) {
+    return glb2idl::ReadResult{files.at(name), name, ""};
+  };
+  Diagnostics diagnostics;
+  const plcopen::Document sut = read_document({"plant/plc.plcproj"}, {}, read, diagnostics);
+  ASSERT_FALSE(diagnostics.failed()) << base::to_text(diagnostics.list(), "");
+  ASSERT_EQ(sut.pous.size(), 3U);
+  const plcopen::PouDocument& main = sut.pous.at(0);
+  EXPECT_EQ(main.code.body.text, "drive(speed := GVL.wanted);\ndrive.Reset();\nk := drive.Twice;");
+  const std::string& file = files.at("plant/POUs/MAIN.TcPOU");
+  const auto begin = file.begin() + static_cast<std::ptrdiff_t>(file.find("drive(speed"));
+  EXPECT_EQ(main.code.body.text_at.line, 1 + std::count(file.begin(), begin, '\n')) << "values stand beside its lines";
+  ASSERT_EQ(sut.pous.at(1).code.actions.size(), 1U);
+  EXPECT_EQ(sut.pous.at(1).code.actions.at(0).name, "Reset");
+  EXPECT_EQ(sut.pous.at(1).code.actions.at(0).body.text, "set.n := 0;");
 }
 
 TEST(PlcFiles, Errors_in_files_of_TwinCAT_have_their_line) {
