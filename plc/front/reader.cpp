@@ -12,8 +12,7 @@
 #include "plc/front/encoding.h"
 #include "plc/front/library_file.h"
 #include "plc/library/standard.h"
-#include "plc/lower/chart.h"
-#include "plc/lower/pou.h"
+#include "plc/lower/bodies.h"
 #include "plc/openplc/read_files.h"
 #include "plc/plcopen/read_project.h"
 #include "plc/st/parser.h"
@@ -22,55 +21,30 @@
 namespace indurop::plc {
 namespace {
 
-bool is_step_type(const ast::TypeDeclaration& type) {
-  return type.name == lower::kStepType;
-}
-bool has_step_type(const Project& project) {
-  return std::any_of(project.types.begin(), project.types.end(), is_step_type);
+Project read_st(std::string_view text, const Place& at, const ReadOptions& options,
+                std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return st::parse_project({text, at, options.in_editor}, bodies, diagnostics);
 }
 
-// Bodies in other languages than Structured Text.
-void lower_bodies(std::vector<st::WrittenBody>& others, Project& project, const ReadOptions& options,
-                  Diagnostics& diagnostics) {
-  for (st::WrittenBody& other : others) {
-    if (lower::has_chart(other.code) && !has_step_type(project)) {
-      project.types.push_back(lower::step_type());
-    }
-    lower::lower_pou(other.code, options, project, project.pous[other.pou], diagnostics);
-  }
+Project read_twincat(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                     std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return twincat::read_object(text, at, bodies, diagnostics);
 }
 
-Project read_st(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> others;
-  Project project = st::parse_project({text, at, options.in_editor}, others, diagnostics);
-  lower_bodies(others, project, options, diagnostics);
-  return project;
+Project read_xml(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                 std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return plcopen::read_project(text, at.file == nullptr ? std::string() : *at.file, bodies, diagnostics);
 }
 
-Project read_twincat(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> others;
-  Project project = twincat::read_object(text, at, others, diagnostics);
-  lower_bodies(others, project, options, diagnostics);
-  return project;
-}
-
-Project read_xml(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  return plcopen::read_project(text, at.file == nullptr ? std::string() : *at.file, options, diagnostics);
-}
-
-Project read_openplc(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> others;
-  Project project = openplc::read_project(text, at, &st::parse_project, others, diagnostics);
-  lower_bodies(others, project, options, diagnostics);
-  return project;
+Project read_openplc(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                     std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return openplc::read_project(text, at, &st::parse_project, bodies, diagnostics);
 }
 
 template <network::Body::Language Language>
-Project read_drawn(std::string_view text, const Place& at, const ReadOptions& options, Diagnostics& diagnostics) {
-  std::vector<st::WrittenBody> others;
-  Project project = openplc::read_drawn(text, at, Language, others, diagnostics);
-  lower_bodies(others, project, options, diagnostics);
-  return project;
+Project read_drawn(std::string_view text, const Place& at, const ReadOptions& /*options*/,
+                   std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics) {
+  return openplc::read_drawn(text, at, Language, bodies, diagnostics);
 }
 
 plcopen::Document document_of(Project project, std::vector<st::WrittenBody> bodies) {
@@ -263,6 +237,8 @@ class FileReader {
   }
 
   Project take() {
+    lower::lower_bodies(bodies_, out_, options_, diagnostics_);
+    leave_out(out_, diagnostics_);
     leave_out_users(out_, diagnostics_);
     make_methods_of_actions(out_);
     add_builtin(out_);
@@ -308,10 +284,11 @@ class FileReader {
     if (type->read != &read_xml) {
       diagnostics_.show_lines_of(file, text);
     }
-    Project made = type->read(text, at, options_, diagnostics_);
-    leave_out(made, diagnostics_);
-    if (has_step_type(out_)) {
-      std::erase_if(made.types, is_step_type);  // each file with a chart has it
+    std::vector<st::WrittenBody> bodies;
+    Project made = type->read(text, at, options_, bodies, diagnostics_);
+    for (st::WrittenBody& body : bodies) {
+      body.pou += out_.pous.size();
+      bodies_.push_back(std::move(body));
     }
     append(out_, std::move(made));
   }
@@ -320,6 +297,7 @@ class FileReader {
   const glb2idl::FileReader& read_;
   Diagnostics& diagnostics_;
   Project out_;
+  std::vector<st::WrittenBody> bodies_;                         // of its POUs, not yet translated
   std::vector<std::pair<std::string, std::string>> libraries_;  // names and versions
 };
 

@@ -14,12 +14,14 @@
 #include "plc/model/project.h"
 #include "plc/model/read_options.h"
 #include "plc/plcopen/document.h"
+#include "plc/st/chart_parser.h"
 
 namespace indurop::plc {
 
-// Reads the text of one file; `at` is the place of its first character. What has errors is left out.
+// Reads the text of one file; `at` is the place of its first character. What has errors is left out. `bodies`: code
+// that is no Structured Text; its POUs are without code in the result.
 using Reader = Project (*)(std::string_view text, const Place& at, const ReadOptions& options,
-                           Diagnostics& diagnostics);
+                           std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics);
 
 using DocumentReader = plcopen::Document (*)(std::string_view text, const Place& at, const ReadOptions& options,
                                              Diagnostics& diagnostics);

@@ -8,16 +8,13 @@
 
 #include "plc/model/diagnostics.h"
 #include "plc/model/project.h"
-#include "plc/model/read_options.h"
-#include "plc/plcopen/document.h"
+#include "plc/st/chart_parser.h"
 
 namespace indurop::plc::plcopen {
 
-// `name`: of the file, for messages. Check `diagnostics` before the project is used.
-[[nodiscard]] Project read_project(std::string_view bytes, const std::string& name, const ReadOptions& options,
-                                   Diagnostics& diagnostics);
-
-// The same from a document that was read. Its places name the rungs from then on.
-[[nodiscard]] Project lower(Document& document, const ReadOptions& options, Diagnostics& diagnostics);
+// `name`: of the file, for messages. `bodies`: the code of its POUs and methods. Check `diagnostics` before the project
+// is used.
+[[nodiscard]] Project read_project(std::string_view bytes, const std::string& name,
+                                   std::vector<st::WrittenBody>& bodies, Diagnostics& diagnostics);
 
 }  // namespace indurop::plc::plcopen

@@ -17,6 +17,7 @@ namespace indurop::plc::st {
 // The code of the `pou`-th POU of the project, to be translated when all are known.
 struct WrittenBody {
   std::size_t pou = 0;
+  std::optional<std::size_t> method = std::nullopt;  // of that POU
   network::PouCode code;
 };
 

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <random>
 
+#include "plc/lower/bodies.h"
+#include "plc/plcopen/document.h"
 #include "plc/plcopen/read_project.h"
 #include "plc/print/print.h"
 #include "plc/print/st_text.h"
@@ -21,6 +23,13 @@ namespace fs = std::filesystem;
 using golden::expect_file;
 using golden::slurp;
 
+Project lowered(const std::string& text, const ReadOptions& options, Diagnostics& diagnostics) {
+  std::vector<st::WrittenBody> bodies;
+  Project project = plcopen::read_project(text, "in.xml", bodies, diagnostics);
+  lower::lower_bodies(bodies, project, options, diagnostics);
+  return project;
+}
+
 class Golden : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, Networks_and_their_meaning_or_errors_are_as_expected) {
@@ -30,7 +39,7 @@ TEST_P(Golden, Networks_and_their_meaning_or_errors_are_as_expected) {
   const auto bodies = printed_bodies(document, "");
   const std::string text = print_text(bodies, true, diagnostics);
   std::string statements;
-  for (const ast::Pou& pou : plcopen::read_project(slurp(folder / "in.xml"), "in.xml", {}, diagnostics).pous) {
+  for (const ast::Pou& pou : lowered(slurp(folder / "in.xml"), {}, diagnostics).pous) {
     statements += st_text(pou) + "\n";
   }
   expect_file(folder / "expected.err", base::to_text(diagnostics.list(), "indurop plc"));
@@ -82,7 +91,7 @@ TEST_P(Golden, A_damaged_file_is_read_to_errors_or_a_program) {
   for (int i = 0; i < kFiles; ++i) {
     const std::string text = damaged(whole, random);
     Diagnostics diagnostics;
-    (void)plcopen::read_project(text, "in.xml", {true}, diagnostics);
+    (void)lowered(text, {true}, diagnostics);
     plcopen::Document document = plcopen::read_document(text, "in.xml", diagnostics);
     const auto bodies = printed_bodies(document, "");
     const std::string printed = print_text(bodies, false, diagnostics);

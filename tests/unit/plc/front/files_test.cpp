@@ -71,6 +71,28 @@ Files twincat() {
                                   "<Name>MAIN</Name></PouCall></Task>")}};
 }
 
+// Bodies are translated when all files are read, whatever their order.
+TEST(PlcFiles, What_charts_and_lists_name_may_stand_in_another_file) {
+  const std::string valve =
+      "FUNCTION_BLOCK Valve VAR_INPUT set : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR ACTION Open: q := TRUE; "
+      "END_ACTION IF set THEN q := FALSE; END_IF; END_FUNCTION_BLOCK";
+  const std::string chart =
+      "PROGRAM Main VAR v : Valve; x : BOOL; END_VAR\nINITIAL_STEP A: v.Open(N); END_STEP STEP B: END_STEP\n"
+      "TRANSITION FROM A TO B := x; END_TRANSITION TRANSITION FROM B TO A := v.q; END_TRANSITION END_PROGRAM";
+  const std::string list =
+      "PROGRAM Main VAR v : Valve; x : BOOL; END_VAR\nLD x\nset v\nLD v.q\nST x\nCAL v()\nEND_PROGRAM";
+  for (const std::string& main : {chart, list}) {
+    for (const std::vector<std::string>& order :
+         {std::vector<std::string>{"valve.st", "main.st"}, std::vector<std::string>{"main.st", "valve.st"}}) {
+      CompileOptions options;
+      options.files = order;
+      const Compiled sut = compiled_from({{"valve.st", valve}, {"main.st", main}}, options);
+      EXPECT_TRUE(sut.ok) << order.front() << '\n' << messages(sut);
+      EXPECT_THAT(messages(sut), ::testing::Not(HasSubstr("error")));
+    }
+  }
+}
+
 TEST(PlcFiles, A_project_of_TwinCAT_names_its_files) {
   CompileOptions options;
   options.files = {"plant/plc.plcproj"};

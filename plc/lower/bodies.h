@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The code of all POUs of a project to statements.
+
+#pragma once
+
+#include <vector>
+
+#include "plc/model/diagnostics.h"
+#include "plc/model/project.h"
+#include "plc/model/read_options.h"
+#include "plc/st/chart_parser.h"
+
+namespace indurop::plc::lower {
+
+// `bodies`: of POUs and methods of `project`, whose places name the rungs from then on. All POUs are known before the
+// first body is translated, whatever file they are in.
+void lower_bodies(std::vector<st::WrittenBody>& bodies, Project& project, const ReadOptions& options,
+                  Diagnostics& diagnostics);
+
+}  // namespace indurop::plc::lower
