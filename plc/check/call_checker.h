@@ -34,6 +34,7 @@ class CallChecker {
 
   [[nodiscard]] std::vector<const LibraryFunction*> overloads_of(const std::string& name, const Type* wanted) const;
   std::optional<Inputs> positions(ast::Expression& call, const LibraryFunction& first);
+  const Type* widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic);
   bool input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads, const Type* wanted);
   const Type* library_function(ast::Expression& call, std::vector<const LibraryFunction*> overloads,
                                const Type* wanted);

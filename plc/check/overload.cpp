@@ -120,6 +120,21 @@ std::optional<CallChecker::Inputs> CallChecker::positions(Expression& call, cons
   return inputs;
 }
 
+// What numbers without a type become together, if one of them is computed: EQ(MAX(300, 1) * 300, 2.5). Null: nothing.
+const Type* CallChecker::widest_beside(const Inputs& inputs, const LibraryFunction& function, Generic generic) {
+  std::optional<Elementary> widest;
+  bool computed = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (function.input(i).type != LibraryType(generic) || !is_bare(*inputs[i], context_.program)) {
+      continue;
+    }
+    computed = computed || computes(*inputs[i]);
+    const Elementary own = widest_of(*inputs[i], context_.program);
+    widest = widest == Elementary::Lreal ? widest : own;
+  }
+  return computed && widest ? context_.elementary(*widest) : nullptr;
+}
+
 // First those that have a type, which numbers without one take where nothing else is wanted: MAX(d, 807 * MIN(1, 2)).
 bool CallChecker::input_values(const Inputs& inputs, const std::vector<const LibraryFunction*>& overloads,
                                const Type* wanted) {
@@ -135,7 +150,9 @@ bool CallChecker::input_values(const Inputs& inputs, const std::vector<const Lib
       const auto* fixed = overloads.size() == 1 ? std::get_if<Elementary>(&type) : nullptr;
       const auto* generic = std::get_if<Generic>(&type);
       const Type* hint = fixed != nullptr ? context_.elementary(*fixed) : type == first.result ? wanted : nullptr;
-      hint = hint == nullptr && generic != nullptr && bare ? beside[*generic] : hint;
+      if (hint == nullptr && generic != nullptr && bare) {
+        hint = beside[*generic] != nullptr ? beside[*generic] : widest_beside(inputs, first, *generic);
+      }
       const Type* found = expressions_.value(*inputs[i], hint);
       fine = found != nullptr && fine;
       if (generic != nullptr && found != nullptr && found->kind == Type::Kind::Elementary &&

@@ -34,6 +34,7 @@ class Maker:
         self.scope = scope
         self.changer = None  # what this statement calls beside what it changes
         self.changed = []  # the places it changes
+        self.narrower = False  # what is made becomes a wider type
 
     # Calls beside what they change: they show in which order operands are computed
 
@@ -158,7 +159,7 @@ class Maker:
     def operand(self, type_, depth, bare=False):
         """Of the type, narrower, or a bare number."""
         rng = self.rng
-        if bare and type_.kind in ("int", "real") and rng.random() < 0.1:
+        if bare and not self.narrower and type_.kind in ("int", "real") and rng.random() < 0.1:
             return bare_numbers.beside(self, type_)
         if bare and type_.kind in ("int", "real", "bits") and rng.random() < 0.4:
             value = literals.some_value(rng, type_)
@@ -170,7 +171,10 @@ class Maker:
             narrower = [one for one in (*INTS, *BITS, REAL) if one is not type_ and widens(one, type_)]
             if narrower:
                 one = rng.choice(narrower)
+                # A bare number in it would take the wider type, which is wanted; those are for operands of that type.
+                outer, self.narrower = self.narrower, True
                 made = self.value(one, min(depth, 1))
+                self.narrower = outer
                 return made if not made.bare else None
         return self.value(type_, depth)
 
