@@ -68,7 +68,8 @@ class Writer:
     def division(self, op, a):
         number = self.rng.choice((2, 3, 7, 10))
         whole = lambda value: abs(value) // number * (1 if value >= 0 else -1)
-        run = (lambda f: whole(a.expr.run(f))) if op == "/" else (lambda f: a.expr.run(f) - number * whole(a.expr.run(f)))
+        rest = lambda value: value - number * whole(value)
+        run = (lambda f: whole(a.expr.run(f))) if op == "/" else (lambda f: rest(a.expr.run(f)))
         text = f"{a.expr.at(tree.PRODUCT, self.rng)} {op} {number}"
         most = max(abs(a.low), abs(a.high))
         return Bare(Expr(text, None, run, tree.PRODUCT), -most if a.low < 0 else 0, most, a.called)
