@@ -46,11 +46,13 @@ class Configurer {
   ast::Pou* program() {
     const ProgramInstance* instance = nullptr;
     bool configured = false;
+    std::vector<const ProgramInstance*> instances;
     for (const Configuration& configuration : context_.program.project.configurations) {
       for (const Resource& resource : configuration.resources) {
         const bool named = entry_.path.size() > 2 && same_name(resource.name, entry_.path[0]);
         for (const ProgramInstance& one : resource.programs) {
           configured = true;
+          instances.push_back(&one);
           if (same_name(one.name, entry_.path[named ? 1 : 0])) {
             instance = &one;
             first_ = named ? 1 : 0;
@@ -66,6 +68,11 @@ class Configurer {
       return nullptr;
     }
     instance_ = instance != nullptr ? instance->name : found->name;
+    for (const ProgramInstance* one : instances) {
+      if (one != instance && same_name(one->type, wanted)) {
+        other_ = one->name;
+      }
+    }
     return found;
   }
 
@@ -100,6 +107,19 @@ class Configurer {
     }
     if (!same_type(*type, *declared)) {
       error(fmt::format("{} is {} where it is declared, use that type", variable_->name, with_article(*declared)));
+      return;
+    }
+    const bool inside = entry_.address && !of_program;
+    if (!inside && !other_.empty()) {  // both are variables of the program, which all its instances begin with
+      error(
+          fmt::format("{} and {} are of one program, and what is configured would be so in both; declare a program of "
+                      "its own for {}",
+                      instance_, other_, instance_));
+      return;
+    }
+    if (inside && entry_.initial) {
+      error(fmt::format("{} gets its place here, and its initial value where it is declared, or by a statement",
+                        variable_->name));
       return;
     }
     if (entry_.address) {
@@ -158,6 +178,7 @@ class Configurer {
   Configured& entry_;
   std::size_t first_ = 0;  // where the program stands in the path
   std::string instance_;
+  std::string other_;  // another instance of the same program
   ast::Variable* variable_ = nullptr;
   ast::Variable* outer_ = nullptr;  // of the program, in which it lies
 };

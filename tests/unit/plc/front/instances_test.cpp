@@ -103,6 +103,16 @@ END_PROGRAM
   EXPECT_THAT(refused("r.other.limit : INT := 1;"),
               HasSubstr("there is no program 'r', write resource.program.variab"));
   EXPECT_THAT(refused("r.plc.limit.x : INT := 1;"), HasSubstr("limit is no instance of a function block"));
+  EXPECT_THAT(refused("r.plc.one.level AT %IW3 : INT := 3;"), HasSubstr("level gets its place here, and its initial"));
+  const auto two = [&](const std::string& entry) {
+    return wrong(program +
+                 "CONFIGURATION c RESOURCE r ON pc TASK t (INTERVAL := T#1ms); PROGRAM plc WITH t : Main; "
+                 "PROGRAM again WITH t : Main; END_RESOURCE VAR_CONFIG " +
+                 entry + " END_VAR END_CONFIGURATION");
+  };
+  EXPECT_THAT(two("r.plc.limit : INT := 7;"), HasSubstr("plc and again are of one program")) << "both would begin so";
+  EXPECT_THAT(two("r.again.own AT %IX1.0 : BOOL;"), HasSubstr("again and plc are of one program"));
+  EXPECT_EQ(two("r.plc.one.level AT %IW3 : INT; r.again.one.level AT %IW4 : INT;"), "");
   const Compiled editor = codesys(program + "VAR_CONFIG Main.one.level AT %IW5 : INT; END_VAR");
   ASSERT_TRUE(editor.ok) << messages(editor);
   EXPECT_THAT(editor.glb, HasSubstr("int16_t IW5;  // %IW5"));
