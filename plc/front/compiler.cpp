@@ -119,7 +119,9 @@ std::string module_xml(const std::vector<ModuleText>& modules) {
         "    <priority>{}</priority>\n"
         "  </module>\n",
         one.name, one.period_ns > 0 ? "periodic" : "sporadic",
-        one.period_ns > 0 ? fmt::format("    <period>{}</period>\n", duration(one.period_ns)) : "", one.priority);
+        fmt::format("    <{0}>{1}</{0}>\n", one.period_ns > 0 ? "period" : "deadline",
+                    duration(one.period_ns > 0 ? one.period_ns : kDefaultIntervalNs)),
+        one.priority);
   }
   return out;
 }

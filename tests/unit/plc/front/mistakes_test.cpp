@@ -14,6 +14,7 @@ using testing::compiled;
 using ::testing::HasSubstr;
 using testing::messages;
 using ::testing::Not;
+using testing::written;
 using testing::wrong;
 
 // One mistake, one message: also where what follows cannot be understood any more.
@@ -150,7 +151,10 @@ TEST(PlcMistakes, Properties_of_tasks_are_said_one_by_one) {
     EXPECT_EQ(sut.diagnostics.size(), 1U) << properties << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));
   }
-  EXPECT_EQ(wrong(task("SINGLE := g, INTERVAL := T#0s, PRIORITY := 1")), "") << "IEC 61131-3, 6.8.2: of events only";
+  const Compiled events = compiled(task("SINGLE := g, INTERVAL := T#0s, PRIORITY := 1"));
+  ASSERT_TRUE(events.ok) << "IEC 61131-3, 6.8.2: of events only" << messages(events);
+  EXPECT_THAT(written(events), HasSubstr("sporadic</operationtype>\n    <deadline>10ms</deadline>"))
+      << "without it no node takes the module";
 }
 
 TEST(PlcMistakes, Globals_with_a_mistake_are_no_further_ones_where_they_are_used) {
