@@ -56,6 +56,7 @@ struct OrderFact {
   std::string what;          // name of the variable, of the part, or of the module
   std::string value;
   std::int64_t until_ns = 0;  // of a force, when it ends; INT64_MAX: when it is let go; 0: not known
+  std::string reason;
 };
 
 // What the kernel counted for one thread of the node between two looks.

@@ -70,6 +70,7 @@ constexpr auto kOrder = [](auto&& visit, auto& fact) {
   visit("what", fact.what);
   visit("value", fact.value);
   visit("until_ns", fact.until_ns);
+  visit("reason", fact.reason);
 };
 
 constexpr auto kKernel = [](auto&& visit, auto& fact) {

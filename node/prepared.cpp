@@ -11,6 +11,7 @@
 #include "node/setup.h"
 #include "node/tape_part.h"
 #include "rt/clock.h"
+#include "vars/custody.h"
 #include "vars/node_lock.h"
 #include "vars/process.h"
 #include "vars/store.h"
@@ -156,6 +157,9 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     return no_memory("changes from outside", batch.error(), console);
   }
   console.watch(run);
+  if (const auto custody = vars::Custody::create(options.node); !custody) {
+    return no_memory("its write lock", custody.error(), console);
+  }
   return Prepared{std::move(name).value(), std::move(rights).value(), std::move(setup),
                   std::move(store),        std::move(file).value(),   std::move(failsafe),
                   std::move(retainer),     std::move(tape).value(),   std::move(batch).value()};

@@ -179,11 +179,12 @@ Status force(BlockHeader& header, const Force& what) noexcept {
     return kBusy;
   }
   void* const entry = entry_of(header, *what.variable);
-  if (ForceSlot* known = find(header.forces, entry, what.offset); known != nullptr) {
+  ForceSlot* const known = find(header.forces, entry, what.offset);
+  if (known != nullptr && static_cast<std::uint32_t>(known->where.load(kRelaxed)) == what.size) {
     known->value.store(what.value, kRelaxed);  // one word each: no moment without a force
     known->until_ns.store(rt::to_ns(what.until), std::memory_order_release);
-  } else if (ForceSlot* free = find_free(header.forces); free != nullptr) {
-    fill(*free, entry, what);
+  } else if (ForceSlot* const slot = known != nullptr ? known : find_free(header.forces); slot != nullptr) {
+    fill(*slot, entry, what);
   } else {
     return Error{Errc::NoSpace, 0, "table of forces"};
   }
@@ -198,6 +199,20 @@ Status force(BlockHeader& header, const Force& what) noexcept {
     return Error{Errc::Busy, 0, "write lock of a variable"};
   }
   commit(ring);
+  return {};
+}
+
+Status prolong(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
+               rt::MonoTime until) noexcept {
+  const Changing changing(header.forces);
+  if (!changing.locked()) {
+    return kBusy;
+  }
+  ForceSlot* slot = find(header.forces, entry_of(header, variable), offset);
+  if (slot == nullptr || was <= time_of(header) || slot->until_ns.load(kRelaxed) != rt::to_ns(was)) {
+    return Error{Errc::NotFound, 0, "forced part"};
+  }
+  slot->until_ns.store(rt::to_ns(until), std::memory_order_release);
   return {};
 }
 

@@ -37,6 +37,9 @@ bool init_forces(ForceTable& table) noexcept;
 // processor has seen it. Errors: InvalidArgument (size), NoSpace (kMostForces parts are forced), Busy (somebody who
 // changes the table is stopped, or a writer of the variable).
 Status force(BlockHeader& header, const Force& what) noexcept;
+// A later end, if `was` is still its end: nobody else has forced it or let it go. Errors: NotFound (else), Busy.
+Status prolong(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
+               rt::MonoTime until) noexcept;
 // The part keeps its value until somebody writes it. Errors: NotFound (it is not forced), Busy.
 Status let_go(BlockHeader& header, const DirectoryEntry& variable, std::uint32_t offset) noexcept;
 // Frees the places of those whose time is over. Does nothing while somebody else changes the table.

@@ -12,6 +12,7 @@
 
 #include "vars/batch.h"
 #include "vars/block.h"
+#include "vars/custody.h"
 #include "vars/node_lock.h"
 #include "vars/store.h"
 
@@ -58,8 +59,8 @@ Status remove_node(const std::string& node) {
   Status result;
   // The lock file last: until then nobody else can start a node of this name.
   for (const std::string& name :
-       {block_file(node), run_file(node), tape_file(node), batch_file(node), mirror_file(node), external_file(node),
-        retold_file(node), block_file(node) + ".kernel", lock_file(node)}) {
+       {block_file(node), run_file(node), tape_file(node), batch_file(node), custody_file(node), mirror_file(node),
+        external_file(node), retold_file(node), block_file(node) + ".kernel", lock_file(node)}) {
     for (const Status& status : {remove_unfinished(name), remove_shm_file(name)}) {
       if (!status && result.ok()) {
         result = status;

@@ -319,6 +319,14 @@ Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::s
   return vars::force(impl_->header(), what);
 }
 
+Status Store::prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
+                      rt::MonoTime until) noexcept {
+  if (impl_->file.mode() == Mode::ReadOnly) {
+    return Error{Errc::PermissionDenied, 0, "prolong through a read-only view"};
+  }
+  return vars::prolong(impl_->header(), variable, offset, was, until);
+}
+
 Status Store::let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return Error{Errc::PermissionDenied, 0, "let go through a read-only view"};

@@ -73,6 +73,9 @@ class Store {
   // Errors: OutOfRange, InvalidArgument (size), NoSpace (kMostForces are held), Busy, PermissionDenied (read-only).
   Status force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
                rt::MonoTime until) noexcept;
+  // A later end than `was`, which is still its end. Errors: NotFound (somebody else has forced it or let it go since,
+  // or it is over), Busy, PermissionDenied (read-only).
+  Status prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was, rt::MonoTime until) noexcept;
   // Errors: NotFound (it is not forced), Busy, PermissionDenied (read-only).
   Status let_go(const DirectoryEntry& variable, std::uint32_t offset) noexcept;
   // Those whose time is over hold nothing, but cost their writers a look.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/board_commands.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstring>
 #include <random>
 
-#include "base/text.h"
-#include "deploy/agent/board_forces.h"
+#include "deploy/transaction/write_words.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
 #include "vars/box_wish.h"
@@ -39,6 +40,8 @@ const char* word_of(Action action) {
       return "force";
     case Action::Unforce:
       return "unforce";
+    case Action::SetLock:
+      return "lock";
     case Action::KeepBox:
       return "keep the black box:";
     case Action::RestartModule:
@@ -51,8 +54,8 @@ const char* word_of(Action action) {
   return "restart";
 }
 
-bool is_force(Action action) noexcept {
-  return action == Action::Force || action == Action::Unforce;
+bool is_write(Action action) noexcept {
+  return action == Action::Force || action == Action::Unforce || action == Action::SetLock;
 }
 
 bool is_recording(Action action) noexcept {
@@ -71,29 +74,22 @@ std::uint64_t new_nonce() {
 }
 
 // Which user gave it is known where it was given.
-void note(const std::string& board, const Command& command, const std::string& what, const std::string& value) {
-  const char* action = command.action == Action::StopModule    ? "stop"
-                       : command.action == Action::StartModule ? "start"
-                       : command.action == Action::Force       ? "force"
-                       : command.action == Action::Unforce     ? "unforce"
-                                                               : "restart";
-  explain::note_order(board, {rt::now_ns(), 0, "somebody", command.host, action, what, value, 0});
-}
-
-void note_forces(const std::string& board, const Command& command) {
-  const auto lines = base::lines_of(command.target);
-  for (std::size_t i = command.action == Action::Force ? 1 : 0; i < lines.size(); ++i) {
-    const std::string& line = lines[i];
-    const auto equals = line.find('=');
-    note(board, command, line.substr(0, equals), equals == std::string::npos ? "" : line.substr(equals + 1));
-  }
+void note(const std::string& board, const Command& command) {
+  explain::note_order(board,
+                      {rt::now_ns(), 0, "somebody", command.host, word_of(command.action), command.target, {}, 0, {}});
 }
 
 }  // namespace
 
 BoardCommands::BoardCommands(std::string board, std::uint64_t self, const DeployKeys& keys, BoardProcess& process,
                              BoardRecorder& recorder, const base::Log& log)
-    : board_(std::move(board)), self_(self), keys_(keys), process_(process), recorder_(recorder), log_(log) {}
+    : board_(std::move(board)),
+      forces_(board_),
+      self_(self),
+      keys_(keys),
+      process_(process),
+      recorder_(recorder),
+      log_(log) {}
 
 CommandReply BoardCommands::reply(const Command& command, Outcome outcome, const std::string& text) const {
   return {command.commander, board_, self_, command.nonce, outcome, text};
@@ -124,7 +120,7 @@ void BoardCommands::tell(const CommandReply& done) const {
             command_->target.empty() ? "the node" : "module " + command_->target,
             done.outcome == Outcome::Failed ? done.text : "done");
   if (done.outcome == Outcome::Done && !command_->target.empty()) {
-    note(board_, *command_, command_->target, {});
+    note(board_, *command_);
   }
 }
 
@@ -174,7 +170,7 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
     return reply(command, Outcome::Refused, why);
   }
   deadline_ = now + kPatience;
-  CommandReply answer = is_force(command.action)            ? force(command)
+  CommandReply answer = is_write(command.action)            ? write(command)
                         : command.action == Action::KeepBox ? keep_box(command)
                         : is_recording(command.action)      ? begin_recording(command, now)
                         : command.target.empty()            ? begin_node(command)
@@ -208,16 +204,17 @@ scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
   return nullptr;
 }
 
-CommandReply BoardCommands::force(const Command& command) const {
+CommandReply BoardCommands::write(const Command& command) {
   if (process_.condition() != NodeCondition::Running) {
     return reply(command, Outcome::Refused, "its node does not run");
   }
-  const bool hold = command.action == Action::Force;
-  const auto done = hold ? force_values(board_, command.target) : unforce_values(board_, command.target);
-  log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), one_line(command.target),
-            done ? "done" : done.error().text);
-  if (done) {
-    note_forces(board_, command);
+  const auto order = parse_write_order(command.target);
+  const auto done = forces_.carry_out(command);
+  if (!order || !order->renew) {
+    const std::string what =
+        order && command.action != Action::Unforce ? fmt::format("{}", fmt::join(order->lines, " ")) : command.target;
+    log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), one_line(what),
+              done ? "done" : done.error().text);
   }
   return done ? reply(command, Outcome::Done) : reply(command, Outcome::Refused, done.error().text);
 }
@@ -250,6 +247,9 @@ std::optional<CommandReply> BoardCommands::look_at_recording() {
 CommandReply BoardCommands::begin_module(const Command& command) {
   if (process_.condition() != NodeCondition::Running || !open_run()) {
     return reply(command, Outcome::Refused, "its node does not run");
+  }
+  if (const std::string why = locked_against_commands(board_); !why.empty()) {
+    return reply(command, Outcome::Refused, why);
   }
   module_ = find(command.target);
   if (module_ == nullptr) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "deploy/agent/board_forces.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
 #include "deploy/agent/deploy_keys.h"
@@ -40,7 +41,7 @@ class BoardCommands {
   CommandReply begin_module(const Command& command);
   CommandReply begin_node(const Command& command);
   void tell(const CommandReply& done) const;
-  [[nodiscard]] CommandReply force(const Command& command) const;
+  CommandReply write(const Command& command);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);
   // Empty while it goes on.
@@ -53,6 +54,7 @@ class BoardCommands {
   [[nodiscard]] CommandReply reply(const Command& command, Outcome outcome, const std::string& text = {}) const;
 
   std::string board_;
+  BoardForces forces_;
   std::uint64_t self_;
   const DeployKeys& keys_;
   BoardProcess& process_;

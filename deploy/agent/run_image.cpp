@@ -9,6 +9,8 @@
 #include "rt/clock.h"
 #include "scheduler/run_block.h"
 #include "schema/schema.h"
+#include "vars/custody.h"
+#include "vars/held_value.h"
 #include "vars/node_lock.h"
 #include "vars/run_file.h"
 #include "vars/store.h"
@@ -28,14 +30,29 @@ Json forces_of(const std::string& board) {
     return list;
   }
   const rt::MonoTime now = store->now();
-  for (const vars::Force& force : store->forces()) {
-    const schema::Part part = schema::part_at(store->schema().variables[force.variable->schema_index], force.offset);
+  const auto custody = vars::Custody::open(board, vars::Mode::ReadOnly);
+  for (const vars::ForcedPart& part : vars::forced_parts(*store)) {
+    const vars::ForceNote note =
+        custody ? custody->note_of(*part.variable, part.offset).value_or(vars::ForceNote()) : vars::ForceNote();
     list.push_back({{"name", part.name},
-                    {"value", schema::format_value(part.type, force.bytes())},
-                    {"raw", Json::parse(schema::value_to_json(part.type, force.bytes())).value_or(Json())},
-                    {"left_ns", force.until == vars::kForever ? Json() : Json((force.until - now).count())}});
+                    {"value", schema::format_value(part.type, part.bytes)},
+                    {"raw", Json::parse(schema::value_to_json(part.type, part.bytes)).value_or(Json())},
+                    {"left_ns", part.until == vars::kForever ? Json() : Json((part.until - now).count())},
+                    {"who", note.who},
+                    {"from", note.from},
+                    {"reason", note.reason},
+                    {"lease", note.lease}});
   }
   return list;
+}
+
+Json lock_of(const std::string& board) {
+  const vars::LockNote note = vars::lock_of(board);
+  return {{"lock", vars::word_of(note.lock)},
+          {"who", note.who},
+          {"from", note.from},
+          {"reason", note.reason},
+          {"wall_ns", note.wall_ns}};
 }
 
 // An entry that changes meanwhile counts as being written.
@@ -105,7 +122,10 @@ std::string block_of(const std::string& board) {
 }  // namespace
 
 std::string run_image(const std::string& board) {
-  const Json head{{"running", vars::running_node(board) > 0}, {"now_ns", rt::now_ns()}, {"forces", forces_of(board)}};
+  const Json head{{"running", vars::running_node(board) > 0},
+                  {"now_ns", rt::now_ns()},
+                  {"forces", forces_of(board)},
+                  {"lock", lock_of(board)}};
   return head.dump() + "\n" + block_of(board);
 }
 

@@ -2,7 +2,9 @@
 // The run block of a board's node (scheduler/run_block.h) for tools elsewhere: a line of JSON about the moment it was
 // taken, then the block as it was then, without the texts of modules. The JSON:
 //   {"running": true, "now_ns": CLOCK_MONOTONIC of the board,
-//    "forces": [{"name", "value" as text, "raw" as JSON, "left_ns" or null}]}
+//    "forces": [{"name", "value" as text, "raw" as JSON, "left_ns" or null,
+//                "who", "from", "reason", "lease"}],
+//    "lock": {"lock": "none", "tune" or "all", "who", "from", "reason", "wall_ns"}}
 
 #pragma once
 

@@ -17,7 +17,7 @@ enum class Action : std::uint8_t {
   StopNode,
   StartNode,
   RestartNode,
-  Force,    // target: nanoseconds (0: until released), then NAME=VALUE in a line each
+  Force,    // target: transaction/write_words.h
   Unforce,  // target: a NAME in a line each, or "*" for all
   KeepBox,  // target: why
   // What its runs see and write comes to a file on its disk. Target: the recording's name, "past" or "now" (where it
@@ -27,6 +27,7 @@ enum class Action : std::uint8_t {
   Record,
   EndRecord,   // target: its name. Unchanged: it had ended before, the text says why
   DropRecord,  // target: its name; its file was fetched
+  SetLock,     // target: transaction/write_words.h
 };
 
 struct Command {

@@ -83,7 +83,9 @@ Reply board(Api& api, const Call& call) {
   const tools::AlarmCounts alarms = api.facts().alarms(one.name());
   body["alarms"] = tools::json_of(alarms);
   body["trouble"] = texts_of(troubles_of(one, run, alarms));
-  body["forces"] = one.store() != nullptr ? tools::json_of(tools::view_forces(*one.store())) : base::Json::array();
+  body["forces"] =
+      one.store() != nullptr ? tools::json_of(tools::view_forces(one.name(), *one.store())) : base::Json::array();
+  body["lock"] = tools::json_of(vars::lock_of(one.name()));
   body["mirror"] = mirror ? tools::json_of(*mirror) : base::Json();
   body["external"] = external ? tools::json_of(*external) : base::Json();
   return json_reply(body);
@@ -137,7 +139,9 @@ Reply forces(Api& /*api*/, const Call& call) {
   }
   base::Json body = about(**found);
   const auto* const store = (*found)->store();
-  body["forces"] = store != nullptr ? tools::json_of(tools::view_forces(*store)) : base::Json::array();
+  body["forces"] =
+      store != nullptr ? tools::json_of(tools::view_forces((*found)->name(), *store)) : base::Json::array();
+  body["lock"] = tools::json_of(vars::lock_of((*found)->name()));
   return json_reply(body);
 }
 

@@ -84,9 +84,17 @@ std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::
       add_module(all, run->module(i));
     }
   }
+  if (const auto lock = vars::lock_of(board.name()); lock.lock != vars::WriteLock::None) {
+    all.push_back({Severity::Note, "", fmt::format("the write lock is {}", tools::lock_line(lock)), {}});
+  }
   if (const auto* store = board.store(); store != nullptr && board.alive()) {
-    for (const auto& force : tools::view_forces(*store)) {
-      all.push_back({Severity::Note, "", fmt::format("{} is forced to {}", force.name, force.value), {}});
+    for (const auto& force : tools::view_forces(board.name(), *store)) {
+      const std::string who = tools::who_and_why(force.note);
+      all.push_back(
+          {Severity::Note,
+           "",
+           fmt::format("{} is forced to {}{}", force.name, force.value, who.empty() ? "" : fmt::format(" by {}", who)),
+           {}});
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Trouble& a, const Trouble& b) { return a.severity < b.severity; });

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 namespace indurop::tools {
-namespace {
 
-std::vector<std::string> plant_words(const deploy::LinkSettings& link) {
-  std::vector<std::string> words{"--plant"};
+std::vector<std::string> link_words(const deploy::LinkSettings& link) {
+  std::vector<std::string> words;
   const dds::NetworkSettings& network = link.network;
   words.insert(words.end(), {"--domain", std::to_string(network.domain)});
   if (!network.interface_name.empty()) {
@@ -21,8 +20,6 @@ std::vector<std::string> plant_words(const deploy::LinkSettings& link) {
   }
   return words;
 }
-
-}  // namespace
 
 void declare_serve_options(base::Options& app, ServeOptions& options) {
   constexpr double kMostPort = 65535;
@@ -112,7 +109,8 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--plc-name", options.plc.name);
   value("--plc-namespace", options.plc.space);
   if (options.plant) {
-    const std::vector<std::string> more = plant_words(options.link);
+    words.emplace_back("--plant");
+    const std::vector<std::string> more = link_words(options.link);
     words.insert(words.end(), more.begin(), more.end());
   }
   return words;

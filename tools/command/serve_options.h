@@ -42,5 +42,7 @@ struct ServeOptions {
 void declare_serve_options(base::Options& app, ServeOptions& options);
 // Which give the same options again.
 std::vector<std::string> words_of(const ServeOptions& options);
+// The words that lead another program to the same agents.
+std::vector<std::string> link_words(const deploy::LinkSettings& link);
 
 }  // namespace indurop::tools

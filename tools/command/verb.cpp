@@ -30,6 +30,10 @@ void add_node_option(base::Options& app, Context& context) {
       .completes(base::Completion::Node);
 }
 
+void add_reason_option(base::Options& app, Context& context) {
+  app.add("--reason", "TEXT", context.reason, "Why; it is kept with your name (indurop log --audit)");
+}
+
 void add_far_options(base::Options& app, Context& context) {
   FarOptions& far = context.far;
   app.flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");

@@ -39,6 +39,7 @@ struct Context {
   std::shared_ptr<ValueSource> values;  // once open_store() has opened them
   std::string who;                      // gives the order, else the user of this process
   std::string from;                     // likewise, an address
+  std::string reason;                   // as given by --reason, else empty
 };
 
 using Action = std::function<int(Context&)>;
@@ -56,6 +57,8 @@ std::span<const Verb> all_verbs();
 
 // Options several verbs share. The first format is the default.
 void add_node_option(base::Options& app, Context& context);
+// --reason, for verbs that change something.
+void add_reason_option(base::Options& app, Context& context);
 // --remote and what belongs to it.
 void add_far_options(base::Options& app, Context& context);
 void add_format_option(base::Options& app, Context& context, std::initializer_list<Format> formats);

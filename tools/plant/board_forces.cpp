@@ -4,6 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
+
+#include "base/user_name.h"
+#include "deploy/transaction/write_words.h"
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_commander.h"
 
@@ -11,28 +17,60 @@ namespace indurop::tools {
 namespace {
 
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
+// An agent may need a moment to hear of a renewal.
+constexpr std::int64_t kFarLeaseNs = 5'000'000'000;
 
-int command(Context& context, BoardForces& options, deploy::Action action, const std::string& target) {
-  auto commander = BoardCommander::make(context, options.board.link.keys);
-  if (!commander) {
-    return report(context.out, commander.error());
+// Commands to one board, one after the other.
+class Orders {
+ public:
+  Orders(Context& context, BoardForces& options) : context_(context), options_(options) {}
+
+  // Returns the exit code, after a message if it is not kOk.
+  int give(deploy::Action action, const std::string& target) {
+    if (!commander_) {
+      auto made = BoardCommander::make(context_, options_.board.link.keys);
+      if (!made) {
+        return report(context_.out, made.error());
+      }
+      commander_ = std::move(made).value();
+    }
+    const auto board = find_board(context_, options_.board);
+    if (!board) {
+      return report(context_.out, board.error());
+    }
+    const deploy::BoardReport& there = (*board)->report;
+    const auto answered =
+        commander_->give(*options_.board.open, options_.board.link.self, there, action, target, kPatienceNs);
+    if (!answered) {
+      context_.out.error(fmt::format("board {}: {}", there.board, answered.error().text));
+      return answered.error().code;
+    }
+    if (answered->reply.outcome != deploy::Outcome::Done) {
+      context_.out.error(fmt::format("board {}: {}", there.board, printable(answered->reply.text)));
+      return kFailed;
+    }
+    return kOk;
   }
-  const auto board = find_board(context, options.board);
-  if (!board) {
-    return report(context.out, board.error());
+
+ private:
+  Context& context_;
+  BoardForces& options_;
+  std::optional<BoardCommander> commander_;
+};
+
+deploy::WriteOrder order_of(const Context& context, std::vector<std::string> lines) {
+  deploy::WriteOrder order;
+  order.who = base::user_name();
+  order.reason = context.reason;
+  order.lines = std::move(lines);
+  return order;
+}
+
+std::vector<std::string> as_lines(std::vector<std::string> assignments) {
+  if (assignments.size() == 2 && assignments[0].find('=') == std::string::npos) {
+    return {assignments[0] + "=" + assignments[1]};
   }
-  const deploy::BoardReport& there = (*board)->report;
-  const auto answered =
-      commander->give(*options.board.open, options.board.link.self, there, action, target, kPatienceNs);
-  if (!answered) {
-    context.out.error(fmt::format("board {}: {}", there.board, answered.error().text));
-    return answered.error().code;
-  }
-  if (answered->reply.outcome != deploy::Outcome::Done) {
-    context.out.error(fmt::format("board {}: {}", there.board, printable(answered->reply.text)));
-    return kFailed;
-  }
-  return kOk;
+  return assignments;
 }
 
 }  // namespace
@@ -42,15 +80,40 @@ void add_board_force_options(base::Options& app, BoardForces& options) {
 }
 
 int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns) {
-  if (assignments.size() == 2 && assignments[0].find('=') == std::string::npos) {
-    assignments = {assignments[0] + "=" + assignments[1]};
+  deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));
+  order.for_ns = for_ns;
+  return Orders(context, options).give(deploy::Action::Force, text_of(order));
+}
+
+int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
+  Orders orders(context, options);
+  deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));
+  order.for_ns = kFarLeaseNs;
+  order.lease = true;
+  if (const int code = orders.give(deploy::Action::Force, text_of(order)); code != kOk) {
+    return code;
   }
-  return command(context, options, deploy::Action::Force, fmt::format("{}\n{}", for_ns, fmt::join(assignments, "\n")));
+  context.out.note("held while this runs; Ctrl-C lets go");
+  deploy::WriteOrder again;
+  again.for_ns = kFarLeaseNs;
+  again.renew = true;
+  while (wait_until(rt::now_ns() + kFarLeaseNs / 4) != Woken::Signal) {
+    if (const int code = orders.give(deploy::Action::Force, text_of(again)); code != kOk) {
+      return interrupted() ? kOk : code;
+    }
+  }
+  take_interrupt();
+  again.for_ns = 1;  // now
+  return orders.give(deploy::Action::Force, text_of(again));
+}
+
+int lock_board(Context& context, BoardForces& options, const std::string& word) {
+  return Orders(context, options).give(deploy::Action::SetLock, text_of(order_of(context, {word})));
 }
 
 int unforce_on_board(Context& context, BoardForces& options, const std::vector<std::string>& names) {
-  return command(context, options, deploy::Action::Unforce,
-                 names.empty() ? "*" : fmt::format("{}", fmt::join(names, "\n")));
+  return Orders(context, options)
+      .give(deploy::Action::Unforce, names.empty() ? "*" : fmt::format("{}", fmt::join(names, "\n")));
 }
 
 }  // namespace indurop::tools

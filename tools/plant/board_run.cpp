@@ -28,10 +28,28 @@ std::vector<ForceView> forces_in(const JsonValue& head) {
     if (read(one, "name", force.name) && read(one, "value", force.value)) {
       force.raw = one["raw"];
       force.left_ns = read(one, "left_ns", left_ns) ? std::optional(left_ns) : std::nullopt;
+      read(one, "who", force.note.who);
+      read(one, "from", force.note.from);
+      read(one, "reason", force.note.reason);
+      read(one, "lease", force.note.lease);
       forces.push_back(std::move(force));
     }
   }
   return forces;
+}
+
+vars::LockNote lock_in(const JsonValue& head) {
+  vars::LockNote note;
+  std::string word;
+  const JsonValue& lock = head["lock"];
+  if (read(lock, "lock", word)) {
+    note.lock = vars::write_lock_of(word).value_or(vars::WriteLock::None);
+  }
+  read(lock, "who", note.who);
+  read(lock, "from", note.from);
+  read(lock, "reason", note.reason);
+  read(lock, "wall_ns", note.wall_ns);
+  return note;
 }
 
 Failure not_heard(const BoardChoice& choice) {
@@ -77,7 +95,7 @@ Result<BoardRun, Failure> run_in(const std::string& who, const std::string& text
                : Failure{kFailed, fmt::format("what {} says is damaged ({})", who, run.error().where)};
   }
   const std::string node = fixed_text(run->block().node_name);
-  return BoardRun{{node, std::move(run).value()}, forces_in(head)};
+  return BoardRun{{node, std::move(run).value()}, forces_in(head), lock_in(head)};
 }
 
 Result<BoardRun, Failure> kept_in(const std::string& file) {
@@ -142,7 +160,8 @@ Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice) {
   }
   if (!choice.wanted()) {
     auto here = open_run(context.node);
-    return here ? Result<BoardRun, Failure>(BoardRun{std::move(here).value(), std::nullopt}) : std::move(here).error();
+    return here ? Result<BoardRun, Failure>(BoardRun{std::move(here).value(), std::nullopt, {}})
+                : std::move(here).error();
   }
   const auto board = find_board(context, choice);
   if (!board) {

@@ -38,6 +38,7 @@ Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardCho
 
 struct BoardRun : ChosenRun {
   std::optional<std::vector<ForceView>> forces;  // of a board
+  vars::LockNote lock;                           // likewise
   bool kept = false;                             // of long ago
 };
 // The chosen board's run block as it is now, that of a node of this machine (--node), or the one in the file.

@@ -18,6 +18,7 @@ const char* past_of(ModuleCommand command) {
 void add_command_options(base::Options& app, Context& context, CommandOptions& options) {
   app.add("targets", "TARGET", options.targets, "MODULE of the node here; MODULE@BOARD or @BOARD of a plant, anywhere")
       .completes(base::Completion::Module);
+  add_reason_option(app, context);
   add_node_option(app, context);
   add_time_option(app, "--timeout", options.timeout_ns, "How long to wait (default 10 s)");
   deploy::add_link_options(app, options.link);

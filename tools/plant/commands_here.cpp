@@ -2,12 +2,15 @@
 // Commands about modules of a node of this machine, through its run block.
 #include <fmt/format.h>
 
+#include "base/user_name.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
+#include "tools/command/audit.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/suggest.h"
 #include "tools/command/units.h"
 #include "tools/plant/commands.h"
+#include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
 
 namespace indurop::tools {
@@ -68,8 +71,13 @@ void note(const Context& context, const std::string& node, const RunView& run, M
           const std::string& module) {
   const std::int64_t simulated = run.block().virtual_ns.load();
   const char* action = command == ModuleCommand::Stop ? "stop" : command == ModuleCommand::Start ? "start" : "restart";
-  explain::note_order(node,
-                      {simulated != 0 ? simulated : rt::now_ns(), 0, context.who, context.from, action, module, {}});
+  explain::note_order(
+      node,
+      {simulated != 0 ? simulated : rt::now_ns(), 0, context.who, context.from, action, module, {}, 0, context.reason});
+  if (context.who.empty()) {  // what comes over HTTP is in the audit log already
+    (void)append_audit(usual_audit_file(),
+                       {rt::wall_ns(), base::user_name(), "", node, action, module, "done", context.reason});
+  }
 }
 
 }  // namespace
@@ -88,6 +96,9 @@ Commanded command_here(Context& context, ModuleCommand command, const std::strin
   if (!run.value().node_alive() || run.value().block().state.load() != scheduler::NodeState::Running) {
     context.out.error(fmt::format("node '{}' does not run, so there is no module to be {}", *node, past_of(command)));
     return {kUnreachable};
+  }
+  if (!may(context, *node, vars::Act::Command)) {
+    return {};
   }
   scheduler::ModuleRecord* record = find_module(context, run.value(), *node, module);
   if (record == nullptr) {

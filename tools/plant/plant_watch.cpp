@@ -11,6 +11,7 @@
 #include "tools/command/units.h"
 #include "tools/plant/board_history.h"
 #include "tools/plant/board_table.h"
+#include "tools/plant/deployment_difference.h"
 
 namespace indurop::tools {
 namespace {
@@ -143,6 +144,18 @@ base::Json PlantWatch::history() {
     all.push_back(std::move(one));
   }
   return all;
+}
+
+Result<base::Json, base::Problem> PlantWatch::difference(const std::string& before, const std::string& after) {
+  if (!open()) {
+    return base::Problem{problem_};
+  }
+  roster_.listen(*link_, rt::now_ns());
+  std::vector<std::uint64_t> agents;
+  for (const auto& [key, entry] : roster_.all()) {
+    agents.push_back(key.second);
+  }
+  return difference_of(*link_, settings_.self, agents, before, after);
 }
 
 }  // namespace indurop::tools

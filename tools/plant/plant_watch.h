@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/json.h"
+#include "base/problem.h"
 #include "deploy/link/deploy_link.h"
 #include "tools/plant/board_roster.h"
 
@@ -27,6 +28,8 @@ class PlantWatch {
   // Earlier deployments, newest first, as the boards remember them. Asks the agents, which takes up to two seconds
   // each.
   [[nodiscard]] base::Json history();
+  // Of two deployments, by their whole ids: see deployment_difference.h.
+  [[nodiscard]] Result<base::Json, base::Problem> difference(const std::string& before, const std::string& after);
 
  private:
   struct Gone {

@@ -86,7 +86,7 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
   if (!assignments) {
     return assignments.error().code;
   }
-  if (any_forced(context, store, *assignments)) {
+  if (!may_set(context, *assignments) || any_forced(context, store, *assignments)) {
     return kFailed;
   }
   tick.reset();
@@ -94,8 +94,8 @@ int load_values(Context& context, vars::Store& store, const Recipe& recipe, std:
     return set_values(context, store, *assignments);
   }
   std::vector<vars::Change> changes;
-  for (const auto& [item, bytes] : *assignments) {
-    changes.push_back({item.entry, item.place.offset, bytes});
+  for (const Assignment& one : *assignments) {
+    changes.push_back({one.item.entry, one.item.place.offset, one.bytes});
   }
   constexpr std::chrono::seconds kPatience{5};
   const auto done = vars::change_in_one_tick(context.node, store, changes, kPatience);

@@ -19,6 +19,7 @@
 #include "recording/omg_idl.h"
 #include "rt/clock.h"
 #include "tools/command/interrupt.h"
+#include "tools/values/forcing.h"
 #include "tools/values/known_uses.h"
 #include "tools/values/node_choice.h"
 
@@ -156,6 +157,9 @@ int play(Context& context, const Options& options) {
   }
   if (const std::string absence = context.values->absence(&*store); !absence.empty()) {
     context.out.error(context.values->gone(absence));
+    return kFailed;
+  }
+  if (!may(context, context.node, vars::Act::Set)) {
     return kFailed;
   }
   auto list = choose(context, options, *reader, *store);

@@ -40,7 +40,7 @@ int parse_one(Context& context, const vars::Store& store, const char* verb, cons
   if (const int code = select_items(context, store, {name}, items); code != kOk) {
     return code;
   }
-  Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size())};
+  Assignment assignment{items.front(), std::vector<std::uint8_t>(items.front().place.type.size()), text};
   const auto& place = assignment.item.place;
   // Parts of a value that are not mentioned keep what they have.
   if (auto bytes = read_item(store, assignment.item); bytes) {

@@ -14,6 +14,7 @@ namespace indurop::tools {
 struct Assignment {
   Item item;
   std::vector<std::uint8_t> bytes;  // of the item; what a value leaves out is as it was
+  std::string text;                 // as it was written
 };
 
 // "a=1" "b=2", or "a" "1": types, array bounds and declared ranges are checked. A failure comes after an error message

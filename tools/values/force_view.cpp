@@ -3,33 +3,33 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/values/variables.h"
+#include "vars/held_value.h"
 
 namespace indurop::tools {
 
-std::vector<ForceView> view_forces(const vars::Store& store) {
+std::vector<ForceView> view_forces(const std::string& node, const vars::Store& store) {
   std::vector<ForceView> views;
-  std::map<std::string, std::vector<std::uint8_t>> texts;  // they are forced word by word
+  const auto custody = vars::Custody::open(node, vars::Mode::ReadOnly);
   const rt::MonoTime now = store.now();
-  for (const vars::Force& force : store.forces()) {
-    const schema::Part part = schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
-    std::vector<std::uint8_t> bytes(force.bytes().begin(), force.bytes().end());
-    if (part.type.base == schema::Base::Text) {
-      std::vector<std::uint8_t>& text = texts[part.name];
-      text.insert(text.end(), bytes.begin(), bytes.end());
-      bytes = text;
-      bytes.resize(part.type.size());
-      std::erase_if(views, [&](const ForceView& one) { return one.name == part.name; });
-    }
-    views.push_back({part.name, schema::format_value(part.type, bytes), raw_value(part.type, bytes),
-                     force.until == vars::kForever ? std::nullopt : std::optional((force.until - now).count())});
+  for (const vars::ForcedPart& part : vars::forced_parts(store)) {
+    ForceView view{part.name,
+                   schema::format_value(part.type, part.bytes),
+                   raw_value(part.type, part.bytes),
+                   part.until == vars::kForever ? std::nullopt : std::optional((part.until - now).count()),
+                   {}};
+    view.note = custody ? custody->note_of(*part.variable, part.offset).value_or(vars::ForceNote()) : vars::ForceNote();
+    views.push_back(std::move(view));
   }
   return views;
+}
+
+std::string who_and_why(const vars::Note& note) {
+  std::string text = note.who;
+  text += note.from.empty() ? "" : fmt::format(" on {}", note.from);
+  return text + (note.reason.empty() ? "" : fmt::format("{}{}", text.empty() ? "" : ": ", note.reason));
 }
 
 std::string force_line(const std::vector<ForceView>& forces) {
@@ -38,7 +38,13 @@ std::string force_line(const std::vector<ForceView>& forces) {
   for (std::size_t i = 0; i < forces.size() && i < kShown; ++i) {
     const ForceView& one = forces[i];
     line += fmt::format("{}{} = {}", i == 0 ? "" : ", ", one.name, one.value);
-    line += one.left_ns ? fmt::format(" ({} left)", human_age(*one.left_ns)) : "";
+    std::string about = one.note.lease ? "while its client is there"
+                        : one.left_ns  ? human_age(*one.left_ns) + " left"
+                                       : "";
+    if (const std::string who = who_and_why(one.note); !who.empty()) {
+      about += (about.empty() ? "" : ", ") + who;
+    }
+    line += about.empty() ? "" : fmt::format(" ({})", about);
   }
   return forces.size() > kShown ? line + fmt::format(" and {} more", forces.size() - kShown) : line;
 }
@@ -46,10 +52,31 @@ std::string force_line(const std::vector<ForceView>& forces) {
 JsonValue json_of(const std::vector<ForceView>& forces) {
   JsonValue list = JsonValue::array();
   for (const ForceView& one : forces) {
-    list.push_back(
-        {{"name", one.name}, {"value", one.raw}, {"left_ns", one.left_ns ? JsonValue(*one.left_ns) : JsonValue()}});
+    list.push_back({{"name", one.name},
+                    {"value", one.raw},
+                    {"left_ns", one.left_ns ? JsonValue(*one.left_ns) : JsonValue()},
+                    {"who", one.note.who},
+                    {"from", one.note.from},
+                    {"reason", one.note.reason},
+                    {"lease", one.note.lease}});
   }
   return list;
+}
+
+JsonValue json_of(const vars::LockNote& note) {
+  return {{"lock", vars::word_of(note.lock)},
+          {"who", note.who},
+          {"from", note.from},
+          {"reason", note.reason},
+          {"wall_ns", note.wall_ns}};
+}
+
+std::string lock_line(const vars::LockNote& note) {
+  if (note.lock == vars::WriteLock::None) {
+    return {};
+  }
+  const std::string who = who_and_why(note);
+  return fmt::format("{}{}", vars::word_of(note.lock), who.empty() ? "" : fmt::format(" ({})", who));
 }
 
 }  // namespace indurop::tools

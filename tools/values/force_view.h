@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forced values of a node, with their names.
+// The forced values of a node, with their names, and its write lock.
 
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/command/table.h"
+#include "vars/custody.h"
 #include "vars/store.h"
 
 namespace indurop::tools {
@@ -16,11 +17,17 @@ struct ForceView {
   std::string value;                    // as get prints it
   JsonValue raw;                        // for JSON
   std::optional<std::int64_t> left_ns;  // none: until it is let go
+  vars::ForceNote note;                 // empty: not known
 };
 
-std::vector<ForceView> view_forces(const vars::Store& store);
+std::vector<ForceView> view_forces(const std::string& node, const vars::Store& store);
+// "anna on 10.0.0.7: valve stuck"; empty if nothing is known.
+std::string who_and_why(const vars::Note& note);
 // "forced  2: PLC_ROBOT::O[3] = true (4.2 s left), ...": what status says; empty if nothing is.
 std::string force_line(const std::vector<ForceView>& forces);
 JsonValue json_of(const std::vector<ForceView>& forces);
+// "tune (anna: production)"; empty if the node is not locked.
+std::string lock_line(const vars::LockNote& note);
+JsonValue json_of(const vars::LockNote& note);
 
 }  // namespace indurop::tools

@@ -2,12 +2,15 @@
 // indurop force, unforce, forces: values that hold whoever writes them.
 #include <fmt/format.h>
 
+#include "rt/clock.h"
+#include "tools/command/interrupt.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
 #include "tools/values/force_view.h"
 #include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
+#include "tools/values/value_source.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -28,11 +31,47 @@ struct ForceOptions {
   BoardForces board;
   std::vector<std::string> words;
   std::int64_t for_ns = 0;
+  bool lease = false;
 };
 
+// Until the user ends it, the node ends, or somebody else lets go of one of them.
+int keep_holding(Context& context, vars::Store& store, Lease& lease) {
+  constexpr std::int64_t kRenewNs = kLeaseNs / 4;
+  context.out.note("held while this runs; Ctrl-C lets go");
+  int code = kOk;
+  while (code == kOk && wait_until(rt::now_ns() + kRenewNs) != Woken::Signal) {
+    if (const std::string absence = context.values->absence(&store); store.retired() || !absence.empty()) {
+      context.out.error(context.values->gone(absence.empty() ? "started anew" : absence) +
+                        ": nothing is held any more");
+      code = kUnreachable;
+    } else if (!renew(lease, store, kLeaseNs)) {
+      context.out.error("somebody else has let one of them go or forced it since; the others are let go");
+      code = kFailed;
+    }
+  }
+  take_interrupt();
+  end(context, lease, store);
+  return code;
+}
+
+int force_while_here(Context& context, vars::Store& store, const std::vector<Assignment>& assignments) {
+  if (store.header().virtual_ns.load() != 0) {
+    context.out.error("the time of a simulation is not the one that --lease goes by: use --for");
+    return kUsage;
+  }
+  Lease lease;
+  const int code = hold_values(context, store, assignments, kLeaseNs, &lease);
+  return code == kOk ? keep_holding(context, store, lease) : code;
+}
+
 int force(Context& context, ForceOptions& options) {
+  if (options.lease && options.for_ns > 0) {
+    context.out.error("--lease and --for are two ways of ending: choose one");
+    return kUsage;
+  }
   if (options.board.board.wanted()) {
-    return force_on_board(context, options.board, options.words, options.for_ns);
+    return options.lease ? hold_on_board(context, options.board, options.words)
+                         : force_on_board(context, options.board, options.words, options.for_ns);
   }
   auto store = open_running(context);
   if (!store) {
@@ -42,7 +81,8 @@ int force(Context& context, ForceOptions& options) {
   if (!assignments) {
     return report(context.out, assignments.error());
   }
-  return hold_values(context, *store, *assignments, options.for_ns);
+  return options.lease ? force_while_here(context, *store, *assignments)
+                       : hold_values(context, *store, *assignments, options.for_ns);
 }
 
 struct UnforceOptions {
@@ -82,7 +122,7 @@ Result<std::vector<ForceView>, Failure> forces_of(Context& context, BoardChoice&
                : std::move(run).error();
   }
   const auto store = open_store(context, vars::Mode::ReadOnly);
-  return store ? Result<std::vector<ForceView>, Failure>(view_forces(*store)) : store.error();
+  return store ? Result<std::vector<ForceView>, Failure>(view_forces(context.node, *store)) : store.error();
 }
 
 int forces(Context& context, BoardChoice& board) {
@@ -90,11 +130,19 @@ int forces(Context& context, BoardChoice& board) {
   if (!all) {
     return report(context.out, all.error());
   }
-  Table table({{"NAME", "name"}, {"VALUE", "value", Align::Right}, {"LEFT", "left_ns", Align::Right}});
+  Table table({{"NAME", "name"},
+               {"VALUE", "value", Align::Right},
+               {"LEFT", "left_ns", Align::Right},
+               {"LEASE", "lease"},
+               {"WHO", "who"},
+               {"REASON", "reason"}});
   for (const ForceView& one : *all) {
     table.add({Cell(one.name), Cell(one.value, one.raw),
                Cell(one.left_ns ? human_age(*one.left_ns) : "until unforced",
-                    one.left_ns ? JsonValue(*one.left_ns) : JsonValue(), Style::None)});
+                    one.left_ns ? JsonValue(*one.left_ns) : JsonValue(), Style::None),
+               Cell(one.note.lease ? "yes" : "", JsonValue(one.note.lease), Style::None),
+               Cell(one.note.from.empty() ? one.note.who : fmt::format("{} on {}", one.note.who, one.note.from)),
+               Cell(one.note.reason)});
   }
   if (table.empty() && context.format == Format::Table) {
     context.out.note("nothing is forced");
@@ -109,6 +157,8 @@ Action declare_force(base::Options& app, Context& context) {
       .required()
       .completes(base::Completion::Variable);
   add_time_option(app, "--for", options->for_ns, "Let go by itself after this time (default: until unforce)");
+  app.flag("--lease", options->lease, "Stay, and let go when this command ends: by Ctrl-C, or 2 s after it was killed");
+  add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
   return [options](Context& c) { return force(c, *options); };
@@ -119,6 +169,7 @@ Action declare_unforce(base::Options& app, Context& context) {
   app.add("names", "NAME", options->names, "Forced values, or what they are parts of, or globs")
       .completes(base::Completion::Variable);
   app.flag("--all", options->all, "Everything that is forced");
+  add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
   return [options](Context& c) { return unforce(c, *options); };
@@ -135,16 +186,18 @@ Action declare_forces(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kForceVerb{
-    "force", "Variables", "Hold numbers at a value, whoever writes them",
+    "force", "Variables", "Hold values, whoever writes them",
     "What modules, processes, drivers and other boards write to a forced number is dropped, so an\n"
     "input can be simulated and an output be held while the program runs. Programs see the forced\n"
-    "value, and boards that mirror the variable do too: force on the board that owns it. Other\n"
-    "elements and fields go on. A force ends with unforce, after --for, or when the node ends; the\n"
-    "value then stays until it is written. 'indurop status' shows what is forced. With --board it is done by the\n"
+    "value, and boards that mirror the variable do too: force on the board that owns it. Of a struct\n"
+    "that is held what the value says; other elements and fields go on. A force ends with unforce,\n"
+    "after --for, with this command (--lease), or when the node ends; the value then stays until it is written. "
+    "'indurop status' shows what is forced. With --board it is done by the\n"
     "agent of a board anywhere in the network; a board that has keys obeys only who has them too.\n"
     "Examples:\n"
     "  indurop force PLC_ROBOT::I0 true --for 30s\n"
     "  indurop force 'joints[1].y=-0.5' mode=AUTO\n"
+    "  indurop force 'joints[1]={x: 1, z: 0}' --lease --reason 'gauge is broken'\n"
     "  indurop force motor_on=false --board control --keys keys\n",
     &declare_force};
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 #include "vars/node_lock.h"
@@ -72,6 +73,9 @@ int reset(Context& context, const Options& options) {
     return report(context.out, node.error());
   }
   const bool runs = vars::running_node(*node) != 0;
+  if (!may(context, *node, vars::Act::Set)) {
+    return kFailed;
+  }
   const std::string question =
       fmt::format("Set {} variables of node '{}'{} to their initial values?",
                   options.warm ? "all but the retained" : "all", *node, runs ? ", which is running," : "");

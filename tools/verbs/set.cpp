@@ -39,6 +39,7 @@ Action declare(base::Options& app, Context& context) {
   app.add("assignment", "TEXT", *words, "NAME VALUE, or NAME=VALUE ...")
       .required()
       .completes(base::Completion::Variable);
+  add_reason_option(app, context);
   add_node_option(app, context);
   add_far_options(app, context);
   return [words](Context& c) { return set(c, *words); };

@@ -22,7 +22,7 @@ namespace {
 
 std::vector<ForceView> forces_here(const std::string& node) {
   const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
-  return store ? view_forces(*store) : std::vector<ForceView>();
+  return store ? view_forces(node, *store) : std::vector<ForceView>();
 }
 
 AlarmCounts alarms_here(const std::string& node) {
@@ -39,12 +39,16 @@ int show_once(Context& context, const BoardRun& chosen) {
   const auto external = run.here() ? view_external(node) : std::nullopt;
   const AlarmCounts alarms = run.here() ? alarms_here(node) : AlarmCounts{};
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
+  const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
   if (context.format == Format::Table) {
     for (const std::string& line : header_lines(report, context.out)) {
       context.out.line(line);
     }
     if (!forces.empty()) {
       context.out.line(context.out.paint(Style::Warn, "  forced    " + force_line(forces)));
+    }
+    if (const std::string text = lock_line(lock); !text.empty()) {
+      context.out.line(context.out.paint(Style::Warn, "  locked    " + text));
     }
     if (const std::string text = sentence_of(alarms); !text.empty()) {
       context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
@@ -64,6 +68,7 @@ int show_once(Context& context, const BoardRun& chosen) {
   JsonValue head = json_of(report);
   head["mirror"] = mirror ? json_of(*mirror) : JsonValue();
   head["forces"] = json_of(forces);
+  head["lock"] = json_of(lock);
   head["alarms"] = json_of(alarms);
   head["external"] = external ? json_of(*external) : JsonValue();
   print_table(context, module_table(run, report.alive), head, "modules");

@@ -24,6 +24,7 @@ extern const Verb kHistoryVerb;
 extern const Verb kHzVerb;
 extern const Verb kJitterVerb;
 extern const Verb kKeysVerb;
+extern const Verb kLockVerb;
 extern const Verb kLogVerb;
 extern const Verb kNewVerb;
 extern const Verb kNodesVerb;

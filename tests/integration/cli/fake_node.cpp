@@ -16,6 +16,7 @@
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
 #include "schema/schema.h"
+#include "vars/custody.h"
 #include "vars/node_lock.h"
 #include "vars/process.h"
 #include "vars/run_file.h"
@@ -79,6 +80,7 @@ schema::Schema make_schema(int many) {
   gain.unit = "mm";
   gain.description = "amplitude";
   set_initial(gain, 1.0);
+  gain.given = true;
   schema.variables.push_back(gain);
 
   schema::Type mode = scalar(schema::Base::Enum);
@@ -184,7 +186,7 @@ int run(const std::string& node, const std::string& config, int many) {
   auto store = vars::Store::create(node, make_schema(many));
   const auto setup = make_setup(node, config);
   auto file = vars::RunFile::create(node, scheduler::run_block_size(setup));
-  if (!lock.ok() || !store.ok() || !file.ok()) {
+  if (!lock.ok() || !store.ok() || !file.ok() || !vars::Custody::create(node).ok()) {
     std::fprintf(stderr, "fake_node: cannot set up\n");
     return 1;
   }

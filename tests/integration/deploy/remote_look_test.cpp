@@ -64,13 +64,13 @@ TEST_F(RemoteLook, Runs_and_figures_are_those_of_the_node) {
 
 TEST_F(RemoteLook, Values_are_forced_all_or_none) {
   start_boards();
-  const Outcome wrong = at_a({"force", "torque=9", "echo=7", "nothing=1", "encoder=2"});
+  const Outcome wrong = at_a({"force", "torque=9", "echo=7", "nothing=1", "encoder={speed: ?}"});
   EXPECT_EQ(wrong.code, 1);
   EXPECT_THAT(wrong.err, HasSubstr("9 is outside -5..5"));
   EXPECT_THAT(wrong.err, HasSubstr("no variable 'nothing'"));
-  EXPECT_THAT(wrong.err, HasSubstr("encoder is a cell::Encoder; force its numbers one by one"));
+  EXPECT_THAT(wrong.err, HasSubstr("encoder: speed: '?' is not a number"));
   EXPECT_EQ(here({"forces"})["forces"], Json::array()) << "all or none";
-  ASSERT_EQ(at_a({"force", "echo=7", "encoder.speed=0.5", "--for", "60s"}).code, 0);
+  ASSERT_EQ(at_a({"force", "echo=7", "encoder={speed: 0.5}", "--for", "60s", "--reason", "a trial"}).code, 0);
   EXPECT_EQ(here({"get", "echo", "encoder.speed"})["values"][0]["value"], 7);
   Json near = here({"forces"})["forces"];
   Json far = at_a({"forces", "-o", "json"}).json()["forces"];
@@ -79,6 +79,8 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
     for (Json& force : *list) {
       EXPECT_GT(force["left_ns"].get<std::int64_t>(), 0);
       force["left_ns"] = 0;
+      EXPECT_EQ(force["reason"], "a trial");
+      EXPECT_NE(force["from"], "");
     }
   }
   EXPECT_EQ(far, near);
@@ -88,6 +90,35 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
   EXPECT_EQ(here({"forces"})["forces"].size(), 1U);
   ASSERT_EQ(at_a({"unforce", "--all"}).code, 0);
   EXPECT_EQ(here({"forces"})["forces"], Json::array());
+}
+
+TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
+  start_boards();
+  Program& holder = start_indurop({"force", "echo=7", "--lease", "--board", board("a")});
+  ASSERT_TRUE(wait_until([&] { return here({"forces"})["forces"].size() == 1; })) << holder.out();
+  EXPECT_EQ(here({"forces"})["forces"][0]["lease"], true);
+  const auto left = [&] { return here({"forces"})["forces"][0]["left_ns"].get<std::int64_t>(); };
+  std::int64_t before = left();
+  EXPECT_TRUE(wait_until([&] { return std::exchange(before, left()) < before; })) << "it is renewed";
+  holder.signal(SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return here({"forces"})["forces"].empty(); }));
+}
+
+TEST_F(RemoteLook, A_locked_board_refuses_orders_from_afar) {
+  start_boards();
+  ASSERT_EQ(at_a({"lock", "tune", "--reason", "production"}).code, 0);
+  EXPECT_THAT(at_a({"lock"}).out, HasSubstr("tune"));
+  EXPECT_EQ(here({"lock"})["reason"], "production");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"force", "echo=7"}, {"unforce", "--all"}}) {
+    const Outcome refused = at_a(words);
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("its write lock is 'tune'"));
+  }
+  const Outcome stop = indurop({"stop", "table@" + board("a")});
+  EXPECT_EQ(stop.code, 1);
+  EXPECT_THAT(stop.err, HasSubstr("its write lock is 'tune'"));
+  ASSERT_EQ(at_a({"lock", "none"}).code, 0);
+  EXPECT_EQ(at_a({"force", "echo=7"}).code, 0);
 }
 
 TEST_F(RemoteLook, Boards_with_keys_are_forced_by_who_has_them) {

@@ -132,7 +132,7 @@ TEST(Explain, What_is_not_known_is_said_with_its_reason) {
 TEST(Explain, A_stop_is_noted_when_it_has_been_obeyed) {
   Facts facts = board("here", 1000);
   std::erase_if(facts.runs, [](const RunFact& run) { return run.tick > 500 && run.tick < 900; });
-  facts.orders.push_back({504 * kMs, 0, "ana", "", "stop", "writer", "", 0});
+  facts.orders.push_back({504 * kMs, 0, "ana", "", "stop", "writer", "", 0, ""});
   for (const std::uint64_t tick : {501U, 503U, 505U, 899U}) {
     const Answer sut = why_late(facts, "writer", tick);
     EXPECT_EQ(sut.cause, Cause::Stopped) << tick;
@@ -183,11 +183,11 @@ TEST(Explain, An_older_fault_is_known_by_its_run) {
 
 TEST(Explain, A_force_that_is_over_is_known_for_its_time) {
   Facts facts = board("here", 1000);
-  facts.orders.push_back({300 * kMs, 0, "bob", "", "force", "x", "8", 500 * kMs});
+  facts.orders.push_back({300 * kMs, 0, "bob", "", "force", "x", "8", 500 * kMs, ""});
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Force);
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).culprit, "bob");
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 600 * kMs).cause, Cause::Unchanged) << "its time was over";
-  facts.orders.push_back({350 * kMs, 0, "bob", "", "unforce", "x", "", 0});
+  facts.orders.push_back({350 * kMs, 0, "bob", "", "unforce", "x", "", 0, ""});
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "it was let go";
 }
 
@@ -251,10 +251,10 @@ TEST(Explain, Who_forces_a_value_and_who_wrote_it_last) {
   Facts facts = board("here", 100);
   facts.changes.push_back({"x", "writer", 20, 20 * kMs});
   EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "writer");
-  facts.orders.push_back({30 * kMs, 0, "ana", "pc4", "set", "x", "7", 0});
+  facts.orders.push_back({30 * kMs, 0, "ana", "pc4", "set", "x", "7", 0, ""});
   EXPECT_EQ(who_changed(facts, "x", 100 * kMs).culprit, "ana");
   EXPECT_EQ(who_changed(facts, "x", 25 * kMs).culprit, "writer");
-  facts.orders.push_back({40 * kMs, 0, "bob", "", "force", "x", "8", 0});
+  facts.orders.push_back({40 * kMs, 0, "bob", "", "force", "x", "8", 0, ""});
   facts.variables[0].forced_until_ns = INT64_MAX;
   const std::vector<Facts> plant{facts};
   EXPECT_EQ(why_old(plant, 0, "x", 100 * kMs).culprit, "bob");

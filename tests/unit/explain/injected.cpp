@@ -98,7 +98,7 @@ Facts facts_after(const scheduler::RunBlock& block, const std::vector<Task>& tas
   }
   if (injection.what == What::Stopped) {
     facts.orders.push_back(
-        {due_ns - kBasic / 2, 0, injection.by, "pc4", "stop", "m" + std::to_string(injection.module), {}, 0});
+        {due_ns - kBasic / 2, 0, injection.by, "pc4", "stop", "m" + std::to_string(injection.module), {}, 0, {}});
   }
   return facts;
 }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders to hold values as text: there and back, from agents and tools of before, and what is none.
+
+#include "deploy/transaction/write_words.h"
+
+#include <gtest/gtest.h>
+
+namespace indurop::deploy {
+namespace {
+
+TEST(WriteWords, Come_back_as_they_were) {
+  const WriteOrder order{5'000'000'000,   true, false, "anna \"the\" first", "valve {stuck}\nsince noon",
+                         {"a=1", "b=x y"}};
+  const auto sut = parse_write_order(text_of(order));
+  ASSERT_TRUE(sut.has_value());
+  EXPECT_EQ(sut->for_ns, order.for_ns);
+  EXPECT_EQ(sut->lease, true);
+  EXPECT_EQ(sut->renew, false);
+  EXPECT_EQ(sut->who, order.who);
+  EXPECT_EQ(sut->reason, order.reason);
+  EXPECT_EQ(sut->lines, order.lines);
+}
+
+TEST(WriteWords, Tools_of_before_say_less) {
+  const auto sut = parse_write_order("30\na=1\nb={x: 2}");
+  ASSERT_TRUE(sut.has_value());
+  EXPECT_EQ(sut->for_ns, 30);
+  EXPECT_EQ(sut->lines, (std::vector<std::string>{"a=1", "b={x: 2}"}));
+  EXPECT_FALSE(sut->lease);
+}
+
+TEST(WriteWords, Nonsense_is_none) {
+  for (const char* text : {"", "x\na=1", "-1\na=1", "a=1"}) {
+    EXPECT_FALSE(parse_write_order(text).has_value()) << text;
+  }
+}
+
+}  // namespace
+}  // namespace indurop::deploy
