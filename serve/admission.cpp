@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <ifaddrs.h>
 #include <netinet/in.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,24 +16,13 @@
 #include "base/read_file.h"
 #include "base/replace_file.h"
 #include "base/text.h"
+#include "serve/random_word.h"
 
 namespace indurop::serve {
 namespace {
 
 constexpr std::size_t kShortestToken = 20;
 constexpr std::size_t kLongestToken = 200;
-
-std::string random_token() {
-  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-  std::array<unsigned char, 32> bytes{};
-  std::string token;
-  if (getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size())) {
-    for (const unsigned char byte : bytes) {
-      token += kLetters[byte % kLetters.size()];
-    }
-  }
-  return token;
-}
 
 bool sound(std::string_view token) {
   const auto allowed = [](unsigned char c) {
@@ -78,7 +66,7 @@ std::vector<std::string> own_names() {
 Result<std::vector<Token>, base::Problem> tokens_of(const std::filesystem::path& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) != 0 && errno == ENOENT) {
-    const auto made = base::create_file(file, fmt::format("operator {}\n", random_token()), S_IRUSR | S_IWUSR);
+    const auto made = base::create_file(file, fmt::format("operator {}\n", random_word()), S_IRUSR | S_IWUSR);
     if (!made) {
       return base::Problem{base::cannot_write(file.string(), made.error())};
     }
@@ -157,7 +145,7 @@ Result<GateSettings, tools::Failure> admission_of(const tools::ServeOptions& opt
     }
     gate.tokens = std::move(tokens).value();
   } else if (options.write && options.client_ca.empty()) {
-    gate.tokens.push_back({"operator", random_token()});
+    gate.tokens.push_back({"operator", random_word()});
   }
   gate.hosts = {"localhost", "127.0.0.1", "::1", options.bind};
   if (!gate.loopback) {

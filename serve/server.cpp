@@ -35,13 +35,15 @@ Server::Server(tools::ServeOptions options, GateSettings gate, std::string versi
     : options_(std::move(options)),
       gate_(std::move(gate)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
-      api_(gate_, audit_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
+      leases_(audit_),
+      api_(gate_, audit_, leases_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
-      orders_(options_.node) {}
+      orders_(options_.node),
+      holds_(options_.node) {}
 
 std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
   if (!request.path.starts_with("/api/")) {
@@ -59,10 +61,14 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(files_, std::move(match), ticket);
     case Pace::Orders:
       return hand_over(orders_, std::move(match), ticket);
+    case Pace::Holds:
+      return hand_over(holds_, std::move(match), ticket);
     case Pace::Wait:
       return let_wait(std::move(match), ticket);
     case Pace::Plant:
       return ask_plant(std::move(match), ticket);
+    case Pace::PlantOrders:
+      return order_plant(std::move(match), ticket);
     case Pace::Plc:
       return ask_plc(std::move(match), ticket);
     case Pace::Quick:
@@ -93,11 +99,27 @@ std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
     return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
   }
   match.call.plant = &far_->watch;
-  if (!far_->worker.add([this, match = std::move(match), ticket]() mutable {
-        match.call.request = nullptr;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!far_->worker.add([this, request, match = std::move(match), ticket] {
         door_->reply(ticket, match.route->answer(api_, match.call));
       })) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
+std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
+  if (far_ == nullptr) {
+    return refusal(status::kNotFound, "this server looks at its own host only; start it with --plant");
+  }
+  match.call.link = &options_.link;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!far_->orders.add_if_idle([this, request, match = std::move(match), ticket] {
+        door_->reply(ticket, match.route->answer(api_, match.call));
+      })) {
+    return refusal(status::kConflict, "the plant is being changed already");
   }
   return std::nullopt;
 }
@@ -172,6 +194,7 @@ int Server::run() {
   }
   looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
     hub_.look_around();
+    (void)holds_.worker.add_if_idle([this] { leases_.look(); });
     if (far_ != nullptr) {
       (void)far_->worker.add_if_idle([this] { far_->watch.look(); });
     }

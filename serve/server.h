@@ -16,6 +16,7 @@
 #include "serve/api/worker.h"
 #include "serve/boards/board.h"
 #include "serve/door/door.h"
+#include "serve/leases/lease_desk.h"
 #include "serve/page.h"
 #include "serve/stream/hub.h"
 #include "tools/command/serve_options.h"
@@ -45,6 +46,7 @@ class Server final : public House {
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
   std::optional<Reply> let_wait(Match match, Ticket ticket);
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
+  std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
   // Answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
@@ -54,6 +56,7 @@ class Server final : public House {
   Gate gate_;
   Audit audit_;
   AlarmDesk alarms_;
+  LeaseDesk leases_;
   Api api_;
   Page page_;
   Boards boards_;
@@ -62,10 +65,12 @@ class Server final : public House {
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
   Helper orders_;
+  Helper holds_;
   struct Far {
     explicit Far(const deploy::LinkSettings& settings) : watch(settings) {}
     tools::PlantWatch watch;  // of the worker's thread
     Worker worker;
+    Worker orders;  // one at a time
   };
   struct Plc {
     Plc(const tools::PlcFiles& files, const std::string& node) : pictures(files), boards(node) {}

@@ -32,6 +32,8 @@ Reply plc_live(Api& api, const Call& call);
 
 Reply plant(Api& api, const Call& call);
 Reply plant_history(Api& api, const Call& call);
+Reply plant_difference(Api& api, const Call& call);
+Reply plant_rollback(Api& api, const Call& call);
 
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);
@@ -57,6 +59,9 @@ Reply remove_recipe(Api& api, const Call& call);
 Reply set(Api& api, const Call& call);
 Reply force(Api& api, const Call& call);
 Reply release(Api& api, const Call& call);
+Reply renew_lease(Api& api, const Call& call);
+Reply end_lease(Api& api, const Call& call);
+Reply set_lock(Api& api, const Call& call);
 Reply start_module(Api& api, const Call& call);
 Reply stop_module(Api& api, const Call& call);
 Reply restart_module(Api& api, const Call& call);

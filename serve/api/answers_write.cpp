@@ -7,6 +7,7 @@
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
 #include "serve/boards/variable.h"
+#include "serve/leases/lease_desk.h"
 #include "tools/plant/commands.h"
 #include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
@@ -21,6 +22,7 @@ struct Wish {
   std::string reason;
   std::int64_t for_ns = 0;
   bool all = false;
+  bool lease = false;
 };
 
 Result<Wish, std::string> read_wish(const std::string& body) {
@@ -32,6 +34,10 @@ Result<Wish, std::string> read_wish(const std::string& body) {
   base::read(*json, "reason", wish.reason);
   base::read(*json, "names", wish.names);
   base::read(*json, "all", wish.all);
+  base::read(*json, "lease", wish.lease);
+  if (wish.lease && json->find("for_ns") != nullptr) {
+    return std::string("lease and for_ns are two ways of ending: choose one");
+  }
   if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", wish.for_ns) || wish.for_ns <= 0)) {
     return std::string("for_ns is a number of nanoseconds greater than 0");
   }
@@ -103,15 +109,29 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   if (!values || (!hold && tools::any_forced(write.context(), *store, *values))) {
     return write.failed_with(kFailed);
   }
+  if (!(hold ? tools::may(write.context(), (*found)->name(), vars::Act::Force)
+             : tools::may_set(write.context(), *values))) {
+    return write.locked();
+  }
+  if (wish->lease && store->header().virtual_ns.load() != 0) {
+    return write.failed(status::kConflict, "the time of a simulation is not the one that a lease goes by: use for_ns");
+  }
   if (auto refused = write.begin()) {
     return *refused;
   }
-  const int code = hold ? tools::hold_values(write.context(), *store, *values, wish->for_ns)
-                        : tools::set_values(write.context(), *store, *values);
+  tools::Lease lease;
+  const int code = !hold         ? tools::set_values(write.context(), *store, *values)
+                   : wish->lease ? tools::hold_values(write.context(), *store, *values, tools::kLeaseNs, &lease)
+                                 : tools::hold_values(write.context(), *store, *values, wish->for_ns);
   if (code != kOk) {
     return write.failed_with(code);
   }
   base::Json body = about(**found);
+  if (wish->lease) {
+    body["lease"] =
+        api.leases().take((*found)->name(), call.who, call.request->from, text_of(*wish), *store, std::move(lease));
+    body["lease_ns"] = tools::kLeaseNs;
+  }
   body[hold ? "forced" : "written"] = names_of(*values);
   return write.done(body);
 }
@@ -133,6 +153,9 @@ Reply command(Api& api, const Call& call, scheduler::ModuleCommand what, std::st
   }
   Write write(api, call, std::move(word));
   write.about(module, query_value(*call.request, "reason").value_or(""));
+  if (!tools::may(write.context(), (*found)->name(), vars::Act::Command)) {
+    return write.locked();
+  }
   if (auto refused = write.begin()) {
     return *refused;
   }
@@ -181,6 +204,9 @@ Reply release(Api& api, const Call& call) {
   const bool fine = wish->all || tools::select_items(write.context(), *store, wish->names, items) == kOk;
   if (!fine) {
     return write.failed_with(kFailed);
+  }
+  if (!tools::may(write.context(), (*found)->name(), vars::Act::Force)) {
+    return write.locked();
   }
   if (auto refused = write.begin()) {
     return *refused;

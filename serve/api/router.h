@@ -11,6 +11,9 @@
 
 #include "serve/door/request.h"
 
+namespace indurop::deploy {
+struct LinkSettings;
+}
 namespace indurop::tools {
 class PlantWatch;
 class PlcPictures;
@@ -27,14 +30,16 @@ struct Call {
   const Request* request = nullptr;
   Boards* boards = nullptr;                              // of the thread that answers
   tools::PlantWatch* plant = nullptr;                    // of Pace::Plant
+  const deploy::LinkSettings* link = nullptr;            // of Pace::PlantOrders
   tools::PlcPictures* plc = nullptr;                     // of Pace::Plc
   std::string who;                                       // as the gate knows the client
   std::map<std::string, std::string, std::less<>> part;  // "board", "module", "name"
 };
 
 // Which thread answers: the door's; one that may read files; one that may wait for a node; one of those that wait for
-// something to happen; the one that hears other boards; the one that knows the PLC program.
-enum class Pace { Quick, Files, Orders, Wait, Plant, Plc };
+// something to happen; one for what must not wait for the others; the one that hears other boards; the one that changes
+// what they run; the one that knows the PLC program.
+enum class Pace { Quick, Files, Orders, Wait, Holds, Plant, PlantOrders, Plc };
 
 struct Route {
   Method method;

@@ -13,7 +13,8 @@ namespace indurop::serve {
 Write::Write(Api& api, const Call& call, std::string action) : api_(&api) {
   entry_.who = call.who;
   entry_.from = call.request->from;
-  entry_.board = call.part.find("board")->second;
+  const auto board = call.part.find("board");
+  entry_.board = board != call.part.end() ? board->second : "";
   entry_.action = std::move(action);
   context_.who = entry_.who;
   context_.from = entry_.from;
@@ -39,6 +40,7 @@ Result<vars::Store, Reply> Write::open(bool running) {
 void Write::about(std::string what, std::string reason) {
   entry_.what = std::move(what);
   entry_.reason = std::move(reason);
+  context_.reason = entry_.reason;
 }
 
 Reply Write::failed(int code, std::string why) {

@@ -33,6 +33,8 @@ class Write {
   // For all these reasons, at least one; the first one is noted.
   Reply failed(int code, const std::vector<std::string>& all);
   Reply failed_with(int exit_code);
+  // Of a write that the board's lock forbids; the message says so.
+  Reply locked() { return failed(status::kLocked, messages_.front()); }
   // Before anything is changed: without a note nothing is written.
   std::optional<Reply> begin();
   Reply done(const base::Json& body);

@@ -7,7 +7,7 @@
 namespace indurop::serve {
 
 std::string_view word_of(int code) noexcept {
-  constexpr std::array<std::pair<int, std::string_view>, 14> kWords{{
+  constexpr std::array<std::pair<int, std::string_view>, 15> kWords{{
       {status::kBadRequest, "bad_request"},
       {status::kUnauthorized, "unauthorized"},
       {status::kForbidden, "forbidden"},
@@ -19,6 +19,7 @@ std::string_view word_of(int code) noexcept {
       {status::kNotJson, "not_json"},
       {status::kMisdirected, "wrong_host"},
       {status::kWrongValue, "wrong_value"},
+      {status::kLocked, "locked"},
       {status::kFailed, "failed"},
       {status::kUnavailable, "unavailable"},
       {status::kNoAnswer, "no_answer"},

@@ -56,6 +56,7 @@ inline constexpr int kTooLarge = 413;
 inline constexpr int kNotJson = 415;
 inline constexpr int kMisdirected = 421;
 inline constexpr int kWrongValue = 422;
+inline constexpr int kLocked = 423;
 inline constexpr int kFailed = 500;
 inline constexpr int kUnavailable = 503;
 inline constexpr int kNoAnswer = 504;

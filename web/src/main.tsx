@@ -9,6 +9,7 @@ import { Shell, type View } from "./shell/shell";
 import { place } from "./ui/address";
 import { useStore } from "./ui/store";
 import { Alarms } from "./views/alarms/alarms";
+import { Deployments } from "./views/deployments/deployments";
 import { Overview } from "./views/overview";
 import { Plc } from "./views/plc/plc";
 import { Plots } from "./views/plots/plots";
@@ -24,6 +25,7 @@ const VIEWS: (View & { show: () => preact.JSX.Element | null })[] = [
   { name: "plots", title: "Plots", icon: "M3 3h2v16h16v2H3zM7 16l4-6 4 3 5-8 1.6 1-6 10-4-3-3 4.5z", show: Plots },
   { name: "schedule", title: "Schedule", icon: "M3 4h7v4H3zM9 10h9v4H9zM5 16h6v4H5zM14 4h7v4h-7zM15 16h6v4h-6z", show: Schedule },
   { name: "recipes", title: "Recipes", icon: "M5 3h11l3 3v15H5zM8 8h8v1.6H8zM8 12h8v1.6H8zM8 16h5v1.6H8z", show: Recipes },
+  { name: "deployments", title: "Deployments", icon: "M4 3h6v5H4zM14 16h6v5h-6zM6 9h2v4h8v-2l4 3-4 3v-2H6zM4 17h6v4H4z", show: Deployments },
   { name: "plc", title: "PLC", icon: "M3 3h2v18H3zM19 3h2v18h-2zM5 11h3V7h2v10H8v-4H5zM19 11h-3V7h-2v10h2v-4h3z", show: Plc },
   { name: "robot", title: "Robot", icon: "M4 21v-3h3l1-6 6-5a3 3 0 1 1 1.4 1.8L10 13l-.9 5H13v3zM20 9l1.5 3-2.5 4-1.4-1 1.8-3-1-2z", show: Robot },
 ];

@@ -5,6 +5,7 @@
 import http.client
 import json
 import pathlib
+import signal
 import socket
 import ssl
 import subprocess
@@ -100,6 +101,77 @@ def test_writes_for_those_who_may(setting):
     shown = subprocess.run([setting.programs / "indurop", "log", "--audit", "-o", "json"], env=setting.environment,
                            capture_output=True, text=True, check=True).stdout
     assert len(json.loads(shown)["audit"]) == len(audit)
+
+
+def test_holds_structs_and_tells_who_and_why(setting):
+    setting.start_node()
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    base = f"{API}/boards/{setting.node}"
+    said = server.post(base + "/force", {"values": {"joints[1]": {"x": 1.5, "z": 0}, "station::name": "a longer name"},
+                                         "reason": "gauge is broken"})
+    assert said.status == 200, said.body
+    forces = server.get(base + "/forces").json()["forces"]
+    assert [(one["name"], one["value"]) for one in forces] == [
+        ("knu::Robot::joints[1].x", 1.5), ("knu::Robot::joints[1].z", 0), ("station::name", "a longer name")], forces
+    assert all(one["who"] == "ana" and one["reason"] == "gauge is broken" and one["from"] and one["left_ns"] is None
+               for one in forces)
+    assert server.post(base + "/set", {"values": {"joints[1].y": 4}}).status == 200, "the rest goes on"
+    faults = server.get(base + "/faults").json()["faults"]
+    assert any("forced" in one["text"] and "ana" in one["text"] for one in faults), faults
+    assert server.post(base + "/force", {"values": {"joints[1]": {"y": 190}}}).status == 422, "its range"
+    assert server.post(base + "/release", {"all": True}).status == 200
+
+
+def test_a_lease_ends_with_its_client(setting):
+    setting.start_node()
+    setting.tokens.write_text(f"ana {TOKEN}\nbob {TOKEN[::-1]}\n")
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    base = f"{API}/boards/{setting.node}"
+    forces = lambda: server.get(base + "/forces").json()["forces"]
+    take = lambda: server.post(base + "/force", {"values": {"gain": 3}, "lease": True}).json()
+    assert server.post(base + "/force", {"values": {"gain": 3}, "lease": True, "for_ns": 1}).status == 400
+    lease = take()
+    renew = f"{base}/leases/{lease['lease']}/renew"
+    assert forces()[0]["lease"]
+    end = time.monotonic() + 1.5 * lease["lease_ns"] / 1e9
+    while time.monotonic() < end:
+        assert server.post(renew).status == 200
+        assert forces(), "it is renewed"
+    assert server.post(renew, token=TOKEN[::-1]).status == 404, "of somebody else"
+    assert server.ask("POST", renew).status == 401
+    assert server.post(base + "/leases/nothing/renew").status == 404
+    wait_for(lambda: not forces(), "the end of a lease that nobody renews")
+    assert server.post(renew).status == 404
+    audit = wait_for(lambda: [one for one in server.get(API + "/audit").json()["audit"]
+                              if "not heard any more" in one["outcome"]], "a note about it")
+    assert audit[0]["who"] == "ana" and audit[0]["what"] == "gain=3", audit
+    lease = take()
+    assert server.post(f"{base}/leases/{lease['lease']}/end").status == 200
+    assert not forces()
+    take()
+    setting.end(server.child, signal.SIGKILL)
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    wait_for(lambda: not forces(), "the end of a lease whose server was killed")
+
+
+def test_a_locked_board_is_not_written(setting):
+    setting.start_node()
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    base = f"{API}/boards/{setting.node}"
+    assert server.get(base + "/forces").json()["lock"]["lock"] == "none"
+    assert server.post(base + "/lock", {"lock": "much"}).status == 400
+    assert server.ask("POST", base + "/lock", {"lock": "none"}).status == 401
+    assert server.post(base + "/lock", {"lock": "tune", "reason": "production"}).status == 200
+    assert server.get(base + "/forces").json()["lock"] == {**server.get(base + "/forces").json()["lock"],
+                                                           "lock": "tune", "who": "ana", "reason": "production"}
+    assert server.post(base + "/set", {"values": {"gain": 2}}).status == 200, "a parameter"
+    for path, body in (("/set", {"values": {"mode": "AUTO"}}), ("/force", {"values": {"gain": 1}}),
+                       ("/release", {"all": True}), ("/modules/show/stop", None)):
+        refused = server.post(base + path, body)
+        assert refused.status == 423 and "'tune' by ana (production)" in refused.json()["message"], refused.body
+    assert server.get(base).json()["lock"]["lock"] == "tune"
+    assert server.post(base + "/lock", {"lock": "none"}).status == 200
+    assert server.post(base + "/set", {"values": {"mode": "AUTO"}}).status == 200
 
 
 def test_answers_a_request_without_a_body_once(setting):

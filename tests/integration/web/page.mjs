@@ -74,6 +74,40 @@ await browser.run({
     await page.close();
   },
 
+  async "A force ends with its page, says who and why, and a struct is forced as text"() {
+    const page = await browser.open("variables?v=PLC_ROBOT::ROBOT_JOG");
+    await fill(page, "New value of PLC_ROBOT::ROBOT_JOG", "{eFrame: 1, bEnable: 0}");
+    await fill(page, "Reason, for the audit log", "the pendant is broken");
+    await page.select("[aria-label='How long to force']", "4");
+    await press(page, "Force");
+    await sees(page, "2 values are forced");
+    await sees(page, "as long as its client is there by tester");
+    await sees(page, "the pendant is broken");
+    await new Promise((done) => setTimeout(done, 3000));  // longer than it holds unless the page renews it
+    await sees(page, "2 values are forced");
+    await browser.judge(page, "variables-lease-wide");
+    const other = await browser.open("variables");
+    await sees(other, "2 values are forced");
+    await page.close();
+    await sees_no(other, "values are forced");
+    await other.close();
+  },
+
+  async "A locked board is written by nobody until it is unlocked"() {
+    const page = await browser.open(`variables?v=${OVERRIDE}`, phone);
+    await page.waitForSelector(".lock select");
+    await page.select(".lock select", "all");
+    await sees(page, "by tester");
+    await press(page, "Set");
+    await sees(page, "its write lock is 'all' by tester: nothing may be written");
+    await browser.judge(page, "variables-locked-phone");
+    await page.select(".lock select", "none");
+    await page.waitForFunction(() => document.querySelector(".lock select").value === "none" && !document.querySelector(".lock span"));
+    await press(page, "Set");
+    await sees(page, "Set to 100.");
+    await page.close();
+  },
+
   async "The tree is used with the keyboard"() {
     const page = await browser.open("variables", SCREENS.phone);
     await sees(page, "PLC_ROBOT");

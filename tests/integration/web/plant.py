@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The page's overview in headless Chromium before a plant of two boards: both are heard, one is killed and missed in words, and
-comes back."""
+comes back. Two deployments are compared, and the plant is rolled back."""
 
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -24,6 +25,17 @@ class Boards(PageServer):
         super().__init__(options, folder)
         self.domain, self.agents = take_domain(options), {}
 
+    def deploy(self, period):
+        (self.folder / "plant.xml").write_text(f"""<plant name="{self.node}"><domain>{self.domain % 200 + 1}</domain><external>off</external>
+""" + "".join(f"""<board name="{self.node}_{name}">
+<module><filename>./steady.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+<period>{period}</period>
+<priority>1</priority></module>
+</board>
+""" for name in ("left", "right")) + "</plant>\n")
+        done = self.indurop("deploy", "plant.xml", "--health", "500ms", "--domain", str(self.domain), "--one-host")
+        assert done.returncode == 0, done.stderr
+
     def start_agent(self, name):
         self.agents[name] = subprocess.Popen(
             [f"{self.options.bin}/indurop-agent", "--board", f"{self.node}_{name}", "--domain", str(self.domain), "--one-host", "-q"],
@@ -31,7 +43,9 @@ class Boards(PageServer):
 
     def obey(self, word):
         what, name = word.split("=")
-        if what == "start":
+        if what == "deploy":
+            self.deploy(name)
+        elif what == "start":
             self.start_agent(name)
         else:
             self.agents[name].send_signal(signal.SIGKILL)
@@ -41,13 +55,17 @@ class Boards(PageServer):
         for agent in self.agents.values():
             agent.terminate()
             agent.wait(timeout=PATIENCE)
+        for name in ("left", "right"):
+            self.indurop("stop", "--node", f"{self.node}_{name}")
+            self.indurop("clean", "--node", f"{self.node}_{name}")
         super().end()
 
 
 def main():
-    options = prepared(__doc__, "--fake-node")
+    options = prepared(__doc__, "--fake-node", "--module")
     with tempfile.TemporaryDirectory() as folder:
         boards = Boards(options, folder)
+        shutil.copy(options.module, boards.folder / "steady.so")
         try:
             boards.start_server("--plant", "--domain", str(boards.domain), "--one-host")
             for name in ("left", "right"):

@@ -49,8 +49,14 @@ export function get<T>(path: string, patience_ms?: number): Promise<T> {
   return ask<T>(path, { method: "GET" }, patience_ms);
 }
 
-export function post<T>(path: string, body?: unknown): Promise<T> {
-  return ask<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) });
+export function post<T>(path: string, body?: unknown, patience_ms?: number): Promise<T> {
+  return ask<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) }, patience_ms);
+}
+
+// For a page that is being closed: nobody hears the answer.
+export function post_at_the_end(path: string): void {
+  const headers: Record<string, string> = token() ? { Authorization: `Bearer ${token()}` } : {};
+  void fetch(`/api/v1/${path}`, { method: "POST", headers, keepalive: true }).catch(() => undefined);
 }
 
 export function board_path(board: string, rest = ""): string {

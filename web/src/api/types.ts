@@ -141,10 +141,29 @@ export interface Deployment {
   outcome: string;
 }
 
+export interface ChangedFile {
+  path: string;
+  change: "added" | "removed" | "changed";
+  size_before: number | null;
+  size_after: number | null;
+  lines: { change: "added" | "removed" | "same"; text: string }[];
+}
+
 export interface Force {
   name: string;
   value: unknown;
   left_ns: number | null;
+  who?: string;
+  from?: string;
+  reason?: string;
+  lease?: boolean;
+}
+
+export interface Lock {
+  lock: "none" | "tune" | "all";
+  who?: string;
+  from?: string;
+  reason?: string;
 }
 
 // Fields beyond these are those of `indurop status -o json`.

@@ -22,6 +22,7 @@ function Navigation({ views }: { views: View[] }) {
   const { view, query } = useStore(place);
   const board = query.get("board");
   const alarms = useBoard()?.alarms.unacknowledged ?? 0;
+  useEffect(() => document.querySelector("nav a[aria-current]")?.scrollIntoView({ block: "nearest", inline: "nearest" }), [view]);  // on phones
   return (
     <nav aria-label="Views">
       <ul>
@@ -42,7 +43,7 @@ function missing(): string {
   if (link === "lost") return "The server is gone: looking for it again. What you see is old.";
   if (error) return `${error} Asking again.`;
   if (!status || !boards) return "";
-  if (boards.length === 0) return "There is no node on this host yet. Start one with: indurop run module.xml";
+  if (boards.length === 0 && !status.plant) return "There is no node on this host yet. Start one with: indurop run module.xml";
   return "";
 }
 

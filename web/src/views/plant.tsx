@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The boards of the network by what their agents say, dead ones included, and what was deployed to them.
+// The boards of the network by what their agents say, dead ones included.
 
 import { get, words } from "../api/http";
-import type { Deployment, FarBoard, PlantNow } from "../api/types";
+import type { FarBoard, PlantNow } from "../api/types";
 import { plant as here } from "../shell/plant";
 import { address } from "../ui/address";
-import { clock, count, span } from "../ui/format";
+import { count, span } from "../ui/format";
 import { Panel, Waiting } from "../ui/parts";
 import { type Asked, useAsked, useStore } from "../ui/store";
 
@@ -64,30 +64,6 @@ export function PlantPanel({ value, error }: { value: PlantNow | null; error: st
             <tbody>{value.boards.map((row) => <Row key={row.board} row={row} />)}</tbody>
           </table>
         </div>)}
-      <History />
+      <p><a href={address("deployments")}>What was deployed, what differs, and the way back</a></p>
     </Panel>);
-}
-
-function History() {
-  const { value, error, again } = useAsked("plant history", 0, () => get<{ deployments: Deployment[] }>("plant/history"), words);
-  return (
-    <details onToggle={(event) => { if (event.currentTarget.open) again(); }}>
-      <summary>Deployments</summary>
-      {error && <p class="bad">{error}</p>}
-      {!value && !error && <Waiting />}
-      {value && value.deployments.length === 0 && <p class="quiet">Nothing was deployed yet.</p>}
-      {value && value.deployments.length > 0 && (
-        <div class="scroll" tabIndex={0} role="region" aria-label="Deployments">
-          <table class="figures">
-            <thead><tr><th scope="col">Deployment</th><th scope="col">Plant</th><th scope="col">When</th><th scope="col">From</th><th scope="col">Boards</th>
-              <th scope="col">Outcome</th></tr></thead>
-            <tbody>{value.deployments.map((one) => (
-              <tr key={`${one.generation} ${one.outcome}`}>
-                <th scope="row">{one.deployment.slice(0, SHOWN_ID)}{one.current ? " (runs now)" : ""}</th>
-                <td>{one.plant}</td><td>{clock(one.wall_ns)}</td><td>{one.host}</td><td>{one.boards.join(", ")}</td>
-                <td class={one.outcome === "committed" ? "" : "warn"}>{one.outcome}</td>
-              </tr>))}</tbody>
-          </table>
-        </div>)}
-    </details>);
 }

@@ -7,7 +7,7 @@ import { plant } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { span, value_text } from "../../ui/format";
 import { Figure } from "../../ui/parts";
-import { has_parts, is_number, numbers_of, value_in, type Part } from "../../ui/paths";
+import { has_parts, numbers_of, value_in, type Part } from "../../ui/paths";
 import { useAsked, useStore } from "../../ui/store";
 import type { Live } from "./live";
 import { range_text, Write } from "./write";
@@ -58,7 +58,7 @@ export function Detail({ board, part, live, close, changed }: Props) {
       </dl>
       {plotted.length > 0 && plotted.length <= MOST_PLOTTED && (
         <p><a href={address("plots", { board, c: plotted.join(",") })}>{plotted.length === 1 ? "Plot it" : `Plot its ${plotted.length} numbers`}</a></p>)}
-      {status?.may_write && (is_number(part) || ["text", "char"].includes(part.form.kind)) && !part.form.dims?.length &&
+      {status?.may_write &&
         <Write key={`${board} ${part.name}`} board={board} part={part} value={value} forced={forced.length > 0} done={() => { asked.again(); changed(); }} />}
       {status && !status.may_write && <p class="quiet">This page may only look. To write: indurop serve --write</p>}
     </aside>);

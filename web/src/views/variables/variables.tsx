@@ -3,15 +3,16 @@
 
 import "./variables.css";
 import { useMemo, useState } from "preact/hooks";
-import { board_path, get, post, words } from "../../api/http";
-import type { Force, Variables as Answer } from "../../api/types";
-import { plant, useBoard } from "../../shell/plant";
+import { board_path, get, words } from "../../api/http";
+import type { Variables as Answer } from "../../api/types";
+import { useBoard } from "../../shell/plant";
 import { change_query, place } from "../../ui/address";
-import { plural, span, value_text } from "../../ui/format";
+import { plural } from "../../ui/format";
 import { Waiting } from "../../ui/parts";
 import { part_named } from "../../ui/paths";
 import { useAsked, useStore } from "../../ui/store";
 import { Detail } from "./detail";
+import { Forces } from "./forces";
 import { useLive } from "./live";
 import { matching, rows_of, type Row } from "./rows";
 import { Tree } from "./tree";
@@ -19,44 +20,12 @@ import { Tree } from "./tree";
 const OFTEN_MS = 3000;
 const SELDOM_MS = 20000;
 const MANY = 500;
-const FORCES_MS = 2000;
 
 function with_change(set: Set<string>, key: string, inside: boolean): Set<string> {
   const next = new Set(set);
   if (inside) next.add(key);
   else next.delete(key);
   return next;
-}
-
-function Forces({ board }: { board: string }) {
-  const { status } = useStore(plant);
-  const { value, again } = useAsked(board, FORCES_MS,
-    () => get<{ forces: Force[] }>(board_path(board, "/forces")), words);
-  const [said, say] = useState("");
-  if (!value?.forces.length) return null;
-  const release = async (body: object) => {
-    try {
-      await post(board_path(board, "/release"), body);
-      say("");
-    } catch (error) {
-      say(words(error));
-    }
-    again();
-  };
-  return (
-    <section class="panel forces" aria-label="Forced values">
-      <h2>{plural(value.forces.length, "value is", "values are")} forced</h2>
-      <ul class="plain">
-        {value.forces.map(({ name, value: held, left_ns }) => (
-          <li key={name}>
-            <a href={`#${name}`} onClick={(event) => { event.preventDefault(); change_query({ v: name }); }}>{name}</a> at {value_text(held)},{" "}
-            {left_ns === null ? "until released" : `for ${span(left_ns)} more`}{" "}
-            {status?.may_write && <button type="button" onClick={() => release({ names: [name] })} aria-label={`Release ${name}`}>release</button>}
-          </li>))}
-      </ul>
-      {status?.may_write && value.forces.length > 1 && <button type="button" onClick={() => release({ all: true })}>Release all</button>}
-      {said && <p class="bad" role="alert">{said}</p>}
-    </section>);
 }
 
 export function Variables() {

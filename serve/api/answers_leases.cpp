@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Answers about forces that end with their client, and about the lock that keeps a board from being written to.
+#include <fmt/format.h>
+
+#include "rt/clock.h"
+#include "serve/api/answers.h"
+#include "serve/api/write.h"
+#include "serve/boards/board.h"
+#include "serve/leases/lease_desk.h"
+
+namespace indurop::serve::answers {
+namespace {
+
+Reply about_lease(Api& api, const Call& call,
+                  bool (LeaseDesk::*what)(const std::string&, const std::string&, const std::string&)) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const std::string& name = call.part.find("lease")->second;
+  if (!(api.leases().*what)((*found)->name(), name, call.who)) {
+    return refusal(
+        status::kNotFound,
+        "there is no such lease of yours any more: it was not renewed in time, or somebody else has let go of "
+        "what it held");
+  }
+  base::Json body = about(**found);
+  body["lease"] = name;
+  body["lease_ns"] = tools::kLeaseNs;
+  return json_reply(body);
+}
+
+}  // namespace
+
+Reply renew_lease(Api& api, const Call& call) {
+  return about_lease(api, call, &LeaseDesk::renew);
+}
+
+Reply end_lease(Api& api, const Call& call) {
+  return about_lease(api, call, &LeaseDesk::end);
+}
+
+Reply set_lock(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  Write write(api, call, "lock");
+  const auto json = base::Json::parse(call.request->body);
+  std::string word;
+  vars::LockNote note;
+  if (!json || !base::read(*json, "lock", word) || !vars::write_lock_of(word)) {
+    return write.failed(status::kBadRequest, "lock is none, tune or all");
+  }
+  base::read(*json, "reason", note.reason);
+  write.about(word, note.reason);
+  auto custody = vars::Custody::open((*found)->name(), vars::Mode::ReadWrite);
+  if (!custody) {
+    return write.failed(status::kConflict, fmt::format("its write lock cannot be opened: {}", custody.error().where));
+  }
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  note.who = call.who;
+  note.from = call.request->from;
+  note.wall_ns = rt::wall_ns();
+  note.lock = *vars::write_lock_of(word);
+  if (const Status locked = custody->set_lock(note); !locked) {
+    return write.failed(status::kNoAnswer, fmt::format("it is not locked: {}", locked.error().where));
+  }
+  base::Json body = about(**found);
+  body["lock"] = word;
+  return write.done(body);
+}
+
+}  // namespace indurop::serve::answers

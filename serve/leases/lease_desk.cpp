@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/leases/lease_desk.h"
+
+#include <utility>
+
+#include "rt/clock.h"
+#include "serve/random_word.h"
+#include "tools/values/here_source.h"
+
+namespace indurop::serve {
+namespace {
+
+// The variables anew, in a store that was opened anew. False if the board is another one by now.
+template <class Held>
+bool bind(Held& held, const vars::Store& store) {
+  const vars::BlockHeader& header = store.header();
+  if (header.layout_hash != held.layout_hash || header.generation.load() != held.generation) {
+    return false;
+  }
+  for (std::size_t i = 0; i < held.names.size(); ++i) {
+    held.lease.values[i].variable = store.find(held.names[i]);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string LeaseDesk::take(const std::string& board, const std::string& who, const std::string& from,
+                            const std::string& what, const vars::Store& store, tools::Lease lease) {
+  Held held{board,
+            who,
+            from,
+            what,
+            {},
+            store.header().layout_hash,
+            store.header().generation.load(),
+            std::move(lease),
+            rt::now_ns() + tools::kLeaseNs};
+  for (const vars::HeldValue& value : held.lease.values) {
+    held.names.push_back(value.variable->name_hash);
+  }
+  const std::lock_guard guard(mutex_);
+  return all_.emplace(random_word(), std::move(held)).first->first;
+}
+
+bool LeaseDesk::renew(const std::string& board, const std::string& name, const std::string& who) {
+  look();
+  const std::lock_guard guard(mutex_);
+  const auto found = all_.find(name);
+  if (found == all_.end() || found->second.board != board || found->second.who != who) {
+    return false;
+  }
+  Held& held = found->second;
+  auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
+  if (!store || !bind(held, *store) || !tools::renew(held.lease, *store, tools::kLeaseNs)) {
+    note(held, "lost: somebody else has let one of them go or forced it, or the node was started anew");
+    all_.erase(found);
+    return false;
+  }
+  held.until_ns = rt::now_ns() + tools::kLeaseNs;
+  return true;
+}
+
+bool LeaseDesk::end(const std::string& board, const std::string& name, const std::string& who) {
+  const std::lock_guard guard(mutex_);
+  const auto found = all_.find(name);
+  if (found == all_.end() || found->second.board != board || found->second.who != who) {
+    return false;
+  }
+  Held& held = found->second;
+  auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
+  if (store && bind(held, *store)) {
+    tools::Context context;
+    context.node = board;
+    context.who = held.who;
+    context.from = held.from;
+    context.values = std::make_shared<tools::HereSource>(board, vars::Mode::ReadWrite);
+    tools::end(context, held.lease, *store);
+  }
+  note(held, "done");
+  all_.erase(found);
+  return true;
+}
+
+void LeaseDesk::look() {
+  const std::int64_t now = rt::now_ns();
+  const std::lock_guard guard(mutex_);
+  std::erase_if(all_, [&](const auto& one) {
+    if (one.second.until_ns > now) {
+      return false;
+    }
+    note(one.second, "ended: its client was not heard any more");
+    return true;
+  });
+}
+
+void LeaseDesk::note(const Held& held, const char* outcome) const {
+  AuditEntry entry;
+  entry.who = held.who;
+  entry.from = held.from;
+  entry.board = held.board;
+  entry.action = "release";
+  entry.what = held.what;
+  entry.outcome = outcome;
+  (void)audit_->note(entry);
+}
+
+}  // namespace indurop::serve

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// A word that nobody can guess: tokens, names of leases.
+
+#pragma once
+
+#include <string>
+
+namespace indurop::serve {
+
+// 32 letters, digits, '-' or '_'; empty if the system has no random numbers.
+std::string random_word();
+
+}  // namespace indurop::serve
