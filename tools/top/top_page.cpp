@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "explain/orders.h"
 #include "rt/clock.h"
 #include "tools/alarms/alarm_journal.h"
 #include "tools/alarms/alarm_list.h"
@@ -81,6 +82,30 @@ std::string event_of(const RunView& run, const OverrunSample& one) {
              : text;
 }
 
+std::string order_of(const scheduler::RunBlock& block, const explain::OrderFact& order) {
+  const std::int64_t since = std::max<std::int64_t>(order.node_ns - block.epoch_ns, 0);
+  std::string text = fmt::format("tick {}: {} {}{}", since / std::max<std::int64_t>(block.basic_period_ns, 1),
+                                 order.action, order.what, order.value.empty() ? "" : " = " + order.value);
+  text += fmt::format(", by {}{}", order.who, order.from.empty() ? "" : " on " + order.from);
+  return printable(order.reason.empty() ? text : fmt::format("{}: {}", text, order.reason));
+}
+
+// Overruns and what was ordered from outside in this run, oldest first.
+std::vector<TopEvent> newest_events(const std::string& node, const RunView& run) {
+  std::vector<TopEvent> all;
+  const scheduler::RunBlock& block = run.block();
+  for (const OverrunSample& one : run.overrun_log(kEvents)) {
+    all.push_back({block.epoch_ns + static_cast<std::int64_t>(one.tick) * block.basic_period_ns, event_of(run, one)});
+  }
+  const auto orders = explain::read_orders(node, block.started_wall_ns);
+  for (std::size_t i = orders.size() - std::min(orders.size(), kEvents); i < orders.size(); ++i) {
+    all.push_back({orders[i].node_ns, order_of(block, orders[i])});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const TopEvent& a, const TopEvent& b) { return a.time_ns < b.time_ns; });
+  all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(std::min(all.size(), kEvents)));
+  return all;
+}
+
 bool comes_before(const TopSample::Module& a, const TopSample::Module& b, TopOrder order) {
   switch (order) {
     case TopOrder::Load:
@@ -153,9 +178,7 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   if (before != nullptr && before->report.pid == sample.report.pid) {
     set_loads(sample, *before);
   }
-  for (const OverrunSample& one : run.overrun_log(kEvents)) {
-    sample.events.push_back(event_of(run, one));
-  }
+  sample.events = newest_events(node, run);
   const auto mirror = view_mirror(node);
   for (const auto& variable : mirror ? mirror->variables : std::vector<mirror::MirroredVariable>()) {
     sample.stale += variable.valid ? 0 : 1;
@@ -216,9 +239,9 @@ std::vector<TopLine> top_page(const TopSample& sample, const TopLook& look, int 
                      !one.well || !one.fault.empty() ? Style::Bad : if_any(one.overruns, Style::Warn), false});
   }
   if (events > 0) {
-    lines.push_back({fmt::format("LAST OVERRUNS  (sorted by {})", name_of(look.order)), Style::None, true});
-    for (const std::string& event : sample.events) {
-      lines.push_back({event, Style::Dim, false});
+    lines.push_back({fmt::format("LOG  (sorted by {})", name_of(look.order)), Style::None, true});
+    for (const TopEvent& event : sample.events) {
+      lines.push_back({event.text, Style::Dim, false});
     }
   }
   finish(lines, columns, rows);

@@ -27,6 +27,11 @@ enum class TopOrder { Load, Name, Overruns, Jitter };
 TopOrder next_order(TopOrder order) noexcept;
 const char* name_of(TopOrder order) noexcept;
 
+struct TopEvent {
+  std::int64_t time_ns = 0;  // of the node
+  std::string text;
+};
+
 // What was seen of a node at one time.
 struct TopSample {
   NodeReport report;
@@ -44,7 +49,7 @@ struct TopSample {
     double load = 0;  // share of a core since the sample before; of the first one: by the mean
   };
   std::vector<Module> modules;
-  std::vector<std::string> events;  // overruns, newest last
+  std::vector<TopEvent> events;  // overruns and orders, newest last
   std::vector<std::string> troubles;
   AlarmCounts alarms;
   std::size_t forces = 0;

@@ -25,7 +25,7 @@ def test_fits_a_terminal_of_80x24(setting):
     setting.start_node()
     screen = top(setting)
     screen.sees(has(f"node {setting.node}", "running for", "tick ", "MODULE", "modify", "output", "SIGSEGV at address 0x0",
-                    "LAST OVERRUNS", "tick 41: output ran 1.20 ms and was not done, behind modify with 2.50 ms", "q Quit"),
+                    "LOG ", "tick 41: output ran 1.20 ms and was not done, behind modify with 2.50 ms", "q Quit"),
                 "the page")
     lines = screen.lines()
     assert lines[-1].startswith("q Quit"), lines
@@ -33,6 +33,16 @@ def test_fits_a_terminal_of_80x24(setting):
     row = next(line for line in lines if line.startswith("modify"))
     assert len(heading) <= 80 and row[heading.index("OVERR") + 4] == "0", lines
     assert not screen.echoes()
+    screen.press("q")
+    assert screen.wait() == 0
+
+
+def test_its_log_says_who_ordered_what(setting):
+    setting.start_node()
+    screen = top(setting)
+    for words in (["set", "gain", "2.5"], ["force", "mode", "AUTO", "--reason", "a trial"]):
+        subprocess.run([setting.programs / "indurop", *words, "--node", setting.node], env=setting.environment, check=True)
+    screen.sees(has(": set knu::Robot::gain = 2.5, by ", ": force knu::Robot::mode = AUTO, by "), "the orders")
     screen.press("q")
     assert screen.wait() == 0
 
