@@ -21,6 +21,19 @@ const missed = (screen, size) => async () => {
 const runs_now = (page) => page.$$eval(".deployments .current th", (rows) => rows.map((row) => row.innerText.slice(0, 12)));
 
 await browser.run({
+  async "Variables that become others are shown anew"() {
+    await order("fake=2");
+    const page = await browser.open("variables?q=many", { width: 1280, height: 800 });
+    await sees(page, "2 of ");
+    await order("fake=5");
+    await sees(page, "5 of ");
+    await page.waitForFunction(() => [...document.querySelectorAll("[role='row'] .value")].some((one) => Number(one.innerText) > 0));
+    await page.close();
+  },
+
+  "A killed board is missed in words, and comes back": missed("wide", { width: 1280, height: 720 }),
+  "On a phone too": missed("phone", { width: 390, height: 844, dark: true }),
+
   async "Deployments are shown and compared, and the plant is rolled back"() {
     await order("deploy=2ms");
     const page = await browser.open("deployments", { width: 1280, height: 800 });
@@ -48,7 +61,4 @@ await browser.run({
     await page.waitForFunction((id) => document.querySelector(".deployments .current th").innerText.startsWith(id), {}, first);
     await page.close();
   },
-
-  "A killed board is missed in words, and comes back": missed("wide", { width: 1280, height: 720 }),
-  "On a phone too": missed("phone", { width: 390, height: 844, dark: true }),
 });

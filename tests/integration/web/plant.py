@@ -23,7 +23,7 @@ class Boards(PageServer):
 
     def __init__(self, options, folder):
         super().__init__(options, folder)
-        self.domain, self.agents = take_domain(options), {}
+        self.domain, self.agents, self.fake = take_domain(options), {}, None
 
     def deploy(self, period):
         (self.folder / "plant.xml").write_text(f"""<plant name="{self.node}"><domain>{self.domain % 200 + 1}</domain><external>off</external>
@@ -36,6 +36,18 @@ class Boards(PageServer):
         done = self.indurop("deploy", "plant.xml", "--health", "500ms", "--domain", str(self.domain), "--one-host")
         assert done.returncode == 0, done.stderr
 
+    def start_fake(self, many):
+        """The node that the server looks at, with so many variables besides its own; one that runs is ended."""
+        self.end_fake()
+        self.fake = subprocess.Popen([self.options.fake_node, self.node, "many", many], env=self.environment,
+                                     stdout=subprocess.PIPE, text=True)
+        assert self.fake.stdout.readline() == "ready\n"
+
+    def end_fake(self):
+        if self.fake:
+            self.fake.kill()
+            self.fake.wait(timeout=PATIENCE)
+
     def start_agent(self, name):
         self.agents[name] = subprocess.Popen(
             [f"{self.options.bin}/indurop-agent", "--board", f"{self.node}_{name}", "--domain", str(self.domain), "--one-host", "-q"],
@@ -43,6 +55,9 @@ class Boards(PageServer):
 
     def obey(self, word):
         what, name = word.split("=")
+        if what == "fake":
+            self.start_fake(name)
+            return
         if what == "deploy":
             self.deploy(name)
         elif what == "start":
@@ -52,6 +67,7 @@ class Boards(PageServer):
             self.agents.pop(name).wait()
 
     def end(self):
+        self.end_fake()
         for agent in self.agents.values():
             agent.terminate()
             agent.wait(timeout=PATIENCE)
