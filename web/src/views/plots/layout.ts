@@ -12,12 +12,13 @@ export interface Layout {
 export type Mode = "strip" | "single" | "normal" | "auto" | "recording";
 export const MODES: Mode[] = ["strip", "single", "normal", "auto", "recording"];
 
-// m is the mode, t the trigger, pre and post how many ticks before and after it.
+// m is the mode, t the trigger, pre and post how many ticks before and after it, e an expression with a chart of its own.
 export interface Wish {
   mode: Mode;
   trigger: string;
   pre: number;
   post: number;
+  expressions: string[];
 }
 
 export function wish_of(query: URLSearchParams): Wish {
@@ -26,7 +27,7 @@ export function wish_of(query: URLSearchParams): Wish {
     return Number.isInteger(given) && given >= 0 && given < 10_000 ? given : otherwise;
   };
   const mode = MODES.find((one) => one === query.get("m")) ?? "strip";
-  return { mode, trigger: query.get("t") ?? "", pre: ticks("pre", 100), post: ticks("post", 400) };
+  return { mode, trigger: query.get("t") ?? "", pre: ticks("pre", 100), post: ticks("post", 400), expressions: [...new Set(query.getAll("e"))] };
 }
 
 export const WINDOWS_S = [5, 10, 30, 60, 300, 1200];

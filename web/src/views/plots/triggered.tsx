@@ -6,6 +6,7 @@ import type uPlot from "uplot";
 import type { BoardSummary } from "../../api/types";
 import { change_query } from "../../ui/address";
 import { plural, span } from "../../ui/format";
+import type { Part } from "../../ui/paths";
 import { Picture, follow } from "./capture";
 import { Chart, type Line, type Shown } from "./chart";
 import { save_png, save_text } from "./export";
@@ -25,6 +26,16 @@ function Ticks({ label, name, value }: { label: string; name: string; value: num
   return (
     <label class="choice">{label}{" "}
       <input type="number" class="ticks" min={0} max={9999} value={value} onChange={(event) => change_query({ [name]: event.currentTarget.value })} /></label>);
+}
+
+// "error" of "error = target - actual", as the server names the channel.
+function channel_of(expression: string): string {
+  return (/^([^=<>!]+)=(?!=)/.exec(expression)?.[1] ?? expression).trim();
+}
+
+function lines_of(picture: Picture | null, expression: string): Line[] {
+  const lines = picture?.capture.lines.filter(({ channel }) => channel === channel_of(expression)) ?? [];
+  return lines.map(({ name, unit }) => ({ name, part: { unit, form: { kind: "f64", size: 8 } } as Part }));
 }
 
 const EMPTY = { size: 0, times: new Float64Array(0), column: () => undefined, index_at: () => 0 };
@@ -47,13 +58,14 @@ export function Triggered({ board, wish, charts, drawable, line, remove, drop }:
   const [marks, set_marks] = useState<number[]>([]);
   const [drawn, draw] = useState(0);
   useEffect(() => draw((n) => n + 1), [picture, zoomed]);
+  const wanted = [...drawable, ...wish.expressions];
   const plots = useRef(new Map<number, uPlot>());
-  const key = [board.board, board.layout, wish.mode, wish.trigger, wish.pre, wish.post, drawable.join()].join(" ");
+  const key = [board.board, board.layout, wish.mode, wish.trigger, wish.pre, wish.post, wanted.join("\n")].join(" ");
   useEffect(() => {
-    if (held || drawable.length === 0) return;
+    if (held || wanted.length === 0) return;
     refuse("");
     wait(wish.trigger ? `Waiting for: ${wish.trigger}` : "Taking a picture ...");
-    return follow(board.board, drawable, wish, {
+    return follow(board.board, wanted, wish, {
       picture: (next) => { show(next); wait(""); refuse(""); },
       waiting: wait,
       refused: (why) => { refuse(why); wait(""); },
@@ -73,17 +85,30 @@ export function Triggered({ board, wish, charts, drawable, line, remove, drop }:
         {wish.mode === "single" ? <button type="submit">Again</button>
           : <button type="button" aria-pressed={held} onClick={() => hold(!held)}>{held ? "Go on" : "Hold"}</button>}
         {zoomed && <button type="button" onClick={() => zoom(null)}>All</button>}
-        <button type="button" disabled={!picture} onClick={() => picture && save_text(picture.csv(drawable))}>CSV</button>
+        <button type="button" disabled={!picture} onClick={() => picture && save_text(picture.csv([...drawable, ...wish.expressions.flatMap((one) => lines_of(picture, one).map(({ name }) => name))]))}>CSV</button>
         <button type="button" disabled={!picture} onClick={() => save_png([...plots.current.values()])}>PNG</button>
         {marks.length > 0 && <button type="button" onClick={() => set_marks([])}>Clear marks</button>}
       </form>
+      <form class="bar" onSubmit={(event) => {
+        event.preventDefault();
+        const field = event.currentTarget.elements.namedItem("expression") as HTMLInputElement;
+        if (field.value.trim()) change_query({ e: [...wish.expressions, field.value.trim()] });
+        field.value = "";
+      }}>
+        <label class="choice trigger">Expression{" "}
+          <input type="text" name="expression" placeholder="error = abs(target - actual)" spellcheck={false} autocomplete="off" /></label>
+        <button type="submit">Add</button>
+        {wish.expressions.map((one) => (
+          <button key={one} type="button" aria-label={`Remove ${one}`} onClick={() => change_query({ e: wish.expressions.filter((other) => other !== one) })}>{one} {"\u00d7"}</button>))}
+      </form>
       <p class="quiet" role="status">{[picture && said(picture), held ? "Held." : waiting].filter(Boolean).join(" ")}</p>
       {refused && <p class="bad">{refused}</p>}
-      {charts.map((chart, index) => (
-        <Chart key={index} index={index} lines={chart.map(line)} recorder={samples} relative shown={shown} drawn={drawn}
+      {[...charts.map((chart) => chart.map(line)), ...wish.expressions.map((one) => lines_of(picture, one))].map((lines, index) => (
+        <Chart key={index} index={index} lines={lines} recorder={samples} relative shown={shown} drawn={drawn}
           marks={marks} zoom={zoom} live={() => { zoom(null); set_marks([]); }}
           mark={(at) => set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
-          remove={(name) => remove(index, name)} drop={(name) => drop(name, index)}
+          remove={(name) => (index < charts.length ? remove(index, name) : change_query({ e: wish.expressions.filter((_, i) => i !== index - charts.length) }))}
+          drop={(name) => drop(name, Math.min(index, charts.length))}
           made={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
     </>);
 }
