@@ -64,6 +64,15 @@ void begin_run(scheduler::RunBlock& run, const scheduler::RunBlockSetup& setup, 
   scheduler::init_run_block(run, setup);
 }
 
+auto setup_of(const Options& options, const Checked& checked, const Rights& rights) {
+  auto setup = make_run_setup(checked.config, checked.check, options.node,
+                              {rights.core, rights.realtime() || options.simulation.on});
+  setup.deployment = options.deployment;
+  setup.board = options.board;
+  setup.plant_file = options.board.empty() ? "" : std::filesystem::absolute(options.config).string();
+  return setup;
+}
+
 }  // namespace
 
 ClaimedName::ClaimedName(std::string node, vars::NodeLock lock) : node_(std::move(node)), lock_(std::move(lock)) {
@@ -126,11 +135,7 @@ Result<Prepared, Ending> prepare(const Options& options, const Checked& checked,
     return no_memory("the shared variables", made.error(), console);
   }
   auto store = std::make_unique<vars::Store>(std::move(made).value());
-  auto setup = make_run_setup(checked.config, checked.check, options.node,
-                              {rights->core, rights->realtime() || options.simulation.on});
-  setup.deployment = options.deployment;
-  setup.board = options.board;
-  setup.plant_file = options.board.empty() ? "" : std::filesystem::absolute(options.config).string();
+  auto setup = setup_of(options, checked, *rights);
   auto file = vars::RunFile::create(options.node, scheduler::run_block_size(setup));
   if (!file) {
     return no_memory("the run's shared memory", file.error(), console);
