@@ -31,7 +31,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
 
 }  // namespace
 
-Server::Server(tools::ServeOptions options, GateSettings gate, std::string version)
+Server::Server(tools::ServeOptions options, GateSettings gate, const std::string& version)
     : options_(std::move(options)),
       gate_(std::move(gate)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
@@ -64,7 +64,7 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
     case Pace::Holds:
       return hand_over(holds_, std::move(match), ticket);
     case Pace::Wait:
-      return let_wait(std::move(match), ticket);
+      return let_wait(match, ticket);
     case Pace::Plant:
       return ask_plant(std::move(match), ticket);
     case Pace::PlantOrders:
@@ -139,7 +139,7 @@ std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
   return std::nullopt;
 }
 
-std::optional<Reply> Server::let_wait(Match match, Ticket ticket) {
+std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
   constexpr std::size_t kMost = 4;
   for (std::size_t i = 0; i < kMost; ++i) {
     if (i == waiting_.size()) {

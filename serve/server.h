@@ -27,7 +27,7 @@ namespace indurop::serve {
 
 class Server final : public House {
  public:
-  Server(tools::ServeOptions options, GateSettings gate, std::string version);
+  Server(tools::ServeOptions options, GateSettings gate, const std::string& version);
 
   // Serves until a signal ends it. Returns the exit code.
   int run();
@@ -44,7 +44,7 @@ class Server final : public House {
     Worker worker;
   };
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
-  std::optional<Reply> let_wait(Match match, Ticket ticket);
+  std::optional<Reply> let_wait(const Match& match, Ticket ticket);
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
   std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
