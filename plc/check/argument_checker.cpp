@@ -93,8 +93,10 @@ void CallChecker::instance_input(Expression& given, const Variable& parameter) {
 }
 
 // The function for the types of the inputs. All of one generic type have one type, as in the library.
-const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree) {
+// `wanted`: of the result, which numbers without a type take where nothing else says one.
+const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree, const Type* wanted) {
   std::map<std::string, const Type*> types;
+  const std::string of_result = tree.result ? generic_name(*tree.result) : "";
   for (const bool bare : {false, true}) {  // numbers without a type take that of the others
     std::size_t position = 0;
     for (Argument& argument : call.arguments) {
@@ -104,11 +106,16 @@ const Pou* CallChecker::generic_function(Expression& call, const ast::Pou& tree)
       }
       const std::string generic = generic_name(parameter->type);
       Expression looked_at = *argument.value;  // the call itself is checked when its function is known
-      const Type* type = expressions_.value(looked_at, types[generic]);
+      const Type*& known = types[generic];
+      const bool asked = known == nullptr && bare && generic == of_result && wanted != nullptr;
+      const Type* type = expressions_.value(looked_at, asked ? wanted : known);
       if (type == nullptr) {
         return nullptr;
       }
-      const Type*& known = types[generic];
+      if (asked && looked_at.resolved->untyped && generic_takes(generic, *wanted) &&
+          adapts(*looked_at.resolved->constant, *wanted)) {
+        known = wanted->range ? context_.elementary(wanted->elementary) : wanted;
+      }
       const bool adapts_to =
           known != nullptr && looked_at.resolved->untyped && adapts(*looked_at.resolved->constant, *known);
       const Type* common = known == nullptr || adapts_to ? known : context_.common_type(*known, *type);

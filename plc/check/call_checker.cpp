@@ -128,7 +128,7 @@ const Type* CallChecker::function(Expression& call, const Type* wanted, bool who
   }
   if (const auto generic = context_.program.generic_functions.find(upper(callee.name));
       generic != context_.program.generic_functions.end()) {
-    const Pou* pou = generic_function(call, *generic->second);
+    const Pou* pou = generic_function(call, *generic->second, wanted);
     return pou != nullptr ? user_function(call, *pou) : nullptr;
   }
   if (const Type* type = nullptr; address_call(call, type)) {

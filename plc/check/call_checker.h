@@ -49,7 +49,7 @@ class CallChecker {
   static std::vector<const Variable*> by_position(const ast::Expression& call, const Pou& pou);
   bool all_given(const ast::Expression& call, const Pou& pou);
   void no_function(const ast::Expression& call);
-  const Pou* generic_function(ast::Expression& call, const ast::Pou& tree);
+  const Pou* generic_function(ast::Expression& call, const ast::Pou& tree, const Type* wanted);
   void instance_input(ast::Expression& given, const Variable& parameter);
   bool may_run(const ast::Expression& callee);
   void user_block(ast::Expression& call, const Pou& pou);

@@ -229,7 +229,9 @@ const Type* CallChecker::choose(Expression& at, const std::vector<const LibraryF
                                       first.inputs.size(), inputs.size()));
   } else {
     const bool scales = first.name == "MUL" || first.name == "DIV";
-    const std::string unit = scales ? std::string() : missing_unit(inputs);
+    const bool turned = first.name == "MUL" && inputs[1]->type->is(Elementary::Time) &&
+                        inputs[0]->type->kind == Type::Kind::Elementary && is_num(inputs[0]->type->elementary);
+    const std::string unit = turned ? "; write the TIME first" : scales ? std::string() : missing_unit(inputs);
     context_.error(at.at, fmt::format("{} does not take {}{}", first.name, types_of(inputs),
                                       unit.empty() ? ", convert them" : unit));
   }

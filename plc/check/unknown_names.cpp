@@ -76,7 +76,13 @@ void ExpressionChecker::no_member(const Expression& expression, const Type& bloc
 // Why the name is none.
 void CallChecker::no_function(const Expression& call) {
   const Expression& callee = call.operands[0];
-  if (context_.pou != nullptr && context_.pou->find(upper(callee.name)) != nullptr) {
+  const Variable* variable = context_.pou != nullptr ? context_.pou->find(upper(callee.name)) : nullptr;
+  if (variable != nullptr && context_.program.pou_names.contains(upper(callee.name))) {
+    context_.error(call.at, fmt::format("the variable '{0}' of {1} hides the function {0}, rename one of them",
+                                        callee.name, to_string(variable->declared->at)));
+    return;
+  }
+  if (variable != nullptr) {
     context_.error(call.at,
                    fmt::format("'{}' is not a function; the call of a function block stands alone, its result is "
                                "in an output",

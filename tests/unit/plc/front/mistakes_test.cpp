@@ -66,6 +66,18 @@ TEST(PlcMistakes, A_call_without_names_gives_all_inputs) {
   }
 }
 
+TEST(PlcMistakes, A_number_given_to_a_function_of_any_type_takes_the_type_that_is_wanted) {
+  const std::string head =
+      "FUNCTION Twice : ANY_NUM VAR_INPUT x : ANY_NUM; END_VAR Twice := x + x; END_FUNCTION "
+      "FUNCTION More : INT VAR_INPUT x : ANY_NUM; END_VAR More := TO_INT(x); END_FUNCTION "
+      "PROGRAM Main VAR r : REAL; u : UINT; s : SINT; i : INT; p : INT(0..9); b : BOOL; END_VAR ";
+  for (const char* text : {"r := Twice(1.5);", "r := Twice(3);", "u := Twice(3);", "s := Twice(3);", "i := Twice(3);",
+                           "p := Twice(3);", "i := More(1.5);", "b := Twice(300) > 500;", "u := Twice(MAX(1, 2));"}) {
+    EXPECT_EQ(wrong(head + text + " END_PROGRAM"), "") << text;
+  }
+  EXPECT_THAT(wrong(head + "u := Twice(-3); END_PROGRAM"), HasSubstr("error"));
+}
+
 TEST(PlcMistakes, An_action_is_declared_once) {
   const std::string twice =
       " VAR x : BOOL; END_VAR ACTION Act: x := TRUE; END_ACTION ACTION act: x := FALSE; END_ACTION Act();";
@@ -99,6 +111,7 @@ TEST(PlcMistakes, The_message_names_the_mistake) {
            Row{"i := F;", "'F' is a function, call it: F(...)"},
            Row{"i := ABS;", "'ABS' is a function, call it: ABS(...)"},
            Row{"Init(3);", "Init is a method of B, call it of an instance: name.Init(...)"},
+           Row{"t := 5 * T#1s;", "MUL does not take INT and TIME; write the TIME first"},
            Row{"i := b.Init;", "'Init' is a method of B, call it: Init(...)"},
            Row{"i := b(a := 3);", "'b' is not a function; the call of a function block stands alone"},
            Row{"i.%X99 := TRUE;", "an INT has no such bit"},
@@ -111,6 +124,9 @@ TEST(PlcMistakes, The_message_names_the_mistake) {
     EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));
   }
+  EXPECT_THAT(wrong("FUNCTION Q : INT VAR_INPUT a : INT; END_VAR Q := a; END_FUNCTION PROGRAM Main VAR q, i : INT; END_VAR "
+                    "i := Q(1); END_PROGRAM"),
+              HasSubstr("the variable 'Q' of in.st:1:93 hides the function Q, rename one of them"));
   EXPECT_EQ(wrong(head + "t := T#25h15m; t := T#1h59m59s999ms; {region 'a++'} i.%X3 := t > T#1s; END_PROGRAM"), "");
 }
 
