@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plc/check/call_checker.h"
+#include "plc/check/lifetime.h"
 #include "plc/model/make.h"
 
 namespace indurop::plc {
@@ -96,6 +97,7 @@ bool CallChecker::address_call(Expression& call, const Type*& type) {
       return true;
     }
     out.intrinsic = Resolved::Intrinsic::Address;
+    context_.pou->points_to_own = context_.pou->points_to_own || (found != nullptr && ends_with_call(of));
     type = found == nullptr
                ? nullptr
                : pointer_to(context_, *found, name == "ADR" ? ast::PointerKind::PointerTo : ast::PointerKind::RefTo);

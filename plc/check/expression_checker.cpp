@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "plc/check/call_checker.h"
+#include "plc/check/loss.h"
 #include "plc/model/characters.h"
 
 namespace indurop::plc {
@@ -190,11 +191,7 @@ bool ExpressionChecker::assigned(Expression& expression, const Type& to) {
     context_.error(expression.at, fmt::format("{} is outside of {}, use a value inside", *number, to_string(to)));
     return false;
   }
-  if (const auto* text = known != nullptr ? std::get_if<std::string>(known) : nullptr;
-      text != nullptr && to.is(Elementary::String) && text->size() > to.length) {
-    context_.warning(expression.at,
-                     fmt::format("the text has {} characters and is cut to {}", text->size(), to.length));
-  }
+  warn_of_loss(context_, expression, *type, to);
   return true;
 }
 
@@ -249,7 +246,9 @@ const Type* ExpressionChecker::bit(Expression& expression) {
     return part(expression, *base);
   }
   if (!has_bits || expression.bit >= bits_of(base->elementary)) {
-    context_.error(expression.at, with_article(*base) + " has no such bit");
+    context_.error(expression.at,
+                   has_bits ? fmt::format("{} has the bits 0 to {}", with_article(*base), bits_of(base->elementary) - 1)
+                            : with_article(*base) + " has no bits");
     return nullptr;
   }
   return context_.elementary(Elementary::Bool);

@@ -9,6 +9,7 @@
 
 #include "plc/check/call_checker.h"
 #include "plc/check/expression_checker.h"
+#include "plc/check/lifetime.h"
 #include "plc/model/make.h"
 
 namespace indurop::plc {
@@ -97,6 +98,7 @@ bool ExpressionChecker::bind(Expression& expression, const Type& to) {
     complain_of_range(expression.at, *type, to);
     return false;
   }
+  context_.pou->points_to_own = context_.pou->points_to_own || ends_with_call(expression);
   const Place at = expression.at;
   std::vector<ast::Argument> arguments;
   arguments.push_back(make::argument("", std::move(expression)));

@@ -84,6 +84,7 @@ struct Pou {
   std::set<std::string> labels;
   bool result_assigned = false;
   bool calls_blocks = false;                     // which need to know the scan
+  bool points_to_own = false;                    // there are addresses of variables that end with the call
   std::map<std::string, ast::Expression> given;  // "INSTANCE.PARAMETER", a VAR_IN_OUT, in the last call checked
 
   Global* instance = nullptr;  // of a program that others use by its name: that one

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "plc/check/lifetime.h"
 #include "plc/model/make.h"
 
 namespace indurop::plc {
@@ -201,7 +202,9 @@ void StatementChecker::bind(Statement& one) {
   if (to != nullptr && !to->is_reference()) {
     context_.error(one.at, fmt::format("REF= sets a REFERENCE TO, not {}", with_article(*to)));
   } else if (to != nullptr) {
-    expressions_.assigned(*one.value, *to);
+    if (expressions_.assigned(*one.value, *to)) {
+      look_at_lifetime(context_, one);
+    }
     const bool result = one.target->resolved->meaning == Resolved::Meaning::FunctionResult;
     context_.pou->result_assigned = context_.pou->result_assigned || result;
   }
@@ -256,7 +259,9 @@ void StatementChecker::assign(Statement& one) {
     one.value = make::call(one.at, make::name(one.at, fmt::format("BOOL_TO_{}", name_of(to->elementary))),
                            std::move(arguments));
   }
-  expressions_.assigned(*one.value, *to);
+  if (expressions_.assigned(*one.value, *to)) {
+    look_at_lifetime(context_, one);
+  }
 }
 
 // fb := other; takes over all its variables, as CODESYS does.

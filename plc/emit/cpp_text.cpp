@@ -42,8 +42,8 @@ bool is_generated(std::string_view name) noexcept {
   const bool numbered = letters.size() < name.size();
   const auto is = [&](std::string_view one) { return numbered && letters == one; };
   return is("one_") || is("case_") || is("loop_") || is("counter_") || is("end_") || is("begin_") || is("enabled_") ||
-         is("operand_") || name == "result" || name == "guard_call" || name == "calls_inside" || name == "show" ||
-         name == "debugger" || name.starts_with("debug_") || name.starts_with("method_") ||
+         is("operand_") || name == "result" || name == "guard_call" || name == "lifetime" || name == "calls_inside" ||
+         name == "show" || name == "debugger" || name.starts_with("debug_") || name.starts_with("method_") ||
          name.starts_with("getter_") || name.starts_with("setter_") || name.starts_with("kept_") ||
          name.starts_with("out_") || name.ends_with("_result") || name.ends_with("_edge") || name.ends_with("_before");
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/lifetime.h"
 #include "plc/emit/object_emitter.h"
 #include "plc/emit/operand_order.h"
 #include "plc/library/standard.h"
@@ -215,7 +216,8 @@ std::string ExpressionEmitter::intrinsic(const Expression& expression) const {
     const bool itself = of.kind == Expression::Kind::Deref && pointer == &of.operands[0];
     return itself ? raw(*pointer) : fmt::format("iec::address_in({}, {})", raw(*pointer), raw(of));
   }
-  return fmt::format("iec::address({}, {})", raw(of), raw(ExpressionChecker::root_of(of)));
+  return fmt::format("iec::address({}, {}{})", raw(of), raw(ExpressionChecker::root_of(of)),
+                     ends_with_call(of) ? ", lifetime" : "");
 }
 
 // An element of what a pointer leads to: only that has to be there, not the whole array.

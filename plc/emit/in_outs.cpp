@@ -7,25 +7,6 @@
 
 namespace indurop::plc {
 
-bool outlasts_call(const ast::Expression& expression) {
-  if (expression.kind == ast::Expression::Kind::Deref ||
-      (expression.type != nullptr && expression.type->is_reference())) {
-    return false;
-  }
-  const Resolved& resolved = *expression.resolved;
-  if (resolved.meaning == Resolved::Meaning::Value && !expression.operands.empty()) {
-    return outlasts_call(expression.operands[0]);
-  }
-  const Variable* variable = resolved.variable;
-  if (resolved.meaning != Resolved::Meaning::Variable || variable == nullptr) {
-    return resolved.meaning != Resolved::Meaning::FunctionResult && resolved.meaning != Resolved::Meaning::Value;
-  }
-  const bool leads = variable->type != nullptr && variable->type->kind == Type::Kind::Pointer;
-  const bool of_call =
-      variable->owner->is_callable() && !variable->declared->is_static && !variable->declared->of_instance;
-  return !leads && !of_call && variable->section != ast::Section::Temp && variable->section != ast::Section::InOut;
-}
-
 void forget_in_outs(const Type& block, const std::string& instance, TextWriter& out) {
   if (block.pou == nullptr) {
     return;

@@ -10,9 +10,6 @@
 
 namespace indurop::plc {
 
-// Whether the variable is still there when the body that names it has run.
-[[nodiscard]] bool outlasts_call(const ast::Expression& expression);
-
 // Of an instance that took over the variables of another one: what was given to that one is not its own.
 void forget_in_outs(const Type& block, const std::string& instance, TextWriter& out);
 

@@ -80,6 +80,13 @@ std::string cpp_name_of(const Pou& pou) {
   return cpp_name(std::string_view(pou.name));
 }
 
+// Of the call, for pointers to its variables.
+void lifetime(const Pou& pou, TextWriter& out) {
+  if (pou.points_to_own) {
+    out.line("const iec::Lifetime lifetime;");
+  }
+}
+
 void declare_block(const Pou& pou, TextWriter& out) {
   out.open("struct " + cpp_name_of(pou) + extends(pou));
   members(pou, out);
@@ -123,6 +130,7 @@ void code(const Pou& pou, const BodyParts& parts, TextWriter& out, const Probes&
 void define_block(const Pou& pou, TextWriter& out, const Probes& probes) {
   const BodyParts parts(pou, probes.debug == nullptr);
   out.open(fmt::format("inline void {}::operator()([[maybe_unused]] const iec::Scan& scan)", cpp_name_of(pou)));
+  lifetime(pou, out);
   locals(pou, parts, out);
   code(pou, parts, out, probes);
   out.close();
@@ -140,6 +148,7 @@ void define_callable(const Pou& pou, TextWriter& out, const Probes& probes) {
   if (pou.called_unseen) {
     out.line(fmt::format("const iec::Call guard_call(calls_inside, {});", cpp_place(pou.tree->at, pou.title())));
   }
+  lifetime(pou, out);
   if (pou.calls_blocks) {
     out.line("const iec::Scan scan{irp::release_ns()};");
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/lifetime.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/emit/in_outs.h"
 #include "plc/emit/loop_check.h"

@@ -79,6 +79,9 @@ void attempt(Place place, To& to, const From& from) {
   using Wanted = std::remove_pointer_t<decltype(detail::instance_of(place, to))>;
   auto* const instance = detail::instance_of(place, from);
   detail::lead_to(to, instance == nullptr ? nullptr : dynamic_cast<Wanted*>(instance));
+  if constexpr (requires { to.call = from.call; }) {
+    to.call = from.call;
+  }
 }
 
 // A call of a method that the text does not name: through an interface, or of a function block that extends another.

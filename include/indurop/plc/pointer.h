@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/plc/fault.h>
+#include <indurop/plc/lifetime.h>
 
 #include <compare>
 #include <cstddef>
@@ -15,14 +16,16 @@ namespace indurop::iec {
 template <class T>
 struct Pointer {
   char* base = nullptr;     // of the variable
-  std::int64_t size = 0;    // its bytes
+  std::uint32_t size = 0;   // its bytes
+  std::uint32_t call = 0;   // the call whose variable it is; 0: it is there for good
   std::int64_t offset = 0;  // of the value pointed at, in bytes; may lie outside until it is used
 
   Pointer() = default;
-  Pointer(char* variable, std::int64_t bytes, std::int64_t at) noexcept : base(variable), size(bytes), offset(at) {}
+  Pointer(char* variable, std::uint32_t bytes, std::int64_t at, std::uint32_t of_call = 0) noexcept
+      : base(variable), size(bytes), call(of_call), offset(at) {}
   template <class U>
   Pointer(const Pointer<U>& other) noexcept  // NOLINT(google-explicit-constructor): as the language converts
-      : base(other.base), size(other.size), offset(other.offset) {}
+      : base(other.base), size(other.size), call(other.call), offset(other.offset) {}
 
   [[nodiscard]] std::uintptr_t address() const noexcept {
     return base == nullptr ? 0 : reinterpret_cast<std::uintptr_t>(base) + static_cast<std::uintptr_t>(offset);
@@ -41,13 +44,21 @@ auto operator<=>(const Pointer<A>& a, const Pointer<B>& b) noexcept {
 // ADR(x), where x lies in the variable `whole`.
 template <class T, class Whole>
 Pointer<T> address(T& value, Whole& whole) noexcept {
+  static_assert(sizeof(Whole) <= UINT32_MAX);
   char* const base = reinterpret_cast<char*>(&whole);
-  return {base, static_cast<std::int64_t>(sizeof(Whole)), reinterpret_cast<char*>(&value) - base};
+  return {base, static_cast<std::uint32_t>(sizeof(Whole)), reinterpret_cast<char*>(&value) - base};
+}
+// The same of a variable of this call.
+template <class T, class Whole>
+Pointer<T> address(T& value, Whole& whole, const Lifetime& call) noexcept {
+  Pointer<T> out = address(value, whole);
+  out.call = call.number();
+  return out;
 }
 // ADR(p^.x)
 template <class T, class Whole>
 Pointer<T> address_in(const Pointer<Whole>& pointer, T& value) noexcept {
-  return {pointer.base, pointer.size, reinterpret_cast<char*>(&value) - pointer.base};
+  return {pointer.base, pointer.size, reinterpret_cast<char*>(&value) - pointer.base, pointer.call};
 }
 
 // p + n: n bytes on, whatever it points at.
@@ -64,6 +75,9 @@ Element& element(Place place, const Pointer<T>& pointer, std::int64_t index) {
   constexpr auto kBytes = static_cast<std::int64_t>(sizeof(Element));
   if (pointer.base == nullptr) [[unlikely]] {
     fail(place, "a pointer that is NULL is used");
+  }
+  if (pointer.call != 0 && !Lifetime::lasts(pointer.call)) [[unlikely]] {
+    fail(place, "a pointer to a variable of a call that has ended is used");
   }
   std::int64_t begin = 0;
   const bool far =

@@ -85,8 +85,12 @@ TEST(PlcFaults, Name_their_place) {
         Row{16, "faults.st:67:9: a pointer that is NULL is used in Main"},
         Row{17, "faults.st:68:18: a pointer that is NULL is used in Main"},
         Row{18, "faults.st:69:9: a method of an interface variable that is NULL is called in Main"},
-        Row{19, "faults.st:82:8: more than 100 calls of methods inside each other (recursion) in Ring.Step"},
-        Row{20, "faults.st:90:14: index 4 is outside of 1..3 in Element"}}) {
+        Row{19, "faults.st:86:8: more than 100 calls of methods inside each other (recursion) in Ring.Step"},
+        Row{20, "faults.st:94:14: index 4 is outside of 1..3 in Element"},
+        Row{21, "faults.st:118:24: a pointer to a variable of a call that has ended is used in Keeper.Use"},
+        Row{22, "faults.st:119:29: a pointer to a variable of a call that has ended is used in Keeper.Use"},
+        Row{23, "faults.st:75:59: a pointer to a variable of a call that has ended is used in Main"},
+        Row{24, "faults.st:100:28: a pointer to a variable of a call that has ended is used in Keeper"}}) {
     EXPECT_EQ(fault_of(which), text) << which;
   }
 }

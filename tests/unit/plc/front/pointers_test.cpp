@@ -11,6 +11,7 @@ namespace indurop::plc {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::wrong;
 
 TEST(PlcPointers, A_pointer_leads_to_a_subrange_only_if_it_has_its_limits) {
@@ -31,6 +32,34 @@ TEST(PlcPointers, A_pointer_leads_to_a_subrange_only_if_it_has_its_limits) {
   }
   EXPECT_EQ(wrong(pointing("mine := REF(p); own := ADR(b[2]); q := REF(i); bytes := ADR(p); mine^ := i; i := own^;")),
             "");
+}
+
+TEST(PlcPointers, What_outlives_a_call_is_not_led_to_its_variables) {
+  const auto keeping = [](const std::string& code) {
+    return "INTERFACE IOne METHOD Go END_METHOD END_INTERFACE\n"
+           "FUNCTION_BLOCK One IMPLEMENTS IOne METHOD Go END_METHOD END_FUNCTION_BLOCK\n"
+           "TYPE Box : STRUCT p : POINTER TO INT; END_STRUCT END_TYPE\n"
+           "FUNCTION_BLOCK Keeper\n"
+           "VAR p : POINTER TO INT; r : REFERENCE TO INT; box : Box; one : IOne; mine : INT; own : One; END_VAR\n"
+           "METHOD Keep : POINTER TO INT\nVAR_IN_OUT given : INT; END_VAR VAR_INPUT n : INT; END_VAR\n"
+           "VAR x : INT; q : POINTER TO INT; list : ARRAY[1..2] OF POINTER TO INT; seen : IOne; "
+           "END_VAR\n" +
+           code + "\nEND_METHOD\nEND_FUNCTION_BLOCK\nPROGRAM Main VAR k : Keeper; END_VAR END_PROGRAM\n";
+  };
+  const std::string text = "is gone when the call is over";
+  for (const char* code :
+       {"p := ADR(x);", "p := ADR(n);", "r REF= x;", "box.p := ADR(x);", "Keep := ADR(x);", "p := REF(x);"}) {
+    EXPECT_THAT(testing::messages(testing::compiled(keeping(code))), HasSubstr(text)) << code;
+  }
+  for (const char* code : {"q := ADR(x);", "list[1] := ADR(x);", "p := ADR(mine);", "p := ADR(given);",
+                           "Keep := ADR(mine);", "p := q;", "p := ADR(box.p^);", "r REF= mine;"}) {
+    EXPECT_EQ(wrong(keeping(code)), "") << code;
+    EXPECT_THAT(testing::messages(testing::compiled(keeping(code))), Not(HasSubstr(text))) << code;
+  }
+  const std::string brief =
+      keeping("one := brief;").replace(keeping("").find("VAR x : INT;"), 3, "VAR_TEMP brief : One; END_VAR VAR");
+  EXPECT_THAT(wrong(brief), HasSubstr("this instance is gone when the call is over"));
+  EXPECT_EQ(wrong(keeping("one := own; seen := own;")), "");
 }
 
 }  // namespace

@@ -85,6 +85,21 @@ TEST(PlcWarnings, A_division_of_whole_numbers_where_a_REAL_is_wanted) {
             "");
 }
 
+TEST(PlcWarnings, Whole_numbers_that_lose_something_before_they_become_more) {
+  const std::string head = "PROGRAM Main VAR x : REAL; i, n : INT; d : DINT; l : LINT; u : UINT; END_VAR ";
+  const auto of = [&](const std::string& text) { return warnings(head + text + " END_PROGRAM"); };
+  for (const char* text : {"x := i / 2;", "x := -(i / n) + 1;", "x := INT_TO_REAL(n) + i / 2; x := i / n * 2;"}) {
+    EXPECT_THAT(of(text), HasSubstr("this is a division of whole numbers, its remainder is lost")) << text;
+  }
+  for (const char* text : {"d := n * 30000;", "d := n * i + 1;", "x := n * 3;", "l := d * d;"}) {
+    EXPECT_THAT(of(text), HasSubstr("so it wraps where the result does not fit")) << text;
+  }
+  EXPECT_THAT(of("d := n * 30000;"), HasSubstr("calculated as INT"));
+  EXPECT_THAT(of("x := INT_TO_REAL(i / 2); x := INT_TO_REAL(i) / 2; d := INT_TO_DINT(n) * 30000; d := n; n := n * i; "
+                 "i := i / 2; d := n MOD 7 + 1; x := 6 / 3; d := 300 * 300; x := d; u := u * 2;"),
+              Not(HasSubstr("whole numbers, its")));
+}
+
 TEST(PlcWarnings, A_loop_that_nothing_ends) {
   const std::string head = "PROGRAM Main VAR i : INT; END_VAR ";
   for (const char* text : {"WHILE TRUE DO i := i + 1; END_WHILE;", "REPEAT i := i + 1; UNTIL FALSE END_REPEAT;",
