@@ -258,7 +258,6 @@ class TypeBuilder {
           !why.empty() || (spec.overlaps && field.initial)) {
         context_.error(
             field.at, why.empty() ? "a field of a UNION has no initial value, because the others have its place" : why);
-        fine = false;
       }
       const bool valid = !field.initial || expressions_.initial(*field.initial, *one);
       type.fields.push_back({field.name, one, valid && field.initial ? &*field.initial : nullptr, field.comment});

@@ -77,9 +77,11 @@ void ExpressionChecker::no_member(const Expression& expression, const Type& bloc
 void CallChecker::no_function(const Expression& call) {
   const Expression& callee = call.operands[0];
   const Variable* variable = context_.pou != nullptr ? context_.pou->find(upper(callee.name)) : nullptr;
-  if (variable != nullptr && context_.program.pou_names.contains(upper(callee.name))) {
-    context_.error(call.at, fmt::format("the variable '{0}' of {1} hides the function {0}, rename one of them",
-                                        callee.name, to_string(variable->declared->at)));
+  const auto pou = context_.program.pou_names.find(upper(callee.name));
+  if (variable != nullptr && pou != context_.program.pou_names.end() &&
+      pou->second->tree->kind == ast::Pou::Kind::Function) {
+    context_.error(call.at, fmt::format("the variable '{}' of {} hides the function {}, rename one of them",
+                                        variable->name, to_string(variable->declared->at), pou->second->name));
     return;
   }
   if (variable != nullptr) {

@@ -245,11 +245,18 @@ network::Element* ChartParser::step_named(const Token& name) {
 
 // As drawn: several steps before a transition meet in a convergence, several behind it begin at a divergence.
 void ChartParser::connect(const Transition& transition) {
+  bool known = true;
+  for (const auto* names : {&transition.from, &transition.to}) {
+    for (const Token* name : *names) {
+      known = step_named(*name) != nullptr && known;
+    }
+  }
+  if (!known) {
+    return;
+  }
   std::vector<std::uint64_t> from;
   for (const Token* name : transition.from) {
-    if (const Element* step = step_named(*name)) {
-      from.push_back(step->id);
-    }
+    from.push_back(step_named(*name)->id);
   }
   std::uint64_t before = from.empty() ? 0 : from.front();
   if (from.size() > 1) {
@@ -272,9 +279,7 @@ void ChartParser::connect(const Transition& transition) {
     behind = beginning.id;
   }
   for (const Token* name : transition.to) {
-    if (Element* step = step_named(*name)) {
-      lead(*step, behind);
-    }
+    lead(*step_named(*name), behind);
   }
 }
 

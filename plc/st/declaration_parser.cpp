@@ -120,11 +120,8 @@ bool DeclarationParser::broken(std::vector<ast::Variable>& found, std::vector<as
   return false;
 }
 
-// a, b AT %IX0.0 : INT := 5;
-bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variable>& to) {
-  const int before = in_.previous().line;
-  const Token& first = in_.peek();
-  std::vector<ast::Variable> found;
+// a, b AT %IX0.0, before the type. False: nothing of what follows belongs to them.
+bool DeclarationParser::names(const Block& block, std::vector<ast::Variable>& found) {
   do {
     ast::Variable one;
     one.section = block.section;
@@ -137,7 +134,12 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     one.at = in_.here();
     if (!in_.peek().is("AT")) {
       if (!in_.expect_name("a variable")) {
-        return false;
+        const bool goes_on = in_.peek().kind == TokenKind::Word && (in_.peek(1).is(",") || in_.peek(1).is(":"));
+        if (!goes_on) {
+          return false;
+        }
+        in_.take();  // a, END_IF, b : INT; the others are declared
+        continue;
       }
       one.name = in_.take().text;
     }
@@ -146,6 +148,17 @@ bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variabl
     }
     found.push_back(std::move(one));
   } while (in_.accept(","));
+  return true;
+}
+
+// a, b AT %IX0.0 : INT := 5;
+bool DeclarationParser::declaration(const Block& block, std::vector<ast::Variable>& to) {
+  const int before = in_.previous().line;
+  const Token& first = in_.peek();
+  std::vector<ast::Variable> found;
+  if (!names(block, found)) {
+    return false;
+  }
   auto spec = in_.expect(":", "behind the name, before the type") ? type() : std::nullopt;
   if (!spec) {
     return broken(found, to);

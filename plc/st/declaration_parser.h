@@ -41,7 +41,8 @@ class DeclarationParser {
     std::optional<ast::Access> access;
   };
   [[nodiscard]] std::optional<Block> block();
-  [[nodiscard]] bool declaration(const Block& block, std::vector<ast::Variable>& to);
+  [[nodiscard]] bool names(const Block& block, std::vector<ast::Variable>& found);
+  bool declaration(const Block& block, std::vector<ast::Variable>& to);
   static bool broken(std::vector<ast::Variable>& found, std::vector<ast::Variable>& to);
   [[nodiscard]] bool one_type(std::vector<ast::TypeDeclaration>& to);
   [[nodiscard]] bool pointer(ast::TypeSpec& out);

@@ -6,6 +6,12 @@ namespace indurop::plc::st {
 
 // Behind the word that ends the head of a statement, if it is there: its body is read although the head has an error.
 void StatementParser::skip_header(std::string_view word) {
+  const bool misspelled = in_.peek().kind == TokenKind::Word && !is_keyword(in_.peek().text) &&
+                          in_.peek().line == in_.previous().line && in_.peek(1).line > in_.peek().line;
+  if (misspelled) {  // IF a THAN
+    in_.take();
+    return;
+  }
   for (std::size_t ahead = 0; in_.peek(ahead).kind != TokenKind::End; ++ahead) {
     const Token& token = in_.peek(ahead);
     if (token.is(";") || (token.is(":=") && ahead > 1) || TokenReader::is_end_word(token)) {

@@ -165,8 +165,7 @@ TimeValue date_or_time(Elementary type, std::string_view text) {
   }
   const auto date = take_date(text);
   if (type == Elementary::Date) {
-    return date && text.empty() ? TimeValue{date, ""}
-                                : wrong("write year-month-day from 1970 to 2200, as D#2024-01-31");
+    return date && text.empty() ? TimeValue{date, ""} : wrong("write a day of the years 1970 to 2200 as D#2024-01-31");
   }
   const bool dash = take(text, '-');
   const auto clock = take_clock(text);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/unit/plc/front/compiled.h"
@@ -114,7 +115,7 @@ TEST(PlcMistakes, The_message_names_the_mistake) {
            Row{"t := 5 * T#1s;", "MUL does not take INT and TIME; write the TIME first"},
            Row{"i := b.Init;", "'Init' is a method of B, call it: Init(...)"},
            Row{"i := b(a := 3);", "'b' is not a function; the call of a function block stands alone"},
-           Row{"i.%X99 := TRUE;", "an INT has no such bit"},
+           Row{"i.%X99 := TRUE;", "an INT has the bits 0 to 15"},
            Row{"t := T#1m90s;", "only its first number may be so large: 60 S make one M"},
            Row{"t := T#1d24h;", "only its first number may be so large: 24 H make one D"},
            Row{"{i++} i := 2;", "C code in { } is not supported"},
@@ -124,10 +125,40 @@ TEST(PlcMistakes, The_message_names_the_mistake) {
     EXPECT_EQ(sut.diagnostics.size(), 1U) << text << '\n' << messages(sut);
     EXPECT_THAT(messages(sut), HasSubstr(message));
   }
-  EXPECT_THAT(wrong("FUNCTION Q : INT VAR_INPUT a : INT; END_VAR Q := a; END_FUNCTION PROGRAM Main VAR q, i : INT; END_VAR "
-                    "i := Q(1); END_PROGRAM"),
-              HasSubstr("the variable 'Q' of in.st:1:93 hides the function Q, rename one of them"));
+  EXPECT_THAT(
+      wrong("FUNCTION Q : INT VAR_INPUT a : INT; END_VAR Q := a; END_FUNCTION PROGRAM Main VAR q, i : INT; END_VAR "
+            "i := Q(1); END_PROGRAM"),
+      HasSubstr("the variable 'q' of in.st:1:83 hides the function Q, rename one of them"));
   EXPECT_EQ(wrong(head + "t := T#25h15m; t := T#1h59m59s999ms; {region 'a++'} i.%X3 := t > T#1s; END_PROGRAM"), "");
+}
+
+TEST(PlcMistakes, One_mistake_is_one_message) {
+  struct Row {
+    const char* text;
+    const char* message;
+  };
+  for (const auto& [text, message] : {
+           Row{"PROGRAM Main VAR a, IF, b : INT; c : BOOL; END_VAR a := 1; b := 2; c := TRUE; END_PROGRAM",
+               "expected the name of a variable, found 'IF', which is a word of the language"},
+           Row{"PROGRAM Main VAR a, b : INT; END_VAR\nIF a = 1 THAN\nb := 2;\nELSIF a = 2 THEN\nb := 3;\nEND_IF;\n"
+               "b := 4;\nEND_PROGRAM",
+               "expected 'THEN' behind the condition, found 'THAN'"},
+           Row{"TYPE U : UNION a : BOOL; b : INT; END_UNION END_TYPE PROGRAM Main VAR u : U; END_VAR u.b := 3; "
+               "END_PROGRAM",
+               "a UNION has no BOOL"},
+           Row{"PROGRAM Main VAR n : INT; END_VAR\nINITIAL_STEP S0: END_STEP STEP S1: END_STEP\n"
+               "TRANSITION FROM S0 TO nowhere := n > 3; END_TRANSITION TRANSITION FROM S1 TO S0 := n > 4; "
+               "END_TRANSITION END_PROGRAM",
+               "there is no step 'nowhere'"},
+       }) {
+    const Compiled sut = compiled(text);
+    EXPECT_FALSE(sut.ok) << text;
+    const auto errors = std::count_if(sut.diagnostics.begin(), sut.diagnostics.end(), [](const auto& one) {
+      return one.severity == base::Diagnostic::Severity::Error;
+    });
+    EXPECT_EQ(errors, 1) << text << '\n' << messages(sut);
+    EXPECT_THAT(messages(sut), HasSubstr(message));
+  }
 }
 
 TEST(PlcMistakes, The_condition_of_a_transition_is_a_BOOL) {
