@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,19 @@
 #include "vars/run_file.h"
 #include "vars/store.h"
 
+extern "C" {
+[[gnu::weak, gnu::visibility("hidden")]] extern const char kColdCodeBegin;
+[[gnu::weak, gnu::visibility("hidden")]] extern const char kColdCodeEnd;
+}
+
 namespace indurop::node {
 namespace {
+
+// What cold_rooms.ld put together; nothing where the linker knows no such scripts.
+std::span<const char> cold_code() noexcept {
+  const char* const begin = &kColdCodeBegin;
+  return begin == nullptr ? std::span<const char>() : std::span(begin, &kColdCodeEnd);
+}
 
 // Real-time nodes that run on this host and have their tick on the core.
 std::ptrdiff_t ticks_on(int core) {
@@ -94,7 +106,7 @@ Result<void, Ending> lock_memory(const Options& options, const Rights& rights, s
   // Used while starting, and by the threads that record and talk to other boards, which are not real-time.
   constexpr std::array<std::string_view, 7> kNotNeeded{"libddsc",     "libcrypto", "libssl", "libiceoryx",
                                                        "libtinyxml2", "libzstd",   "liblz4"};
-  if (const Status locked = rt::lock_memory(kNotNeeded); locked) {
+  if (const Status locked = rt::lock_memory(kNotNeeded, cold_code()); locked) {
     run.obtained.memory_locked = 1;
   } else if (rights.realtime()) {
     rt::copy_text(run.obtained.why, "mlockall refused: raise the limit of locked memory (memlock unlimited)");

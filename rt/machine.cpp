@@ -36,7 +36,13 @@ long read_number(const char* path, long fallback) noexcept {
   return value;
 }
 
-// Gives up the pages of a library's code and constants; they come back from its file when they are used.
+// Gives up pages of code and constants; they come back from their file when they are used.
+void let_go_of(std::uintptr_t begin, std::uintptr_t end) noexcept {
+  auto* const memory = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): the loader gives numbers
+  (void)::munlock(memory, end - begin);
+  (void)::madvise(memory, end - begin, MADV_DONTNEED);
+}
+
 int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
   const std::string_view path = library->dlpi_name;
   const auto& except = *static_cast<const std::span<const std::string_view>*>(names);
@@ -51,10 +57,7 @@ int let_go(dl_phdr_info* library, std::size_t /*size*/, void* names) {
       continue;
     }
     const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
-    const std::uintptr_t end = library->dlpi_addr + segment.p_vaddr + segment.p_memsz;
-    auto* const memory = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): the loader gives numbers
-    (void)::munlock(memory, end - begin);
-    (void)::madvise(memory, end - begin, MADV_DONTNEED);
+    let_go_of(begin, library->dlpi_addr + segment.p_vaddr + segment.p_memsz);
   }
   return 0;
 }
@@ -98,11 +101,15 @@ void let_go_of_free_heap() noexcept {
 
 }  // namespace
 
-Status lock_memory(std::span<const std::string_view> except) noexcept {
+Status lock_memory(std::span<const std::string_view> except, std::span<const char> code) noexcept {
   // What comes later is locked from its first use on: else memory that others ask for and never touch would be taken.
   if (::mlockall(MCL_CURRENT) == 0 && ::mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
     let_go_of_free_heap();
     ::dl_iterate_phdr(&let_go, &except);
+    if (!code.empty()) {
+      const auto begin = reinterpret_cast<std::uintptr_t>(code.data());
+      let_go_of(begin, begin + code.size());
+    }
     return {};
   }
   return Error{errno == EPERM ? Errc::PermissionDenied : Errc::NoSpace, errno, "lock memory (mlockall)"};

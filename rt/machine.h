@@ -12,9 +12,9 @@
 namespace indurop::rt {
 
 // Locks the memory of this process: what it has now, and what it gets later page by page with the first use. Not locked
-// are code and constants of libraries whose path contains one of `except`. Errors: PermissionDenied, NoSpace (the limit
-// is too small).
-Status lock_memory(std::span<const std::string_view> except = {}) noexcept;
+// are code and constants of libraries whose path contains one of `except`, and `code`, whole pages of this program.
+// Errors: PermissionDenied, NoSpace (the limit is too small).
+Status lock_memory(std::span<const std::string_view> except = {}, std::span<const char> code = {}) noexcept;
 
 // Keeps the processors out of deep idle states while it lives (/dev/cpu_dma_latency held open at 0): halves the
 // wake-up time and is what cyclictest does too.

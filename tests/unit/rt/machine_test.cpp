@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rt/machine.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -110,6 +113,48 @@ TEST(Machine, Stacks_nobody_uses_take_no_locked_memory) {
     GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
   }
   EXPECT_EXIT(lock_between_threads(), ::testing::ExitedWithCode(0), "");
+}
+
+// How much of the mapping that begins here is in memory, in kB.
+long resident_kb(const void* begin) {
+  std::FILE* const file = std::fopen("/proc/self/smaps", "re");
+  char line[512];
+  bool here = false;
+  long value = -1;
+  while (file != nullptr && value < 0 && std::fgets(line, sizeof line, file) != nullptr) {
+    const bool heading = std::strchr(line, '-') != nullptr && std::strchr(line, ':') > std::strchr(line, '-');
+    here = heading ? std::strtoull(line, nullptr, 16) == reinterpret_cast<std::uintptr_t>(begin) : here;
+    value = here && std::strncmp(line, "Rss:", 4) == 0 ? std::strtol(line + 4, nullptr, 10) : value;
+  }
+  if (file != nullptr) {
+    std::fclose(file);
+  }
+  return value;
+}
+
+// Two equal mappings of a file, as code is; one of them need not stay.
+[[noreturn]] void lock_but_for_code() {
+  constexpr std::size_t kBytes = 64U << 10U;
+  const int file = ::open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+  const auto map = [file](off_t from) {
+    return static_cast<const char*>(::mmap(nullptr, kBytes, PROT_READ, MAP_PRIVATE, file, from));
+  };
+  const char* const stays = map(0);
+  const char* const goes = map(kBytes);
+  const char before = goes[100];
+  if (!lock_memory({}, std::span(goes, kBytes))) {
+    std::_Exit(2);
+  }
+  std::fprintf(stderr, "stays %ld kB, goes %ld kB\n", resident_kb(stays), resident_kb(goes));
+  const bool good = resident_kb(stays) == kBytes / 1024 && resident_kb(goes) == 0 && goes[100] == before;
+  std::_Exit(good ? 0 : 1);
+}
+
+TEST(Machine, Code_that_is_named_does_not_stay_in_memory_and_comes_back_when_it_is_used) {
+  if (!may_lock()) {
+    GTEST_SKIP() << "memory cannot be locked: without root, without an unlimited memlock, or with a sanitizer";
+  }
+  EXPECT_EXIT(lock_but_for_code(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Thread, Stack_of_a_real_time_thread_is_there_before_it_runs) {
