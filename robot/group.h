@@ -9,6 +9,7 @@
 
 #include "robot/axis_control.h"
 #include "robot/command_table.h"
+#include "robot/dead_man.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
 #include "robot/planning_desk.h"
@@ -174,6 +175,7 @@ class Group final : public Controller, private MotionPort {
   bool quick_stop_ = false;
   bool job_moves_ = false;
 
+  DeadMan dead_man_;
   bool jogging_ = false;
   bool jog_blocked_ = false;  // it cannot go on that way, until another one is asked for
   double jog_part_ = 1;       // of the longest way

@@ -15,6 +15,7 @@ namespace {
 constexpr double kFastest = 0.25 * 0.98;  // m/s of the tip
 constexpr double kFarthest = 1;           // m
 constexpr double kMostTurned = kPi / 2;
+constexpr double kAhead = 8;              // s of motion of the tip that are planned: more makes the hand wait for it
 constexpr double kTurning = 0.15;         // part of full speed
 constexpr double kShortest = 1.0 / 1024;  // part of the longest way that is tried
 constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns on and on
@@ -22,9 +23,10 @@ constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns on and o
 }  // namespace
 
 void Group::serve_jog(const JogRequest& jog) noexcept {
-  const auto wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
+  const bool enabled = dead_man_.holds(jog.enabled, jog.beat, period_);
+  const auto* const wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
   const int most = jog.frame == JogFrame::Joint ? count() : 6;
-  int index = jog.enabled && wanted != jog.speed.end() ? static_cast<int>(wanted - jog.speed.begin()) : -1;
+  int index = enabled && wanted != jog.speed.end() ? static_cast<int>(wanted - jog.speed.begin()) : -1;
   index = index < most && index >= 0 && std::abs(*wanted) <= 100 ? index : -1;
   const double speed = index >= 0 ? *wanted / 100 : 0;
   const bool same = index == jog_index_ && speed == jog_speed_ && jog.frame == jog_frame_;
@@ -81,8 +83,9 @@ MoveCommand Group::jog_axis(int axis, double part) const noexcept {
 MoveCommand Group::jog_tip(int direction, double part) const noexcept {
   const Pose now = places_.arm().forward(commanded());
   const bool turns = direction >= 3;
+  const double speed = std::abs(jog_speed_) * (turns ? kTurning * parts_.tool.turn_velocity : kFastest);
   Vec3 way = Vec3::Zero();
-  way[direction % 3] = std::copysign(part * (turns ? kMostTurned : kFarthest), jog_speed_);
+  way[direction % 3] = std::copysign(part * std::min(turns ? kMostTurned : kFarthest, kAhead * speed), jog_speed_);
   MoveCommand command;
   command.move = Move::Line;
   command.target.is_pose = true;

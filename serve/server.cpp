@@ -36,7 +36,8 @@ Server::Server(tools::ServeOptions options, GateSettings gate, const std::string
       gate_(std::move(gate)),
       audit_(options_.audit.empty() ? tools::usual_audit_file() : options_.audit),
       leases_(audit_),
-      api_(gate_, audit_, leases_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
+      jogs_(audit_),
+      api_(gate_, audit_, leases_, jogs_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
       boards_(options_.node),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
@@ -206,6 +207,9 @@ int Server::run() {
     alarms_.look(boards_.names());
     for (const std::string& word : alarms_.news()) {
       hub_.tell_all(word);
+    }
+    if (jogs_.busy()) {
+      (void)holds_.worker.add([this] { jogs_.look(); });
     }
     watching.set(kAlarmsNs);
   });

@@ -16,6 +16,7 @@
 #include "serve/api/worker.h"
 #include "serve/boards/board.h"
 #include "serve/door/door.h"
+#include "serve/jog/jog_desk.h"
 #include "serve/leases/lease_desk.h"
 #include "serve/page.h"
 #include "serve/stream/hub.h"
@@ -57,6 +58,7 @@ class Server final : public House {
   Audit audit_;
   AlarmDesk alarms_;
   LeaseDesk leases_;
+  JogDesk jogs_;
   Api api_;
   Page page_;
   Boards boards_;

@@ -140,7 +140,7 @@ void read_requests() {
   in.speed_override = ROBOT_OVERRIDE;
   in.hold = ROBOT_HOLD != 0;
   const ROBOT_JOG_t jog = ROBOT_JOG;
-  in.jog = {jog.bEnable != 0, static_cast<robot::JogFrame>(jog.eFrame), jog.dSpeed};
+  in.jog = {jog.bEnable != 0, static_cast<robot::JogFrame>(jog.eFrame), jog.dSpeed, jog.nBeat};
   const ROBOT_PAUSE_t pause = ROBOT_PAUSE;
   in.single_step = pause.bStep != 0;
   for (std::size_t k = 0; k < in.breakpoints.size(); ++k) {

@@ -26,7 +26,7 @@ Reply about_lease(Api& api, const Call& call,
   }
   base::Json body = about(**found);
   body["lease"] = name;
-  body["lease_ns"] = tools::kLeaseNs;
+  body["lease_ns"] = LeaseDesk::kLeaseNs;
   return json_reply(body);
 }
 

@@ -121,7 +121,7 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   }
   tools::Lease lease;
   const int code = !hold         ? tools::set_values(write.context(), *store, *values)
-                   : wish->lease ? tools::hold_values(write.context(), *store, *values, tools::kLeaseNs, &lease)
+                   : wish->lease ? tools::hold_values(write.context(), *store, *values, LeaseDesk::kLeaseNs, &lease)
                                  : tools::hold_values(write.context(), *store, *values, wish->for_ns);
   if (code != kOk) {
     return write.failed_with(code);
@@ -130,7 +130,7 @@ Reply write_values(Api& api, const Call& call, bool hold) {
   if (wish->lease) {
     body["lease"] =
         api.leases().take((*found)->name(), call.who, call.request->from, text_of(*wish), *store, std::move(lease));
-    body["lease_ns"] = tools::kLeaseNs;
+    body["lease_ns"] = LeaseDesk::kLeaseNs;
   }
   body[hold ? "forced" : "written"] = names_of(*values);
   return write.done(body);

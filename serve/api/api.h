@@ -46,17 +46,19 @@ struct ServerFacts {
 };
 
 class Board;
+class JogDesk;
 class LeaseDesk;
 
 class Api {
  public:
-  Api(const Gate& gate, Audit& audit, LeaseDesk& leases, ServerFacts facts)
-      : gate_(&gate), audit_(&audit), leases_(&leases), facts_(std::move(facts)) {}
+  Api(const Gate& gate, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
+      : gate_(&gate), audit_(&audit), leases_(&leases), jogs_(&jogs), facts_(std::move(facts)) {}
 
   [[nodiscard]] const Gate& gate() const noexcept { return *gate_; }
   [[nodiscard]] const ServerFacts& facts() const noexcept { return facts_; }
   [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
   [[nodiscard]] LeaseDesk& leases() const noexcept { return *leases_; }
+  [[nodiscard]] JogDesk& jogs() const noexcept { return *jogs_; }
   // Writers and readers by variable; read once per run of the board. For the thread that reads files.
   const tools::KnownUses& uses_of(const Board& board);
 
@@ -69,6 +71,7 @@ class Api {
   const Gate* gate_;
   Audit* audit_;
   LeaseDesk* leases_;
+  JogDesk* jogs_;
   ServerFacts facts_;
   std::map<std::string, Cached, std::less<>> uses_;
 };

@@ -35,7 +35,7 @@ std::string LeaseDesk::take(const std::string& board, const std::string& who, co
             store.header().layout_hash,
             store.header().generation.load(),
             std::move(lease),
-            rt::now_ns() + tools::kLeaseNs};
+            rt::now_ns() + kLeaseNs};
   for (const vars::HeldValue& value : held.lease.values) {
     held.names.push_back(value.variable->name_hash);
   }
@@ -52,12 +52,12 @@ bool LeaseDesk::renew(const std::string& board, const std::string& name, const s
   }
   Held& held = found->second;
   auto store = vars::Store::attach(board, vars::Mode::ReadWrite);
-  if (!store || !bind(held, *store) || !tools::renew(held.lease, *store, tools::kLeaseNs)) {
+  if (!store || !bind(held, *store) || !tools::renew(held.lease, *store, kLeaseNs)) {
     note(held, "lost: somebody else has let one of them go or forced it, or the node was started anew");
     all_.erase(found);
     return false;
   }
-  held.until_ns = rt::now_ns() + tools::kLeaseNs;
+  held.until_ns = rt::now_ns() + kLeaseNs;
   return true;
 }
 

@@ -17,6 +17,9 @@ namespace indurop::serve {
 
 class LeaseDesk {
  public:
+  // How long it holds after it was renewed last: browsers let pages behind others speak once a second.
+  static constexpr std::int64_t kLeaseNs = 5'000'000'000;
+
   explicit LeaseDesk(const Audit& audit) : audit_(&audit) {}
 
   // Any thread. Returns the name to renew it by, which cannot be guessed. `store`: of the board, as it is now.

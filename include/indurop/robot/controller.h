@@ -95,7 +95,8 @@ enum class JogFrame : std::int16_t { Joint, Base, Tool };
 struct JogRequest {
   bool enabled = false;  // the enabling switch; without it the robot comes to rest
   JogFrame frame = JogFrame::Joint;
-  AxisNumbers speed{};  // %, with its sign; of axes, or x y z and turns about them. The first that is not 0 counts
+  AxisNumbers speed{};     // %, with its sign; of axes, or x y z and turns about them. The first that is not 0 counts
+  std::uint32_t beat = 0;  // 0: the switch counts by itself; else only while this changes at least every 0.3 s
 };
 
 // A job that is to pause before a line of its file.

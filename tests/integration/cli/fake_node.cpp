@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stands for a node in tests of the tools: has its lock, store and run block and moves numbers, but runs no modules.
-// fake_node NAME [ignore-term] [config FILE] [many COUNT]   with `many` it has COUNT numbers more, many::v0 on; prints
-// "ready" when everything is there; ends at SIGTERM.
+// fake_node NAME [ignore-term] [config FILE] [many COUNT] [robot]   with `many` it has COUNT numbers more, many::v0 on,
+// with `robot` arm::ROBOT_JOG; prints "ready" when everything is there; ends at SIGTERM.
 
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -55,7 +55,29 @@ void set_initial(schema::Variable& to, T value) {
   std::memcpy(to.initial.data(), &value, sizeof value);
 }
 
-schema::Schema make_schema(int many) {
+// What robots have to be moved by hand with (examples/robot_cell/plc_robot.glb).
+schema::Variable switch_of_a_robot() {
+  schema::Type jog;
+  jog.base = schema::Base::Struct;
+  jog.name = "arm::ROBOT_JOG_t";
+  jog.element_size = 64;
+  jog.align = 8;
+  const auto add = [&jog](const char* name, schema::Base base, std::uint32_t offset) -> schema::Field& {
+    schema::Field field;
+    field.name = name;
+    field.type = scalar(base);
+    field.offset = offset;
+    jog.fields.push_back(field);
+    return jog.fields.back();
+  };
+  add("bEnable", schema::Base::Int16, 0);
+  add("eFrame", schema::Base::Int16, 2);
+  add("dSpeed", schema::Base::Double, 8).type.dims = {6};
+  add("nBeat", schema::Base::UInt32, 56);
+  return variable("arm::ROBOT_JOG", jog);
+}
+
+schema::Schema make_schema(int many, bool robot) {
   schema::Schema schema;
   schema::Type joint;
   joint.base = schema::Base::Struct;
@@ -106,6 +128,9 @@ schema::Schema make_schema(int many) {
   starts.retain = true;
   set_initial(starts, std::int32_t{5});
   schema.variables.push_back(starts);
+  if (robot) {
+    schema.variables.push_back(switch_of_a_robot());
+  }
   for (int i = 0; i < many; ++i) {
     schema.variables.push_back(variable("many::v" + std::to_string(i), scalar(schema::Base::Double)));
   }
@@ -180,10 +205,10 @@ void step(scheduler::RunBlock& block, vars::Store& store, std::uint64_t tick, st
   block.tick.store(tick + 1);
 }
 
-int run(const std::string& node, const std::string& config, int many) {
+int run(const std::string& node, const std::string& config, int many, bool robot) {
   pid_t holder = 0;
   const auto lock = vars::NodeLock::acquire(node, holder);
-  auto store = vars::Store::create(node, make_schema(many));
+  auto store = vars::Store::create(node, make_schema(many, robot));
   const auto setup = make_setup(node, config);
   auto file = vars::RunFile::create(node, scheduler::run_block_size(setup));
   if (!lock.ok() || !store.ok() || !file.ok() || !vars::Custody::create(node).ok()) {
@@ -220,8 +245,10 @@ int main(int argc, char** argv) {
   std::string config = "module.xml";
   bool ignore = false;
   int many = 0;
+  bool robot = false;
   for (int i = 2; i < argc; ++i) {
     ignore = ignore || std::string(argv[i]) == "ignore-term";
+    robot = robot || std::string(argv[i]) == "robot";
     if (std::string(argv[i]) == "config" && i + 1 < argc) {
       config = argv[i + 1];
     }
@@ -230,5 +257,5 @@ int main(int argc, char** argv) {
     }
   }
   signal(SIGTERM, ignore ? SIG_IGN : &on_term);
-  return argc > 1 ? run(argv[1], config, many) : 2;
+  return argc > 1 ? run(argv[1], config, many, robot) : 2;
 }

@@ -34,7 +34,7 @@ const bodies = {
 const parts = {board, module: "modify", name: "knu::Robot::joints[1]"};
 // Orders to modules: the node of this test answers none, it has no tape, and
 // no plant and no PLC program is looked at. Names of recipes are no names of variables.
-const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe"]);
+const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe"]);
 const take_lease = async () => (await (await fetch(`${address}/api/v1/boards/${board}/force`, {
   method: "POST",
   headers: {Authorization: `Bearer ${token}`, "Content-Type": "application/json"},

@@ -40,6 +40,9 @@ SITUATIONS = {
     "memory of a node taken away": ("stream_test.py", "test_a_node_whose_memory_is_taken_away"),
     "a full disk, so that nothing can be noted": ("http_test.py", "test_does_nothing_that_it_cannot_note_down"),
     "a client that holds a force is lost": ("http_test.py", "test_a_lease_ends_with_its_client"),
+    "hand, page or server lost while a robot moves": (
+        "../web/page.mjs", "The robot is moved by hand while a button is held, and stops when hand, page or server are lost"),
+    "a hand at a robot that is not heard": ("jog_test.py", "test_a_hand_that_is_not_heard_is_released"),
     "a locked board": ("http_test.py", "test_a_locked_board_is_not_written"),
 }
 
@@ -108,13 +111,14 @@ def test_a_fuzzed_stream_writes_nothing_and_disturbs_nobody(setting):
 
 
 def test_fuzzed_orders_write_nothing_out_of_range(setting):
-    setting.start_node()
+    setting.start_node("robot")
     server = setting.start_server("--write", "--token-file", setting.tokens)
     base = f"{API}/boards/{setting.node}"
     rng = random.Random(17)
     orders = [("/set", {"values": {"gain": 5, "joints[1]": {"y": 170}}, "reason": "x"}),
               ("/force", {"values": {"joints[2].y": -180, "gain": 10}, "for_ns": 1000000}), ("/force", {"values": {"gain": 1}, "lease": True}),
-              ("/release", {"names": ["gain"]}), ("/lock", {"lock": "none"})]
+              ("/release", {"names": ["gain"]}), ("/lock", {"lock": "none"}),
+              ("/jog", {"robot": "arm", "frame": "axes", "speed": [0, 50, 0, 0, 0, 0]})]
     codes = {}
     for _ in range(600):
         path, body = rng.choice(orders)
@@ -124,6 +128,8 @@ def test_fuzzed_orders_write_nothing_out_of_range(setting):
     assert codes.get(400, 0) > 100, codes
     values = {one["name"]: one["value"] for one in server.get(base + "/variables").json()["variables"]}
     assert 0 <= values["knu::Robot::gain"] <= 10 and all(abs(one["y"]) <= 180 for one in values["knu::Robot::joints"]), values
+    switch = values["arm::ROBOT_JOG"]
+    assert all(abs(one) <= 100 for one in switch["dSpeed"]) and sum(one != 0 for one in switch["dSpeed"]) <= 1, switch
     assert server.child.poll() is None
 
 

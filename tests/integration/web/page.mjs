@@ -83,7 +83,7 @@ await browser.run({
     await sees(page, "2 values are forced");
     await sees(page, "as long as its client is there by tester");
     await sees(page, "the pendant is broken");
-    await new Promise((done) => setTimeout(done, 3000));  // longer than it holds unless the page renews it
+    await new Promise((done) => setTimeout(done, 7000));  // longer than it holds unless the page renews it
     await sees(page, "2 values are forced");
     await browser.judge(page, "variables-lease-wide");
     const other = await browser.open("variables");
@@ -145,6 +145,16 @@ await browser.run({
       await page.waitForFunction(() => /^-?[\d.]+$/.test(document.querySelector(".legend .number")?.textContent ?? ""));
       await browser.judge(page, `plots-triggered-${screen}`);
       if (screen === "wide") {
+        await fill(page, "Expression", "far = abs(PLC_ROBOT::ROBOT_ARM.joint[0] - PLC_ROBOT::ROBOT_ARM.joint[1])");
+        await page.keyboard.press("Enter");
+        await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 3);
+        await page.waitForFunction(() => [...document.querySelectorAll(".legend tr")].some((row) =>
+          row.innerText.includes("far") && row.querySelector(".unit").innerText === "deg" && /^[\d.]+$/.test(row.querySelector(".number").innerText)));
+        await browser.judge(page, "plots-expression-wide");
+        await fill(page, "Expression", "PLC_ROBOT::ROBOT_ARM.joint[0] + PLC_ROBOT::ROBOT_ARM.tool_speed");
+        await page.keyboard.press("Enter");
+        await sees(page, "mm/s");
+        await press(page, "PLC_ROBOT::ROBOT_ARM.joint[0] + PLC_ROBOT::ROBOT_ARM.tool_speed \u00d7");
         await fill(page, "Trigger", "nobody > 1");
         await page.keyboard.press("Enter");
         await sees(page, "no variable 'nobody'");
@@ -193,6 +203,86 @@ await browser.run({
       await browser.judge(page, `robot-${screen}`);
       await page.close();
     }
+  },
+
+  async "The robot is moved by hand while a button is held, and stops when hand, page or server are lost"() {
+    const arm = async () => await value_of("PLC_ROBOT::ROBOT_ARM");
+    const jog = async () => await value_of("PLC_ROBOT::ROBOT_JOG");
+    const moves = async () => (await arm()).tool_speed > 1;
+    const until = async (what, condition) => {
+      for (const end = Date.now() + 30_000; !(await condition());) {
+        check(Date.now() < end, `${what}: ${JSON.stringify(await jog())}`);
+        await new Promise((done) => setTimeout(done, 20));
+      }
+    };
+    await order("power-on");
+    const page = await browser.open("robot", { width: 1280, height: 900 });
+    await sees(page, "standing by");
+    const centre = async (on, label) => {
+      const box = await (await on.waitForSelector(`[aria-label='${label}']`)).boundingBox();
+      return [box.x + box.width / 2, box.y + box.height / 2];
+    };
+    await page.select("section[aria-label='Moving by hand'] select", "base");
+    await sees(page, "roll");
+    const z = await centre(page, "z forward, while held down");
+    const from = (await arm()).position[2];
+    // A browser that is too busy to be heard lets go, as it shall: then the button is pressed again.
+    const press_until_it_moves = async () => {
+      for (const end = Date.now() + 60_000; ;) {
+        await page.mouse.move(...z);
+        await page.mouse.down();
+        for (const soon = Date.now() + 1500; Date.now() < soon;) if (await moves()) return;
+        await page.mouse.up();
+        check(Date.now() < end, `it does not move: ${JSON.stringify(await jog())}`);
+      }
+    };
+    const shown = () => page.$$eval(".facts dt", (all) => parseFloat(all.find((one) => one.innerText === "Tool z").nextElementSibling.innerText));
+    const shown_before = await shown();
+    await press_until_it_moves();
+    await until("the page does not show it moving", async () => {
+      if (!(await moves())) {
+        await page.mouse.up();
+        await press_until_it_moves();
+      }
+      return await shown() > shown_before;
+    });
+    check((await jog()).dSpeed[2] === 10, "another speed than the page says");
+    await page.mouse.up();
+    await until("it does not stop", async () => !(await moves()) && !(await jog()).bEnable);
+    check((await arm()).position[2] > from, "it went another way");
+    await browser.judge(page, "robot-jog-wide");
+    // Beside the button, another window, a page that is closed.
+    const ways = {
+      "the pointer leaves": () => page.mouse.move(5, 5),
+      "the window is left": () => page.evaluate(() => window.dispatchEvent(new Event("blur"))),
+    };
+    for (const [what, act] of Object.entries(ways)) {
+      await press_until_it_moves();
+      await act();
+      await until(`no rest after ${what}`, async () => !(await moves()) && !(await jog()).bEnable);
+      await page.mouse.up();
+    }
+    await press_until_it_moves();
+    await page.close({ runBeforeUnload: false });
+    await until("no rest after the page was closed", async () => !(await moves()) && !(await jog()).bEnable);
+    const other = await browser.open("robot", phone);
+    await sees(other, "standing by");
+    await other.waitForFunction(() => document.querySelector(".arm canvas") || document.querySelector(".robot .warn"));
+    await other.evaluate(() => document.querySelector("[aria-label='Moving by hand']").scrollIntoView());
+    await browser.judge(other, "robot-jog-phone");
+    const button = await other.waitForSelector("[aria-label$='back, while held down']");
+    await button.focus();
+    for (const end = Date.now() + 60_000; !(await moves());) {
+      check(Date.now() < end, "no motion by the keyboard");
+      await other.keyboard.up("Space");
+      await other.keyboard.down("Space");
+      for (const soon = Date.now() + 1500; Date.now() < soon && !(await moves());) { /* looks again */ }
+    }
+    await order("kill-server");
+    // The server's memory of it is gone: the switch stays pressed, the robot task sees no beat.
+    await order("start-server");
+    await until("no rest after the server was killed", async () => !(await moves()));
+    await other.close();
   },
 
   async "A server and a node that go are missed, and found again"() {

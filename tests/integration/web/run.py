@@ -7,10 +7,11 @@ Pictures of what was seen are left in WORK/pictures."""
 import pathlib
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cell"))
 from cell_test import copy_configuration  # noqa: E402
-from page_server import PageServer, prepared  # noqa: E402
+from page_server import PATIENCE, PageServer, prepared  # noqa: E402
 
 
 class Cell(PageServer):
@@ -23,6 +24,26 @@ class Cell(PageServer):
         """The robot moves for twenty seconds."""
         self.indurop("set", "--node", self.node, "CELL::tour", "true", check=True)
 
+    def power_on(self):
+        """The cell anew: nobody pressed its start button, its group stands by. After a tour the PLC program goes on by itself."""
+        self.stop_node()
+        self.start_node()
+        state = lambda: self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.eState").stdout.strip()
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if state() == "1":
+                return
+            if state() == "0":
+                asked = self.indurop("get", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_STATE.nAcknowledge", check=True)
+                self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODULE_SERVICE",
+                             f"{{eOpCode: 1, nRequest: {int(asked.stdout) + 1}}}", check=True)
+            time.sleep(0.5)
+        raise AssertionError("the group does not stand by")
+
+    def kill_server(self):
+        self.server.kill()
+        self.server.wait(timeout=PATIENCE)
+
     def record(self):
         self.indurop("record", "--node", self.node, "-o", "recordings/run.mcap", "--duration", "3s", check=True)
 
@@ -31,7 +52,7 @@ class Cell(PageServer):
 
     def obey(self, word):
         {"start-node": self.start_node, "stop-node": self.stop_node, "start-server": self.start_server,
-         "stop-server": self.stop_server, "start-tour": self.start_tour, "record": self.record}[word]()
+         "stop-server": self.stop_server, "start-tour": self.start_tour, "power-on": self.power_on, "kill-server": self.kill_server, "record": self.record}[word]()
 
 
 def main():

@@ -2,8 +2,10 @@
 // Moving by hand: directions, where it ends, and random requests that break no limit, nor 250 mm/s of the tip (ISO
 // 10218-1).
 #include <random>
+#include <vector>
 
 #include "limit_judge.h"
+#include "robot/dead_man.h"
 
 namespace indurop::robot {
 namespace {
@@ -70,6 +72,101 @@ TEST(Jog, Goes_straight_and_rests_when_the_switch_is_released) {
   ASSERT_TRUE(cell.until([&] { return stands(cell); }, 100));
   EXPECT_GT(tip(cell).z(), from.z() + 5);
   EXPECT_LT((tip(cell) - from).head<2>().norm(), 1e-6);
+}
+
+// Whoever holds a button down waits for the motion: at 1 % as at 100 %, and it goes on for as long as it is asked for.
+TEST(Jog, Begins_soon_at_any_speed_and_goes_on) {
+  for (const double speed : {1.0, 5.0, 100.0}) {
+    for (const std::size_t direction : {std::size_t{0}, std::size_t{2}, std::size_t{5}}) {
+      Cell cell;
+      ASSERT_TRUE(cell.serve(Service::GroupEnable));
+      cell.in.service.point = 2;
+      ASSERT_TRUE(cell.serve(Service::MoveJoints));
+      double way = 0;  // deg, of all axes
+      const auto go = [&] {
+        const auto before = cell.out.joints;
+        cell.step();
+        for (std::size_t i = 0; i < before.size(); ++i) {
+          way += std::abs(cell.out.joints[i] - before[i]);
+        }
+      };
+      cell.in.jog.enabled = true;
+      cell.in.jog.frame = JogFrame::Base;
+      cell.in.jog.speed[direction] = speed;
+      for (int i = 0; i < 50 && way < 1e-3; ++i) {
+        go();
+      }
+      EXPECT_GE(way, 1e-3) << "half a second at " << speed << " % of direction " << direction;
+      // For two times what is planned at once; faster ones come to the end of their reach.
+      for (int i = 0; i < 1600 && speed < 100; ++i) {
+        const double before = way;
+        for (int k = 0; k < 100; ++k, ++i) {
+          go();
+        }
+        EXPECT_GT(way, before) << "second " << i / 100 << " at " << speed << " % of direction " << direction;
+      }
+    }
+  }
+}
+
+// A hand that is far away, at random: pressed or not, its beats lost for random times. What the switch says is compared
+// with its rule, read off the whole history.
+TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
+  constexpr double kPeriod = 0.01;
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    std::mt19937 random(seed);
+    DeadMan sut;
+    std::vector<bool> pressed;
+    std::vector<std::uint32_t> beats;
+    std::uint32_t beat = 7;
+    int silent = 0;
+    bool hand = random() % 2 == 0;
+    for (int i = 0; i < 2000; ++i) {
+      hand = random() % 40 == 0 ? !hand : hand;
+      silent = silent > 0 ? silent - 1 : random() % 60 == 0 ? static_cast<int>(random() % 60) : 0;
+      beat += silent == 0 && i % 5 == 0 ? 1U : 0U;
+      pressed.push_back(hand);
+      beats.push_back(beat);
+      // Since it was pressed last (a hand that was there from the beginning never counts), no 0.3 s without a beat.
+      bool expected = hand;
+      for (int k = i; expected && pressed[static_cast<std::size_t>(k)]; --k) {
+        int same = k;
+        while (same > 0 && beats[static_cast<std::size_t>(same - 1)] == beats[static_cast<std::size_t>(k)]) {
+          --same;
+        }
+        expected = k > 0 && (k - same) * kPeriod <= DeadMan::kPatience + 1e-9;
+      }
+      ASSERT_EQ(sut.holds(hand, beat, kPeriod), expected) << "seed " << seed << ", period " << i;
+    }
+  }
+}
+
+TEST(Jog, Rests_when_the_beat_of_a_far_hand_stops) {
+  Cell cell;
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.point = 2;
+  ASSERT_TRUE(cell.serve(Service::MoveJoints));
+  cell.in.jog.frame = JogFrame::Base;
+  cell.in.jog.speed[2] = 50;
+  cell.in.jog.enabled = true;
+  cell.in.jog.beat = 1;
+  ASSERT_TRUE(cell.until([&] {
+    ++cell.in.jog.beat;
+    return cell.out.tool_speed > 120;
+  }));
+  ASSERT_TRUE(cell.until([&] { return stands(cell); }, 130)) << "within 0.3 s and its braking time";
+  for (int i = 0; i < 100; ++i) {
+    ++cell.in.jog.beat;
+    cell.step();
+    ASSERT_TRUE(stands(cell)) << "it was not released";
+  }
+  cell.in.jog.enabled = false;
+  cell.step();
+  cell.in.jog.enabled = true;
+  EXPECT_TRUE(cell.until([&] {
+    ++cell.in.jog.beat;
+    return cell.out.tool_speed > 120;
+  }));
 }
 
 TEST(Jog, An_axis_comes_to_its_limit_and_rests_there) {

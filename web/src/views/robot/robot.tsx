@@ -5,11 +5,12 @@ import "./robot.css";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, get, Refusal, words } from "../../api/http";
 import type { Robot as Description, Variables } from "../../api/types";
-import { useBoard } from "../../shell/plant";
+import { plant, useBoard } from "../../shell/plant";
 import { colours_changed } from "../../shell/theme";
 import { address, change_query, place } from "../../ui/address";
 import { Figure, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
+import { Jog } from "./jog";
 import type { Scene } from "./scene";
 import { scopes_of, useRobotState, type RobotState } from "./state";
 
@@ -109,6 +110,7 @@ function in_urdf(values: number[], kinds: string[]): number[] {
 
 export function Robot() {
   const board = useBoard();
+  const { status } = useStore(plant);
   const chosen = Number(useStore(place).query.get("r")) || 0;
   const { value, error } = useAsked(board ? `${board.board} ${board.layout}` : "", 0, () => ask(board!.board), words);
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
@@ -144,12 +146,15 @@ export function Robot() {
           </section>
         ) : (
           <p class="panel warn">{value.told ? "The arm's description (property urdf of its module) cannot be read here, so only numbers are shown." : "This server does not tell the arm's description, so only numbers are shown."}</p>)}
+        <div>
+        {status?.may_write && scope !== null && <Jog board={board.board} scope={scope} state={state} names={names} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>Now</h2>
           {state ? <Numbers state={state} names={names} /> : <Waiting />}
           {scope !== null && <p><a href={address("plots", {
             board: board.board, c: (state?.joint ?? []).map((_, i) => `${scope ? `${scope}::` : ""}ROBOT_ARM.joint[${i}]`).join(",") })}>Plot the joints</a></p>}
         </section>
+        </div>
       </div>
     </>);
 }

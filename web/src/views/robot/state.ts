@@ -25,6 +25,9 @@ export interface RobotState {
   job_line: number;
   job_state: string;
   job_message: string;
+  override_set: number;
+  hold: boolean;
+  acknowledged: number;  // the number of the service that was taken last
 }
 
 // Namespaces that have a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM.
@@ -44,6 +47,7 @@ function state_of(values: Record<string, any>): RobotState {
     orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, to_go: arm.to_go ?? NaN,
     group: words_of(GROUP_STATES, module.eState), error: module.nError ?? 0,
     job: job.name ?? "", job_line: job.nLine ?? 0, job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
+    override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
   };
 }
 
@@ -56,6 +60,7 @@ export function useRobotState(board: string, scope: string | null, each: (state:
     const prefix = scope ? `${scope}::` : "";
     const names: Record<string, string> = {
       [`${prefix}ROBOT_ARM`]: "arm", [`${prefix}ROBOT_MODULE_STATE`]: "module", [`${prefix}ROBOT_JOB`]: "job",
+      [`${prefix}ROBOT_OVERRIDE`]: "override", [`${prefix}ROBOT_HOLD`]: "hold",
     };
     let written = 0;
     return stream.subscribe({

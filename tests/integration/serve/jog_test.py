@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Robots moved by hand over HTTP: who may, what is refused, and what releases the switch. jog_test.py PROGRAMS FAKE_NODE
+[TEST...]"""
+
+import signal
+
+import harness
+from harness import TOKEN, wait_for
+
+API = "/api/v1"
+WISH = {"robot": "arm", "frame": "base", "speed": [0, 0, 25]}
+
+
+def begun(setting):
+    setting.start_node("robot")
+    setting.tokens.write_text(f"ana {TOKEN}\nbob {TOKEN[::-1]}\n")
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    base = f"{API}/boards/{setting.node}"
+    return server, base, lambda: server.get(base + "/variables/arm::ROBOT_JOG").json()["value"]
+
+
+def held(server, base, switch):
+    """A hand that was heard at least four times. One that this machine was too slow for is put there again."""
+    def tried():
+        said = server.post(base + "/jog", WISH)
+        assert said.status == 200, said.body
+        hand = said.json()
+        assert hand["keep_ns"] == 250_000_000, hand
+        first = switch()["nBeat"]
+        kept = all(server.post(f"{base}/jog/{hand['jog']}/keep").status == 200 for _ in range(4))
+        now = switch()
+        return kept and now["bEnable"] == 1 and now["nBeat"] - first in range(3, 5) and hand["jog"]
+    return wait_for(tried, "a hand that is kept at the switch")
+
+
+def ends_of(server):
+    return [one["outcome"] for one in server.get(API + "/audit").json()["audit"] if one["action"] == "end of jog"]
+
+
+def test_a_hand_presses_the_switch_while_it_is_heard(setting):
+    server, base, switch = begun(setting)
+    hand = held(server, base, switch)
+    now = switch()
+    assert (now["eFrame"], now["dSpeed"]) == (1, [0, 0, 25, 0, 0, 0]), now
+    server.post(f"{base}/jog/{hand}/end")
+    wait_for(lambda: switch()["bEnable"] == 0, "the release")
+    assert server.post(f"{base}/jog/{hand}/keep").status == 404
+    audit = server.get(API + "/audit").json()["audit"]
+    assert {one["who"] for one in audit} == {"ana"} and {"jog", "end of jog"} <= {one["action"] for one in audit}, audit
+
+
+def test_a_hand_that_is_not_heard_is_released(setting):
+    server, base, switch = begun(setting)
+    hand = held(server, base, switch)
+    wait_for(lambda: switch()["bEnable"] == 0, "the release of a hand that is not heard")
+    assert server.post(f"{base}/jog/{hand}/keep").status == 404
+    wait_for(lambda: any("not heard any more" in outcome for outcome in ends_of(server)), "a note about it")
+
+
+def test_a_server_that_ends_releases_and_one_that_is_killed_beats_no_more(setting):
+    server, base, switch = begun(setting)
+    server.post(base + "/jog", WISH)
+    setting.end(server.child)
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    switch = lambda: server.get(base + "/variables/arm::ROBOT_JOG").json()["value"]
+    assert switch()["bEnable"] == 0
+    assert server.post(base + "/jog", WISH).status == 200
+    setting.end(server.child, signal.SIGKILL)
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    before = switch()["nBeat"]
+    assert before > 0, "who looks at the beat sees that nobody is there"
+    assert held(server, base, switch), "the robot can be moved again"
+
+
+def test_refuses_what_is_no_motion(setting):
+    server, base, switch = begun(setting)
+    jog = base + "/jog"
+    for wrong, status in (({"robot": "leg"}, 409), ({"frame": "moon"}, 409), ({"speed": [0, 0, 0]}, 409), ({"speed": [1, 1]}, 409),
+                          ({"speed": [101]}, 409), ({"speed": [0] * 6 + [1]}, 409), ({"speed": []}, 400), ({"speed": "fast"}, 400),
+                          ({"speed": [None]}, 400), ({"robot": 7}, 400)):
+        said = server.post(jog, {**WISH, **wrong})
+        assert said.status == status, (wrong, said.status, said.body)
+    assert server.ask("POST", jog, WISH).status == 401
+    assert server.post(jog, WISH, token="x" * 30).status == 401
+    assert server.post(jog + "/nothing/keep").status == 404
+    assert server.post(f"{API}/boards/nobody/jog", WISH).status == 404
+    assert server.post(base + "/lock", {"lock": "tune"}).status == 200
+    assert server.post(jog, WISH).status == 423, "the board is locked"
+    assert server.post(base + "/lock", {"lock": "none"}).status == 200
+    assert server.post(base + "/force", {"values": {"arm::ROBOT_JOG.bEnable": 0}}).status == 200
+    assert server.post(jog, WISH).status == 409, "the switch is forced"
+    assert server.post(base + "/release", {"all": True}).status == 200
+    assert switch()["bEnable"] == 0 and switch()["nBeat"] == 0, "nothing was written"
+
+
+def test_one_hand_at_a_time_and_only_its_own(setting):
+    server, base, switch = begun(setting)
+
+    def seen():
+        hand = held(server, base, switch)
+        second, other = server.post(base + "/jog", WISH, token=TOKEN[::-1]), server.post(f"{base}/jog/{hand}/end", token=TOKEN[::-1])
+        return server.post(f"{base}/jog/{hand}/keep").status == 200 and (second, other)  # else it was too slow
+
+    second, other = wait_for(seen, "one look while the hand is there")
+    assert second.status == 409 and "ana is moving it" in second.json()["message"], second.body
+    assert other.status == 404
+
+
+def test_a_lock_ends_the_motion(setting):
+    server, base, switch = begun(setting)
+    held(server, base, switch)
+    server.post(base + "/lock", {"lock": "all"})
+    wait_for(lambda: switch()["bEnable"] == 0, "the release")
+
+
+if __name__ == "__main__":
+    harness.main(globals())
