@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "robot/files.h"
 #include "tools/command/suggest.h"
 
 namespace indurop::tools {
@@ -80,6 +79,16 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     all.insert(all.end(), found.files.begin(), found.files.end());
   }
   return all;
+}
+
+std::vector<RobotFiles> robot_files_of(const config::Config& config) {
+  std::vector<RobotFiles> out;
+  for (const config::Module& module : config.modules) {
+    if (property(module, "urdf") != nullptr || property(module, "jobs") != nullptr) {
+      out.push_back({module.name, files_of(config, module)});
+    }
+  }
+  return out;
 }
 
 }  // namespace indurop::tools

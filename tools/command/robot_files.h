@@ -3,13 +3,22 @@
 
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "config/check/check.h"
+#include "robot/files.h"
 
 namespace indurop::tools {
 
 // Their errors. A robot module has the property `urdf` or `jobs` and, where its file can be read, reads URDF.
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check);
+
+// The robot modules of a configuration, and their files.
+struct RobotFiles {
+  std::string module;
+  robot::FileNames names;
+};
+std::vector<RobotFiles> robot_files_of(const config::Config& config);
 
 }  // namespace indurop::tools

@@ -32,6 +32,7 @@ extern const Verb kOverrunsVerb;
 extern const Verb kPlanVerb;
 extern const Verb kPlcVerb;
 extern const Verb kRecipeVerb;
+extern const Verb kRobotVerb;
 extern const Verb kRecordVerb;
 extern const Verb kRecordingVerb;
 extern const Verb kReplayVerb;

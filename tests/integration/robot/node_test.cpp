@@ -107,6 +107,61 @@ TEST_F(RobotNode, Drives_take_power_and_a_job_moves_them) {
   EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.MotionDone"), 1);
 }
 
+TEST_F(RobotNode, Where_it_stands_is_written_into_its_files) {
+  begin(
+      "# the cell\nFRAME pallet = POSE 300 100 0 RPY 0 0 90\nPOINT P1 = JOINT 30 10 -10 0 40 -20   # above\n"
+      "POINT P2 = POSE 0 0 500 RPY 180 0 0 IN pallet\n");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  ASSERT_EQ(serve("eOpCode: 8, dTarget: [10, -20, 15, 5, 60, -30]"), 0);
+  ASSERT_TRUE(wait_until([&] { return std::abs(joint(1) - 10) < 0.001 && std::abs(joint(6) + 30) < 0.001; }));
+  for (const char* point : {"P1", "P2", "P3"}) {
+    const Outcome taught = indurop({"robot", "teach", point});
+    EXPECT_EQ(taught.code, 0) << taught.err;
+    EXPECT_THAT(taught.err, testing::HasSubstr("test.job:"));
+  }
+  EXPECT_THAT(indurop({"robot", "teach", "CORNER", "--in", "palet"}).err,
+              testing::HasSubstr("there is no frame 'palet'"));
+  std::ifstream file(folder() / "test.job");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, testing::StartsWith("# the cell\nFRAME pallet = POSE 300 100 0 RPY 0 0 90\nPOINT P1 = JOINT "));
+  EXPECT_THAT(text, testing::HasSubstr("   # above\nPOINT P2 = POSE "));
+  EXPECT_THAT(text, testing::HasSubstr(" IN pallet\nPOINT P3 = JOINT "));
+  EXPECT_THAT(indurop({"robot", "points", "-o", "csv"}).out, testing::HasSubstr("P3,JOINT 1"));
+
+  // From elsewhere it goes to each of them, and is where it was taught.
+  ASSERT_EQ(indurop({"restart", "robot"}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_MODULE_STATE.nAXESGROUP") == 6 && state() != 2; }));
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  for (int point = 1; point <= 3; ++point) {
+    ASSERT_EQ(serve("eOpCode: 8, dTarget: [0, 0, 0, 0, 90, 0]"), 0);
+    ASSERT_EQ(serve("eOpCode: 5, p_Target: " + std::to_string(point)), 0);
+    EXPECT_TRUE(wait_until([&] { return std::abs(joint(1) - 10) < 0.01 && std::abs(joint(6) + 30) < 0.01; })) << point;
+  }
+}
+
+TEST_F(RobotNode, A_hand_at_a_terminal_moves_it_and_is_missed_when_it_is_killed) {
+  begin("");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  ASSERT_EQ(serve("eOpCode: 8, dTarget: [0, 0, 0, 0, 90, 0]"), 0);
+  const double height = number("PLC_ROBOT::ROBOT_ARM.position[2]");
+  const Outcome up = indurop({"robot", "jog", "z+", "--speed", "20", "--for", "1s"});
+  EXPECT_EQ(up.code, 0) << up.err;
+  EXPECT_TRUE(wait_until([&] { return state() == 1; }));
+  EXPECT_GT(number("PLC_ROBOT::ROBOT_ARM.position[2]"), height + 10);
+  EXPECT_LT(number("PLC_ROBOT::ROBOT_ARM.position[2]"), height + 20.0 / 100 * 250 * 1.5);
+  EXPECT_EQ(indurop({"robot", "jog", "J7+"}).code, 2);
+  EXPECT_EQ(indurop({"robot", "jog", "up"}).code, 2);
+
+  Program hand({INDUROP_PROGRAM, "robot", "jog", "J1+", "--speed", "30", "--node", node()}, environment());
+  ASSERT_TRUE(wait_until([&] { return joint(1) > 1; }));
+  hand.kill();
+  EXPECT_TRUE(wait_until([&] { return state() == 1; }));
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOG.bEnable"), 1);  // nobody let go
+  const double rests = joint(1);
+  EXPECT_EQ(indurop({"robot", "jog", "J1-", "--speed", "30", "--for", "500ms"}).code, 0);
+  EXPECT_TRUE(wait_until([&] { return joint(1) < rests - 0.5 && state() == 1; }));
+}
+
 TEST_F(RobotNode, The_emergency_stop_is_told_in_its_tick_and_the_robot_brakes_on_its_path) {
   begin("");
   ASSERT_EQ(serve("eOpCode: 1"), 0);
