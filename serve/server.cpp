@@ -25,7 +25,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.web = Page(options.web).there();
   facts.plant = options.plant;
   facts.recordings = options.recordings;
-  facts.plc = !options.plc.files.empty();
+  facts.plc = !options.plc.empty();
   return facts;
 }
 
@@ -131,8 +131,9 @@ std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
   }
   match.call.boards = &plc_->boards;
   match.call.plc = &plc_->pictures;
-  if (!plc_->worker.add([this, match = std::move(match), ticket]() mutable {
-        match.call.request = nullptr;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  if (!plc_->worker.add([this, request, match = std::move(match), ticket] {
         door_->reply(ticket, match.route->answer(api_, match.call));
       })) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
@@ -168,6 +169,11 @@ void Server::announce() const {
 }
 
 int Server::run() {
+  auto programs = tools::plc_programs(options_.plc);
+  if (!programs) {
+    fmt::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
+    return programs.error().code;
+  }
   DoorSettings settings;
   settings.bind = options_.bind;
   settings.port = static_cast<int>(options_.port);
@@ -181,15 +187,15 @@ int Server::run() {
     return kFailed;
   }
   door_ = std::move(opened).value();
+  if (!programs->empty()) {
+    plc_ = std::make_unique<Plc>(*programs, options_.node);
+  }
   announce();
   tools::be_gentle(options_.node);
   sampling_ = std::make_unique<Door::Alarm>(*door_, [this] { hub_.run(rt::now_ns()); });
   // Also what makes a signal noticed that came while nothing else happened.
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
-  if (!options_.plc.files.empty()) {
-    plc_ = std::make_unique<Plc>(options_.plc, options_.node);
-  }
   if (options_.plant) {
     far_ = std::make_unique<Far>(options_.link);
   }

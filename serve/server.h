@@ -75,7 +75,7 @@ class Server final : public House {
     Worker orders;  // one at a time
   };
   struct Plc {
-    Plc(const tools::PlcFiles& files, const std::string& node) : pictures(files), boards(node) {}
+    Plc(const std::vector<tools::PlcFiles>& programs, const std::string& node) : pictures(programs), boards(node) {}
     tools::PlcPictures pictures;  // of the worker's thread
     Boards boards;
     Worker worker;

@@ -65,6 +65,10 @@ class Reader {
 }  // namespace
 
 bool LivePower::powered(const network::Source& source) {
+  return known(source).value_or(false);
+}
+
+std::optional<bool> LivePower::known(const network::Source& source) {
   const network::Element& element = *source.element;
   if (element.kind == network::Element::Kind::LeftRail) {
     return true;
@@ -72,22 +76,71 @@ bool LivePower::powered(const network::Source& source) {
   if (const auto point = body_.power.find({source.element, source.pin}); point != body_.power.end()) {
     return told_(point->second);
   }
-  const bool contact = element.kind == network::Element::Kind::Contact;
-  if ((!contact && element.kind != network::Element::Kind::Coil) || element.inputs.empty()) {
-    return false;
+  if (const auto done = derived_.find(&element); done != derived_.end()) {
+    return done->second;
   }
-  if (const auto known = derived_.find(&element); known != derived_.end()) {
-    return known->second;
-  }
-  derived_[&element] = false;  // a line that leads back brings nothing
-  const auto& lines = element.inputs.front().connections;
-  const bool on =
-      (!contact || closed(element)) && std::any_of(lines.begin(), lines.end(), [&](const network::Connection& line) {
+  derived_[&element] = std::nullopt;  // a line that leads back brings nothing
+  return derived_[&element] = derived(source);
+}
+
+std::optional<bool> LivePower::derived(const network::Source& source) {
+  using Kind = network::Element::Kind;
+  const network::Element& element = *source.element;
+  const auto with_sign = [](std::optional<bool> value, bool negated) { return value ? *value != negated : value; };
+  switch (element.kind) {
+    case Kind::Contact:
+    case Kind::Coil: {
+      if (element.inputs.empty() || (element.kind == Kind::Contact && !closed(element))) {
+        return false;
+      }
+      const auto& lines = element.inputs.front().connections;
+      return std::any_of(lines.begin(), lines.end(), [&](const network::Connection& line) {
         const network::Source before = body_.sheet->index.source(line);
         return before.element != nullptr && powered(before);
       });
-  derived_[&element] = on;
-  return on;
+    }
+    case Kind::InVariable:
+    case Kind::InOutVariable:
+      return with_sign(of_variable(element.text), element.negated);
+    case Kind::Block:
+      return with_sign(of_logic(element), source.pin != nullptr && source.pin->negated);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<bool> LivePower::of_variable(const std::string& text) const {
+  const std::string name = upper(text);
+  const std::string value = name == "TRUE" || name == "FALSE" ? name : value_(name);
+  return value == "TRUE" ? std::optional(true) : value == "FALSE" ? std::optional(false) : std::nullopt;
+}
+
+std::optional<bool> LivePower::before(const network::Pin& pin) {
+  if (pin.connections.empty()) {
+    return of_variable(pin.expression);
+  }
+  const network::Source source = body_.sheet->index.source(pin.connections.front());
+  const bool plain = pin.connections.size() == 1 && pin.edge == ast::Edge::None && source.element != nullptr;
+  return plain ? known(source) : std::nullopt;
+}
+
+// Functions whose module does not say whether they are of BOOL: their inputs do.
+std::optional<bool> LivePower::of_logic(const network::Element& element) {
+  const std::string type = upper(element.type);
+  const bool logic = type == "AND" || type == "OR" || type == "XOR" || type == "NOT" || type == "MOVE";
+  if (!logic || !element.instance.empty() || element.inputs.empty()) {
+    return std::nullopt;
+  }
+  std::optional<bool> all;
+  for (const network::Pin& pin : element.inputs) {
+    const auto value = same_name(pin.name, "EN") ? std::nullopt : before(pin);
+    if (!value) {
+      return std::nullopt;  // one with an EN that is off keeps what it gave before
+    }
+    const bool on = *value != pin.negated;
+    all = !all ? on : type == "AND" ? *all && on : type == "OR" ? *all || on : *all != on;
+  }
+  return type == "NOT" ? !*all : *all;
 }
 
 bool LivePower::closed(const network::Element& element) {

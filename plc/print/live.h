@@ -41,8 +41,13 @@ struct LiveBody {
 // Where power is in a drawn body: what its module tells, and what follows from that.
 class LivePower {
  public:
-  // `told`: an element of the array of `body`, which must stay as long as this.
-  LivePower(const LiveBody& body, std::function<bool(std::size_t)> told) : body_(body), told_(std::move(told)) {}
+  using Told = std::function<bool(std::size_t)>;
+  using Value = std::function<std::string(const std::string&)>;
+  // `told`: an element of the array of `body`, which must stay as long as this. `value`: of a variable, by its name in
+  // capitals, as ST writes it; "" if it is not known. Of function blocks' drawings wires from variables and logic
+  // functions have the power that follows from the values at the end of the scan.
+  LivePower(const LiveBody& body, Told told, Value value)
+      : body_(body), told_(std::move(told)), value_(std::move(value)) {}
 
   // Behind it.
   [[nodiscard]] bool powered(const network::Source& source);
@@ -50,9 +55,17 @@ class LivePower {
   [[nodiscard]] bool closed(const network::Element& element);
 
  private:
+  // Nothing: it is no BOOL, or not known.
+  [[nodiscard]] std::optional<bool> known(const network::Source& source);
+  [[nodiscard]] std::optional<bool> derived(const network::Source& source);
+  [[nodiscard]] std::optional<bool> before(const network::Pin& pin);
+  [[nodiscard]] std::optional<bool> of_variable(const std::string& text) const;
+  [[nodiscard]] std::optional<bool> of_logic(const network::Element& element);
+
   const LiveBody& body_;
-  std::function<bool(std::size_t)> told_;
-  std::unordered_map<const network::Element*, bool> derived_;
+  Told told_;
+  Value value_;
+  std::unordered_map<const network::Element*, std::optional<bool>> derived_;
 };
 
 // Of all programs and function blocks, or the one named so, in the order of the document, to which they refer. A module

@@ -10,17 +10,19 @@
 namespace indurop::serve::answers {
 namespace {
 
-using Ask = Result<base::Json, tools::Failure> (tools::PlcPictures::*)(const std::string& node);
+using Ask = Result<base::Json, tools::Failure> (tools::PlcPictures::*)(const std::string& node,
+                                                                       const std::string& program);
 
 Reply ask(const Call& call, Ask what) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
   }
-  auto told = (call.plc->*what)((*found)->name());
+  auto told = (call.plc->*what)((*found)->name(), query_value(*call.request, "program").value_or(""));
   if (!told) {
     const int code = told.error().code;
-    return refusal(code == kCheckFailed ? status::kFailed : status::kConflict, told.error().text);
+    const int answer = code == kCheckFailed ? status::kFailed : code == kUsage ? status::kNotFound : status::kConflict;
+    return refusal(answer, told.error().text);
   }
   base::Json body = about(**found);
   body.update(*told);

@@ -57,14 +57,12 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .completes(base::Completion::Folder);
   app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
       .range(1, kMostClients);
-  app.add("--plc", "FILE", options.plc.files, "Show this PLC program with its power flow; it was built with --watch")
+  app.add("--plc", "FILE[,FILE]...", options.plc,
+          "Show this PLC program with its power flow; it was built with --watch. NAME:NAMESPACE=FILE if they are not "
+          "the "
+          "file's name")
       .one_at_a_time()
       .completes(base::Completion::File);
-  app.add("--plc-glb", "FILE", options.plc.glb_files, "A .glb file whose variables that program uses")
-      .one_at_a_time()
-      .completes(base::Completion::File);
-  app.add("--plc-name", "NAME", options.plc.name, "Name of its module (default: that of the first file)");
-  app.add("--plc-namespace", "NAME", options.plc.space, "Namespace of its variables (default: the module's name)");
   app.flag("--plant", options.plant, "Show the boards of the network too, by what their agents say");
   deploy::add_link_options(app, options.link);
 }
@@ -100,14 +98,9 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--audit", options.audit.string());
   value("--recordings", options.recordings.string());
   value("--clients", std::to_string(options.clients));
-  for (const std::string& file : options.plc.files) {
-    value("--plc", file);
+  for (const std::string& program : options.plc) {
+    value("--plc", program);
   }
-  for (const std::string& file : options.plc.glb_files) {
-    value("--plc-glb", file);
-  }
-  value("--plc-name", options.plc.name);
-  value("--plc-namespace", options.plc.space);
   if (options.plant) {
     words.emplace_back("--plant");
     const std::vector<std::string> more = link_words(options.link);

@@ -10,7 +10,6 @@
 
 #include "base/options.h"
 #include "deploy/link/deploy_link.h"
-#include "tools/plc/plc_pictures.h"
 
 namespace indurop::tools {
 
@@ -36,7 +35,7 @@ struct ServeOptions {
   bool quiet = false;
   bool plant = false;  // boards of the network too
   deploy::LinkSettings link;
-  PlcFiles plc;
+  std::vector<std::string> plc;  // programs, as plc_files() reads them
 };
 
 void declare_serve_options(base::Options& app, ServeOptions& options);

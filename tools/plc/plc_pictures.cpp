@@ -4,17 +4,52 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "plc/front/check_files.h"
 #include "plc/front/watch_plan.h"
 #include "plc/print/live.h"
 #include "tools/plc/plc_view.h"
 
 namespace indurop::tools {
+namespace {
 
-struct PlcPictures::Impl {
+plc::CompileOptions options_of(const PlcFiles& files) {
+  plc::CompileOptions compile;
+  compile.files = files.files;
+  compile.glb_files = files.glb_files;
+  compile.name = files.name;
+  compile.space = files.space;
+  return compile;
+}
+
+PlcFiles files_of(const std::string& words) {
+  PlcFiles out;
+  std::string_view rest = words;
+  if (const auto end = rest.find('='); end != std::string_view::npos) {
+    const std::string_view name = rest.substr(0, end);
+    const auto colon = std::min(name.find(':'), name.size());
+    out.name = name.substr(0, colon);
+    out.space = name.substr(std::min(colon + 1, name.size()));
+    rest.remove_prefix(end + 1);
+  }
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(','), rest.size());
+    const std::string file(rest.substr(0, end));
+    if (!file.empty()) {
+      (file.ends_with(".glb") ? out.glb_files : out.files).push_back(file);
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+struct PlcPictures::Program {
   // A view of one node.
   struct Watched {
     Context context;
@@ -22,6 +57,7 @@ struct PlcPictures::Impl {
     std::unique_ptr<PlcView> view;
   };
 
+  std::string name;
   plc::CompileOptions compile;
   std::optional<plc::WatchPlan> plan;
   std::map<std::string, std::unique_ptr<Watched>> nodes;
@@ -62,24 +98,69 @@ struct PlcPictures::Impl {
   }
 };
 
-PlcPictures::PlcPictures(PlcFiles files) : impl_(std::make_unique<Impl>()) {
-  impl_->compile.files = std::move(files.files);
-  impl_->compile.glb_files = std::move(files.glb_files);
-  impl_->compile.name = std::move(files.name);
-  impl_->compile.space = std::move(files.space);
+Result<std::vector<PlcFiles>, Failure> plc_programs(const std::vector<std::string>& words) {
+  std::vector<PlcFiles> out;
+  for (const std::string& each : words) {
+    PlcFiles files = files_of(each);
+    if (files.files.empty()) {
+      return Failure{kUsage, fmt::format("--plc {} names no file", each)};
+    }
+    files.name = plc::module_name(options_of(files));
+    if (std::any_of(out.begin(), out.end(), [&](const PlcFiles& one) { return one.name == files.name; })) {
+      return Failure{
+          kUsage, fmt::format("two PLC programs are called {0}: files of one program are --plc {1},{2}, a program of "
+                              "another name is --plc NAME={2}",
+                              files.name, out.back().files.front(), files.files.front())};
+    }
+    out.push_back(std::move(files));
+  }
+  return out;
+}
+
+PlcPictures::PlcPictures(const std::vector<PlcFiles>& programs) {
+  for (const PlcFiles& files : programs) {
+    auto& program = programs_.emplace_back(std::make_unique<Program>());
+    program->name = files.name;
+    program->compile = options_of(files);
+  }
 }
 
 PlcPictures::~PlcPictures() = default;
 
-Result<base::Json, Failure> PlcPictures::pictures(const std::string& node) {
-  impl_->nodes.erase(node);  // looks anew whether the node runs this program
-  auto view = impl_->view_of(node);
-  return view ? Result<base::Json, Failure>((*view)->pictures()) : std::move(view).error();
+Result<base::Json, Failure> PlcPictures::tell(const std::string& node, const std::string& program, bool anew,
+                                              Tell what) {
+  std::optional<Failure> failure;
+  base::Json names = base::Json::array();
+  for (const auto& one : programs_) {
+    names.push_back(one->name);
+  }
+  for (const auto& one : programs_) {
+    if (!program.empty() && one->name != program) {
+      continue;
+    }
+    if (anew) {
+      one->nodes.erase(node);  // looks anew whether the node runs this program
+    }
+    auto view = one->view_of(node);
+    if (view) {
+      base::Json told = ((*view)->*what)();
+      told["program"] = one->name;
+      told["programs"] = std::move(names);
+      return told;
+    }
+    if (!failure) {
+      failure = std::move(view).error();
+    }
+  }
+  return failure ? std::move(*failure) : Failure{kUsage, fmt::format("there is no PLC program '{}' here", program)};
 }
 
-Result<base::Json, Failure> PlcPictures::live(const std::string& node) {
-  auto view = impl_->view_of(node);
-  return view ? Result<base::Json, Failure>((*view)->live()) : std::move(view).error();
+Result<base::Json, Failure> PlcPictures::pictures(const std::string& node, const std::string& program) {
+  return tell(node, program, true, &PlcView::pictures);
+}
+
+Result<base::Json, Failure> PlcPictures::live(const std::string& node, const std::string& program) {
+  return tell(node, program, false, &PlcView::live);
 }
 
 }  // namespace indurop::tools

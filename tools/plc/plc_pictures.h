@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A PLC program's pictures with what a running one tells, for programs that draw themselves. One thread uses it.
+// PLC programs' pictures with what running ones tell, for programs that draw themselves. One thread uses it.
 
 #pragma once
 
@@ -15,6 +15,8 @@
 
 namespace indurop::tools {
 
+class PlcView;
+
 // Files of one program, as `indurop plc watch` takes them.
 struct PlcFiles {
   std::vector<std::string> files;
@@ -23,22 +25,30 @@ struct PlcFiles {
   std::string space;
 };
 
+// Of words "[NAME[:NAMESPACE]=]FILE[,FILE]...", one for each program; files that end in .glb are not compiled but used.
+// Each program has the name of its module. Errors: one without a file, two of a name.
+Result<std::vector<PlcFiles>, Failure> plc_programs(const std::vector<std::string>& words);
+
 class PlcPictures {
  public:
-  explicit PlcPictures(PlcFiles files);
+  // Their names are different.
+  explicit PlcPictures(const std::vector<PlcFiles>& programs);
   PlcPictures(const PlcPictures&) = delete;
   PlcPictures& operator=(const PlcPictures&) = delete;
   ~PlcPictures();
 
-  // What is to be drawn of the program that node runs. Errors: the files have errors; the node does not run this
-  // program, or it was built without --watch.
-  Result<base::Json, Failure> pictures(const std::string& node);
+  // What is to be drawn of `program`, or, if it is empty, of the first one that the node runs. Errors: there is none of
+  // that name; its files have errors; the node does not run it, or it was built without --watch.
+  Result<base::Json, Failure> pictures(const std::string& node, const std::string& program);
   // What changes in them. Errors: likewise.
-  Result<base::Json, Failure> live(const std::string& node);
+  Result<base::Json, Failure> live(const std::string& node, const std::string& program);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  using Tell = base::Json (PlcView::*)() const;
+  struct Program;
+  Result<base::Json, Failure> tell(const std::string& node, const std::string& program, bool anew, Tell what);
+
+  std::vector<std::unique_ptr<Program>> programs_;
 };
 
 }  // namespace indurop::tools

@@ -44,6 +44,13 @@ std::vector<std::string> texts_of(const plc::LiveBody& body) {
     return {body.body->text};
   }
   std::vector<std::string> texts;
+  for (const plc::draw::Picture& picture : body.pictures) {
+    for (const plc::draw::Symbol& symbol : picture.symbols) {
+      if (symbol.element != nullptr && symbol.element->kind == plc::network::Element::Kind::InVariable) {
+        texts.push_back(symbol.element->text);
+      }
+    }
+  }
   if (body.chart) {
     for (const plc::network::Transition& one : body.chart->transitions) {
       texts.push_back(plc::condition_text(*one.element));
@@ -308,9 +315,12 @@ void PlcView::network_lines(const Shown& shown, std::vector<std::string>& lines)
 }
 
 plc::draw::Live PlcView::live_of(const Shown& shown) const {
-  const auto power =
-      std::make_shared<plc::LivePower>(*shown.body, [this, &shown, flow = plc::upper(shown.body->flow_variable)](
-                                                        std::size_t number) { return flag(shown, flow, number); });
+  const auto power = std::make_shared<plc::LivePower>(
+      *shown.body,
+      [this, &shown, flow = plc::upper(shown.body->flow_variable)](std::size_t number) {
+        return flag(shown, flow, number);
+      },
+      [this, &shown](const std::string& name) { return value(shown, name); });
   plc::draw::Live live;
   live.powered = [power](const plc::network::Source& source) { return power->powered(source); };
   live.closed = [power](const plc::network::Element& element) { return power->closed(element); };

@@ -24,6 +24,26 @@ TRANSITION FROM rest TO run := go; END_TRANSITION
 TRANSITION FROM run TO rest := NOT go; END_TRANSITION
 END_PROGRAM
 """
+FBD = """<?xml version="1.0" encoding="utf-8"?>
+<project xmlns="http://www.plcopen.org/xml/tc6_0201"><fileHeader companyName="" productName="logic" productVersion="1"
+creationDateTime="2026-01-01T00:00:00"/><contentHeader name="logic"><coordinateInfo><fbd><scaling x="0" y="0"/></fbd><ld><scaling
+x="0" y="0"/></ld><sfc><scaling x="0" y="0"/></sfc></coordinateInfo></contentHeader><types><dataTypes/><pous>
+<pou name="logic" pouType="program"><interface><localVars>
+<variable name="a" address="%IX0.0"><type><BOOL/></type></variable><variable name="b" address="%IX0.1"><type><BOOL/></type></variable>
+<variable name="c" address="%QX0.0"><type><BOOL/></type></variable><variable name="d" address="%QX0.1"><type><BOOL/></type></variable>
+</localVars></interface><body><FBD>
+<inVariable localId="1" height="30" width="60" negated="false"><position x="40" y="50"/><connectionPointOut/><expression>a</expression></inVariable>
+<inVariable localId="2" height="30" width="60" negated="true"><position x="40" y="90"/><connectionPointOut/><expression>b</expression></inVariable>
+<block localId="3" typeName="OR" height="80" width="60"><position x="200" y="40"/><inputVariables>
+<variable formalParameter="IN1" negated="true"><connectionPointIn><connection refLocalId="1"/></connectionPointIn></variable>
+<variable formalParameter="IN2"><connectionPointIn><connection refLocalId="2"/></connectionPointIn></variable>
+</inputVariables><inOutVariables/><outputVariables><variable formalParameter="OUT"><connectionPointOut/></variable></outputVariables></block>
+<outVariable localId="4" height="30" width="60" negated="false"><position x="400" y="50"/><connectionPointIn><connection refLocalId="3" formalParameter="OUT"/></connectionPointIn><expression>c</expression></outVariable>
+<outVariable localId="5" height="30" width="60" negated="true"><position x="400" y="90"/><connectionPointIn><connection refLocalId="3" formalParameter="OUT"/></connectionPointIn><expression>d</expression></outVariable>
+</FBD></body></pou></pous></types><instances><configurations><configuration name="config"><resource name="resource">
+<task name="fast" priority="1" interval="T#10ms"><pouInstance name="logic0" typeName="logic"/></task>
+</resource></configuration></configurations></instances></project>
+"""
 
 
 def indurop(setting, *words):
@@ -88,6 +108,68 @@ def test_shows_text_and_steps(setting):
     values, steps = live()
     assert "n = 7" in values["values"] and steps["conditions"][0] == "go = TRUE", (values, steps)
     assert steps["times"][0] == "" and steps["times"][1].startswith("T#"), steps
+
+
+def run_both(setting):
+    """The text and the function blocks as two programs of one board."""
+    parts = []
+    for name, text in (("line.st", LINE), ("logic.xml", FBD)):
+        (setting.folder / name).write_text(text)
+        parts.append(indurop(setting, "plc", "build", setting.folder / name, "-o", setting.folder / "out", "--watch"))
+    (setting.folder / "out" / "module.xml").write_text("<root>\n" + "".join(parts) + "</root>\n")
+    run(setting, setting.folder / "out" / "module.xml")
+    return [f"{setting.folder}/{name}" for name in ("line.st", "logic.xml")]
+
+
+def test_shows_the_power_in_function_blocks_with_negated_pins(setting):
+    _, logic = run_both(setting)
+    server = setting.start_server("--plc", logic)
+    base = f"{API}/boards/{setting.node}/plc"
+    body, = asked(server, base)["bodies"]
+    network, = body["networks"]
+    assert body["language"] == "FBD" and not network["rail"] and not network["switches"], body
+    # What the standard says of each wire, for all inputs: what leaves the variable a, what leaves b through its negation,
+    # and the block's output, which is negated on its way into d only.
+    seen = {}
+    for a in (False, True):
+        for b in (False, True):
+            indurop(setting, "set", "--node", setting.node, f"logic::a={str(a).lower()}", f"logic::b={str(b).lower()}")
+            output = (not a) or (not b)
+
+            def settled():
+                values = {one["name"]: one["value"] for one in asked(server, f"{API}/boards/{setting.node}/variables?match=logic::*")["variables"]}
+                live = asked(server, base + "/live")["bodies"][0]["networks"][0]
+                return (values["logic::c"], values["logic::d"]) == (output, not output) and live
+
+            live = wait_for(settled, f"c and d for {a}, {b}")
+            assert len(live["power"]) == len(network["wires"]) > 0
+            seen[a, b] = wait_for(lambda: settled() and asked(server, base + "/live")["bodies"][0]["networks"][0]["power"], "power")
+    tables = {tuple(seen[inputs][i] == "1" for inputs in sorted(seen)) for i in range(len(network["wires"]))}
+    inputs = sorted(seen)
+    assert tables == {tuple(a for a, _ in inputs), tuple(not b for _, b in inputs), tuple(not (a and b) for a, b in inputs)}, (tables, seen)
+
+
+def test_shows_several_programs(setting):
+    line, logic = run_both(setting)
+    other = setting.folder / "other.st"
+    other.write_text(LINE.replace("7", "8"))
+    server = setting.start_server("--plc", f"other={other}", "--plc", line, "--plc", logic)
+    base = f"{API}/boards/{setting.node}/plc"
+    first = asked(server, base)
+    assert (first["program"], first["programs"]) == ("line", ["other", "line", "logic"]), "the first that the board runs"
+    for name, languages in (("line", ["ST", "SFC"]), ("logic", ["FBD"])):
+        told, live = asked(server, f"{base}?program={name}"), asked(server, f"{base}/live?program={name}")
+        assert told["program"] == live["program"] == name and told["namespace"] == name
+        assert [one["language"] for one in told["bodies"]] == languages and len(live["bodies"]) == len(languages)
+    assert server.get(base + "?program=other").status == 409, "the board does not run it"
+    assert server.get(base + "?program=nobody").status == 404
+
+
+def test_refuses_programs_it_cannot_tell_apart(setting):
+    for words in (["--plc", "a/main.st", "--plc", "b/main.st"], ["--plc", "cell.glb"], ["--plc", "name="]):
+        refused = subprocess.run([setting.programs / "indurop-serve", "--port", "0", *words], env=setting.environment,
+                                 capture_output=True, text=True, check=False, timeout=60)
+        assert refused.returncode == 2 and "--plc" in refused.stderr, (words, refused)
 
 
 def test_says_why_it_shows_nothing(setting):

@@ -36,6 +36,23 @@ await browser.run({
     check((await powered(page)) < before + 4, "power flows although stop is forced");
   },
 
+  async "One of several programs is chosen, and stays chosen"() {
+    const page = await browser.open("plc", { width: 1280, height: 800 });
+    await sees(page, "Start and stop the conveyor");
+    await page.select(".plc select", "lamp");
+    await sees(page, "flashes := flashes + 1;");
+    await sees_no(page, "Start and stop the conveyor");
+    await sees(page, "flashes = 0");
+    await order("lit=true");
+    await page.waitForFunction(() => /flashes = [1-9]/.test(document.body.innerText));
+    await browser.judge(page, "plc-text-wide");
+    await page.reload();
+    await sees(page, "flashes := flashes + 1;");
+    await page.select(".plc select", "conveyor");
+    await sees(page, "Start and stop the conveyor");
+    await page.close();
+  },
+
   async "A recipe is saved, compared, loaded in one tick, and removed"() {
     const page = await browser.open("recipes", { width: 1280, height: 800 });
     await sees(page, "There are no recipes of this board yet.");

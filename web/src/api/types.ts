@@ -60,6 +60,8 @@ export interface PlcBody {
 }
 
 export interface PlcProgram {
+  program: string;
+  programs: string[];
   namespace: string;
   others: string;
   bodies: PlcBody[];

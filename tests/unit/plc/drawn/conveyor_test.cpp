@@ -97,7 +97,7 @@ TEST_F(PlcConveyor, Every_power_of_the_drawing_is_told) {
   const auto bit = [&](std::size_t number) { return belt::instance_watch[flow->offset + number].get() != 0; };
   belt::start = true;
   scan(5);
-  plc::LivePower live(program, bit);
+  plc::LivePower live(program, bit, [](const std::string&) { return std::string(); });
   std::size_t contacts = 0;
   std::size_t coils = 0;
   for (const plc::network::Element* element : program.sheet->order.elements) {

@@ -6,7 +6,7 @@ import { useMemo } from "preact/hooks";
 import { board_path, get, words } from "../../api/http";
 import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLive, PlcProgram, Variables } from "../../api/types";
 import { plant, useBoard } from "../../shell/plant";
-import { address } from "../../ui/address";
+import { address, change_query, place } from "../../ui/address";
 import { Panel, Waiting } from "../../ui/parts";
 import { useAsked, useStore } from "../../ui/store";
 
@@ -104,18 +104,32 @@ export function Plc() {
   const board = useBoard();
   const { status } = useStore(plant);
   const name = board && status?.plc ? board.board : "";
-  const program = useAsked(name && `${name} ${board?.layout}`, 0, () => get<PlcProgram>(board_path(name, "/plc")), words);
+  const chosen = useStore(place).query.get("p") ?? "";
+  const which = (program: string) => (program ? `?program=${encodeURIComponent(program)}` : "");
+  const program = useAsked(name && `${name} ${board?.layout} ${chosen}`, 0, () => get<PlcProgram>(board_path(name, `/plc${which(chosen)}`)), words);
   const shared = useAsked(name && `${name} ${board?.layout}`, 0, () => get<Variables>(board_path(name, "/variables?values=false")), words);
-  const now = useAsked(program.value ? `${name} ${board?.layout} live` : "", EVERY_MS, () => get<PlcLive>(board_path(name, "/plc/live")), words);
+  const now = useAsked(program.value ? `${name} ${board?.layout} ${program.value.program} live` : "", EVERY_MS,
+    () => get<PlcLive>(board_path(name, `/plc/live${which(program.value!.program)}`)), words);
   const find = useMemo(() => finder(program.value?.namespace ?? "", shared.value?.variables.map((one) => one.name) ?? []), [program.value, shared.value]);
   if (status && !status.plc) {
     return <p class="panel">This server knows no PLC program. Build one with <code>indurop plc build FILE --watch</code>, and start the server
       with <code>indurop serve --plc FILE</code>.</p>;
   }
-  if (program.error) return <><p class="bad">{program.error}</p><p><button type="button" onClick={program.again}>Look again</button></p></>;
+  if (program.error) {
+    return (
+      <>
+        <p class="bad">{program.error}</p>
+        <p><button type="button" onClick={program.again}>Look again</button> {chosen && <button type="button" onClick={() => change_query({ p: "" })}>Show another program</button>}</p>
+      </>);
+  }
   if (!board || !program.value) return <Waiting />;
   return (
     <div class="plc">
+      {program.value.programs.length > 1 && (
+        <div class="bar"><label class="choice">Program{" "}
+          <select value={program.value.program} onChange={(event) => change_query({ p: event.currentTarget.value })}>
+            {program.value.programs.map((one) => <option key={one}>{one}</option>)}
+          </select></label></div>)}
       <p class="quiet">Green has power; a green contact or coil lets it through. Choose one to see its variable, set or force it.</p>
       {now.error && <p class="bad">{now.error}</p>}
       {now.value && !now.value.alive && <p class="warn">The node does not run: these are its last values.</p>}
