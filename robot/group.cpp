@@ -186,6 +186,7 @@ void Group::stop_for(Fault fault) noexcept {
 }
 
 void Group::run_state(Signals& signals) noexcept {
+  job_.end_pulses(period_, signals);
   for (AxisControl& a : axes()) {
     if (a.state() != AxisState::SynchronizedMotion) {
       a.move(period_);

@@ -22,7 +22,7 @@ enum class Op : std::uint8_t {
   Speed,      // value: part of full speed, or m/s if index is 1
   Zone,       // value: m
   Tool,       // index: tool
-  Set,        // index: signal; formula
+  Set,        // index: signal; formula; pulse
   SetOnPath,  // the same, of the motion before it: value: m before its end, behind its beginning if mid is 1;
               // timeout above 0: s instead
   Assign,     // index: variable of the job; formula
@@ -48,6 +48,7 @@ struct Step {
   bool by_tool = false;  // Move: the offset is along the axes of the tool
   double value = 0;
   double timeout = 0;  // s; 0: none
+  double pulse = 0;    // s that it is on; 0: it is set
 };
 
 struct Point {

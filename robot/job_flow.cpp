@@ -31,13 +31,27 @@ int JobParser::signal(const char* what) {
   return static_cast<int>(found - book_.signals.begin());
 }
 
-void JobParser::set() {
-  const int index = signal("the name of a variable");
-  accept("=");
-  const int formula = failed_ ? -1 : expression("ON, OFF or the value");
+// "PULSE O8 0.2s", "PULSE O8 200 ms BEFORE 50 mm"
+void JobParser::pulse() {
   Step step;
-  step.index = index;
-  step.formula = formula;
+  step.index = signal("the name of a variable");
+  const JobToken time = peek();
+  if (!failed_ && duration(step.pulse) && !(step.pulse > 0)) {
+    error(time, "a pulse is longer than 0 s");
+  }
+  add_setting(step);
+}
+
+void JobParser::set() {
+  Step step;
+  step.index = signal("the name of a variable");
+  accept("=");
+  step.formula = failed_ ? -1 : expression("ON, OFF or the value");
+  add_setting(step);
+}
+
+// At rest, or on the way of the motion before.
+void JobParser::add_setting(Step step) {
   const bool before = !failed_ && accept("BEFORE");
   if (before || (!failed_ && accept("AFTER"))) {
     step.mid = before ? 0 : 1;
@@ -45,8 +59,9 @@ void JobParser::set() {
     return;
   }
   Step& added = add(Op::Set);
-  added.index = index;
-  added.formula = formula;
+  step.op = added.op;
+  step.line = added.line;
+  added = step;
 }
 
 // "SET O8 ON BEFORE 50 mm", "SET O8 ON AFTER 0.2s"

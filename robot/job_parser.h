@@ -61,6 +61,8 @@ class JobParser {
   void speed();
   void zone();
   void set();
+  void pulse();
+  void add_setting(Step step);
   void set_on_path(Step wanted);
   void assign();
   void variable();

@@ -162,7 +162,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       break;
     case Op::Set:
     case Op::Assign:
-      next = assign(step, signals);
+      next = step.pulse > 0 ? pulse(step, signals) : assign(step, signals);
       break;
     case Op::Goto:
       jump(step.index);
@@ -239,7 +239,12 @@ JobRunner::Next JobRunner::assign(const Step& step, Signals& signals) noexcept {
     return Next::Wait;
   }
   const auto index = static_cast<std::size_t>(step.index);
-  step.op == Op::Set ? signals.write(index, value) : void(frame().variables[index] = value);
+  if (step.op == Op::Assign) {
+    frame().variables[index] = value;
+  } else {
+    pulses_.forget(index);
+    signals.write(index, value);
+  }
   return Next::Go;
 }
 

@@ -11,6 +11,7 @@
 
 #include "robot/errors.h"
 #include "robot/job.h"
+#include "robot/pulses.h"
 
 namespace indurop::robot {
 
@@ -54,6 +55,8 @@ class JobRunner {
   // step.
   void fail(Fault fault, const char* why, int source) noexcept;
   void step(double seconds, Signals& signals, MotionPort& port) noexcept;
+  // Once a period, whether a job runs or not.
+  void end_pulses(double seconds, Signals& signals) noexcept { pulses_.step(seconds, signals); }
 
   [[nodiscard]] bool running() const noexcept { return state_ == JobState::Runs || state_ == JobState::Waits; }
   // With the line of the motion called `source` while the job runs ahead of it.
@@ -89,6 +92,9 @@ class JobRunner {
   void fire(double seconds, Signals& signals, const MotionPort& port) noexcept;
   void modal(const Step& step) noexcept;
   Next assign(const Step& step, Signals& signals) noexcept;
+  Next pulse(const Step& step, Signals& signals) noexcept {
+    return pulses_.start(static_cast<std::size_t>(step.index), step.pulse, signals) ? Next::Go : Next::Wait;
+  }
   Next branch(const Step& step, Signals& signals) noexcept;
   Next wait_time(const Step& step, double seconds) noexcept;
   Next call(const Step& step, Signals& signals) noexcept;
@@ -123,8 +129,10 @@ class JobRunner {
     std::uint32_t ticket = 0;
     bool by_time = false, after = false;
     double amount = 0;  // m or s
+    double pulse = 0;   // s; 0: it is set
   };
   std::array<Trigger, 16> triggers_{};
+  Pulses pulses_;
   std::uint32_t ticket_ = 0;   // of the last motion that was commanded
   std::uint32_t present_ = 0;  // of the one that was followed last
   double since_ = 0;           // s, that this one has been followed

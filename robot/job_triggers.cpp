@@ -13,11 +13,11 @@ JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexc
     return Next::Wait;
   }
   double value = 0;
-  if (!compute(step.formula, signals, value)) {
+  if (step.formula >= 0 && !compute(step.formula, signals, value)) {
     return Next::Wait;
   }
   const bool by_time = step.timeout > 0;
-  *free = {true, step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value};
+  *free = {true, step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value, step.pulse};
   return Next::Go;
 }
 
@@ -38,8 +38,14 @@ void JobRunner::fire(double seconds, Signals& signals, const MotionPort& port) n
                              : (each.after ? now.gone >= each.amount : now.left <= each.amount);
     }
     if (passed || reached) {
+      const auto signal = static_cast<std::size_t>(each.signal);
+      if (each.pulse > 0) {
+        each.waits = !pulses_.start(signal, each.pulse, signals);
+        continue;
+      }
       each.waits = false;
-      signals.write(static_cast<std::size_t>(each.signal), each.value);
+      pulses_.forget(signal);
+      signals.write(signal, each.value);
     }
   }
 }

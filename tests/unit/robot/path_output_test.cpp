@@ -92,12 +92,53 @@ TEST(Path_output, Of_a_motion_that_is_stopped_it_is_set_when_the_job_goes_on) {
   EXPECT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Ended; }));
 }
 
+TEST(Path_output, A_pulse_ends_by_itself_while_the_robot_moves) {
+  const auto sets = sets_of("MOVJ A\nSPEED 200 mm/s\nMOVL B\nPULSE I4 0.3s AFTER 100 mm\n");
+  ASSERT_EQ(sets.size(), 3U);
+  EXPECT_NEAR(sets[0].place.y(), -150, 5);
+  EXPECT_EQ(sets[1].value, 0);
+  EXPECT_NEAR(sets[1].time - sets[0].time, 0.3, 0.011);
+  EXPECT_GT(sets[1].speed, 190);
+}
+
+TEST(Path_output, A_pulse_ends_whatever_became_of_its_job) {
+  for (const bool emergency : {false, true}) {
+    Cell cell(kPoints + std::string("PULSE I4 500 ms\nMOVJ A\nLOOP\nMOVL B\nMOVL A\nEND\n"), 10, 0, true, {},
+              cell_urdf());
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.service.job = 1;
+    cell.ask(Service::JobStart);
+    ASSERT_TRUE(cell.until([&] { return cell.values[0] == 1; }));
+    if (emergency) {
+      cell.in.emergency = true;
+    } else {
+      cell.ask(Service::JobStop);
+    }
+    int periods = 0;
+    ASSERT_TRUE(cell.until([&] { return ++periods > 0 && cell.values[0] == 0; }));
+    EXPECT_NEAR(periods, 50, 2);
+  }
+}
+
+TEST(Path_output, A_pulse_begins_anew_and_SET_takes_it_over) {
+  // 0.2 s of a pulse of 0.3 s, then another 0.3 s: one edge up, one down, 0.5 s between them.
+  auto sets = sets_of("PULSE I4 0.3s\nWAIT 0.2s\nPULSE I4 0.3s\nWAIT 1s\n");
+  ASSERT_EQ(sets.size(), 3U);
+  EXPECT_NEAR(sets[1].time - sets[0].time, 0.5, 0.02);
+  sets = sets_of("PULSE I4 0.3s\nSET I4 = 5\nWAIT 1s\nSET I4 = 6\nWAIT 0.1s\n");
+  ASSERT_EQ(sets.size(), 3U);
+  EXPECT_EQ(sets[0].value, 5);
+  EXPECT_EQ(sets[1].value, 6);
+}
+
 TEST(Path_output, Mistakes_are_named_where_they_are) {
   const std::pair<const char*, const char*> kCases[] = {
       {"SET I4 ON BEFORE 5 mm\n", "a.job:1:1: error: BEFORE and AFTER are about the motion in the line above"},
       {"MOVJ P\nSET I4 ON AFTER 5 mm\n", "a.job:2:17: error: the way of a MOVJ has no distance; give a time"},
       {"MOVL P\nSET I4 = I5 AFTER 5 mm\n", "a.job:2:1: error: what is set on the way is computed before"},
       {"MOVL P\nSET I4 ON AFTER 5\n", "a.job:2:18: error: expected s or ms, found the end of the line"},
+      {"PULSE I4\n", "a.job:1:9: error: expected a time, 0.5s or 200 ms, found the end of the line"},
+      {"PULSE I4 0 s\n", "a.job:1:10: error: a pulse is longer than 0 s"},
       {"MOVL P\nSET I4 ON BEFORE -5 mm\n", "a.job:2:18: error: a distance is from 0 mm"},
   };
   for (const auto& [text, wanted] : kCases) {

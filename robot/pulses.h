@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Outputs that jobs switch on for a time: they go off whatever became of the job. Real-time safe.
+
+#pragma once
+
+#include <indurop/robot/controller.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace indurop::robot {
+
+class Pulses {
+ public:
+  // On from now for `seconds`, which begin anew if it is on already. False: 16 others are.
+  bool start(std::size_t signal, double seconds, Signals& signals) noexcept {
+    auto place =
+        std::find_if(all_.begin(), all_.end(), [&](const Pulse& one) { return one.on && one.signal == signal; });
+    if (place == all_.end()) {
+      place = std::find_if(all_.begin(), all_.end(), [](const Pulse& one) { return !one.on; });
+    }
+    if (place == all_.end()) {
+      return false;
+    }
+    *place = {true, signal, seconds};
+    signals.write(signal, 1);
+    return true;
+  }
+  // Once a period, before jobs run.
+  void step(double seconds, Signals& signals) noexcept {
+    for (Pulse& one : all_) {
+      one.left -= seconds;
+      if (one.on && one.left < seconds / 2) {
+        one.on = false;
+        signals.write(one.signal, 0);
+      }
+    }
+  }
+  // Whoever sets the output otherwise takes it over.
+  void forget(std::size_t signal) noexcept {
+    for (Pulse& one : all_) {
+      one.on = one.on && one.signal != signal;
+    }
+  }
+
+ private:
+  struct Pulse {
+    bool on = false;
+    std::size_t signal = 0;
+    double left = 0;  // s
+  };
+  std::array<Pulse, 16> all_{};
+};
+
+}  // namespace indurop::robot
