@@ -40,6 +40,8 @@ const char* word_of(Action action) {
       return "force";
     case Action::Unforce:
       return "unforce";
+    case Action::Set:
+      return "set";
     case Action::SetLock:
       return "lock";
     case Action::KeepBox:
@@ -55,7 +57,7 @@ const char* word_of(Action action) {
 }
 
 bool is_write(Action action) noexcept {
-  return action == Action::Force || action == Action::Unforce || action == Action::SetLock;
+  return action == Action::Force || action == Action::Unforce || action == Action::Set || action == Action::SetLock;
 }
 
 bool is_recording(Action action) noexcept {

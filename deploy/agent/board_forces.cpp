@@ -128,6 +128,39 @@ void note_forces(const std::string& board, const Command& command, const WriteOr
   }
 }
 
+Done set(const std::string& board, const Command& command, const WriteOrder& order, vars::Store& store) {
+  const auto all = read_all(store, order.lines);
+  if (!all) {
+    return all.error();
+  }
+  const bool tuning =
+      std::all_of(all->begin(), all->end(), [](const Wanted& one) { return one.place.variable->given; });
+  if (auto why = vars::refusal(vars::lock_of(board), tuning ? vars::Act::SetParameter : vars::Act::Set)) {
+    return Problem{std::move(*why)};
+  }
+  for (const Wanted& one : *all) {
+    const auto& value = one.value;
+    for (const vars::Force& force : store.forces()) {
+      if (force.variable == value.variable && force.offset < value.offset + value.type.size() &&
+          force.offset + force.size > value.offset) {
+        return Problem{fmt::format("{} is forced; let it go first: indurop unforce", one.name)};
+      }
+    }
+  }
+  for (const Wanted& one : *all) {
+    // Read again: two orders may be about parts of one variable.
+    std::vector<std::uint8_t> bytes(one.value.type.size());
+    std::string message;
+    (void)store.read(*one.value.variable, one.value.offset, bytes);
+    (void)schema::parse_value(one.value.type, one.text, bytes, message);
+    if (const Status written = store.write(*one.value.variable, one.value.offset, bytes); !written) {
+      return Problem{fmt::format("{} is not set: {}", one.name, written.error().where)};
+    }
+    note(board, command, order, "set", one.name, one.text);
+  }
+  return {};
+}
+
 Done unforce(const std::string& board, const Command& command, vars::Store& store) {
   std::vector<Wanted> named;
   const bool everything = command.target == "*";
@@ -188,6 +221,9 @@ Done BoardForces::carry_out(const Command& command) {
   auto store = open_store(board_);
   if (!store) {
     return std::move(store).error();
+  }
+  if (command.action == Action::Set) {
+    return set(board_, command, *order, *store);
   }
   if (auto why = vars::refusal(vars::lock_of(board_), vars::Act::Force); why && !order->renew) {
     return Problem{std::move(*why)};

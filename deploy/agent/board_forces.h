@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of this board's variables that somebody elsewhere wants held, as far as the board's write lock lets
+// Values of this board's variables that somebody elsewhere wants set or held, as far as the board's write lock lets
 // them, and that lock itself. Not real-time safe.
 
 #pragma once
@@ -21,8 +21,8 @@ class BoardForces {
  public:
   explicit BoardForces(std::string board) : board_(std::move(board)) {}
 
-  // Action::Force, Unforce and SetLock: all of it is done, or nothing, with a problem that names all that is wrong.
-  // Values have to be within their declared range.
+  // Action::Force, Unforce, Set and SetLock: all of it is done, or nothing, with a problem that names all that is
+  // wrong. Values have to be within their declared range.
   Result<void, base::Problem> carry_out(const Command& command);
 
  private:

@@ -18,13 +18,17 @@ Result<void, base::Problem> use_keys(LinkSettings& settings) {
   return {};
 }
 
-base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help) {
-  const auto take = [&security, role](const std::string& text) {
+base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help,
+                             std::filesystem::path* given) {
+  const auto take = [&security, role, given](const std::string& text) {
     const auto keys = keys::keys_meant(text, role);
     if (!keys) {
       return keys.error().text;
     }
     security = security_of(*keys);
+    if (given != nullptr) {
+      *given = text;
+    }
     return std::string();
   };
   return line.add("--keys", "DIR", take, help).completes(base::Completion::Folder);

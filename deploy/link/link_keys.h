@@ -22,7 +22,8 @@ dds::Security security_of(const keys::ParticipantKeys& keys);
 Result<void, base::Problem> use_keys(LinkSettings& settings);
 
 // Adds --keys DIR, which sets `security` to the keys there (keys::keys_meant); a folder without is a wrong command
-// line.
-base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help);
+// line. `given`, if there is one: becomes that folder.
+base::Option add_keys_option(base::Options& line, dds::Security& security, keys::Role role, const std::string& help,
+                             std::filesystem::path* given = nullptr);
 
 }  // namespace indurop::deploy

@@ -214,7 +214,7 @@ constexpr NodeCondition last_of(NodeCondition /*any*/) noexcept {
   return NodeCondition::Stopped;
 }
 constexpr Action last_of(Action /*any*/) noexcept {
-  return Action::SetLock;
+  return Action::Set;
 }
 constexpr Outcome last_of(Outcome /*any*/) noexcept {
   return Outcome::Refused;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Action::Force and SetLock carry besides their lines: for how long, who and why. One text, which agents that
+// What Action::Force, Set and SetLock carry besides their lines: for how long, who and why. One text, which agents that
 // know less understand as far as they do.
 
 #pragma once

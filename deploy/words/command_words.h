@@ -28,6 +28,7 @@ enum class Action : std::uint8_t {
   EndRecord,   // target: its name. Unchanged: it had ended before, the text says why
   DropRecord,  // target: its name; its file was fetched
   SetLock,     // target: transaction/write_words.h
+  Set,         // likewise
 };
 
 struct Command {

@@ -39,7 +39,8 @@ void add_far_options(base::Options& app, Context& context) {
   app.flag("--remote", far.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
   dds::add_network_options(app, far.network, "the variables that boards show", &far.wanted, "--remote");
   deploy::add_keys_option(app, far.network.security, keys::Role::Viewer,
-                          "Keys of a tool or of a plant, for boards with <external secure=\"on\">; implies --remote")
+                          "Keys of a tool or of a plant, for boards with <external secure=\"on\">; implies --remote",
+                          &far.keys)
       .implies(far.wanted);
   app.add("--peer", "ADDRESS", far.network.peers,
           "Address of a board, for networks without multicast; implies --remote")

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -26,6 +27,7 @@ enum class Format { Table, Json, Csv, Svg };
 struct FarOptions {
   bool wanted = false;
   dds::NetworkSettings network;
+  std::filesystem::path keys;            // folder that network.security is from; empty: none
   std::int64_t wait_ns = 3'000'000'000;  // for boards and values to be heard
 };
 class ValueSource;

@@ -85,6 +85,11 @@ int force_on_board(Context& context, BoardForces& options, std::vector<std::stri
   return Orders(context, options).give(deploy::Action::Force, text_of(order));
 }
 
+int set_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
+  return Orders(context, options)
+      .give(deploy::Action::Set, text_of(order_of(context, as_lines(std::move(assignments)))));
+}
+
 int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments) {
   Orders orders(context, options);
   deploy::WriteOrder order = order_of(context, as_lines(std::move(assignments)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// force, unforce and forces on a board anywhere in the network, through its agent.
+// set, force, unforce and forces on a board anywhere in the network, through its agent.
 
 #pragma once
 
@@ -20,7 +20,8 @@ void add_board_force_options(base::Options& app, BoardForces& options);
 
 // The board holds all of `assignments` (NAME=VALUE) for `for_ns` (0: until unforced), or none. Returns the exit code.
 int force_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments, std::int64_t for_ns);
-// The same until the user ends it, or the board does not hear of this program any more.
+int set_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments);
+// Held until the user ends it, or the board does not hear of this program any more.
 int hold_on_board(Context& context, BoardForces& options, std::vector<std::string> assignments);
 int lock_board(Context& context, BoardForces& options, const std::string& word);
 // No names: all.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop set: writes values once, after all of them were found good.
+#include "deploy/link/link_keys.h"
+#include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
 #include "tools/values/forcing.h"
 #include "tools/values/node_choice.h"
@@ -8,7 +10,33 @@
 namespace indurop::tools {
 namespace {
 
-int set(Context& context, const std::vector<std::string>& words) {
+struct Options {
+  std::vector<std::string> words;
+  BoardForces board;
+};
+
+// The options of variables that boards show are those of agents, too.
+int set_by_agent(Context& context, Options& options) {
+  deploy::LinkSettings& link = options.board.board.link;
+  const dds::NetworkSettings& far = context.far.network;
+  link.network.domain = far.domain != 0 ? far.domain : deploy::LinkSettings::kDefaultDomain;
+  link.network.interface_name = far.interface_name;
+  link.network.one_host = far.one_host;
+  link.keys = context.far.keys;
+  if (!link.keys.empty()) {
+    if (const auto done = deploy::use_keys(link); !done) {
+      context.out.error(done.error().text);
+      return kUsage;
+    }
+  }
+  return set_on_board(context, options.board, options.words);
+}
+
+int set(Context& context, Options& options) {
+  if (options.board.board.wanted()) {
+    return set_by_agent(context, options);
+  }
+  const std::vector<std::string>& words = options.words;
   std::vector<std::string> names;
   for (const std::string& word : words) {
     names.push_back(word.substr(0, word.find('=')));
@@ -35,14 +63,16 @@ int set(Context& context, const std::vector<std::string>& words) {
 }
 
 Action declare(base::Options& app, Context& context) {
-  auto words = std::make_shared<std::vector<std::string>>();
-  app.add("assignment", "TEXT", *words, "NAME VALUE, or NAME=VALUE ...")
+  auto options = std::make_shared<Options>();
+  app.add("assignment", "TEXT", options->words, "NAME VALUE, or NAME=VALUE ...")
       .required()
       .completes(base::Completion::Variable);
   add_reason_option(app, context);
   add_node_option(app, context);
   add_far_options(app, context);
-  return [words](Context& c) { return set(c, *words); };
+  app.add("--board", "NAME", options->board.board.board,
+          "By the agent of this board, whatever it shows; --domain is that of the agents then (default: 76)");
+  return [options](Context& c) { return set(c, *options); };
 }
 
 }  // namespace
@@ -52,11 +82,13 @@ const Verb kSetVerb{
     "All values are checked before the first is written: type, array bounds, declared range. A declared range is\n"
     "never overridden. Each NAME=VALUE is one commit; write a struct or array as a whole to change several parts\n"
     "at once. A module that writes the same variable overwrites the value in its next run; see\n"
-    "indurop force.\n"
+    "indurop force. With --remote, a board shows a variable and lets it be set (external=\"write\"); with --board\n"
+    "its agent sets any, as for indurop force --board.\n"
     "Examples:\n"
     "  indurop set gain 2.5\n"
     "  indurop set 'joints[1].y=-0.5' mode=AUTO\n"
-    "  indurop set 'joints[0]' '{x: 1, y: 2, z: 3}'\n",
+    "  indurop set 'joints[0]' '{x: 1, y: 2, z: 3}'\n"
+    "  indurop set gain=2.5 --board control --keys keys\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -92,6 +92,31 @@ TEST_F(RemoteLook, Values_are_forced_all_or_none) {
   EXPECT_EQ(here({"forces"})["forces"], Json::array());
 }
 
+TEST_F(RemoteLook, Values_are_set_all_or_none) {
+  start_boards();
+  const auto value = [&](const char* name) { return here({"get", name})["values"][0]["value"]; };
+  const Json before = value("echo");
+  const Outcome wrong = at_a({"set", "echo=7", "torque=9", "nothing=1"});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("9 is outside -5..5"));
+  EXPECT_THAT(wrong.err, HasSubstr("no variable 'nothing'"));
+  EXPECT_EQ(value("echo"), before) << "all or none";
+  ASSERT_EQ(at_a({"set", "torque", "2.5", "--reason", "a trial"}).code, 0);
+  EXPECT_EQ(value("torque"), 2.5);
+  ASSERT_EQ(at_a({"set", "encoder={speed: 0.25}", "torque=-1"}).code, 0);
+  EXPECT_EQ(value("torque"), -1);
+  ASSERT_EQ(at_a({"force", "torque=1"}).code, 0);
+  const Outcome forced = at_a({"set", "torque=2"});
+  EXPECT_EQ(forced.code, 1);
+  EXPECT_THAT(forced.err, HasSubstr("torque is forced"));
+  ASSERT_EQ(at_a({"unforce", "--all"}).code, 0);
+  ASSERT_EQ(at_a({"lock", "all"}).code, 0);
+  const Outcome locked = at_a({"set", "torque=3"});
+  EXPECT_EQ(locked.code, 1);
+  EXPECT_THAT(locked.err, HasSubstr("its write lock is 'all'"));
+  EXPECT_EQ(value("torque"), 1);
+}
+
 TEST_F(RemoteLook, A_lease_ends_with_whoever_holds_it_from_afar) {
   start_boards();
   Program& holder = start_indurop({"force", "echo=7", "--lease", "--board", board("a")});
@@ -131,6 +156,9 @@ TEST_F(RemoteLook, Boards_with_keys_are_forced_by_who_has_them) {
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("deploy.key is missing"));
   EXPECT_EQ(here({"forces"})["forces"], Json::array());
+  EXPECT_EQ(at_a({"set", "torque=1", "--keys", path("keys/viewer")}).code, 1);
+  EXPECT_EQ(at_a({"set", "torque=1", "--keys", path("keys")}).code, 0);
+  EXPECT_EQ(here({"get", "torque"})["values"][0]["value"], 1);
   EXPECT_EQ(at_a({"force", "echo=7", "--keys", path("keys")}).code, 0);
   EXPECT_EQ(here({"forces"})["forces"].size(), 1U);
 }
