@@ -26,6 +26,9 @@ Qos make_qos(const QosChoice& choice) {
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, choice.lease_ns);
   }
   dds_qset_writer_data_lifecycle(qos.get(), choice.dispose_at_end);
+  if (!choice.mark.empty()) {
+    dds_qset_userdata(qos.get(), choice.mark.data(), choice.mark.size());
+  }
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "dds/entity.h"
 #include "rt/signal_word.h"
@@ -27,6 +28,7 @@ struct QosChoice {
   std::int32_t depth = 1;       // samples kept, of each key
   std::int64_t lease_ns = 0;    // a writer not heard for so long is taken for dead; 0: as long as its participant lives
   bool dispose_at_end = false;  // the values of a writer that leaves are gone, not only unconfirmed
+  std::string_view mark = {};   // what readers find of the writer, see is_marked()
 };
 Qos make_qos(const QosChoice& choice);
 

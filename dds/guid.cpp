@@ -26,6 +26,18 @@ std::optional<Guid> participant_of(Handle reader, InstanceHandle publication) {
   return data == nullptr ? std::nullopt : std::optional(guid_of(data->participant_key));
 }
 
+bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark) {
+  const EndpointData data(dds_get_matched_publication_data(reader, publication));
+  void* told = nullptr;
+  std::size_t size = 0;
+  if (data == nullptr || !dds_qget_userdata(data->qos, &told, &size)) {
+    return false;
+  }
+  const bool same = std::string_view(static_cast<const char*>(told), size) == mark;
+  dds_free(told);
+  return same;
+}
+
 std::optional<std::uint32_t> readers_of(Handle writer) {
   dds_publication_matched_status_t matched{};
   return dds_get_publication_matched_status(writer, &matched) < 0 ? std::nullopt : std::optional(matched.current_count);

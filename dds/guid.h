@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <string_view>
 
 #include "dds/entity.h"
 
@@ -26,6 +27,8 @@ Guid guid_of(Handle entity) noexcept;
 
 // The participant behind a publication that `reader` is matched with. Empty: it is gone already.
 std::optional<Guid> participant_of(Handle reader, InstanceHandle publication);
+// Was that publication's writer made with QosChoice::mark `mark`? False: also if it is gone already.
+bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark);
 // Readers that `writer` is matched with. Empty: the writer is gone.
 std::optional<std::uint32_t> readers_of(Handle writer);
 // Has `participant` one of them?

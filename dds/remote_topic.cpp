@@ -108,7 +108,7 @@ bool RemoteTopic::send(Handle participant, const Guid& to, std::span<const std::
     return false;
   }
   if (!writer_.ok()) {
-    const Qos qos = make_qos({.for_late_ones = false});
+    const Qos qos = make_qos({.for_late_ones = false, .mark = kToolMark});
     writer_ = Entity(dds_create_writer(participant, topic_.get(), qos.get(), nullptr));
     may_not_send_ = writer_.forbidden();
   }

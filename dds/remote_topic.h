@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "dds/entity.h"
 #include "dds/guid.h"
@@ -18,6 +19,10 @@
 #include "rt/signal_word.h"
 
 namespace indurop::dds {
+
+// What the writers of tools are marked with: whoever has a write lock knows them from programs that belong to the
+// plant.
+inline constexpr std::string_view kToolMark = "indurop tool";
 
 class RemoteTopic {
  public:

@@ -16,6 +16,7 @@
 #include "rt/signal_word.h"
 #include "rt/thread.h"
 #include "schema/ros_name.h"
+#include "vars/custody.h"
 #include "vars/shm_file.h"
 
 namespace indurop::mirror {
@@ -56,7 +57,8 @@ std::vector<ExternalDirectory::Content::Mirrored> mirrored_in(const vars::Store&
 }  // namespace
 
 struct External::Impl {
-  Impl(const ExternalSettings& wanted, vars::Store& store, const MirrorBlock* plant, vars::ShmFile&& memory);
+  Impl(const ExternalSettings& wanted, const std::string& node, vars::Store& store, const MirrorBlock* plant,
+       vars::ShmFile&& memory);
   Status run();
   void end() noexcept;
   void work();
@@ -74,6 +76,7 @@ struct External::Impl {
   ExternalSettings settings;
   vars::ShmFile file;
   ExternalBlock& block;
+  const Result<vars::Custody> custody;
   std::vector<std::unique_ptr<ExternalTopic>> topics;
   std::map<std::string, ExternalTopic*, std::less<>> unopened;  // by topic name
   dds::WantedTopics wanted_topics;                              // only if there are unopened topics
@@ -85,11 +88,12 @@ struct External::Impl {
   rt::Thread thread;
 };
 
-External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, const MirrorBlock* plant,
-                     vars::ShmFile&& memory)
+External::Impl::Impl(const ExternalSettings& wanted, const std::string& node, vars::Store& store,
+                     const MirrorBlock* plant, vars::ShmFile&& memory)
     : settings(wanted),
       file(std::move(memory)),
       block(*reinterpret_cast<ExternalBlock*>(file.data())),
+      custody(vars::Custody::open(node, vars::Mode::ReadOnly)),
       joining(
           network_of(wanted), [this](dds::Handle participant) { return open(participant); }, [this] { close(); }) {
   wake.init(false);
@@ -103,7 +107,8 @@ External::Impl::Impl(const ExternalSettings& wanted, vars::Store& store, const M
         !descriptor_problem(exported.type, store.schema().variables[entry->schema_index]).empty()) {
       continue;
     }
-    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, settings.ros2, block, wake, plant));
+    topics.push_back(std::make_unique<ExternalTopic>(store, *entry, exported, settings.ros2, block, wake, plant,
+                                                     custody ? &*custody : nullptr));
     block.writable += exported.writable ? 1U : 0U;
   }
   block.abi = kExternalAbi;
@@ -260,7 +265,7 @@ Result<External> External::start(const ExternalSettings& settings, const std::st
   if (!file) {
     return file.error();
   }
-  auto impl = std::make_unique<Impl>(settings, store, plant, std::move(file).value());
+  auto impl = std::make_unique<Impl>(settings, node, store, plant, std::move(file).value());
   if (Status running = impl->run(); !running) {
     impl->end();
     return running.error();

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "dds/descriptor.h"
+#include "dds/guid.h"
+#include "dds/remote_topic.h"
 #include "mirror/external/external_type.h"
 #include "schema/ros_name.h"
 
@@ -23,11 +25,13 @@ constexpr auto kRelaxed = std::memory_order_relaxed;
 }  // namespace
 
 ExternalTopic::ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
-                             ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant)
+                             ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant,
+                             const vars::Custody* custody)
     : store_(store),
       entry_(entry),
       ros_type_(ros2 ? schema::ros_type_name(variable()) : std::string{}),
       type_(dds::renamed(exported.type, ros_type_)),
+      custody_(custody),
       block_(block),
       wake_(wake),
       topic_name_(ros2 ? schema::ros_topic(exported.variable) : external_topic(exported.variable)),
@@ -171,17 +175,24 @@ void ExternalTopic::receive() noexcept {
   }
   dds::take_one<std::uint8_t>(reader_.get(), [this](const std::uint8_t& sample, const dds::SampleInfo& info) {
     if (info.valid) {
-      take_over(&sample);
+      take_over(&sample, dds::is_marked(reader_.get(), info.publication, dds::kToolMark));
     }
   });
 }
 
-void ExternalTopic::take_over(const std::uint8_t* sample) noexcept {
+// Why the write lock forbids tools to set it; empty if it does not.
+std::string ExternalTopic::locked() const {
+  const auto act = variable().given ? vars::Act::SetParameter : vars::Act::Set;
+  return custody_ == nullptr ? std::string() : vars::refusal(custody_->lock(), act).value_or("");
+}
+
+void ExternalTopic::take_over(const std::uint8_t* sample, bool by_tool) noexcept {
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   const schema::Variable& known = variable();
   std::copy_n(sample, scratch_.size(), scratch_.begin());
   tidy_texts(known.type, scratch_);
-  std::string message = strange_value(known.type, scratch_);
+  std::string message = by_tool ? locked() : std::string();
+  message = message.empty() ? strange_value(known.type, scratch_) : message;
   const schema::Range range = known.range.value_or(schema::Range{-kUnlimited, kUnlimited});
   bool taken = message.empty() && schema::check_range(range, known.type, scratch_, message).ok();
   if (taken && !store_.write(entry_, 0, scratch_)) {

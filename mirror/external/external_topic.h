@@ -17,6 +17,7 @@
 #include "mirror/external/lead.h"
 #include "rt/signal_word.h"
 #include "schema/schema.h"
+#include "vars/custody.h"
 #include "vars/store.h"
 
 namespace indurop::mirror {
@@ -24,9 +25,10 @@ namespace indurop::mirror {
 // All but the listeners runs in one thread.
 class ExternalTopic {
  public:
-  // The variable is known to the store. `ros2`: names of ROS 2. `wake` is for what came from outside.
+  // The variable is known to the store. `ros2`: names of ROS 2. `custody`: whose lock counts for tools, may be null.
+  // `wake` is for what came from outside.
   ExternalTopic(vars::Store& store, const vars::DirectoryEntry& entry, const Exported& exported, bool ros2,
-                ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant);
+                ExternalBlock& block, rt::SignalWord& wake, const MirrorBlock* plant, const vars::Custody* custody);
   ExternalTopic(const ExternalTopic&) = delete;
   ExternalTopic& operator=(const ExternalTopic&) = delete;
 
@@ -61,13 +63,15 @@ class ExternalTopic {
   void disagreed() noexcept { disagreements_.fetch_add(1, std::memory_order_relaxed); }
   bool refresh() noexcept;
   bool write(std::int64_t now_ns) noexcept;
-  void take_over(const std::uint8_t* sample) noexcept;
+  void take_over(const std::uint8_t* sample, bool by_tool) noexcept;
+  [[nodiscard]] std::string locked() const;
 
   vars::Store& store_;
   const vars::DirectoryEntry& entry_;
   const abi::RingHeader* ring_ = nullptr;  // null: scalar
   std::string ros_type_;                   // empty: the names of the .idl
   const dds::TypeDescriptor type_;
+  const vars::Custody* custody_;  // null: nothing is ever locked
   ExternalBlock& block_;
   rt::SignalWord& wake_;
   std::string topic_name_;

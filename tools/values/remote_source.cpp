@@ -365,9 +365,10 @@ Result<void, Failure> RemoteSource::set_whole(const std::string& variable, std::
                    fmt::format("board {} did not answer within {}", known->second.owner, human_age(kSetNs))};
   }
   if (order.answer != order.value) {
-    return Failure{
-        kFailed, fmt::format("board {} shows {}: it was refused there, or a module writes it too", known->second.owner,
-                             schema::format_value(known->second.declared.type, order.answer))};
+    return Failure{kFailed,
+                   fmt::format("board {} shows {}: it was refused there (is it locked? its log says why), or a module "
+                               "writes it too",
+                               known->second.owner, schema::format_value(known->second.declared.type, order.answer))};
   }
   return {};
 }

@@ -60,6 +60,19 @@ TEST_F(Remote, Vars_and_typeof_tell_units_and_ranges) {
   EXPECT_CONTAINS(indurop({"typeof", "state", "--node", node()}).out, "float[3]");
 }
 
+TEST_F(Remote, A_locked_board_is_not_set_by_tools_elsewhere) {
+  start_axis();
+  ASSERT_EQ(remote({"set", "station::target", "42.5"}).code, 0);
+  ASSERT_EQ(indurop({"lock", "all", "--node", node()}).code, 0);
+  const Outcome locked = remote({"set", "station::target", "17"});
+  EXPECT_EQ(locked.code, 1);
+  EXPECT_CONTAINS(locked.err, "is it locked");
+  EXPECT_CONTAINS(get("station::target"), "42.5");
+  ASSERT_EQ(indurop({"lock", "none", "--node", node()}).code, 0);
+  EXPECT_EQ(remote({"set", "station::target", "17"}).code, 0);
+  EXPECT_CONTAINS(get("station::target"), "17");
+}
+
 TEST_F(Remote, Setting_is_confirmed_by_the_board_and_only_what_the_manifest_lets) {
   start_axis();
   const Outcome good = remote({"set", "station::target", "42.5"});
