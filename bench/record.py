@@ -6,6 +6,7 @@ over the rounds. How late runs begin changes from minute to minute on a shared m
 it: that is compared beside one running node, with a recorder in every other window of a few seconds."""
 
 import argparse
+import contextlib
 import json
 import os
 import re
@@ -65,8 +66,17 @@ class Node:
                               capture_output=True, text=True, check=True)
         return [one["latency_ns"] for one in json.loads(runs.stdout)["runs"]]
 
-    def windows(self, pairs, seconds):
-        """Latencies without and with a recorder, a list of windows each."""
+    @contextlib.contextmanager
+    def recorder(self):
+        child = subprocess.Popen([self.tool("indurop"), "record", "-o", self.path("run.mcap"), "--node", self.name, "-q"])
+        time.sleep(1)  # it has begun
+        yield
+        child.send_signal(signal.SIGINT)
+        child.wait()
+        os.remove(self.path("run.mcap"))
+
+    def windows(self, pairs, seconds, beside):
+        """Latencies without and with what `beside` runs, a list of windows each."""
         node = self.start("--tape", str(self.options.tape))
         time.sleep(2)  # the node has started and its caches are warm
         without, with_it = [], []
@@ -74,13 +84,9 @@ class Node:
             for _ in range(pairs):
                 time.sleep(seconds)
                 without.append(self.latencies(seconds))
-                recorder = subprocess.Popen([self.tool("indurop"), "record", "-o", self.path("run.mcap"), "--node", self.name, "-q"])
-                time.sleep(1)  # it has begun
-                time.sleep(seconds)
-                with_it.append(self.latencies(seconds))
-                recorder.send_signal(signal.SIGINT)
-                recorder.wait()
-                os.remove(self.path("run.mcap"))
+                with beside():
+                    time.sleep(seconds)
+                    with_it.append(self.latencies(seconds))
         finally:
             node.send_signal(signal.SIGTERM)
             node.wait()
@@ -118,12 +124,12 @@ def quantile(values, part):
     return sorted(values)[int(part * (len(values) - 1))]
 
 
-def print_lateness(without, with_it):
+def print_lateness(without, with_it, what):
     """Both ways to look at it: of all runs, and the middle of what neighbouring windows say."""
     for name, part in (("median", 0.5), ("p99", 0.99)):
         before, after = (quantile([one for window in windows for one in window], part) for windows in (without, with_it))
         pairs = statistics.median(quantile(b, part) / quantile(a, part) for a, b in zip(without, with_it))
-        print(f"{name} of the start after the release: {before / 1e3:.2f} us without, {after / 1e3:.2f} us with a recorder, "
+        print(f"{name} of the start after the release: {before / 1e3:.2f} us without, {after / 1e3:.2f} us with {what}, "
               f"x {after / before:.2f}; of {len(without)} pairs of windows x {pairs:.2f} (goal of p99: 1.05)")
 
 
@@ -155,7 +161,7 @@ def main():
             median = {key: statistics.median(row[key] for row in rows) for key in rows[0]}
             print(f"median: {median['lost']:.0f} runs lost (goal 0), recorder {100 * median['core']:.0f} % of a core (goal 30), "
                   f"tape {median['tape_us']:.1f} us per run (goal 12)", flush=True)
-        print_lateness(*node.windows(options.pairs, options.window))
+        print_lateness(*node.windows(options.pairs, options.window, node.recorder), "a recorder")
 
 
 if __name__ == "__main__":
