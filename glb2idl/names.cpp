@@ -218,6 +218,9 @@ std::optional<std::string> objection(std::string_view name, NameRole role, bool 
   if (macros().contains(word)) {
     return "is a macro of the system headers";
   }
+  if (word.starts_with("INDUROP_")) {
+    return "is one of the platform's macros";
+  }
   if ((role == NameRole::Type || role == NameRole::Namespace) && schema::is_idl_keyword(name)) {
     return "is a keyword of IDL";
   }

@@ -47,6 +47,23 @@ const Variable* parameter_of(const Pou& pou, const std::string& name) {
   return found != nullptr && pou.owner != nullptr && found->owner != &pou ? nullptr : found;
 }
 
+// Whether a drawing may call an instance of the type so: by its name, or that of one it extends or implements.
+bool is_drawn_as(const Type& type, std::string_view drawn) {
+  const std::string_view name = drawn.substr(drawn.rfind('.') + 1);  // without its namespace
+  if (type.block != nullptr) {
+    return find_block(name) == type.block;
+  }
+  const auto is_called = [&](const Pou* one) {
+    return one != nullptr && same_name(std::string_view(one->name).substr(one->name.rfind('.') + 1), name);
+  };
+  for (const Pou* one = type.pou; one != nullptr; one = one->base) {
+    if (is_called(one) || std::any_of(one->interfaces.begin(), one->interfaces.end(), is_called)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 // Notes EN and ENO; false with an error if they cannot stand here.
@@ -170,6 +187,12 @@ void CallChecker::statement(Expression& call) {
   }
   if (type->kind != Type::Kind::Block) {
     context_.error(call.at, with_article(*type) + " cannot be called, only functions and function blocks can");
+    return;
+  }
+  if (!call.name.empty() && !is_drawn_as(*type, call.name)) {
+    context_.error(call.at, fmt::format("this is drawn as a {}, but declared as {}; draw that, or declare another "
+                                        "instance",
+                                        call.name, with_article(*type)));
     return;
   }
   expressions_.note_call(callee);

@@ -32,10 +32,6 @@ Constant constant_of_literal(const ast::LiteralValue& value) {
   return std::get<std::string>(value);
 }
 
-bool is_elementary_bit(const Type& type) noexcept {
-  return type.kind == Type::Kind::Elementary && is_bit(type.elementary);
-}
-
 }  // namespace
 
 bool adapt_character(Expression& expression, const Type& to) {
@@ -341,47 +337,6 @@ const Type* ExpressionChecker::index(Expression& expression) {
 bool ExpressionChecker::is_whole(const Type& type) const noexcept {
   return type.kind == Type::Kind::Elementary &&
          (is_int(type.elementary) || (context_.codesys() && is_bit(type.elementary) && !type.is(Elementary::Bool)));
-}
-
-const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted) {
-  Expression& operand = expression.operands[0];
-  Resolved& out = resolved(expression);
-  const bool negated_literal =
-      expression.op == Operator::Negate && operand.kind == Expression::Kind::Literal && operand.value_type;
-  if (negated_literal && std::holds_alternative<std::uint64_t>(operand.value)) {
-    const Type* type = context_.elementary(*operand.value_type);
-    out.constant = -Integer{std::get<std::uint64_t>(operand.value)};
-    if (!fits(*out.constant, *type)) {
-      context_.error(expression.at,
-                     fmt::format("{} does not fit {}, use a larger type", to_string(*out.constant), to_string(*type)));
-      return nullptr;
-    }
-    return type;
-  }
-  const Type* type = value(operand, wanted);
-  if (type == nullptr) {
-    return nullptr;
-  }
-  const bool number =
-      type->kind == Type::Kind::Elementary && (is_signed_int(type->elementary) || is_real(type->elementary) ||
-                                               type->is(Elementary::Time) || operand.resolved->untyped);
-  if (expression.op == Operator::Not ? !is_elementary_bit(*type) && !(context_.codesys() && is_whole(*type)) &&
-                                           !adapt(operand, *context_.elementary(Elementary::Bool))
-                                     : !number) {
-    context_.error(expression.at, expression.op == Operator::Not
-                                      ? fmt::format("NOT needs a BOOL or a bit string, not {}", with_article(*type))
-                                      : fmt::format("{} has no sign", with_article(*type)));
-    return nullptr;
-  }
-  out.untyped = operand.resolved->untyped;
-  if (const Constant* known = constant_of(operand)) {
-    std::string why;
-    out.constant = apply(expression.op, *known, why);
-    if (out.constant && !out.untyped) {
-      out.constant = stored(*out.constant, *operand.type);
-    }
-  }
-  return out.untyped ? context_.elementary(default_type(*out.constant)) : context_.elementary(operand.type->elementary);
 }
 
 std::optional<std::int64_t> ExpressionChecker::constant(Expression& expression, std::string_view what) {

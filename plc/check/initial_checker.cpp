@@ -4,21 +4,13 @@
 #include <fmt/format.h>
 
 #include "plc/check/expression_checker.h"
+#include "plc/check/value_tree.h"
 #include "plc/library/standard.h"
 
 namespace indurop::plc {
 namespace {
 
 using Kind = ast::Initial::Kind;
-
-// Elements in all dimensions: [1, 2, 3, 4] fills ARRAY[1..2, 1..2] row by row.
-std::uint64_t elements_of(const Type& array) noexcept {
-  std::uint64_t count = 1;
-  for (const Bounds& one : array.dimensions) {
-    count *= one.count();
-  }
-  return count;
-}
 
 }  // namespace
 

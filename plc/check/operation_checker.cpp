@@ -20,6 +20,17 @@ bool is_elementary_bit(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && is_bit(type.elementary);
 }
 
+// A bit string with more than one bit.
+bool is_bits(const Type* type) noexcept {
+  return type != nullptr && is_elementary_bit(*type) && !type->is(Elementary::Bool);
+}
+
+// NOT 16#2, which inverts as many bits as the other side has.
+bool is_inverted(const Expression& expression, const Program& program) {
+  return expression.kind == Expression::Kind::Unary && expression.op == Operator::Not &&
+         is_bare(expression.operands[0], program);
+}
+
 bool is_number(const Type& type) noexcept {
   return type.kind == Type::Kind::Elementary && (is_num(type.elementary) || is_elementary_bit(type));
 }
@@ -63,6 +74,50 @@ bool ExpressionChecker::is_no_variable(const Expression& expression) const {
          (context_.pou == nullptr || !same_name(context_.pou->name, expression.name));
 }
 
+const Type* ExpressionChecker::unary(Expression& expression, const Type* wanted) {
+  Expression& operand = expression.operands[0];
+  Resolved& out = resolved(expression);
+  const bool negated_literal =
+      expression.op == Operator::Negate && operand.kind == Expression::Kind::Literal && operand.value_type;
+  if (negated_literal && std::holds_alternative<std::uint64_t>(operand.value)) {
+    const Type* type = context_.elementary(*operand.value_type);
+    out.constant = -Integer{std::get<std::uint64_t>(operand.value)};
+    if (!fits(*out.constant, *type)) {
+      context_.error(expression.at,
+                     fmt::format("{} does not fit {}, use a larger type", to_string(*out.constant), to_string(*type)));
+      return nullptr;
+    }
+    return type;
+  }
+  const Type* type = value(operand, wanted);
+  if (type == nullptr) {
+    return nullptr;
+  }
+  if (expression.op == Operator::Not && operand.resolved->untyped && is_bits(wanted) && adapt(operand, *wanted)) {
+    type = wanted;
+  }
+  const bool number =
+      type->kind == Type::Kind::Elementary && (is_signed_int(type->elementary) || is_real(type->elementary) ||
+                                               type->is(Elementary::Time) || operand.resolved->untyped);
+  if (expression.op == Operator::Not ? !is_elementary_bit(*type) && !(context_.codesys() && is_whole(*type)) &&
+                                           !adapt(operand, *context_.elementary(Elementary::Bool))
+                                     : !number) {
+    context_.error(expression.at, expression.op == Operator::Not
+                                      ? fmt::format("NOT needs a BOOL or a bit string, not {}", with_article(*type))
+                                      : fmt::format("{} has no sign", with_article(*type)));
+    return nullptr;
+  }
+  out.untyped = operand.resolved->untyped;
+  if (const Constant* known = constant_of(operand)) {
+    std::string why;
+    out.constant = apply(expression.op, *known, why);
+    if (out.constant && !out.untyped) {
+      out.constant = stored(*out.constant, *operand.type);
+    }
+  }
+  return out.untyped ? context_.elementary(default_type(*out.constant)) : context_.elementary(operand.type->elementary);
+}
+
 // The sides' values: first of one that has a type, which numbers without one on the other side take where nothing else
 // is wanted. Where nothing says a type, none is too small: MAX(300, 1) * 300 > 30000. False after an error.
 bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
@@ -74,6 +129,11 @@ bool ExpressionChecker::sides(Expression& expression, const Type* wanted) {
   if (expression.op >= Operator::Less && expression.op <= Operator::NotEqual && a_value != is_no_variable(b)) {
     const Type* type = value(a_value ? b : a);  // says which enumeration the value is of
     return value(a_value ? a : b, type) != nullptr && type != nullptr;
+  }
+  const bool a_inverted = is_inverted(a, context_.program);
+  if (expression.op >= Operator::And && a_inverted != is_inverted(b, context_.program)) {  // w AND NOT 16#2
+    const Type* known = value(a_inverted ? b : a, wanted);
+    return value(a_inverted ? a : b, is_bits(known) ? known : wanted) != nullptr && known != nullptr;
   }
   if (a_bare == b_bare) {
     const Type* hint = wanted;

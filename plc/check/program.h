@@ -189,6 +189,7 @@ struct TaskProgram {
   std::string instance;
   const Pou* pou = nullptr;
   const ProgramInstance* declared = nullptr;  // null: no configuration does
+  std::uint64_t text = 0;                     // of the files, another one for another text
 };
 
 // One module.

@@ -28,17 +28,6 @@ ValueTree leaf(Constant value) {
   return out;
 }
 
-// The list with its repetitions written out, as long as the elements last.
-std::vector<const ast::Initial*> elements(const ast::Initial& list, std::uint64_t most) {
-  std::vector<const ast::Initial*> out;
-  for (const ast::InitialElement& one : list.elements) {
-    const Constant* count = one.count ? constant_of(*one.count) : nullptr;
-    const auto repeat = count != nullptr ? static_cast<std::uint64_t>(as_int64(*count).value_or(1)) : 1;
-    out.insert(out.end(), std::min(repeat, most - std::min<std::uint64_t>(most, out.size())), &one.value);
-  }
-  return out;
-}
-
 // Elements of the dimensions from `level` on; takes them from the front of `list`.
 ValueTree rows(const Type& array, std::size_t level, const std::vector<const ast::Initial*>& list, std::size_t& next) {
   if (level == array.dimensions.size()) {
@@ -86,6 +75,24 @@ ValueTree structure(const Type& type, const ast::Initial* initial) {
 
 }  // namespace
 
+std::uint64_t elements_of(const Type& array) noexcept {
+  std::uint64_t count = 1;
+  for (const Bounds& one : array.dimensions) {
+    count *= one.count();
+  }
+  return count;
+}
+
+std::vector<const ast::Initial*> initial_elements(const ast::Initial& list, std::uint64_t most) {
+  std::vector<const ast::Initial*> out;
+  for (const ast::InitialElement& one : list.elements) {
+    const Constant* count = one.count ? constant_of(*one.count) : nullptr;
+    const auto repeat = count != nullptr ? static_cast<std::uint64_t>(as_int64(*count).value_or(1)) : 1;
+    out.insert(out.end(), std::min(repeat, most - std::min<std::uint64_t>(most, out.size())), &one.value);
+  }
+  return out;
+}
+
 ValueTree initial_value(const Type& type, const ast::Initial* initial) {
   initial = initial != nullptr ? initial : type.initial;
   switch (type.kind) {
@@ -105,13 +112,10 @@ ValueTree initial_value(const Type& type, const ast::Initial* initial) {
       return type.overlaps ? zero()
                            : structure(type, initial != nullptr && initial->kind == Kind::Struct ? initial : nullptr);
     case Type::Kind::Array: {
-      std::uint64_t count = 1;
-      for (const Bounds& one : type.dimensions) {
-        count *= one.count();
-      }
+      const std::uint64_t count = elements_of(type);
       std::size_t next = 0;
       const bool given = initial != nullptr && initial->kind == Kind::Array;
-      return rows(type, 0, given ? elements(*initial, count) : std::vector<const ast::Initial*>(), next);
+      return rows(type, 0, given ? initial_elements(*initial, count) : std::vector<const ast::Initial*>(), next);
     }
     case Type::Kind::Block:
     case Type::Kind::Pointer:

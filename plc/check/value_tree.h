@@ -19,4 +19,9 @@ struct ValueTree {
 // `initial` may be null. Requires that it was checked against the type, and no function blocks in it.
 [[nodiscard]] ValueTree initial_value(const Type& type, const ast::Initial* initial);
 
+// Elements in all dimensions: [1, 2, 3, 4] fills ARRAY[1..2, 1..2] row by row.
+[[nodiscard]] std::uint64_t elements_of(const Type& array) noexcept;
+// The list of an array with its repetitions written out, as long as the elements last, row after row.
+[[nodiscard]] std::vector<const ast::Initial*> initial_elements(const ast::Initial& list, std::uint64_t most);
+
 }  // namespace indurop::plc

@@ -111,6 +111,26 @@ std::string of_tree(const Type& type, const ValueTree& tree, std::size_t level) 
   return cpp_type(rest) + "{{" + parts + "}}";  // else a first {} would be taken for the whole
 }
 
+const Type& innermost(const Type& type) {
+  return type.kind == Type::Kind::Array ? innermost(*type.element) : type;
+}
+
+// Instances of an array, row after row, those that are given something to begin with.
+std::string of_blocks(const Type& type, const ast::Initial& initial) {
+  std::string text = fmt::format("[] {{ {} blocks{{}}; ", cpp_type(type));
+  std::uint64_t at = 0;
+  for (const ast::Initial* one : initial_elements(initial, elements_of(type))) {
+    std::string place;
+    std::uint64_t rest = at++;
+    for (auto dimension = type.dimensions.rbegin(); dimension != type.dimensions.rend(); ++dimension) {
+      place.insert(0, fmt::format("[{}]", rest % dimension->count()));
+      rest /= dimension->count();
+    }
+    text += fmt::format("blocks{} = {}; ", place, cpp_initial(*type.element, one));
+  }
+  return text + "return blocks; }()";
+}
+
 // Values of inputs that an instance begins with.
 std::string of_block(const Type& type, const ast::Initial& initial) {
   std::string text = fmt::format("[] {{ {} block; ", cpp_type(type));
@@ -136,7 +156,7 @@ std::string of_block(const Type& type, const ast::Initial& initial) {
 std::string cpp_name(std::string_view name) {
   const std::string_view bare = name.substr(0, name.find_last_not_of('_') + 1);
   const bool taken = std::find(kTaken.begin(), kTaken.end(), bare) != kTaken.end() || is_generated(bare) ||
-                     glb2idl::is_system_macro(bare) || bare.starts_with("__");
+                     glb2idl::is_system_macro(bare) || bare.starts_with("__") || bare.starts_with("INDUROP_");
   return std::string(name) + (taken ? "_" : "");
 }
 
@@ -204,10 +224,11 @@ std::string cpp_constant(const Constant& value, const Type& type, bool exact) {
 }
 
 std::string cpp_initial(const Type& type, const ast::Initial* initial) {
-  if (type.kind == Type::Kind::Block) {
-    return initial != nullptr ? of_block(type, *initial) : "{}";
+  const ast::Initial* const given = initial != nullptr ? initial : type.initial;
+  if (innermost(type).kind == Type::Kind::Block && given != nullptr) {
+    return type.kind == Type::Kind::Block ? of_block(type, *given) : of_blocks(type, *given);
   }
-  if (type.kind == Type::Kind::Pointer || (type.kind == Type::Kind::Array && type.element->kind == Type::Kind::Block)) {
+  if (type.kind == Type::Kind::Pointer || innermost(type).kind == Type::Kind::Block) {
     return "{}";
   }
   return of_tree(type, initial_value(type, initial), 0);

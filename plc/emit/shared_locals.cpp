@@ -8,6 +8,7 @@
 
 #include "plc/check/places.h"
 #include "plc/check/shared_names.h"
+#include "plc/check/value_tree.h"
 #include "plc/emit/cpp_text.h"
 #include "plc/library/standard.h"
 
@@ -86,9 +87,14 @@ class Finder {
   }
 
  private:
-  void element(const Type& array, std::size_t level, const Way& way) {
+  // `index`: of the first element below, row after row.
+  void element(const Type& array, std::size_t level, const Way& way, std::uint64_t index = 0) {
     if (level == array.dimensions.size()) {
-      instances(*array.element, way);
+      Way inner = way;
+      const auto given = way.initial != nullptr ? initial_elements(*way.initial, elements_of(array))
+                                                : std::vector<const ast::Initial*>();
+      inner.initial = index < given.size() ? given[index] : nullptr;
+      instances(*array.element, inner);
       return;
     }
     const Bounds& bounds = array.dimensions[level];
@@ -96,7 +102,7 @@ class Finder {
       Way inner = way;
       inner.cpp += fmt::format("[{}]", i - bounds.low);
       inner.name += i < 0 ? fmt::format("_m{}", -i) : fmt::format("_{}", i);
-      element(array, level + 1, inner);
+      element(array, level + 1, inner, index * bounds.count() + static_cast<std::uint64_t>(i - bounds.low));
     }
   }
 

@@ -50,7 +50,7 @@ class Layout {
     out_.variable = name_of_shared(program.instance + "_watch");
     out_.bytes = kMarkBytes;
     pou(*program.pou, {});
-    std::string text;
+    std::string text = std::to_string(program.text) + "\n";
     for (const WatchedVariable& one : out_.variables) {
       text += one.path + ":" + to_string(*one.type) + "\n";
     }

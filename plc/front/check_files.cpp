@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/front/check_files.h"
 
+#include <indurop/detail/abi.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -67,13 +69,28 @@ std::unique_ptr<Program> check_files(const CompileOptions& options, const std::s
     }
     check_options.foreign = variables_of(foreign.program);
   }
+  std::uint64_t text = 0;
+  const auto reading = [&](const std::string& path) {
+    glb2idl::ReadResult out = read(path);
+    const std::string all = std::to_string(text) + out.text.value_or("");
+    text = abi::fnv1a64(all.data(), all.size());
+    return out;
+  };
   Project project = read_project(options.files, options.libraries, {options.watch, options.dialect == Dialect::Codesys},
-                                 read, diagnostics);
+                                 reading, diagnostics);
   project.dialect = options.dialect.value_or(project.dialect);
   if (project.incomplete) {
     return nullptr;  // what is left out would be missed everywhere
   }
-  return check(std::move(project), std::move(check_options), diagnostics);
+  auto program = check(std::move(project), std::move(check_options), diagnostics);
+  if (program != nullptr) {
+    for (TaskPlan& task : program->tasks) {
+      for (TaskProgram& one : task.programs) {
+        one.text = text;
+      }
+    }
+  }
+  return program;
 }
 
 }  // namespace indurop::plc

@@ -139,7 +139,9 @@ void BlockLowering::instance(const Element& element, const std::string& enable) 
     return;
   }
   std::vector<ast::Argument> given = arguments(element, true);
-  add(make::call_statement(make::call(element.at, *callee, std::move(given))), enable);
+  ast::Expression call = make::call(element.at, *callee, std::move(given));
+  call.name = element.type;
+  add(make::call_statement(std::move(call)), enable);
   for (const Pin& pin : element.outputs) {
     if (is_enabled(pin)) {
       continue;

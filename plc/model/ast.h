@@ -77,7 +77,7 @@ struct Expression {
   Kind kind = Kind::Literal;
   Operator op = Operator::None;
   Place at;
-  std::string name;                      // Name, Member; as written
+  std::string name;                      // Name, Member; as written. Call: the type that a drawn block names
   LiteralValue value;                    // Literal
   std::optional<Elementary> value_type;  // Literal: T#, D#, 'text' and INT#5 have one, 5 and 1.5 have none
   std::string value_enum;                // Name: the type in Color#Red

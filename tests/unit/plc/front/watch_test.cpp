@@ -68,6 +68,9 @@ TEST(PlcWatch, Another_program_has_another_mark) {
   other.replace(other.find("n : DINT"), 8, "n : UINT");
   EXPECT_NE(watch_plan(options(), reader_of(kProgram)).layouts.front().mark,
             watch_plan(options(), reader_of(other)).layouts.front().mark);
+  // The same variables, but other values would stand beside other lines.
+  EXPECT_NE(watch_plan(options(), reader_of(kProgram)).layouts.front().mark,
+            watch_plan(options(), reader_of(kProgram + std::string("\n"))).layouts.front().mark);
 }
 
 TEST(PlcWatch, Only_a_module_built_for_it_tells_anything) {
