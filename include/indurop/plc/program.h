@@ -75,6 +75,53 @@ void write_changed(const Shared& to, const T& now, const T& before) {
   }
 }
 
+namespace detail {
+
+// What arrays of a program and their shared ones are made of, whatever their dimensions.
+template <class Own, class Shared>
+struct Elements {
+  using OwnType = Own;
+  using SharedType = Shared;
+  static constexpr std::size_t kCount = 1;
+};
+template <class Own, class Shared, std::size_t N>
+struct Elements<std::array<Own, N>, std::array<Shared, N>> {
+  using OwnType = typename Elements<Own, Shared>::OwnType;
+  using SharedType = typename Elements<Own, Shared>::SharedType;
+  static constexpr std::size_t kCount = N * Elements<Own, Shared>::kCount;
+};
+
+}  // namespace detail
+
+// Of an array the elements that the program changed, in one commit: others may have other writers.
+template <class Shared, class T, std::size_t N>
+void write_changed(const Shared& to, const std::array<T, N>& now, const std::array<T, N>& before) {
+  using All = detail::Elements<std::array<T, N>, typename Shared::whole_type>;
+  using Own = typename All::OwnType;
+  using Theirs = typename All::SharedType;
+  static_assert(sizeof(typename Shared::whole_type) == All::kCount * sizeof(Theirs));
+  if (now == before) {
+    return;
+  }
+  const auto* const mine = reinterpret_cast<const Own*>(&now);
+  const auto* const old = reinterpret_cast<const Own*>(&before);
+  std::size_t first = 0;
+  while (mine[first] == old[first]) {
+    ++first;
+  }
+  std::size_t last = All::kCount - 1;
+  while (mine[last] == old[last]) {
+    --last;
+  }
+  const auto offset = static_cast<std::uint32_t>(first * sizeof(Theirs));
+  indurop::detail::modify_each<typename Shared::tag_type, Theirs>(Shared::kOffset + to.place.bytes + offset,
+                                                                  last - first + 1, [&](std::size_t i, Theirs& value) {
+                                                                    if (!(mine[first + i] == old[first + i])) {
+                                                                      copy_value(value, mine[first + i]);
+                                                                    }
+                                                                  });
+}
+
 // A shared number as programs need it: of thousands, an indurop::Leaf each would take g++ longer than the program.
 template <class Tag, class T, std::uint32_t Offset>
 struct SharedNumber {
