@@ -8,7 +8,7 @@
 namespace indurop::robot {
 
 JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals) noexcept {
-  const auto free = std::find_if(triggers_.begin(), triggers_.end(), [](const Trigger& each) { return !each.waits; });
+  auto* const free = std::find_if(triggers_.begin(), triggers_.end(), [](const Trigger& each) { return !each.waits; });
   if (free == triggers_.end()) {
     return Next::Wait;
   }

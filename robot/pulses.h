@@ -15,7 +15,7 @@ class Pulses {
  public:
   // On from now for `seconds`, which begin anew if it is on already. False: 16 others are.
   bool start(std::size_t signal, double seconds, Signals& signals) noexcept {
-    auto place =
+    auto* place =
         std::find_if(all_.begin(), all_.end(), [&](const Pulse& one) { return one.on && one.signal == signal; });
     if (place == all_.end()) {
       place = std::find_if(all_.begin(), all_.end(), [](const Pulse& one) { return !one.on; });

@@ -132,6 +132,25 @@ TEST(PlcMistakes, The_message_names_the_mistake) {
   EXPECT_EQ(wrong(head + "t := T#25h15m; t := T#1h59m59s999ms; {region 'a++'} i.%X3 := t > T#1s; END_PROGRAM"), "");
 }
 
+TEST(PlcMistakes, A_block_is_drawn_as_what_it_is_declared) {
+  const auto drawn = [](const std::string& type, const std::string& name) {
+    return wrong(R"(<?xml version="1.0"?><project xmlns="http://www.plcopen.org/xml/tc6_0201"><types><dataTypes/><pous>
+<pou name="Base" pouType="functionBlock"><interface><outputVars><variable name="q"><type><BOOL/></type></variable>
+</outputVars></interface><body><ST><xhtml xmlns="http://www.w3.org/1999/xhtml">q := TRUE;</xhtml></ST></body></pou>
+<pou name="main" pouType="program"><interface><localVars><variable name="t"><type><derived name="TON"/></type></variable>
+<variable name="b"><type><derived name="Base"/></type></variable></localVars></interface><body><FBD>
+<block localId="1" typeName=")" +
+                     type + "\" instanceName=\"" + name + R"("><position x="9" y="9"/><inputVariables/>
+<inOutVariables/><outputVariables/></block></FBD></body></pou></pous></types><instances><configurations/></instances></project>)",
+                 "in.xml");
+  };
+  EXPECT_EQ(drawn("TON", "t"), "");
+  EXPECT_EQ(drawn("base", "b"), "");
+  EXPECT_THAT(drawn("TOF", "t"), HasSubstr("block t: main: this is drawn as a TOF, but declared as a TON; draw that"));
+  EXPECT_THAT(drawn("TONX", "t"), HasSubstr("this is drawn as a TONX, but declared as a TON"));
+  EXPECT_THAT(drawn("CTU", "b"), HasSubstr("this is drawn as a CTU, but declared as a Base"));
+}
+
 TEST(PlcMistakes, One_mistake_is_one_message) {
   struct Row {
     const char* text;
