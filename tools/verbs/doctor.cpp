@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <set>
 
 #include "rt/thread.h"
 #include "scheduler/quantile.h"
@@ -12,7 +13,9 @@
 #include "tools/command/units.h"
 #include "tools/doctor/doctor_checks.h"
 #include "tools/doctor/doctor_latency.h"
+#include "tools/doctor/interrupts.h"
 #include "tools/doctor/tuning.h"
+#include "tools/values/run_report.h"
 #include "tools/verbs/verbs.h"
 #include "vars/retain.h"
 
@@ -163,9 +166,30 @@ int apply(Context& context, const Options& options, const Tuning& tuning) {
   return report_refused(context, *refused);
 }
 
-int tune(Context& context, const Options& options) {
+int core_of_a_node(const Options& options) {
   const auto cores = rt::allowed_cores();
-  const int core = options.core.value_or(cores.empty() ? 0 : cores.back());
+  return options.core.value_or(cores.empty() ? 0 : cores.back());
+}
+
+// Those of the nodes that run; of none: that of one to come.
+std::vector<int> cores_of_ticks(const Options& options) {
+  std::set<int> cores;
+  for (const std::string& node : options.core ? std::vector<std::string>() : vars::list_nodes()) {
+    const auto run = RunView::open(node);
+    if (const NodeReport report = run.ok() ? report_of(node, run.value()) : NodeReport();
+        report.alive && report.rt.pinned != 0) {
+      cores.insert(report.rt.tick_core);
+      for (std::uint32_t i = 0; i < run.value().module_count(); ++i) {
+        cores.insert(run.value().module(i).core);
+      }
+    }
+  }
+  cores.erase(-1);  // not pinned
+  return cores.empty() ? std::vector<int>{core_of_a_node(options)} : std::vector<int>(cores.begin(), cores.end());
+}
+
+int tune(Context& context, const Options& options) {
+  const int core = core_of_a_node(options);
   const Tuning tuning = examine_tuning(core);
   print_tuning(context, tuning, core);
   return options.apply ? apply(context, options, tuning) : kOk;
@@ -179,6 +203,7 @@ int doctor(Context& context, const Options& options) {
     return tune(context, options);
   }
   auto findings = examine_machine();
+  findings.push_back(examine_interrupts(cores_of_ticks(options)));
   if (context.format == Format::Table) {
     for (const Finding& finding : findings) {
       print_finding(context, finding);
@@ -206,7 +231,9 @@ Action declare(base::Options& app, Context& context) {
   app.flag("--tune", options->tune, "Show the settings of the kernel that real time wants and that are different here");
   app.flag("--apply", options->apply, "Make these settings, until the machine starts again; as root");
   app.flag("--undo", options->undo, "Put back what --apply has set");
-  app.add("--core", "N", options->core, "Core of the node, which interrupts are kept off (default: the last)");
+  app.add("--core", "N", options->core,
+          "Core of the node, which interrupts are kept off (default: those of the nodes that run, with "
+          "--tune the last)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return doctor(c, *options); };
 }
