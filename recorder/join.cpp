@@ -41,6 +41,13 @@ bool simulated(const Part& part) {
   return part.sources.all.front().number("real_minus_node_ns") == 0;
 }
 
+// Virtual time is common to the boards of one plant; of one node alone, or of another plant, it only begins alike.
+bool share_virtual_time(const Part& a, const Part& b) {
+  const Source& one = a.sources.all.front();
+  const Source& other = b.sources.all.front();
+  return !one.text("board").empty() && !other.text("board").empty() && one.text("config") == other.text("config");
+}
+
 // Its clock, to the nanosecond, was looked at once for all parts.
 bool of_one_recording(const Part& a, const Part& b) {
   return !simulated(a) && a.names == b.names &&
@@ -133,6 +140,12 @@ Result<void, Problem> sort_in(Part part, std::vector<Chain>& chains, Joined& joi
     if (simulated(part) != simulated(other)) {
       return Problem{fmt::format("{} is of a simulation, {} is not: they have no common time",
                                  simulated(part) ? part.file : other.file, simulated(part) ? other.file : part.file)};
+    }
+    if (simulated(part) && part.names != other.names && !share_virtual_time(part, other)) {
+      return Problem{
+          fmt::format("{} and {} are two simulations, not boards of one plant: their times begin alike, but are "
+                      "not common; simulate them as boards of a plant, or look at each by itself",
+                      other.file, part.file)};
     }
     if (of_one_recording(part, other)) {
       chain.parts.push_back(std::move(part));

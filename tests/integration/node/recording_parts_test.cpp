@@ -116,6 +116,21 @@ TEST_F(RecordingParts, Are_put_together_again) {
   EXPECT_CONTAINS(join({"run.0001.mcap", "sim.mcap"}, "x.mcap").err, "they have no common time");
 }
 
+TEST_F(RecordingParts, Of_two_simulations_are_not_put_together) {
+  std::vector<std::string> words = {"recording", "join", "-o", (folder() / "x.mcap").string()};
+  for (const char* name : {"first", "second"}) {
+    words.push_back((folder() / (std::string(name) + ".mcap")).string());
+    ASSERT_EQ(indurop({"run", write("two.xml", xml(kCounter)), "--sim", "-q", "--until", "100ms", "--node",
+                       node() + "-" + name, "--record", words.back()})
+                  .code,
+              0);
+  }
+  const Outcome joined = indurop(words);
+  EXPECT_EQ(joined.code, 1);
+  EXPECT_CONTAINS(joined.err, "two simulations, not boards of one plant");
+  EXPECT_FALSE(fs::exists(folder() / "x.mcap"));
+}
+
 TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
   Program& sut = start_and_wait(kCounter);
   std::uint64_t whole = 0;
