@@ -30,12 +30,8 @@ bool ended_well(const std::string& node) {
 void forget_old_nodes() {
   constexpr std::chrono::hours kKept{24};
   for (const std::string& node : vars::list_nodes()) {
-    const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
-    if (!store || vars::running_node(node) > 0 || !ended_well(node)) {
-      continue;
-    }
-    const std::int64_t beat = store.value().header().heartbeat_ns.load();
-    if (beat != 0 && rt::MonoClock::now() - rt::mono_time(beat) > kKept) {
+    const auto beat = vars::last_beat(node);
+    if (beat && rt::MonoClock::now() - *beat > kKept && vars::running_node(node) == 0 && ended_well(node)) {
       (void)vars::remove_node(node);  // busy: it has just started again; no rights: another user's
     }
   }

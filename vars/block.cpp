@@ -150,30 +150,6 @@ bool sane(std::span<const std::byte> memory, const DirectoryEntry& entry, const 
          schema.variables[entry.schema_index].name_hash() == entry.name_hash;
 }
 
-Status check_header(std::span<const std::byte> memory) {
-  if (memory.size() < sizeof(BlockHeader)) {
-    return Error{Errc::Corrupt, 0, "store is shorter than its header"};
-  }
-  const BlockHeader& header = *header_of(memory.data());
-  const std::uint64_t magic = header.magic.load(std::memory_order_acquire);
-  if (magic == 0) {
-    return Error{Errc::Busy, 0, "store is not complete yet"};
-  }
-  if (magic != kMagic) {
-    return Error{Errc::Corrupt, 0, "not a store"};
-  }
-  if (header.abi != abi::kVersion || header.header_size != sizeof(BlockHeader)) {
-    return Error{Errc::VersionMismatch, 0, "store made by another version of InduRoP"};
-  }
-  const BlockState state = header.state.load(std::memory_order_acquire);
-  const bool known_state = state == BlockState::Ready || state == BlockState::Retired;
-  if (header.total_size != memory.size() || !known_state ||
-      std::memchr(header.node_name, 0, sizeof(header.node_name)) == nullptr) {
-    return Error{Errc::Corrupt, 0, "header of the store"};
-  }
-  return {};
-}
-
 }  // namespace
 
 BlockHeader* header_of(std::byte* memory) noexcept {
@@ -230,6 +206,30 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
   }
   if (!init_forces(header->forces) || !init_call_area(memory, plan.functions_offset, plan.schema)) {
     return no_locks;
+  }
+  return {};
+}
+
+Status check_header(std::span<const std::byte> memory) {
+  if (memory.size() < sizeof(BlockHeader)) {
+    return Error{Errc::Corrupt, 0, "store is shorter than its header"};
+  }
+  const BlockHeader& header = *header_of(memory.data());
+  const std::uint64_t magic = header.magic.load(std::memory_order_acquire);
+  if (magic == 0) {
+    return Error{Errc::Busy, 0, "store is not complete yet"};
+  }
+  if (magic != kMagic) {
+    return Error{Errc::Corrupt, 0, "not a store"};
+  }
+  if (header.abi != abi::kVersion || header.header_size != sizeof(BlockHeader)) {
+    return Error{Errc::VersionMismatch, 0, "store made by another version of InduRoP"};
+  }
+  const BlockState state = header.state.load(std::memory_order_acquire);
+  const bool known_state = state == BlockState::Ready || state == BlockState::Retired;
+  if (header.total_size != memory.size() || !known_state ||
+      std::memchr(header.node_name, 0, sizeof(header.node_name)) == nullptr) {
+    return Error{Errc::Corrupt, 0, "header of the store"};
   }
   return {};
 }

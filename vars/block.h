@@ -35,6 +35,9 @@ Result<BlockPlan> plan_block(const schema::Schema& schema);
 // Errors: Unsupported (the system has no robust locks).
 Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& node);
 
+// Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (not a store's header, or of another size).
+Status check_header(std::span<const std::byte> memory);
+
 // The block's unchanging parts, copied so that nobody can change them under us.
 struct BlockIndex {
   std::vector<DirectoryEntry> directory;

@@ -30,6 +30,17 @@ void retire_block(const std::string& node) {
 
 }  // namespace
 
+Result<rt::MonoTime> last_beat(const std::string& node) {
+  const auto file = ShmFile::open(block_file(node), Mode::ReadOnly);
+  if (!file) {
+    return file.error();
+  }
+  if (const Status status = check_header({file->data(), file->size()}); !status) {
+    return status.error();
+  }
+  return rt::mono_time(header_of(file->data())->heartbeat_ns.load());
+}
+
 std::vector<std::string> list_nodes() {
   constexpr std::string_view kPrefix = "indurop.";
   std::vector<std::string> nodes;

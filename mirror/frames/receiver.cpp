@@ -14,6 +14,13 @@ namespace {
 
 constexpr std::size_t kMostParts = 100'000;  // of a sane catalogue
 
+// Only now is the schema read: that takes longer than all the rest of a catalogue.
+std::string difference(const schema::Variable& mine, const char* their_schema) {
+  const auto theirs = schema::from_json(their_schema);
+  const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
+  return other != nullptr ? schema::first_difference(mine.type, other->type) : "another type";
+}
+
 }  // namespace
 
 Receiver::Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings,
@@ -32,14 +39,13 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
   std::vector<Inbox> inboxes;
   std::string problem;
   std::size_t more = 0;
-  const auto complain = [&](std::string text) {
+  const auto complain = [&](const auto& text) {
     if (problem.empty()) {
-      problem = std::move(text);
+      problem = text();
     } else {
       ++more;
     }
   };
-  const auto theirs = schema::from_json(catalogue.schema);
   const indurop_wire_CatalogueEntry* const first = catalogue.entries._buffer;
   const indurop_wire_CatalogueEntry* const last = first + catalogue.entries._length;
   for (const auto* entry = first; entry != last; ++entry) {
@@ -51,18 +57,18 @@ Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const induro
     const schema::Variable& mine = items_[i].landing->variable();
     const auto* found = std::find_if(first, last, [&](const auto& entry) { return mine.name == entry.name; });
     if (found == last) {
-      complain(fmt::format("board {} does not send {}: it runs another deployment", board_, mine.name));
+      complain([&] { return fmt::format("board {} does not send {}: it runs another deployment", board_, mine.name); });
       continue;
     }
     if (found->type_hash != mine.type_hash || found->size != items_[i].landing->entry().value_size) {
-      const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
-      complain(fmt::format("{} differs between the boards: {} (here / on {}); build both from the same .glb", mine.name,
-                           other != nullptr ? schema::first_difference(mine.type, other->type) : "another type",
-                           board_));
+      complain([&] {
+        return fmt::format("{} differs between the boards: {} (here / on {}); build both from the same .glb", mine.name,
+                           difference(mine, catalogue.schema), board_);
+      });
       continue;
     }
     if (found->part >= kMostParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size) {
-      complain(fmt::format("the catalogue of board {} is damaged", board_));
+      complain([&] { return fmt::format("the catalogue of board {} is damaged", board_); });
       continue;
     }
     Inbox& inbox = inboxes[found->part];

@@ -254,6 +254,16 @@ TEST(StoreFiles, Block_planted_by_another_user_is_not_adopted) {
   EXPECT_EQ(sut->origin(), Origin::Fresh);
 }
 
+TEST(StoreFiles, Last_heartbeats_are_told_without_the_store) {
+  const TestNode node("beat");
+  EXPECT_EQ(last_beat(node.name()).error().code, Errc::NotFound);
+  auto sut = Store::create(node.name(), small_schema());
+  ASSERT_TRUE(sut.ok());
+  const auto time = rt::mono_time(123456789);
+  sut->beat(time);
+  EXPECT_EQ(last_beat(node.name()).value(), time);
+}
+
 TEST(StoreFiles, Nodes_are_listed_and_removed) {
   const TestNode one("list-a");
   const TestNode two("list-b");
