@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What it does to a tick of 1 ms that all of its eyes are open: the page in headless Chromium with a chart of what changes, a
 scope that shows each trigger, a recorder of everything and a watch of everything, in every other window of a few seconds beside
-one running node. Chromium takes most of what they take together; --no-page leaves it out."""
+one running node. Chromium takes most of what they take together: --no-page leaves it out, --apart keeps it off the core of the
+tick, the last one, as far as a browser on the same machine can be kept away."""
 
 import argparse
 import contextlib
@@ -42,7 +43,7 @@ class Watched(Node):
                 self.eye(indurop, "scope", *channels, "--trigger", "many::v0.a > 0", "--mode", "normal", "-o", "csv", "--node", self.name),
                 self.eye(indurop, "watch", "many::*", "--hz", "10", "-o", "csv", "--node", self.name)]
             if self.options.browser:
-                children.append(self.eye(self.options.browser, "--headless", "--no-sandbox", "--remote-debugging-port=0",
+                children.append(self.eye(*self.options.apart, self.options.browser, "--headless", "--no-sandbox", "--remote-debugging-port=0",
                                          f"--user-data-dir={self.path('browser')}", f"{address}#/plots?c={','.join(channels)}"))
             with self.recorder():
                 time.sleep(self.options.settle)
@@ -67,7 +68,10 @@ def main():
     parser.add_argument("--window", type=float, default=3, help="seconds")
     parser.add_argument("--settle", type=float, default=3, help="seconds until all of them have begun")
     parser.add_argument("--no-page", action="store_true")
+    parser.add_argument("--apart", action="store_true")
     options = parser.parse_args()
+    cores = sorted(os.sched_getaffinity(0))
+    options.apart = ["taskset", "-c", ",".join(map(str, cores[:-1]))] if options.apart and len(cores) > 1 else []
     options.browser = None if options.no_page else shutil.which("chromium") or shutil.which("google-chrome")
     if not options.browser and not options.no_page:
         raise SystemExit("there is no Chromium here (package chromium); --no-page measures without")

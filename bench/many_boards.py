@@ -67,9 +67,11 @@ def main():
         pids = node_pids(indurop)
         sizes = [memory_kb(pids[board]) for board in boards if board in pids]
     finally:
-        subprocess.run([*lab, "down"], check=False)
+        for node in nodes:  # in an orderly way: the next ones need not keep what a crash left
+            node.terminate()
         for node in nodes:
             node.wait()
+        subprocess.run([*lab, "down"], check=False)
     missing = [board for board in boards if board not in found]
     if missing:
         print(f"not matched within {arguments.timeout} s: {' '.join(missing)}")

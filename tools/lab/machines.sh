@@ -169,16 +169,18 @@ remove_machine() {
 }
 
 # into BOARD SSH-WORDS...: through its door. -q: the door's key is new with every image, which ssh would tell each time.
+# The patience, in seconds, is for the exchange of keys as well, which takes long without KVM on a busy machine.
+patience=60
 into() {
   name=$1
   shift
   ip netns exec "$switch" ssh -q -i "$(fact "$name" image)/key" -p $((door_ports + $(fact "$name" number))) -o BatchMode=yes \
-    -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o ConnectTimeout=5 -l root 127.0.0.1 "$@"
+    -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o ConnectTimeout=$patience -l root 127.0.0.1 "$@"
 }
 
 wait_for_machine() {
   tries=0
-  until into "$1" true; do
+  until (patience=5 && into "$1" true); do
     tries=$((tries + 1))
     if ! is_on "$1" || [ $tries -ge 300 ]; then
       tail -n 15 "$machines/$1/log" >&2
