@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -14,7 +16,8 @@ namespace {
 using base::Problem;
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kShares = 8;  // parts of what is kept
+constexpr std::int64_t kShares = 8;               // parts of what is kept
+constexpr std::int64_t kPortionNs = 100'000'000;  // taken before anybody looks whether the part is full
 
 fs::path part_of(const fs::path& path, std::uint64_t number) {
   fs::path part = path;
@@ -161,9 +164,10 @@ Result<void, Problem> Parts::begin_next() {
   return with_room([this] { return begin(number_); });
 }
 
-Result<void, Problem> Parts::take() {
+// A portion of time, so that a part grows no larger than it should when there is much at once, after a stall.
+Result<void, Problem> Parts::take_portion(std::int64_t until_ns) {
   for (Recorder& recorder : recorders_) {
-    if (auto taken = with_room([&recorder] { return recorder.take(); }); !taken) {
+    if (auto taken = with_room([&recorder, until_ns] { return recorder.take(until_ns); }); !taken) {
       return taken;
     }
   }
@@ -177,6 +181,28 @@ Result<void, Problem> Parts::take() {
   }
   remove_old_ones();
   return {};
+}
+
+Result<void, Problem> Parts::take() {
+  if (!limits_.in_parts()) {
+    return take_portion(std::numeric_limits<std::int64_t>::max());
+  }
+  for (std::optional<std::int64_t> from = latest_ns(); from; from = waiting_ns()) {
+    if (auto taken = take_portion(*from + kPortionNs); !taken) {
+      return taken;
+    }
+  }
+  return {};
+}
+
+std::optional<std::int64_t> Parts::waiting_ns() const noexcept {
+  std::optional<std::int64_t> first;
+  for (const Recorder& recorder : recorders_) {
+    if (const auto waiting = recorder.waiting_ns()) {
+      first = std::min(first.value_or(*waiting), *waiting);
+    }
+  }
+  return first;
 }
 
 Result<void, Problem> Parts::flush() {

@@ -11,6 +11,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,6 +77,8 @@ class Parts {
   [[nodiscard]] std::int64_t latest_ns() const noexcept;
   Result<void, base::Problem> begin(std::uint64_t number);
   Result<void, base::Problem> begin_next();
+  Result<void, base::Problem> take_portion(std::int64_t until_ns);
+  [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
   template <class Work>
   Result<void, base::Problem> with_room(const Work& work);
   bool remove_oldest();

@@ -98,6 +98,7 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
     copied_[i] = recording::lies_as_cdr(type) && type.size() == follower_.variables()[i].size;
   }
   wanted_count_ = static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+  held_.resize(follower_.tracks());
   known_.resize(follower_.tracks());
   for (Known& known : known_) {
     known.values.resize(count);
@@ -215,9 +216,9 @@ void Recorder::learn() {
 }
 
 // Before any module was started, if the recording begins with the first run, else what the runs before it say.
-Result<void, Problem> Recorder::tell_first_values() {
-  const std::int64_t before = held_->tail.release_ns - about_.basic_period_ns;
-  for (std::uint32_t i = 0; held_->tail.number == 0 && i < wanted_.size(); ++i) {
+Result<void, Problem> Recorder::tell_first_values(const tape::Run& first) {
+  const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
+  for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
     const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
     if (auto written = write_value(value, kOthers, before, before); !written) {
       return written;
@@ -245,67 +246,97 @@ Result<void, Problem> Recorder::tell_known_values() {
   return {};
 }
 
-Result<void, Problem> Recorder::write_run(const tape::Run& run) {
+// The `part`th of what a run says: its values, what the clock and what calls told it, and at last the run itself.
+Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t part) {
   const std::uint32_t module = module_of(run);
-  for (const tape::Value& value : run.values) {
+  if (part < run.values.size()) {
+    const tape::Value& value = run.values[part];
     const std::int64_t time = value.kind == tape::EntryKind::Before ? run.tail.start_ns : run.tail.end_ns;
-    if (auto written = write_value(value, module, time, run.tail.release_ns); !written) {
-      return written;
-    }
+    return write_value(value, module, time, run.tail.release_ns);
   }
-  for (const std::int64_t clock : run.clock) {
-    to_cdr(clock, cdr_);
-    if (auto written = writer_->write(clock_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
-                                      to_sequence({module, tape::EntryKind::Clock}), cdr_);
-        !written) {
-      return written;
-    }
+  part -= run.values.size();
+  const auto write = [&](std::uint16_t channel, std::uint32_t sequence) {
+    return writer_->write(channel, log_time(run.tail.end_ns), log_time(run.tail.release_ns), sequence, cdr_);
+  };
+  if (part < run.clock.size()) {
+    to_cdr(run.clock[part], cdr_);
+    return write(clock_channel_, to_sequence({module, tape::EntryKind::Clock}));
   }
-  for (const tape::Told& told : run.told) {
-    to_cdr(ToldWords{told.code, told.bytes}, cdr_);
-    if (auto written = writer_->write(told_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
-                                      to_sequence({module, tape::EntryKind::Told}), cdr_);
-        !written) {
-      return written;
-    }
+  part -= run.clock.size();
+  if (part < run.told.size()) {
+    to_cdr(ToldWords{run.told[part].code, run.told[part].bytes}, cdr_);
+    return write(told_channel_, to_sequence({module, tape::EntryKind::Told}));
   }
   to_cdr(RunWords{run.tail, module, (run.flags & tape::kFaulted) != 0, (run.flags & tape::kAnew) != 0}, cdr_);
-  auto written = writer_->write(runs_channel_, log_time(run.tail.end_ns), log_time(run.tail.release_ns),
-                                static_cast<std::uint32_t>(run.tail.number), cdr_);
+  auto written = write(runs_channel_, static_cast<std::uint32_t>(run.tail.number));
   counts_.runs += written.ok() ? 1U : 0U;
   return written;
 }
 
-Result<void, Problem> Recorder::take() {
+Result<void, Problem> Recorder::write_run(Held& held) {
+  const std::size_t parts = held.run.values.size() + held.run.clock.size() + held.run.told.size() + 1;
+  for (; held.written < parts; ++held.written) {
+    if (auto written = write_part(held.run, held.written); !written) {
+      return written;
+    }
+  }
+  return {};
+}
+
+// False: no run of the track is there that ended before.
+Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
+  std::optional<Held>& held = held_[track];
+  if (!held) {
+    held.emplace();
+    if (!follower_.next(track, held->run)) {
+      held.reset();
+      return false;
+    }
+  }
+  if (held->run.tail.end_ns >= until_ns) {
+    return false;
+  }
+  if (!first_told_) {
+    if (auto told = tell_first_values(held->run); !told) {
+      return std::move(told).error();
+    }
+    first_told_ = true;
+  }
+  if (auto written = write_run(*held); !written) {
+    return std::move(written).error();
+  }
+  latest_ns_ = std::max(latest_ns_, held->run.tail.end_ns);
+  if (remembers_) {
+    note(track, held->run);
+  }
+  held.reset();
+  return true;
+}
+
+Result<void, Problem> Recorder::take(std::int64_t until_ns) {
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
-    for (;;) {
-      if (!held_) {
-        held_.emplace();
-        if (!follower_.next(track, *held_)) {
-          held_.reset();
-          break;
-        }
+    for (bool more = true; more;) {
+      auto taken = take_run(track, until_ns);
+      if (!taken) {
+        return std::move(taken).error();
       }
-      if (!first_told_) {
-        if (auto told = tell_first_values(); !told) {
-          return told;
-        }
-        first_told_ = true;
-      }
-      if (auto written = write_run(*held_); !written) {
-        return written;
-      }
-      latest_ns_ = std::max(latest_ns_, held_->tail.end_ns);
-      if (remembers_) {
-        note(track, *held_);
-      }
-      held_.reset();
+      more = *taken;
     }
     if (const std::uint64_t lost = follower_.lost(track); lost > 0) {
       counts_.lost[follower_.module_of(track)] = lost;
     }
   }
   return {};
+}
+
+std::optional<std::int64_t> Recorder::waiting_ns() const noexcept {
+  std::optional<std::int64_t> first;
+  for (const std::optional<Held>& held : held_) {
+    if (held) {
+      first = std::min(first.value_or(held->run.tail.end_ns), held->run.tail.end_ns);
+    }
+  }
+  return first;
 }
 
 Result<void, Problem> Recorder::attach(std::string_view name, std::string_view text) {

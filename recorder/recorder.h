@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -60,8 +61,11 @@ class Recorder {
   void learn();
   // Keeps in mind what every module knew last, for go_on_in(). Before the first take().
   void remember() { remembers_ = true; }
-  // Takes what there is. Errors: those of the disk; what was not taken can be taken later.
-  Result<void, base::Problem> take();
+  // Takes the runs that ended before a time of the node. Errors: those of the disk; what was not taken can be taken
+  // later, and nothing is written twice.
+  Result<void, base::Problem> take(std::int64_t until_ns = std::numeric_limits<std::int64_t>::max());
+  // End of the earliest run that take() left for later.
+  [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
   // What is in memory goes to the file.
   Result<void, base::Problem> flush() { return writer_->flush(); }
   // A text beside the runs and values. Before conclude().
@@ -93,13 +97,21 @@ class Recorder {
     std::int64_t end_ns = 0;                        // of its last run
   };
 
+  // Read from the tape, and not or not wholly written.
+  struct Held {
+    tape::Run run;
+    std::size_t written = 0;  // parts of it
+  };
+
   void choose(const std::vector<std::string>& globs, std::vector<bool>& matched);
   Result<void, base::Problem> begin_file();
   Result<void, base::Problem> add_own_channels();
-  Result<void, base::Problem> tell_first_values();
+  Result<void, base::Problem> tell_first_values(const tape::Run& first);
   Result<void, base::Problem> tell_known_values();
   void note(std::size_t track, const tape::Run& run);
-  Result<void, base::Problem> write_run(const tape::Run& run);
+  Result<bool, base::Problem> take_run(std::size_t track, std::int64_t until_ns);
+  Result<void, base::Problem> write_run(Held& held);
+  Result<void, base::Problem> write_part(const tape::Run& run, std::size_t part);
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
   Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
@@ -122,8 +134,8 @@ class Recorder {
   std::uint16_t told_channel_ = 0;
   bool remembers_ = false;
   bool first_told_ = false;
-  std::vector<Known> known_;       // by track
-  std::optional<tape::Run> held_;  // could not be written yet
+  std::vector<Known> known_;               // by track
+  std::vector<std::optional<Held>> held_;  // by track
   std::int64_t latest_ns_ = 0;
   std::vector<std::uint8_t> cdr_;
   Counts counts_;

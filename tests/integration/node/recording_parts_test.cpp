@@ -237,28 +237,70 @@ TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
   EXPECT_EQ(sut.wait(), 0);
 }
 
-TEST_F(RecordingParts, On_a_full_disk_the_oldest_make_room) {
+// A disk of 300 kB, of which the recorder alone knows.
+class RecordingPartsOnASmallDisk : public RecordingParts {
+ protected:
+  // What is on the disk in the end is copied; the recorder's pid is told at once.
+  Program recorder(const std::vector<std::string>& more) {
+    const fs::path disk = folder() / "disk";
+    fs::create_directory(disk);
+    fs::create_directory(copies_);
+    Environment small = environment();
+    small.prepare = [disk] { return mount_small(disk.string(), "300k"); };
+    std::string line;
+    for (const std::string& word : command(more)) {
+      line += word + " ";
+    }
+    return Program({"/bin/sh", "-c",
+                    line + "-o " + (disk / "run.mcap").string() + " & echo $! > " + pid_file_.string() +
+                        "; wait $!; code=$?; cp " + disk.string() + "/* " + copies_.string() + "; exit $code"},
+                   small);
+  }
+  pid_t pid() const {
+    pid_t pid = 0;
+    EXPECT_TRUE(wait_until([&] { return static_cast<bool>(std::ifstream(pid_file_) >> pid); }));
+    return pid;
+  }
+  void each_can_be_replayed() const {
+    for (const fs::path& part : parts(copies_)) {
+      EXPECT_EQ(replay(part).code, 0) << part;
+    }
+  }
+
+  fs::path copies_ = folder() / "copies";
+  fs::path pid_file_ = folder() / "recorder.pid";
+};
+
+TEST_F(RecordingPartsOnASmallDisk, The_oldest_make_room) {
   Program& sut = start_and_wait(kCounter);
-  const fs::path disk = folder() / "disk";
-  fs::create_directory(disk);
-  Environment small = environment();
-  const std::string copies = (folder() / "copies").string();
-  fs::create_directory(copies);
-  small.prepare = [&] { return mount_small(disk.string(), "300k"); };
-  Program recorder(
-      {"/bin/sh", "-c",
-       std::string(INDUROP_PROGRAM) + " record --node " + node() + " -o " + (disk / "run.mcap").string() +
-           " --split 500ms --keep 1h --duration 6s; code=$?; cp " + disk.string() + "/* " + copies + "; exit $code"},
-      small);
-  const Outcome full = recorder.finish();
+  const Outcome full = recorder({"--split", "500ms", "--keep", "1h", "--duration", "6s"}).finish();
   if (full.code == Program::kNotPrepared) {
     GTEST_SKIP() << "may not mount";
   }
   EXPECT_EQ(full.code, 0) << full.err;
   EXPECT_CONTAINS(full.err, " older parts were removed");
-  for (const fs::path& part : parts(copies)) {
-    EXPECT_EQ(replay(part).code, 0) << part;
+  each_can_be_replayed();
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+// What came together meanwhile is more than a part.
+TEST_F(RecordingPartsOnASmallDisk, The_oldest_make_room_after_the_recorder_stood_still) {
+  Program& sut = start_and_wait(kCounter);
+  Program slow = recorder({"--split", "500ms", "--keep", "1h", "--duration", "6s"});
+  if (!wait_until([&] { return fs::exists(pid_file_); })) {
+    GTEST_SKIP() << "may not mount";
   }
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 200));
+    ::kill(pid(), SIGSTOP);
+    ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 2500));
+    ::kill(pid(), SIGCONT);
+  }
+  const Outcome full = slow.finish();
+  EXPECT_FALSE(contains(full.err, "No space left on device")) << full.err;
+  EXPECT_CONTAINS(full.err, " older parts were removed");
+  each_can_be_replayed();
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
 }
