@@ -20,6 +20,7 @@ struct ModuleFact {
   std::int64_t deadline_ns = 0;  // 0: the period
   int priority = 0;              // lowest value first
   int core = -1;
+  int fifo_priority = 0;          // of the thread it runs in; 0: not known, or none
   std::string state = "running";  // in the words of `indurop status`
   std::uint64_t runs = 0;
   std::uint64_t faults = 0;

@@ -53,6 +53,7 @@ constexpr auto kModule = [](auto&& visit, auto& fact) {
   visit("deadline_ns", fact.deadline_ns);
   visit("priority", fact.priority);
   visit("core", fact.core);
+  visit("fifo_priority", fact.fifo_priority);
   visit("state", fact.state);
   visit("runs", fact.runs);
   visit("faults", fact.faults);

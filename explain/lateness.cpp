@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "explain/words.h"
@@ -34,6 +35,17 @@ bool most_of(std::int64_t part, std::int64_t whole) {
 
 std::int64_t limit_of(const ModuleFact& module) {
   return module.deadline_ns > 0 ? module.deadline_ns : module.period_ns;
+}
+
+bool runs_in(const ModuleFact& module, std::string_view thread) {
+  return module.fifo_priority > 0 && thread == fmt::format("irp-band-{}", module.fifo_priority);
+}
+
+// Threads of lower priority wait for the module: that they were ready without running tells nothing about it.
+bool depends_on(const ModuleFact& module, std::string_view thread) {
+  return thread.empty() || thread.starts_with("irp-tick") || runs_in(module, thread) ||
+         (thread == "irp-events" && module.operation == "sporadic") ||
+         (thread.starts_with("irp-band") && module.fifo_priority == 0 && module.operation == "periodic");
 }
 
 // What it was, then why.
@@ -180,7 +192,8 @@ Answer Lateness::blame(const RunFact& run, const Compared& compared, int depth) 
 Answer Lateness::blame_itself(const RunFact& run, const Excess& own) const {
   const std::string& self = name(run.module);
   if (!facts_.is_virtual) {
-    const Answer kernel = machine({run.start_ns, run.end_ns}, facts_.modules[run.module].core, own.more_ns);
+    const Answer kernel =
+        machine({run.start_ns, run.end_ns}, facts_.modules[run.module].core, facts_.modules[run.module], own.more_ns);
     if (kernel.cause == Cause::Machine) {
       return with_prefix(fmt::format("the run of {} took {} longer than usual, and not by its own computing: ", self,
                                      short_time(own.more_ns)),
@@ -256,7 +269,7 @@ Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) con
   }
   for (const ModuleFact& other : facts_.modules) {
     if (other.core != module.core && waits_for(module, other.name)) {
-      const Answer kernel = machine({run.release_ns, run.start_ns}, other.core, gap.more_ns);
+      const Answer kernel = machine({run.release_ns, run.start_ns}, other.core, other, gap.more_ns);
       if (kernel.cause == Cause::Machine) {
         return with_prefix(
             fmt::format("{} waits for {} of core {}, which did not come: ", module.name, other.name, other.core),
@@ -264,7 +277,7 @@ Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) con
       }
     }
   }
-  Answer kernel = machine({run.release_ns, run.end_ns}, module.core, gap.more_ns);
+  Answer kernel = machine({run.release_ns, run.end_ns}, module.core, module, gap.more_ns);
   if (kernel.cause == Cause::AllIsWell) {
     kernel.cause = facts_.is_virtual ? Cause::Machine : Cause::NotKnown;
   }
@@ -273,18 +286,19 @@ Answer Lateness::blame_gap(const RunFact& run, const Excess& gap, int depth) con
                      kernel);
 }
 
-// Time that threads on the core were ready without running. What modules of the node had of it is no other program's
-// doing; a tick thread with real-time priority waits for none of them.
-Lateness::Waited Lateness::waited(Span span, std::int32_t core) const {
+// Time that threads on the core were ready without running. What modules of other threads of the node had of it is no
+// other program's doing; a tick thread with real-time priority waits for none of them.
+Lateness::Waited Lateness::waited(Span span, std::int32_t core, const ModuleFact& module) const {
   const Timeline timeline(facts_, core);
   Waited out;
   for (const KernelFact& one : facts_.kernel) {
-    if (one.from_ns >= span.to_ns || one.to_ns <= span.from_ns || (one.core != core && core >= 0 && one.core >= 0)) {
+    if (one.from_ns >= span.to_ns || one.to_ns <= span.from_ns || (one.core != core && core >= 0 && one.core >= 0) ||
+        !depends_on(module, one.thread)) {
       continue;
     }
     std::int64_t own = 0;
-    for (const auto& [module, time] : timeline.shares({one.from_ns, one.to_ns})) {
-      own += module == kNoModule ? 0 : time;
+    for (const auto& [other, time] : timeline.shares({one.from_ns, one.to_ns})) {
+      own += other == kNoModule || runs_in(facts_.modules[other], one.thread) ? 0 : time;
     }
     const bool above_all = facts_.realtime && one.thread.starts_with("irp-tick");
     out.whole_ns = std::max(out.whole_ns, one.waited_ns);
@@ -295,14 +309,14 @@ Lateness::Waited Lateness::waited(Span span, std::int32_t core) const {
   return out;
 }
 
-Answer Lateness::machine(Span span, std::int32_t core, std::int64_t so_much_ns) const {
+Answer Lateness::machine(Span span, std::int32_t core, const ModuleFact& module, std::int64_t so_much_ns) const {
   if (facts_.is_virtual) {
     return {Cause::AllIsWell, {}, "virtual time knows no other programs", {}};
   }
   if (facts_.kernel_from_ns > span.from_ns || span.to_ns > facts_.kernel_to_ns) {
     return not_known("what the kernel counted then was not kept");
   }
-  const Waited counted = waited(span, core);
+  const Waited counted = waited(span, core, module);
   const std::int64_t enough = so_much_ns / 2;
   Answer answer{Cause::Machine, {}, {}, {}};
   if (counted.stolen_ns >= enough) {

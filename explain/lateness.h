@@ -21,8 +21,9 @@ class Lateness {
   explicit Lateness(const Facts& facts) : facts_(facts) {}
 
   [[nodiscard]] Answer explain(const RunFact& run, int depth = 0) const;
-  // Machine if so much of this time is accounted for by what the kernel counted; AllIsWell: it counted nothing of it.
-  [[nodiscard]] Answer machine(Span span, std::int32_t core, std::int64_t so_much_ns) const;
+  // Machine if so much of this time is accounted for by what the kernel counted for the threads of this core that a run
+  // of the module depends on; AllIsWell: it counted nothing of it.
+  [[nodiscard]] Answer machine(Span span, std::int32_t core, const ModuleFact& module, std::int64_t so_much_ns) const;
 
  private:
   // More than in other runs, by whom.
@@ -45,7 +46,7 @@ class Lateness {
     std::uint64_t pages = 0;
   };
 
-  [[nodiscard]] Waited waited(Span span, std::int32_t core) const;
+  [[nodiscard]] Waited waited(Span span, std::int32_t core, const ModuleFact& module) const;
   [[nodiscard]] const std::string& name(std::uint32_t module) const { return facts_.modules[module].name; }
   using Key = std::pair<std::uint32_t, bool>;  // module, own
   [[nodiscard]] std::map<Key, std::int64_t> shares_of(const Timeline& timeline, const RunFact& run) const;

@@ -42,6 +42,7 @@ ModuleFact fact_of(const scheduler::ModuleRecord& record) {
   fact.deadline_ns = record.deadline_ns;
   fact.priority = record.priority;
   fact.core = record.core;
+  fact.fifo_priority = record.fifo_priority;
   fact.state = to_text(record.state.load(std::memory_order_acquire));
   fact.runs = record.runs.load();
   fact.faults = record.faults.load();

@@ -13,6 +13,33 @@ namespace indurop::explain {
 namespace {
 
 // One module and one tick.
+// Rings hold more of one module than of another, and are copied one after the other: at both ends of what is known a
+// run that is missing may only not be kept.
+struct Known {
+  static constexpr std::int64_t kCopiedNs = 100'000'000;
+
+  Known(const Facts& all, std::uint32_t module) : facts(all) {
+    for (const RunFact& run : facts.runs) {
+      if (run.module == module) {
+        first = std::min(first, run.tick);
+        last = last == kNone ? run.tick : std::max(last, run.tick);
+      }
+    }
+  }
+  [[nodiscard]] bool at(std::uint64_t tick) const {
+    if (last == kNone) {
+      return true;
+    }
+    const bool before = facts.first_tick > 0 && tick < first;
+    const bool behind = facts.closed && tick > last && facts.release_of(tick) + kCopiedNs > facts.now_ns;
+    return !before && !behind;
+  }
+
+  const Facts& facts;
+  std::uint64_t first = kNone;
+  std::uint64_t last = kNone;
+};
+
 class Question {
  public:
   Question(const Facts& facts, const ModuleFact& module, std::uint64_t tick)
@@ -40,6 +67,9 @@ class Question {
     }
     if (module_.operation == "sporadic") {
       return {Cause::NotDue, {}, fmt::format("{} runs on its event, and did not in {}", module_.name, place()), {}};
+    }
+    if (const Known known(facts_, index_); !known.at(tick_)) {
+      return not_known(fmt::format("of {} the ticks {} to {} are known", module_.name, known.first, known.last));
     }
     return kept_out();
   }
@@ -264,7 +294,7 @@ class Question {
         gap.to_ns = std::min(gap.to_ns, run.start_ns);
       }
     }
-    Answer answer = lateness_.machine({release_ns_, gap.to_ns}, module_.core, gap.length());
+    Answer answer = lateness_.machine({release_ns_, gap.to_ns}, module_.core, module_, gap.length());
     answer.cause = Cause::Machine;
     answer.text = fmt::format(
         "no module ran on core {} in {}: nothing of the node had it for {}, so the machine stood still "
@@ -314,10 +344,11 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
     }
   }
   std::sort(ran.begin(), ran.end());
+  const Known ends(facts, index);
   // The tick that has just begun may be under way, and a run that still has time be to come.
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > facts.first_tick;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;
-    if (over && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
+    if (over && ends.at(tick) && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
       return last == kNone ? tick : std::max(last, tick);
     }
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 
 #include "explain/facts_json.h"
@@ -90,7 +91,7 @@ class Recorded {
     if (!run) {
       return;
     }
-    first_number_ = facts_.runs.empty() ? run->tail.number : first_number_;
+    first_numbers_.try_emplace(run->module, run->tail.number);
     last_tick_ = std::max(last_tick_, run->tail.tick);
     facts_.epoch_ns = run->tail.release_ns - static_cast<std::int64_t>(run->tail.tick) * facts_.basic_period_ns;
     if (run->module < facts_.modules.size()) {
@@ -109,6 +110,14 @@ class Recorded {
         {variable_, words.module < facts_.modules.size() ? facts_.modules[words.module].name : "", 0, time});
   }
 
+  // Rings of modules that run on events, and that of those outside, may hold all from the start while others do not.
+  [[nodiscard]] bool from_the_start() const {
+    return std::all_of(first_numbers_.begin(), first_numbers_.end(), [&](const auto& first) {
+      const bool periodic = first.first < facts_.modules.size() && facts_.modules[first.first].operation != "sporadic";
+      return !periodic || first.second == 0;
+    });
+  }
+
   void conclude() {
     std::stable_sort(facts_.runs.begin(), facts_.runs.end(),
                      [](const auto& a, const auto& b) { return a.start_ns < b.start_ns; });
@@ -116,7 +125,7 @@ class Recorded {
     for (const explain::RunFact& run : facts_.runs) {
       first = std::min(first, run.tick);
     }
-    facts_.first_tick = first_number_ == 0 ? 0 : first + 1;
+    facts_.first_tick = from_the_start() ? 0 : first + 1;
     facts_.closed = complete_;
     // Those at the begin of a recording that was not closed are too old.
     if (facts_.tick <= last_tick_) {
@@ -135,7 +144,7 @@ class Recorded {
   std::string variable_;
   std::string config_;
   Facts facts_;
-  std::uint64_t first_number_ = 0;
+  std::map<std::uint32_t, std::uint64_t> first_numbers_;  // of runs, by module
   std::uint64_t last_tick_ = 0;
   bool complete_ = false;
 };

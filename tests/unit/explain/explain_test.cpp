@@ -121,6 +121,27 @@ TEST(Explain, A_run_that_still_has_time_is_no_trouble) {
   EXPECT_EQ(last_trouble(facts, "slow"), 980U);
 }
 
+TEST(Explain, What_the_ends_of_a_box_do_not_hold_is_no_trouble) {
+  Facts facts = board("here", 1000);
+  facts.closed = true;
+  facts.first_tick = 200;
+  facts.modules.push_back(periodic("slow", 10 * kMs));
+  for (std::uint64_t tick = 500; tick <= 960; tick += 10) {
+    const auto release = static_cast<std::int64_t>(tick) * kMs;
+    if (tick != 700) {
+      facts.runs.push_back({1, tick, release, release, release + 1000, false});
+    }
+  }
+  EXPECT_EQ(last_trouble(facts, "slow"), 700U) << "its ring had nothing before 500, and was copied at 965";
+  for (const std::uint64_t tick : {300U, 970U, 990U}) {
+    const Answer sut = why_late(facts, "slow", tick);
+    EXPECT_EQ(sut.cause, Cause::NotKnown) << tick;
+    EXPECT_THAT(sut.text, HasSubstr("of slow the ticks 500 to 960 are known"));
+  }
+  std::erase_if(facts.runs, [](const RunFact& run) { return run.module == 1 && run.tick > 800; });
+  EXPECT_EQ(last_trouble(facts, "slow"), 900U) << "so long nobody copies";
+}
+
 TEST(Explain, What_is_not_known_is_said_with_its_reason) {
   Facts facts = board("here", 100);
   EXPECT_EQ(why_late(facts, "nobody", 3).cause, Cause::NotKnown);

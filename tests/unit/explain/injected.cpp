@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "injected.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -59,6 +61,24 @@ void connect(std::vector<Task>& tasks) {
   }
 }
 
+// A module that takes longer lets threads of lower priority wait; the kernel counts it when they run at last.
+void add_those_below(Facts& facts, const Injection& injection, std::int64_t due_ns) {
+  const ModuleFact& longer = facts.modules[injection.module];
+  KernelFact fact;
+  fact.from_ns = due_ns + injection.for_ns / 2;
+  fact.to_ns = due_ns + injection.for_ns + 20 * kBasic;
+  fact.core = longer.core;
+  fact.waited_ns = injection.for_ns;
+  fact.thread = "irp-events";
+  facts.kernel.push_back(fact);
+  for (const ModuleFact& module : facts.modules) {
+    if (module.core == longer.core && module.fifo_priority > 0 && module.fifo_priority < longer.fifo_priority) {
+      fact.thread = "irp-band-" + std::to_string(module.fifo_priority);
+      facts.kernel.push_back(fact);
+    }
+  }
+}
+
 // As the node's own looks at the kernel's counters would have it: every 20 ms, by core.
 void add_kernel(Facts& facts, const Injection& injection, std::int32_t its_core, std::int64_t due_ns) {
   constexpr std::int64_t kLook = 20 * kBasic;
@@ -89,6 +109,9 @@ Facts facts_after(const scheduler::RunBlock& block, const std::vector<Task>& tas
   facts.is_virtual = false;
   facts.realtime = true;
   add_kernel(facts, injection, tasks[injection.module].core, due_ns);
+  if (injection.what == What::Longer) {
+    add_those_below(facts, injection, due_ns);
+  }
   facts.board = "here";
   facts.now_ns = rt::to_ns(g_world->kernel->now());
   for (std::size_t i = 0; i < tasks.size(); ++i) {

@@ -38,6 +38,6 @@ struct Random {
 std::vector<scheduler::Task> random_schedule(Random& random);
 
 // Runs it; `name_of` a module is "m0", "m1", ...
-Facts run_schedule(const std::vector<scheduler::Task>& tasks, const Injection& injection);
+Facts run_schedule(const std::vector<scheduler::Task>& given, const Injection& injection);
 
 }  // namespace indurop::explain
