@@ -56,6 +56,7 @@ bool push_message(RunBlock& run, std::uint32_t module, std::string_view text, rt
       ticket = ring.head.load(std::memory_order_relaxed);
     }
   }
+  std::atomic_thread_fence(std::memory_order_release);  // who looks on sees the ticket taken before any of its text
   const std::size_t length = std::min(text.size(), scheduler::kMessageText);
   const std::uint32_t words[2] = {module, static_cast<std::uint32_t>(length)};
   detail::copy_to_shared(&place.entry->module, words, sizeof words);

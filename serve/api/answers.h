@@ -39,6 +39,7 @@ Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);
 Reply runs(Api& api, const Call& call);
 Reply overruns(Api& api, const Call& call);
+Reply messages(Api& api, const Call& call);
 
 Reply variables(Api& api, const Call& call);
 Reply variable(Api& api, const Call& call);

@@ -180,4 +180,35 @@ Reply overruns(Api& /*api*/, const Call& call) {
   return json_reply(body);
 }
 
+Reply messages(Api& /*api*/, const Call& call) {
+  constexpr std::uint64_t kUsual = 100;
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const auto run = (*found)->run();
+  if (!run) {
+    return no_run(**found);
+  }
+  const auto count = query_number(call, "count", kUsual, 1, kMostSamples);
+  if (!count) {
+    return wrong_count();
+  }
+  const auto& block = run->block();
+  base::Json list = base::Json::array();
+  for (const tools::MessageSample& sample : run->messages(*count)) {
+    base::Json one = base::Json::object();
+    one["who"] = sample.who;
+    one["tick"] =
+        std::max<std::int64_t>(sample.time_ns - block.epoch_ns, 0) / std::max<std::int64_t>(block.basic_period_ns, 1);
+    one["time_ns"] = sample.time_ns;
+    one["text"] = sample.text;
+    list.push_back(std::move(one));
+  }
+  base::Json body = about(**found);
+  body["epoch_ns"] = block.epoch_ns;
+  body["messages"] = std::move(list);
+  return json_reply(body);
+}
+
 }  // namespace indurop::serve::answers

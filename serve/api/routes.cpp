@@ -22,6 +22,7 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/boards/{board}/schedule", Pace::Files, &answers::schedule},
       Route{kGet, "/api/v1/boards/{board}/runs", Pace::Files, &answers::runs},
       Route{kGet, "/api/v1/boards/{board}/overruns", Pace::Files, &answers::overruns},
+      Route{kGet, "/api/v1/boards/{board}/messages", Pace::Files, &answers::messages},
       Route{kGet, "/api/v1/boards/{board}/faults", Pace::Quick, &answers::faults},
       Route{kGet, "/api/v1/boards/{board}/variables", Pace::Files, &answers::variables},
       Route{kGet, "/api/v1/boards/{board}/variables/{name}", Pace::Files, &answers::variable},

@@ -18,6 +18,7 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr std::size_t kEvents = 5;
+constexpr std::size_t kMessages = 2;  // of these: who prints all the time hides nothing
 constexpr std::size_t kTroubles = 3;
 constexpr const char* kKeys = "q Quit  n Node  s Sort  Space Pause  Up/Down Scroll";
 
@@ -90,7 +91,14 @@ std::string order_of(const scheduler::RunBlock& block, const explain::OrderFact&
   return printable(order.reason.empty() ? text : fmt::format("{}: {}", text, order.reason));
 }
 
-// Overruns and what was ordered from outside in this run, oldest first.
+std::string message_of(const RunView& run, const MessageSample& one) {
+  const scheduler::RunBlock& block = run.block();
+  const std::int64_t since = std::max<std::int64_t>(one.time_ns - block.epoch_ns, 0);
+  return printable(
+      fmt::format("tick {}: {}: {}", since / std::max<std::int64_t>(block.basic_period_ns, 1), one.who, one.text));
+}
+
+// Overruns, what was ordered from outside in this run and what modules printed, oldest first.
 std::vector<TopEvent> newest_events(const std::string& node, const RunView& run) {
   std::vector<TopEvent> all;
   const scheduler::RunBlock& block = run.block();
@@ -100,6 +108,9 @@ std::vector<TopEvent> newest_events(const std::string& node, const RunView& run)
   const auto orders = explain::read_orders(node, block.started_wall_ns);
   for (std::size_t i = orders.size() - std::min(orders.size(), kEvents); i < orders.size(); ++i) {
     all.push_back({orders[i].node_ns, order_of(block, orders[i])});
+  }
+  for (const MessageSample& one : run.messages(kMessages)) {
+    all.push_back({one.time_ns, message_of(run, one)});
   }
   std::stable_sort(all.begin(), all.end(), [](const TopEvent& a, const TopEvent& b) { return a.time_ns < b.time_ns; });
   all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(std::min(all.size(), kEvents)));

@@ -49,7 +49,7 @@ struct TopSample {
     double load = 0;  // share of a core since the sample before; of the first one: by the mean
   };
   std::vector<Module> modules;
-  std::vector<TopEvent> events;  // overruns and orders, newest last
+  std::vector<TopEvent> events;  // overruns, orders, what modules printed, newest last
   std::vector<std::string> troubles;
   AlarmCounts alarms;
   std::size_t forces = 0;

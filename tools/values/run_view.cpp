@@ -54,6 +54,7 @@ std::vector<Sample> read_log(const Entry* ring, std::uint64_t capacity, std::uin
 
 bool RunView::check(const scheduler::RunBlock& block, std::uint64_t file_size, Checked& out) noexcept {
   const std::uint64_t total = block.total_size;
+  out.total = total;
   out.module_count = block.module_count;
   out.slot_capacity = block.slot_log_capacity;
   out.overrun_capacity = block.overrun_log_capacity;

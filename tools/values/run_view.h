@@ -42,6 +42,13 @@ struct OverrunSample {
   bool started = false;
 };
 
+// What a module printed with irp::printf, or the node itself.
+struct MessageSample {
+  std::string who;  // "node": the node
+  std::int64_t time_ns = 0;
+  std::string text;  // without the line's end
+};
+
 class RunView {
  public:
   // Errors: NotFound, PermissionDenied, Corrupt (no run block, or offsets that lead outside the file),
@@ -64,6 +71,9 @@ class RunView {
   // The newest `most` complete entries of the two logs, oldest first; entries overwritten meanwhile are left out.
   [[nodiscard]] std::vector<SlotSample> slot_log(std::uint64_t most) const;
   [[nodiscard]] std::vector<OverrunSample> overrun_log(std::uint64_t most) const;
+  // The newest `most` messages of all modules and of the node, oldest first; of each the newest 64 are kept, of all
+  // of an image none. What is printed meanwhile is left out.
+  [[nodiscard]] std::vector<MessageSample> messages(std::size_t most) const;
 
  private:
   // What was checked, so that nobody can change it under us afterwards.
@@ -71,6 +81,7 @@ class RunView {
     const scheduler::ModuleRecord* modules = nullptr;
     const scheduler::SlotEntry* slots = nullptr;
     const scheduler::OverrunEntry* overruns = nullptr;
+    std::uint64_t total = 0;  // bytes
     std::uint32_t module_count = 0;
     std::uint32_t slot_capacity = 0;
     std::uint32_t overrun_capacity = 0;

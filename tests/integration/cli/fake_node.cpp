@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rt/clock.h"
+#include "runtime/message_ring.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
 #include "schema/schema.h"
@@ -184,6 +185,9 @@ void step(scheduler::RunBlock& block, vars::Store& store, std::uint64_t tick, st
       scheduler::account_run(block.modules()[i], jitter[i], times);
       scheduler::log_slot(block, {tick, i, times});
     }
+  }
+  if (tick == 43) {
+    static_cast<void>(runtime::push_message(block, 0, "the gripper \x1b[31mis open\n", rt::mono_time(grid_ns)));
   }
   scheduler::add_sample(block.tick_lateness, late);
   const auto put = [&store](const char* name, std::uint32_t offset, const auto& value) {

@@ -11,6 +11,7 @@
 #include "kinds_msgs.h"
 #include "plane_fixture.h"
 #include "tests/support/program.h"
+#include "vars/custody.h"
 
 namespace indurop::test {
 namespace {
@@ -142,6 +143,22 @@ TEST_F(Plane, A_variable_marked_so_is_set_from_outside) {
   ASSERT_EQ(dds_write(out, &value), 0);
   EXPECT_TRUE(wait_until([&] { return get<double>("kinds::wanted") == 7.5; }));
   EXPECT_EQ(block().received.load(), 1U);
+}
+
+// The lock is against slips of people with tools: a program that sets variables is part of the plant.
+TEST_F(Plane, A_program_sets_a_variable_of_a_locked_node_too) {
+  start();
+  auto custody = vars::Custody::create(node());
+  ASSERT_TRUE(custody.ok());
+  vars::LockNote locked;
+  locked.lock = vars::WriteLock::All;
+  ASSERT_TRUE(custody->set_lock(locked).ok());
+  const dds_entity_t out = writer(kinds_wanted__desc, "kinds/wanted");
+  ASSERT_TRUE(wait_until([&] { return matched(out); }));
+  const kinds_wanted_ value{6.25};
+  ASSERT_EQ(dds_write(out, &value), 0);
+  EXPECT_TRUE(wait_until([&] { return get<double>("kinds::wanted") == 6.25; }));
+  EXPECT_EQ(vars::lock_of(node()).lock, vars::WriteLock::All);
 }
 
 TEST_F(Plane, What_is_out_of_range_is_refused_and_the_truth_is_said_again) {

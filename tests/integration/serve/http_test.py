@@ -302,10 +302,20 @@ def test_a_board_goes_and_comes_back(setting):
     assert board()["layout"] == layout
 
 
+def test_tells_what_modules_printed(setting):
+    setting.start_node()
+    server = setting.start_server()
+    printed = lambda: server.get(f"{API}/boards/{setting.node}/messages").json()["messages"]
+    wait_for(lambda: printed() != [], "a module to print")
+    (one,) = printed()
+    assert (one["who"], one["tick"], one["text"]) == ("modify", 43, "the gripper \x1b[31mis open"), one
+    assert server.get(f"{API}/boards/{setting.node}/messages?count=0").status == 400
+
+
 def test_no_board_at_all(setting):
     server = setting.start_server()
     assert server.get(API + "/boards").json() == {"boards": []}
-    for path in ("", "/modules", "/variables", "/runs", "/forces", "/faults", "/schedule", "/overruns"):
+    for path in ("", "/modules", "/variables", "/runs", "/forces", "/faults", "/schedule", "/overruns", "/messages"):
         assert server.get(f"{API}/boards/{setting.node}{path}").status == 404, path
 
 

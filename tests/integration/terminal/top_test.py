@@ -25,7 +25,8 @@ def test_fits_a_terminal_of_80x24(setting):
     setting.start_node()
     screen = top(setting)
     screen.sees(has(f"node {setting.node}", "running for", "tick ", "MODULE", "modify", "output", "SIGSEGV at address 0x0",
-                    "LOG ", "tick 41: output ran 1.20 ms and was not done, behind modify with 2.50 ms", "q Quit"),
+                    "LOG ", "tick 41: output ran 1.20 ms and was not done, behind modify with 2.50 ms",
+                    "tick 43: modify: the gripper ?[31mis open", "q Quit"),
                 "the page")
     lines = screen.lines()
     assert lines[-1].startswith("q Quit"), lines

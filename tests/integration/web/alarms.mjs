@@ -9,6 +9,7 @@ await browser.run({
   async "An alarm comes, is acknowledged, and goes"() {
     const page = await browser.open("alarms", wide);
     await sees(page, "All alarms are normal.");
+    await sees(page, "the gripper");  // a message of a module
     await order("press::oil=91.5");
     await sees(page, "active, not acknowledged");
     for (const text of ["the oil is too hot", "press::oil > 80", "91.5", "1 not acknowledged", "high"]) await sees(page, text);

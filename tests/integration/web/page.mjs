@@ -81,7 +81,7 @@ await browser.run({
     await page.select("[aria-label='How long to force']", "4");
     await press(page, "Force");
     await sees(page, "2 values are forced");
-    await sees(page, "as long as its client is there by tester");
+    await sees(page, "as long as its client is there, by tester");
     await sees(page, "the pendant is broken");
     await new Promise((done) => setTimeout(done, 7000));  // longer than it holds unless the page renews it
     await sees(page, "2 values are forced");

@@ -7,11 +7,14 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "deploy/agent/run_image.h"
+#include "runtime/message_ring.h"
 #include "scheduler/run_block_setup.h"
 #include "scheduler/statistics.h"
 #include "vars/process.h"
@@ -129,11 +132,62 @@ TEST_F(RunViewTest, What_a_damaged_block_says_stays_within_its_bounds) {
     if (sut.ok()) {
       EXPECT_LE(sut.value().slot_log(100).size(), 100U);
       EXPECT_LE(sut.value().overrun_log(100).size(), 100U);
+      EXPECT_LE(sut.value().messages(100).size(), 100U);
       for (std::uint32_t i = 0; i < sut.value().module_count(); ++i) {
         EXPECT_LE(sut.value().module_name(i).size(), sizeof(scheduler::ModuleRecord::name));
       }
     }
   }
+}
+
+TEST_F(RunViewTest, Shows_what_modules_printed_also_after_the_node_took_it) {
+  const auto print = [&](std::uint32_t module, int ms) {
+    return runtime::push_message(*block_, module, std::to_string(ms) + "\n", rt::mono_time(ms * 1'000'000LL));
+  };
+  runtime::MessageReader node(*block_);
+  runtime::Message taken;
+  int ms = 0;
+  for (; ms < 200; ++ms) {
+    ASSERT_TRUE(print(static_cast<std::uint32_t>(ms % 3), ms));
+    EXPECT_TRUE(ms % 5 == 0 || node.next(taken, {}));
+  }
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  const auto five = sut->messages(5);
+  ASSERT_EQ(five.size(), 5U);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(five[static_cast<std::size_t>(i)].text, std::to_string(195 + i));
+    EXPECT_EQ(five[static_cast<std::size_t>(i)].time_ns, (195 + i) * 1'000'000LL);
+  }
+  EXPECT_EQ(five[4].who, "second");
+  EXPECT_EQ(five[0].who, "first");
+  EXPECT_EQ(five[2].who, "node");
+  EXPECT_EQ(sut->messages(1000).size(), 64 + 64 + 66U) << "of the two modules their newest";
+}
+
+// The one who prints is never waited for: what he overwrites meanwhile is left out, nothing else is ever seen.
+TEST_F(RunViewTest, Messages_are_whole_while_they_are_printed) {
+  std::atomic<bool> end = false;
+  std::jthread printing([&] {
+    runtime::MessageReader node(*block_);
+    runtime::Message taken;
+    for (std::int64_t i = 0; !end; ++i) {
+      const std::string text(static_cast<std::size_t>(1 + i % 400), static_cast<char>('a' + i % 26));
+      (void)runtime::push_message(*block_, 0, text, rt::mono_time(i));
+      (void)node.next(taken, {});
+    }
+  });
+  const auto sut = RunView::open(node_);
+  ASSERT_TRUE(sut.ok());
+  std::size_t seen = 0;
+  for (int round = 0; round < 1000 || seen < 1000; ++round) {
+    for (const MessageSample& one : sut->messages(1000)) {
+      ASSERT_EQ(one.text, std::string(static_cast<std::size_t>(1 + one.time_ns % 400),
+                                      static_cast<char>('a' + one.time_ns % 26)));
+      ++seen;
+    }
+  }
+  end = true;
 }
 
 TEST_F(RunViewTest, An_image_of_another_machine_shows_the_same) {
@@ -152,6 +206,7 @@ TEST_F(RunViewTest, An_image_of_another_machine_shows_the_same) {
   EXPECT_EQ(sut->now_ns(), 4711);
   EXPECT_EQ(sut->module_name(1), "second");
   EXPECT_EQ(sut->module(1).runs.load(), 77U);
+  EXPECT_TRUE(sut->messages(10).empty());
   const auto here = RunView::open(node_);
   ASSERT_TRUE(here.ok());
   const auto far_log = sut->slot_log(100);

@@ -255,6 +255,14 @@ export interface RecipeValues {
   values: { name: string; recipe: unknown; now: unknown; same: boolean }[];
 }
 
+// What a module printed, or the node.
+export interface Message {
+  who: string;
+  tick: number;
+  time_ns: number;
+  text: string;
+}
+
 export interface AlarmEvent {
   wall_ns: number;
   alarm: string;

@@ -4,7 +4,7 @@
 import "./alarms.css";
 import { useEffect, useState } from "preact/hooks";
 import { board_path, get, post, words } from "../../api/http";
-import type { Alarm, AlarmEvent, Alarms as All } from "../../api/types";
+import type { Alarm, AlarmEvent, Alarms as All, Message } from "../../api/types";
 import { plant, useBoard } from "../../shell/plant";
 import { address } from "../../ui/address";
 import { clock, plural, span } from "../../ui/format";
@@ -83,6 +83,25 @@ function History({ board, revision }: { board: string; revision: string }) {
     </div>);
 }
 
+function Messages({ board }: { board: string }) {
+  const { value, error } = useAsked(board, EVERY_MS, () => get<{ epoch_ns: number; messages: Message[] }>(board_path(board, "/messages?count=200")), words);
+  if (error) return <p class="bad">{error}</p>;
+  if (!value) return <Waiting />;
+  if (value.messages.length === 0) return <p class="quiet">No module has printed anything.</p>;
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label="Messages">
+      <table class="figures">
+        <thead><tr><th scope="col">After</th><th scope="col">Tick</th><th scope="col">Module</th><th scope="col">Message</th></tr></thead>
+        <tbody>
+          {[...value.messages].reverse().map((one, i) => (
+            <tr key={`${one.time_ns} ${i}`}>
+              <td>{span(Math.max(one.time_ns - value.epoch_ns, 0))}</td><td class="number">{one.tick}</td><td>{one.who}</td><td>{one.text}</td>
+            </tr>))}
+        </tbody>
+      </table>
+    </div>);
+}
+
 export function Alarms() {
   const { status } = useStore(plant);
   const summary = useBoard();
@@ -128,5 +147,6 @@ export function Alarms() {
         {value && value.declared > 0 && value.alarms.length === 0 && <p class="good">All alarms are normal.</p>}
       </Panel>
       <Panel title="Events"><History board={board} revision={revision} /></Panel>
+      <Panel title="Messages"><Messages board={board} /></Panel>
     </>);
 }

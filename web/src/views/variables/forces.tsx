@@ -14,7 +14,7 @@ const EVERY_MS = 2000;
 const MEANING = { none: "may be written", tune: "parameters alone may be written", all: "nothing may be written" };
 
 function by({ who, from, reason }: { who?: string; from?: string; reason?: string }): string {
-  const whom = who ? ` by ${who}${from ? ` (${from})` : ""}` : "";
+  const whom = who ? `, by ${who}${from ? ` (${from})` : ""}` : "";
   return whom + (reason ? `: ${reason}` : "");
 }
 
@@ -49,7 +49,7 @@ export function Forces({ board }: { board: string }) {
                 {Object.entries(MEANING).map(([word, meaning]) => <option key={word} value={word}>{`${word}: ${meaning}`}</option>)}
               </select></label>
             : `Write lock ${lock.lock}: ${MEANING[lock.lock]}`}
-          {lock.lock !== "none" && <span>{by(lock).trim()}</span>}
+          {lock.lock !== "none" && <span>{by(lock).replace(/^, /, "")}</span>}
         </p>)}
       {said && <p class="bad" role="alert">{said}</p>}
       {lost && <p class="warn" role="alert">Not held by this page any more: {lost}</p>}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Set and force a value; of a struct or an array what is written of it, as text. The page checks the range to spare a way; the server decides.
 
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, post, words } from "../../api/http";
 import { keep } from "../../shell/leases";
 import { value_text } from "../../ui/format";
@@ -67,16 +67,16 @@ interface Props {
 
 export function Write({ board, part, value, forced, done }: Props) {
   const [text, put] = useState("");
-  const [touched, touch] = useState(false);
+  const touched = useRef(false);  // not a state: the effect must know at once
   const [how_long, choose] = useState(0);
   const [reason, give] = useState("");
   const [said, say] = useState<{ text: string; bad: boolean }>({ text: "", bad: false });
   // The present value is what the field begins with; when it comes late, it must not replace what was written meanwhile.
   useEffect(() => {
-    if (!touched) put(value === undefined || has_parts(part) ? "" : value_text(value, part.form.enumerators));
+    if (!touched.current) put(value === undefined || has_parts(part) ? "" : value_text(value, part.form.enumerators));
   }, [value === undefined]);
   const write = (what: string) => {
-    touch(true);
+    touched.current = true;
     put(what);
   };
   const order = async (path: string, body: object, what: string) => {
