@@ -20,7 +20,7 @@ std::int32_t counts(double value) noexcept {
 }  // namespace
 
 void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
-                         CommandTable* table) noexcept {
+                         CommandTable* table, const Row& row) noexcept {
   lower_ = axis.lower;
   upper_ = axis.upper;
   endless_ = axis.endless;
@@ -29,6 +29,7 @@ void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale
   scale_ = scale;
   homed_ = absolute;
   table_ = table;
+  row_ = row;
 }
 
 LineLimits AxisControl::limits(double hardness) const noexcept {
@@ -36,15 +37,17 @@ LineLimits AxisControl::limits(double hardness) const noexcept {
 }
 
 void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
+  sense_probe(in);
   const double before = measured_;
   measured_ = in.position / scale_.counts;
   measured_speed_ = sensed_ ? (measured_ - before) / seconds : 0;
   sensed_ = true;
   placed_anew_ = state_ == AxisState::Homing;
   if (Drive::state_of(in.status) != Drive::State::OperationEnabled) {
-    motion_.reset({measured_, 0, 0});  // a drive without power is where it is
+    const bool moved = busy();
+    put({measured_, 0, 0});  // a drive without power is where it is
     placed_anew_ = true;
-    if (busy()) {
+    if (moved) {
       fail(ErrorCode::Drive, 1);
     } else if (state_ != AxisState::ErrorStop) {
       state_ = AxisState::Disabled;
@@ -57,7 +60,7 @@ void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
 
 bool AxisControl::busy() const noexcept {
   return state_ == AxisState::DiscreteMotion || state_ == AxisState::ContinuousMotion ||
-         state_ == AxisState::Stopping || state_ == AxisState::Homing;
+         state_ == AxisState::Stopping || state_ == AxisState::Homing || coupled_;
 }
 
 void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
@@ -70,7 +73,9 @@ void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
     table_->end(owner.ticket, code);
   }
   owner = {};
-  report_.error = code == ErrorCode::Aborted ? report_.error : code;
+  // Why it is in ErrorStop stays known.
+  const bool keeps = code == ErrorCode::Aborted || (code == ErrorCode::Ok && state_ == AxisState::ErrorStop);
+  report_.error = keeps ? report_.error : code;
 }
 
 void AxisControl::serve(const AxisRequest& request, bool group_moves) noexcept {
@@ -83,7 +88,7 @@ void AxisControl::serve(const AxisRequest& request, bool group_moves) noexcept {
   if (request.number == report_.acknowledged) {
     return;
   }
-  for (Owner* owner : {&admin_, &motion_owner_}) {
+  for (Owner* owner : {&admin_, &motion_owner_, &super_}) {
     if (owner->ticket == kRequest) {
       finish(*owner, ErrorCode::Aborted);
     }
@@ -177,16 +182,7 @@ void AxisControl::move(double seconds) noexcept {
     move_home(seconds);
     return;
   }
-  if (state_ == AxisState::ContinuousMotion) {
-    guard_limits(seconds);
-  }
-  motion_.step(seconds);
-  // What passes its end goes on with the next one, several times if they are short.
-  for (int i = 0; motion_.passed() && i < CommandTable::kMost; ++i) {
-    const double rest = motion_.rest_of_step();
-    end_motion(ErrorCode::Ok);
-    motion_.step(rest);
-  }
+  advance(seconds);
   if (admin_.service == AxisService::PowerOff && motion_.at_rest()) {
     want_power_ = false;
     finish(admin_, ErrorCode::Ok);
@@ -196,8 +192,11 @@ void AxisControl::move(double seconds) noexcept {
   }
   const bool goes_on = state_ == AxisState::ContinuousMotion;
   report_.in_velocity = goes_on && motion_.done();
-  if (goes_on) {
+  note_superimposed();
+  if (goes_on || coupled_) {
     note_velocity();
+  } else if (over_) {
+    return;
   } else if (state_ == AxisState::DiscreteMotion && motion_.at_rest()) {
     state_ = AxisState::Standstill;
     end_motion(ErrorCode::Ok);
@@ -214,18 +213,19 @@ void AxisControl::move(double seconds) noexcept {
 
 // A motion without an end: its request ends here, its command when another one takes over.
 void AxisControl::note_velocity() noexcept {
+  const bool reached = coupled_ ? coupling_.synced() : report_.in_velocity;
   if (motion_owner_.ticket == kRequest && report_.in_velocity) {
     finish(motion_owner_, ErrorCode::Ok);
   } else if (motion_owner_.ticket != kNobody && motion_owner_.ticket != kRequest) {
-    table_->reached(motion_owner_.ticket, report_.in_velocity);
+    table_->reached(motion_owner_.ticket, reached);
   }
-  if (report_.in_velocity && queued_ > 0) {
+  if (reached && queued_ > 0) {
     end_motion(ErrorCode::Aborted);
   }
 }
 
 void AxisControl::follow(const LineState& state) noexcept {
-  motion_.reset(state);
+  put(state);
   release_stop();
   state_ = AxisState::SynchronizedMotion;
 }
@@ -233,9 +233,11 @@ void AxisControl::follow(const LineState& state) noexcept {
 void AxisControl::fail(ErrorCode code, double hardness) noexcept {
   finish(admin_, code);
   finish(motion_owner_, code);
+  finish(super_, code);
   abort_queue();
   release_stop();
   drive_.home(false);
+  let_go();
   if (!motion_.at_rest()) {
     motion_.stop(limits(hardness));
   }
@@ -248,7 +250,7 @@ void AxisControl::reset() noexcept {
   if (state_ == AxisState::ErrorStop) {
     report_.error = ErrorCode::Ok;
   }
-  if (state_ == AxisState::ErrorStop || state_ == AxisState::SynchronizedMotion) {
+  if (state_ == AxisState::ErrorStop || in_group()) {
     state_ = drive_.enabled() ? AxisState::Standstill : AxisState::Disabled;
   }
 }
@@ -258,7 +260,8 @@ DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
   DriveOut out;
   out.control = drive_.control();
   out.mode = drive_.mode();
-  out.position = counts(motion_.state().position * scale_.counts * scale_.gear);
+  out.position = counts(commanded().position * scale_.counts * scale_.gear);
+  out.probe = probe_.function();
   return out;
 }
 
@@ -268,15 +271,15 @@ AxisReport AxisControl::report() const noexcept {
   report.power = drive_.enabled() && admin_.service != AxisService::PowerOn;
   report.homed = homed_;
   report.position = (measured_ - origin_) / scale_.unit;
-  report.command = (motion_.state().position - origin_) / scale_.unit;
-  report.acceleration = motion_.state().acceleration / scale_.unit;
+  report.command = (commanded().position - origin_) / scale_.unit;
+  report.acceleration = commanded().acceleration / scale_.unit;
   report.measured_velocity = measured_speed_ / scale_.unit;
   report.lower = (lower_ - origin_) / scale_.unit;
   report.upper = (upper_ - origin_) / scale_.unit;
   report.most_velocity = most_.velocity / scale_.unit;
   report.most_acceleration = most_.acceleration / scale_.unit;
   report.most_jerk = most_.jerk / scale_.unit;
-  report.velocity = motion_.state().velocity / scale_.unit;
+  report.velocity = commanded().velocity / scale_.unit;
   return report;
 }
 

@@ -4,8 +4,12 @@
 
 #pragma once
 
+#include <span>
+
 #include "robot/arm.h"
+#include "robot/axis_coupling.h"
 #include "robot/axis_motion.h"
+#include "robot/axis_probe.h"
 #include "robot/command_table.h"
 #include "robot/drive.h"
 #include "robot/errors.h"
@@ -14,14 +18,21 @@ namespace indurop::robot {
 
 class AxisControl {
  public:
+  // All axes of the arm, and the gates behind them.
+  struct Row {
+    std::span<const AxisControl> axes;
+    std::span<const SetPointGate> gates;
+    std::span<const Cam> cams;
+    int own = 0;  // which one this is, from 0
+  };
   struct Scale {
     double counts = 1;  // per radian or metre
     double gear = 1;
     double unit = kPi / 180;  // what its users count in: degrees or millimetres
   };
   AxisControl() = default;
-  void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
-              CommandTable* table) noexcept;
+  void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute, CommandTable* table,
+              const Row& row) noexcept;
 
   // What the drive says, at the start of a period. Real-time safe, as all the rest.
   void sense(const DriveIn& in, double seconds) noexcept;
@@ -29,12 +40,19 @@ class AxisControl {
   void serve(const AxisRequest& request, bool group_moves) noexcept;
   // A command from the table (axis_orders.cpp).
   void take(int ticket, bool group_moves) noexcept;
-  // Goes on with its own motion.
+  // Goes on with its own motion; after its master's.
   void move(double seconds) noexcept;
+  // Others may follow it.
+  [[nodiscard]] bool leads() const noexcept;
+  // The axis that it follows by itself, from 0; -1: none.
+  [[nodiscard]] int master() const noexcept { return coupled_ ? master_ : -1; }
   // Follows the group.
   void follow(const LineState& state) noexcept;
   // Is commanded to be here, whatever it was doing.
-  void put(const LineState& state) noexcept { motion_.reset(state); }
+  void put(const LineState& state) noexcept;
+  // Its gate has to bring it to rest, and says where it is meanwhile.
+  [[nodiscard]] bool brakes() const noexcept { return leaving_ && coupling_.brakes(); }
+  void braked(const LineState& state) noexcept { motion_.lend(state); }
   // The drive has not followed since the last period: the commanded position may be anywhere.
   [[nodiscard]] bool placed_anew() const noexcept { return placed_anew_; }
   // Stands still where it is commanded to be: the group's motion has ended.
@@ -43,14 +61,16 @@ class AxisControl {
   [[nodiscard]] DriveOut command(const DriveIn& in, bool quick_stop) noexcept;
 
   // Part of the speed of its own motions, from 0 (it holds) to 1; of the accelerations and jerks of those that begin.
-  void set_override(double part) noexcept { motion_.set_override(part); }
+  void set_override(double part) noexcept {
+    motion_.set_override(part);
+    coupling_.hold(!(part > 0));
+  }
   void set_factors(double acceleration, double jerk) noexcept;
   void power(bool on) noexcept { want_power_ = on; }
   // Homes on the group's behalf.
   void home() noexcept;
   // Comes to rest by itself and stays in ErrorStop until reset().
   void fail(ErrorCode code, double hardness) noexcept;
-  void stop(double hardness) noexcept { motion_.stop(limits(hardness)); }
   // Comes to rest by itself, whatever it was asked for.
   void halt() noexcept;
   // Leaves ErrorStop; a fault of the drive is acknowledged.
@@ -60,12 +80,13 @@ class AxisControl {
   [[nodiscard]] AxisState state() const noexcept { return state_; }
   [[nodiscard]] bool homed() const noexcept { return homed_; }
   [[nodiscard]] bool wants_power() const noexcept { return want_power_; }
+  [[nodiscard]] bool in_group() const noexcept { return state_ == AxisState::SynchronizedMotion && !coupled_; }
   // In a motion of its own.
   [[nodiscard]] bool busy() const noexcept;
-  [[nodiscard]] bool at_rest() const noexcept { return motion_.at_rest(); }
+  [[nodiscard]] bool at_rest() const noexcept { return !over_ && motion_.at_rest(); }
   [[nodiscard]] double unit() const noexcept { return scale_.unit; }
   [[nodiscard]] double measured() const noexcept { return measured_; }
-  [[nodiscard]] const LineState& commanded() const noexcept { return motion_.state(); }
+  [[nodiscard]] const LineState& commanded() const noexcept { return over_ ? coupling_.state() : motion_.state(); }
   [[nodiscard]] AxisReport report() const noexcept;
 
  private:
@@ -82,6 +103,8 @@ class AxisControl {
     LineLimits limits, braking;
   };
 
+  static AxisService service_of(const Command& command) noexcept;
+  static bool is_move(AxisService service) noexcept;  // to a place
   void order(int ticket, const Command& command) noexcept;
   void administer(int ticket, AxisService service) noexcept;
   void stop_for(int ticket, const Command& command) noexcept;
@@ -91,13 +114,36 @@ class AxisControl {
   [[nodiscard]] ErrorCode resolve(const Command& command, double from, Order& order) const noexcept;
   [[nodiscard]] double turned(double target, double from, Direction direction) const noexcept;
   void begin(int ticket, const Command& command) noexcept;
-  void begin_motion(AxisService service, const Order& order) noexcept;
+  void begin_motion(const Command& command, const Order& order) noexcept;
   void begin_next() noexcept;
   void abort_queue() noexcept;
-  void choose_passing() noexcept;
+  void choose_passing() noexcept;  // axis_blend.cpp
   void look_at_commands() noexcept;
   void release_stop() noexcept;
   void end_motion(ErrorCode code) noexcept;
+
+  // Following another axis (axis_couple.cpp).
+  [[nodiscard]] ErrorCode resolve(const Command& command, CouplingLaw& law) const noexcept;
+  [[nodiscard]] ErrorCode resolve_cam(const Command& command, const AxisControl& master,
+                                      CouplingLaw& law) const noexcept;
+  void couple(const Command& command, const Order& order) noexcept;
+  void decouple(int ticket) noexcept;
+  void let_go() noexcept;
+  void fail_coupling(ErrorCode code) noexcept;
+  void advance(double seconds) noexcept;
+  void advance_own(double seconds) noexcept;
+  void advance_coupled(double seconds) noexcept;
+  // On top of it (axis_superimpose.cpp).
+  [[nodiscard]] ErrorCode check_superimposed(const Command& command) const noexcept;
+  void superimpose(int ticket, const Command& command) noexcept;
+  void halt_superimposed(int ticket, const Command& command) noexcept;
+  void advance_over(double seconds) noexcept;
+  void note_superimposed() noexcept;
+
+  // Its touch probe (axis_probe.cpp).
+  void begin_probe(int ticket, const Command& command) noexcept;
+  void abort_probe(int ticket) noexcept;
+  void sense_probe(const DriveIn& in) noexcept;
 
   void finish(Owner& owner, ErrorCode code) noexcept;
   void move_home(double seconds) noexcept;
@@ -113,6 +159,12 @@ class AxisControl {
   Scale scale_;
   Drive drive_;
   AxisMotion motion_;
+  Row row_;
+  AxisCoupling coupling_;
+  bool coupled_ = false;
+  bool over_ = false;     // the coupling is on top of its own motion
+  bool leaving_ = false;  // what is asked for begins once it has no acceleration
+  int master_ = 0;        // from 0
   AxisState state_ = AxisState::Disabled;
   double measured_ = 0;
   double measured_speed_ = 0;
@@ -125,11 +177,16 @@ class AxisControl {
   double origin_ = 0;  // of the positions that single axes are told, from the drive's
   double acceleration_factor_ = 1, jerk_factor_ = 1;
   CommandTable* table_ = nullptr;
-  Owner admin_;          // of power and reset
-  Owner motion_owner_;   // of the motion on its way
-  int stop_ = kNobody;   // the stop that holds the axis
-  double began_at_ = 0;  // where the motion on its way began
-  double added_to_ = 0;  // what MoveAdditive adds to
+  Owner admin_;         // of power and reset
+  Owner motion_owner_;  // of the motion on its way
+  Owner super_;         // of what is on top of it
+  Owner probing_;
+  AxisProbe probe_;
+  bool probe_windowed_ = false;
+  double probe_first_ = 0, probe_last_ = 0;  // as its users count
+  int stop_ = kNobody;                       // the stop that holds the axis
+  double began_at_ = 0;                      // where the motion on its way began
+  double added_to_ = 0;                      // what MoveAdditive adds to
   std::array<int, CommandTable::kMost> queue_{};
   int queued_ = 0;
   AxisReport report_;

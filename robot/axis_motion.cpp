@@ -23,8 +23,19 @@ void AxisMotion::reset(const LineState& state) noexcept {
   state_ = state;
   profile_ = Profile::coast(state);
   goal_ = Goal::Rest;
-  passing_ = passed_ = harder_ = false;
+  passing_ = passed_ = harder_ = lent_ = false;
   time_ = 0;
+}
+
+void AxisMotion::lend(const LineState& state) noexcept {
+  state_ = state;
+  lent_ = true;
+  passing_ = passed_ = harder_ = false;
+}
+
+void AxisMotion::go_on() noexcept {
+  lent_ = false;
+  plan();
 }
 
 void AxisMotion::move_to(double position, const LineLimits& limits, const LineLimits& braking) noexcept {
@@ -71,6 +82,9 @@ bool AxisMotion::held() const noexcept {
 }
 
 void AxisMotion::plan() noexcept {
+  if (lent_) {
+    return;
+  }
   time_ = 0;
   passing_ = passed_ = false;
   plan_wanted();
@@ -112,8 +126,14 @@ bool AxisMotion::turns_in_time(double side) const noexcept {
   const LineLimits hard = hardest();
   const auto rest = [&](const LineState& from) { return side * (from.position + ramp(from, 0, hard).distance); };
   const double most = std::max((side > 0 ? upper_ : -lower_) - kMargin, rest(state_)) + kRounding;
+  // Until it has turned, if it does.
+  int turned = 1;
+  while (turned < kLooks && side * profile_.at(profile_.duration() * turned / kLooks).velocity > 0) {
+    ++turned;
+  }
+  const double until = turned < kLooks ? profile_.duration() * turned / kLooks : profile_.duration();
   for (int i = 1; i <= kLooks; ++i) {
-    const LineState there = profile_.at(profile_.duration() * i / kLooks);
+    const LineState there = profile_.at(until * i / kLooks);
     if (side * there.velocity > 0 && rest(there) > most) {
       return false;
     }

@@ -18,6 +18,9 @@ class AxisMotion {
   void set_bounds(const LineLimits& most, double lower, double upper) noexcept;
   // Moving on like this, with nothing to do.
   void reset(const LineState& state) noexcept;
+  // Somebody else moves it: it is here, and what is asked for waits until go_on().
+  void lend(const LineState& state) noexcept;
+  void go_on() noexcept;
   // As fast as the limits allow, also where the way is too short or backwards.
   void move_to(double position, const LineLimits& limits, const LineLimits& braking) noexcept;
   void move_to(double position, const LineLimits& limits) noexcept { move_to(position, limits, limits); }
@@ -38,7 +41,7 @@ class AxisMotion {
   [[nodiscard]] double speed() const noexcept { return limits_.velocity; }
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
-  [[nodiscard]] bool done() const noexcept { return !held() && !harder_ && time_ >= profile_.duration(); }
+  [[nodiscard]] bool done() const noexcept { return !lent_ && !held() && !harder_ && time_ >= profile_.duration(); }
   [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0 && !passed_; }
   // It is exactly at the position that it passes; `rest_of_step()` seconds of the last step are left.
   [[nodiscard]] bool passed() const noexcept { return passed_; }
@@ -58,6 +61,7 @@ class AxisMotion {
 
   LineLimits most_{HUGE_VAL, HUGE_VAL, HUGE_VAL};
   double lower_ = -HUGE_VAL, upper_ = HUGE_VAL;
+  bool lent_ = false;
   bool harder_ = false;  // brakes until what is asked for keeps these
   Goal goal_ = Goal::Rest;
   double target_ = 0;  // position or velocity

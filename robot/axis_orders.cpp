@@ -11,16 +11,8 @@ namespace indurop::robot {
 
 namespace {
 
-bool is_relative(AxisService service) noexcept {
-  return service == AxisService::MoveRelative || service == AxisService::MoveAdditive;
-}
-
-bool is_move(AxisService service) noexcept {
-  return service == AxisService::MoveAbsolute || is_relative(service);
-}
-
-AxisService service_of(const Command& command) noexcept {
-  return static_cast<AxisService>(command.code);
+bool follows(AxisService service) noexcept {
+  return service == AxisService::GearIn || service == AxisService::CamIn;
 }
 
 // deg/s, deg/s^2, deg/s^3 or mm: what is asked for, if it is neither 0 (as much as there is) nor something.
@@ -32,7 +24,19 @@ bool sane(double part) noexcept {
   return part > 0 && part <= 1;
 }
 
+bool is_relative(AxisService service) noexcept {
+  return service == AxisService::MoveRelative || service == AxisService::MoveAdditive;
+}
+
 }  // namespace
+
+AxisService AxisControl::service_of(const Command& command) noexcept {
+  return static_cast<AxisService>(command.code);
+}
+
+bool AxisControl::is_move(AxisService service) noexcept {
+  return service == AxisService::MoveAbsolute || is_relative(service);
+}
 
 void AxisControl::set_factors(double acceleration, double jerk) noexcept {
   acceleration_factor_ = sane(acceleration) ? acceleration : 1;
@@ -42,8 +46,9 @@ void AxisControl::set_factors(double acceleration, double jerk) noexcept {
 void AxisControl::take(int ticket, bool group_moves) noexcept {
   const Command& command = table_->command(ticket);
   const AxisService service = service_of(command);
-  const bool always =
-      service == AxisService::Reset || service == AxisService::PowerOn || service == AxisService::SetPosition;
+  const bool always = service == AxisService::Reset || service == AxisService::PowerOn ||
+                      service == AxisService::SetPosition || service == AxisService::TouchProbe ||
+                      service == AxisService::AbortTrigger;
   if (group_moves && !always) {
     table_->end(ticket, ErrorCode::State);
     return;
@@ -76,7 +81,24 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     case AxisService::MoveRelative:
     case AxisService::MoveAdditive:
     case AxisService::MoveVelocity:
+    case AxisService::GearIn:
+    case AxisService::CamIn:
       queue(ticket, command);
+      break;
+    case AxisService::Decouple:
+      decouple(ticket);
+      break;
+    case AxisService::MoveSuperimposed:
+      superimpose(ticket, command);
+      break;
+    case AxisService::HaltSuperimposed:
+      halt_superimposed(ticket, command);
+      break;
+    case AxisService::TouchProbe:
+      begin_probe(ticket, command);
+      break;
+    case AxisService::AbortTrigger:
+      abort_probe(ticket);
       break;
     default:
       finish(owner, ErrorCode::Opcode);
@@ -137,6 +159,7 @@ void AxisControl::halt() noexcept {
     motion_.reset({measured_, 0, 0});
   }
   if (busy()) {
+    let_go();
     motion_.stop(limits(1));
     state_ = AxisState::Stopping;
   }
@@ -154,7 +177,7 @@ void AxisControl::set_position(int ticket, const Command& command) noexcept {
     finish(owner, ErrorCode::State);
     return;
   }
-  origin_ = command.option == 1 ? origin_ - wanted : motion_.state().position - wanted;
+  origin_ = command.option == 1 ? origin_ - wanted : commanded().position - wanted;
   finish(owner, ErrorCode::Ok);
 }
 
@@ -168,7 +191,7 @@ ErrorCode AxisControl::check(const Command& command) const noexcept {
   if (command.buffer < BufferMode::Aborting || command.buffer > BufferMode::BlendingHigh) {
     return ErrorCode::Value;
   }
-  if (state_ == AxisState::Homing && !waits) {
+  if ((state_ == AxisState::Homing && !waits) || (over_ && waits)) {
     return ErrorCode::State;
   }
   if (service == AxisService::Home) {
@@ -176,7 +199,7 @@ ErrorCode AxisControl::check(const Command& command) const noexcept {
   }
   Order order;
   const bool adds = service == AxisService::MoveAdditive && is_move(motion_owner_.service);
-  const ErrorCode code = resolve(command, adds ? motion_.target() : motion_.state().position, order);
+  const ErrorCode code = resolve(command, adds ? motion_.target() : commanded().position, order);
   return waits && code != ErrorCode::Value ? ErrorCode::Ok : code;  // where it begins is not known yet
 }
 
@@ -250,6 +273,10 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
     const bool negative = (command.velocity < 0) != back;
     order.target = negative ? -order.limits.velocity : order.limits.velocity;
   }
+  if (follows(service)) {
+    CouplingLaw law;
+    return resolve(command, law);
+  }
   if (!is_move(service)) {
     return ErrorCode::Ok;
   }
@@ -266,6 +293,9 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
   const AxisService service = service_of(command);
   Owner owner{ticket, service};
   Order order;
+  if (over_) {
+    let_go();
+  }
   began_at_ = service == AxisService::MoveAdditive ? added_to_ : motion_.state().position;
   ErrorCode code = resolve(command, began_at_, order);
   if (service == AxisService::Home && !motion_.at_rest()) {
@@ -277,17 +307,24 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
     finish(owner, code);
     motion_.stop(limits(1));
     state_ = busy() ? AxisState::Stopping : state_;
+    let_go();
     return;
   }
   motion_owner_ = owner;
   if (ticket != kRequest) {
     table_->active(ticket);
   }
-  begin_motion(service, order);
+  begin_motion(command, order);
   choose_passing();
 }
 
-void AxisControl::begin_motion(AxisService service, const Order& order) noexcept {
+void AxisControl::begin_motion(const Command& command, const Order& order) noexcept {
+  const AxisService service = service_of(command);
+  if (follows(service)) {
+    couple(command, order);
+    return;
+  }
+  let_go();
   switch (service) {
     case AxisService::Home:
       home();
@@ -328,37 +365,6 @@ void AxisControl::begin_next() noexcept {
   begin(ticket, table_->command(ticket));
 }
 
-// With which velocity the motion on its way goes over into the next one. It has to be possible to come to rest there.
-void AxisControl::choose_passing() noexcept {
-  if (!is_move(motion_owner_.service)) {
-    return;
-  }
-  double passing = 0;
-  if (queued_ > 0) {
-    const Command& next = table_->command(queue_[0]);
-    Order order;
-    const double end = motion_.target();
-    const bool works = resolve(next, end, order) == ErrorCode::Ok;
-    const double own = motion_.speed();
-    const double other = order.limits.velocity;
-    const bool to_a_place = is_move(service_of(next));
-    const double way = to_a_place ? order.target - end : order.target;
-    const bool ahead = way * (end - began_at_) > 0;
-    if (works && ahead && (to_a_place || service_of(next) == AxisService::MoveVelocity)) {
-      passing = next.buffer == BufferMode::BlendingLow        ? std::min(own, other)
-                : next.buffer == BufferMode::BlendingPrevious ? own
-                : next.buffer == BufferMode::BlendingNext     ? other
-                : next.buffer == BufferMode::BlendingHigh     ? std::max(own, other)
-                                                              : 0;
-    }
-    while (passing > 1e-6 && to_a_place && ramp({0, passing, 0}, 0, order.braking).distance > std::abs(way)) {
-      passing *= 0.98;
-    }
-    passing = passing > 1e-6 ? passing : 0;
-  }
-  motion_.pass_with(passing);
-}
-
 // What blocks change of commands that they have given.
 void AxisControl::look_at_commands() noexcept {
   const int ticket = motion_owner_.ticket;
@@ -368,10 +374,11 @@ void AxisControl::look_at_commands() noexcept {
     if (const ErrorCode code = resolve(command, began_at_, order); code != ErrorCode::Ok) {
       abort_queue();
       finish(motion_owner_, code);
+      let_go();
       motion_.stop(limits(1));
       state_ = AxisState::Stopping;
     } else if (motion_owner_.service != AxisService::Home) {
-      begin_motion(motion_owner_.service, order);
+      begin_motion(command, order);
       choose_passing();
     }
   }

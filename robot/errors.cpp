@@ -55,6 +55,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the robot is too far from where its job left the path; bring it back there, or start the job anew";
     case ErrorCode::Full:
       return "there are more commands than there is room for";
+    case ErrorCode::Master:
+      return "the axis to follow has no power, failed or looks for its place";
   }
   return "unknown error";
 }

@@ -14,6 +14,18 @@ namespace indurop::robot {
 
 class Follower final : private PathAhead {
  public:
+  static constexpr int kMost = 3;
+  // A path that was left, and where.
+  struct Aside {
+    std::array<Segment, kMost> segments;
+    std::array<Blend, kMost> blends;
+    int count = 0;
+    Blend blend;
+    bool in_blend = false;
+    double place = 0;
+    Joints q = Joints::Zero();
+  };
+
   Follower(const Places& places, const JointLimits& limits) noexcept : places_(places), most_(limits), brake_(limits) {}
 
   // At rest at these joint angles, with nothing to do.
@@ -35,6 +47,9 @@ class Follower final : private PathAhead {
   void set_aside() noexcept;
   // Where that is.
   [[nodiscard]] const Joints& aside() const noexcept { return aside_.q; }
+  [[nodiscard]] const Aside& path_aside() const noexcept { return aside_; }
+  // Instead of what was put aside last.
+  void put_aside(const Aside& path) noexcept { aside_ = path; }
   [[nodiscard]] bool has_path_aside() const noexcept { return aside_.count > 0; }
   // Idle and at rest at aside(): goes on from there.
   void go_on() noexcept;
@@ -69,7 +84,6 @@ class Follower final : private PathAhead {
   [[nodiscard]] int source() const noexcept;
 
  private:
-  static constexpr int kMost = 3;
   static constexpr double kStill = 1e-3;  // an override below is a hold
   enum class Mode { Run, Hold, Stop, HardStop };
 
@@ -107,16 +121,6 @@ class Follower final : private PathAhead {
   Reach joints_on_path(double along, const Joints& near, Joints& q) const noexcept override;
 
   void put_aside() noexcept;
-
-  struct Aside {
-    std::array<Segment, kMost> segments;
-    std::array<Blend, kMost> blends;
-    int count = 0;
-    Blend blend;
-    bool in_blend = false;
-    double place = 0;
-    Joints q = Joints::Zero();
-  };
 
   const Places& places_;
   JointLimits most_;

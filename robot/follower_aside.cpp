@@ -59,7 +59,8 @@ void Follower::go_on() noexcept {
     s.moving = aside_.place > 0;
   } else if (s.timed) {
     passed_.fill(s.timing.at(aside_.place).place);
-  } else {
+  } else if (!s.left) {
+    s.left = true;
     s.limits = {kGently * s.limits.velocity, kGently * kGently * s.limits.acceleration,
                 kGently * kGently * kGently * s.limits.jerk};
   }

@@ -23,6 +23,9 @@ Group::Group(GroupParts parts)
       job_(parts_.book),
       ahead_(places_, parts_.tool),
       desk_(places_, parts_.joints, parts_.tool, parts_.settings) {
+  if (!parts_.book.interrupts.empty()) {
+    shelf_ = std::make_unique<Shelf>(places_, parts_.tool);
+  }
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
   const AxisControl::Scale turning{settings.counts_per_turn / (2 * kPi), settings.gear, kPi / 180};
@@ -30,7 +33,8 @@ Group::Group(GroupParts parts)
   for (int i = 0; i < count(); ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
-    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute, &table_);
+    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute, &table_,
+                        {axes(), {gates_.data(), axis_count()}, cams_, i});
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }
@@ -82,9 +86,7 @@ void Group::sense(const Inputs& in) noexcept {
 
 // What may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
-  const bool idle = state_ == GroupState::Disabled && !enabling_ &&
-                    std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.wants_power(); });
-  if (in.emergency && error_ != ErrorCode::Emergency && !idle) {
+  if (in.emergency && error_ != ErrorCode::Emergency && commands_motion()) {
     trip(ErrorCode::Emergency, 0, parts_.settings.emergency_factor);
     return;
   }
@@ -102,18 +104,6 @@ void Group::watch(const Inputs& in) noexcept {
   if (const int behind = state_ == GroupState::Homing ? -1 : axis_behind(); behind >= 0) {
     trip(ErrorCode::Following, behind + 1, 1);
   }
-}
-
-// The first axis that is too far from its set point; -1: none.
-int Group::axis_behind() const noexcept {
-  for (int i = 0; i < count(); ++i) {
-    const AxisControl& a = axes_[at(i)];
-    const double behind = std::abs(a.commanded().position - a.measured());
-    if (a.state() != AxisState::Homing && behind > a.unit() * parts_.settings.following_limit) {
-      return i;
-    }
-  }
-  return -1;
 }
 
 // Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
@@ -137,7 +127,7 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency && !cut) {
     follower_.stop_hard(hardness);
     for (AxisControl& a : axes()) {
-      if (a.state() != AxisState::SynchronizedMotion) {
+      if (!a.in_group()) {
         a.fail(code, hardness);
       }
     }
@@ -157,12 +147,17 @@ void Group::leave_path(ErrorCode code, double hardness) noexcept {
   }
 }
 
-void Group::motion_failed(Fault fault, int source) noexcept {
+void Group::motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept {
   if (source < 0) {
     fail_motions(-source - 1, fault.code);
     return;
   }
   const bool job = job_.running();
+  if (source > 0 && job_.recover(fault, to_string(fault.code), source, ticket)) {
+    ahead_.clear();  // it begins anew where the motion before ends
+    passed_known_ = 0;
+    return;
+  }
   job_.fail(fault, to_string(fault.code), source);
   finish_service(fault.code, fault.axis);
   return_ = Return::None;
@@ -187,11 +182,7 @@ void Group::stop_for(Fault fault) noexcept {
 
 void Group::run_state(Signals& signals) noexcept {
   job_.end_pulses(period_, signals);
-  for (AxisControl& a : axes()) {
-    if (a.state() != AxisState::SynchronizedMotion) {
-      a.move(period_);
-    }
-  }
+  move_axes();
   switch (state_) {
     case GroupState::Disabled:
       run_enabling();
@@ -225,7 +216,7 @@ void Group::come_to_standby() noexcept {
   end_interrupt(ErrorCode::Ok);
   jogging_ = false;
   for (AxisControl& a : axes()) {
-    if (a.state() == AxisState::SynchronizedMotion) {
+    if (a.in_group()) {
       a.rest();
       a.reset();
     }
@@ -265,18 +256,6 @@ void Group::run_homing() noexcept {
   if (all) {
     come_to_standby();
     finish_service(ErrorCode::Ok);
-  }
-}
-
-void Group::take_plan() noexcept {
-  const Plan* plan = desk_.take();
-  if (plan == nullptr) {
-    return;
-  }
-  if (plan->fault.ok()) {
-    follower_.add(plan->segment, plan->blend);
-  } else {
-    motion_failed(plan->fault, plan->segment.source);
   }
 }
 
@@ -355,45 +334,6 @@ void Group::run_stopping() noexcept {
   release_stop();
   to_error_ = to_disabled_ = false;
   on_path_ = true;
-}
-
-Fault Group::move(const MoveCommand& command) noexcept {
-  ahead_.add(command);
-  return {};
-}
-
-// For a motion that begins where the last one ends.
-void Group::ask_for_plan(const PlanRequest& request) noexcept {
-  PlanRequest asked = request;
-  asked.follows = asked.follows && follower_.goes_over() && !unconnected_;
-  unconnected_ = false;
-  desk_.ask(asked);
-  request_ = asked;
-  if (follower_.idle()) {
-    follower_.reset(commanded());
-    last_command_ = commanded();
-  }
-}
-
-void Group::begin_next(bool more) noexcept {
-  // Chains are few and used again, so none is begun while a forgotten one is still looked at.
-  if (state_ != GroupState::Moving || !can_plan() || desk_.holds_forgotten()) {
-    return;
-  }
-  const Joints from = planned_end();
-  const ReadAhead::Next next = ahead_.next(from, more);
-  if (next.chain != nullptr) {
-    passed_known_ = 0;  // no step back goes over it
-    asked_ = next.chain->source_at(0);
-    PlanRequest request{{}, next.chain, from, !follower_.idle()};
-    request.command.ticket = next.ticket;
-    ask_for_plan(request);
-  } else if (next.command != nullptr) {
-    asked_ = next.command->source;
-    passed_[passed_count_++ % passed_.size()] = {*next.command, from};
-    passed_known_ = asked_ < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
-    ask_for_plan({*next.command, nullptr, from, !follower_.idle()});
-  }
 }
 
 }  // namespace indurop::robot

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 
 #include "robot/axis_control.h"
@@ -70,10 +71,22 @@ class Group final : public Controller, private MotionPort {
   void end_return() noexcept;
   [[nodiscard]] double speed_back(const Joints& to) const noexcept;
   void finish_service(ErrorCode code, int axis = 0) noexcept;
+  [[nodiscard]] bool is_near(const Joints& place) const noexcept;
+  void ask_for_way_back(const Joints& to) noexcept;
+
+  // Interrupts of jobs (group_interrupt.cpp).
+  bool step_aside() noexcept override;
+  [[nodiscard]] const Joints* left_at() const noexcept override;
+  bool come_back(Fault& fault) noexcept override;
+  [[nodiscard]] bool is_back() const noexcept override { return return_ == Return::None; }
+  void take_from_shelf() noexcept;
+  void end_come_back() noexcept;
+  bool set_shelf_aside() noexcept;
 
   // Commands (group_commands.cpp).
   void serve_commands(const Inputs& in) noexcept;
-  void take(int ticket) noexcept;
+  void take(int ticket, const CamTables& cams) noexcept;
+  ErrorCode select_cam(const Command& command, const CamTables& cams) noexcept;
   void administer(int ticket, Service service) noexcept;
   void stop_for(int ticket) noexcept;
   void release_stop() noexcept;
@@ -111,22 +124,25 @@ class Group final : public Controller, private MotionPort {
   void pass_gates() noexcept;  // group_gates.cpp
   [[nodiscard]] bool leaves_workspace() const noexcept;
   [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
+  void move_axes() noexcept;  // group_axes.cpp
   void run_state(Signals& signals) noexcept;
   void run_enabling() noexcept;
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
   void run_stopping() noexcept;
-  void begin_next(bool more) noexcept;
-  void take_plan() noexcept;
+  void begin_next(bool more) noexcept;  // group_plans.cpp
+  void take_plan() noexcept;            // group_plans.cpp
   void forget_plans() noexcept;
   void follow_path() noexcept;
   void stop_for(Fault fault) noexcept;
-  void motion_failed(Fault fault, int source) noexcept;
+  void motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept;
   void come_to_standby() noexcept;
   // Why it stopped stays known until a reset.
   [[nodiscard]] bool failed() const noexcept { return state_ == GroupState::ErrorStop || to_error_; }
   [[nodiscard]] bool all_enabled() const noexcept;
   [[nodiscard]] bool powered() const noexcept;
+  // False: the set points only follow what the drives say.
+  [[nodiscard]] bool commands_motion() const noexcept;
   [[nodiscard]] Joints commanded() const noexcept;
 
   // The job's side.
@@ -140,7 +156,7 @@ class Group final : public Controller, private MotionPort {
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
   [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
-  void ask_for_plan(const PlanRequest& request) noexcept;
+  void ask_for_plan(const PlanRequest& request) noexcept;  // group_plans.cpp
 
   [[nodiscard]] int count() const noexcept { return parts_.arm.count(); }
   [[nodiscard]] std::span<AxisControl> axes() noexcept { return {axes_.data(), axis_count()}; }
@@ -161,6 +177,7 @@ class Group final : public Controller, private MotionPort {
   PlanningDesk desk_;
   std::array<AxisControl, kAxes> axes_;
   std::array<SetPointGate, kAxes> gates_;
+  std::array<Cam, kCams> cams_;
   double period_ = 0.01;  // s
 
   GroupState state_ = GroupState::Disabled;
@@ -184,13 +201,25 @@ class Group final : public Controller, private MotionPort {
   double jog_speed_ = 0;  // part of the fastest, with its sign
 
   // A job that can go on: its path is the follower's, what was to be planned is here and in `ahead_`.
-  enum class Return { None, ToPath, Back };
+  enum class Return { None, ToPath, Back, FromInterrupt };
   bool aside_ = false;
   int aside_tool_ = 0;
   Return return_ = Return::None;
   PlanRequest request_;  // the last one
   bool request_aside_ = false;
   bool unconnected_ = false;  // the desk knows another motion as the last one
+  // What a job was doing when an interrupt came; the follower, the desk and `ahead_` are the interrupt's.
+  struct Shelf {
+    Shelf(const Places& places, const ToolLimits& limits) : ahead(places, limits) {}
+    bool leaving = false;  // on the way to rest
+    bool used = false;
+    Follower::Aside path;
+    ReadAhead ahead;
+    PlanRequest request;
+    bool request_aside = false;
+    int tool = 0;
+  };
+  std::unique_ptr<Shelf> shelf_;  // null if no job has interrupts
   struct Passed {
     MoveCommand command;
     Joints from = Joints::Zero();

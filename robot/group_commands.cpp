@@ -37,7 +37,7 @@ void Group::serve_commands(const Inputs& in) noexcept {
   for (int ticket = table_.take(); ticket != CommandTable::kNone; ticket = table_.take()) {
     const int axis = table_.command(ticket).axis;
     if (axis == 0) {
-      take(ticket);
+      take(ticket, in.cams);
     } else if (axis > 0 && axis <= count()) {
       axes_[static_cast<std::size_t>(axis - 1)].take(ticket, powered() && state_ != GroupState::Standby);
     } else {
@@ -46,7 +46,7 @@ void Group::serve_commands(const Inputs& in) noexcept {
   }
 }
 
-void Group::take(int ticket) noexcept {
+void Group::take(int ticket, const CamTables& cams) noexcept {
   const Command& command = table_.command(ticket);
   const auto service = static_cast<Service>(command.code);
   if (later_ != CommandTable::kNone) {
@@ -77,9 +77,22 @@ void Group::take(int ticket) noexcept {
     case Service::SetTransform:
       table_.end(ticket, set_transform(command));
       break;
+    case Service::SelectCam:
+      table_.end(ticket, select_cam(command, cams));
+      break;
     default:
       table_.end(ticket, ErrorCode::Opcode);
   }
+}
+
+// Who follows another cam of that number goes on with it.
+ErrorCode Group::select_cam(const Command& command, const CamTables& cams) noexcept {
+  const int number = command.option - 1;
+  if (number < 0 || number >= static_cast<int>(kCams)) {
+    return ErrorCode::Value;
+  }
+  const auto k = static_cast<std::size_t>(number);
+  return cams_[k].set(cams[k], command.job == 1);
 }
 
 void Group::administer(int ticket, Service service) noexcept {

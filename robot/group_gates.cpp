@@ -63,7 +63,8 @@ void Group::pass_gates() noexcept {
     }
   }
   for (int i = 0; i < count() && !braking_; ++i) {
-    const ErrorCode code = gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
+    const ErrorCode code =
+        axes_[at(i)].brakes() ? ErrorCode::Ok : gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
     if (code != ErrorCode::Ok && to_error_) {
       leave_path(error_, hardness_);  // the first error is what the user has to know
     } else if (code != ErrorCode::Ok) {
@@ -77,6 +78,9 @@ void Group::pass_gates() noexcept {
     if (braking_) {
       gates_[at(i)].brake(hardness_);
       axes_[at(i)].put(gates_[at(i)].state());
+    } else if (axes_[at(i)].brakes()) {
+      gates_[at(i)].brake(1);
+      axes_[at(i)].braked(gates_[at(i)].state());
     } else {
       gates_[at(i)].pass(axes_[at(i)].commanded().position, hardness_);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the group says about itself in every period.
 
+#include <algorithm>
+
 #include "robot/group.h"
 
 namespace indurop::robot {
@@ -26,9 +28,18 @@ void Group::report(Outputs& out) noexcept {
   report_motion(out);
 }
 
+bool Group::commands_motion() const noexcept {
+  return state_ != GroupState::Disabled || enabling_ ||
+         std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.wants_power(); });
+}
+
 void Group::report_motion(Outputs& out) noexcept {
   const Joints now = commanded();
   const Pose pose = places_.arm().forward(now);
+  if (!commands_motion()) {  // drives tell where they are only now, or somebody moves the arm by hand
+    last_pose_ = pose;
+    last_command_ = now;
+  }
   const Twist moved = difference(last_pose_, pose) / period_;
   last_speed_ = (now - last_command_) / period_;
   for (int i = 0; i < count(); ++i) {

@@ -20,7 +20,7 @@ constexpr double kThere = 1e-9;       // rad
 }  // namespace
 
 void Group::set_job_aside() noexcept {
-  if (!job_.running()) {
+  if (!job_.running() || set_shelf_aside()) {
     return;
   }
   aside_ = true;
@@ -33,6 +33,10 @@ void Group::drop_aside() noexcept {
   aside_ = false;
   passed_known_ = 0;
   ahead_.clear();
+  if (shelf_ != nullptr) {
+    shelf_->used = shelf_->leaving = false;
+    shelf_->ahead.clear();
+  }
 }
 
 // The robot stands, and nothing of the job is on its way.
@@ -74,11 +78,12 @@ ErrorCode Group::resume_job() noexcept {
     return ErrorCode::State;
   }
   const Joints to = follower_.aside();
-  const Joints off = (to - commanded()).head(kAxes);
-  const double away = 1000 * (places_.arm().forward(to).position - places_.arm().forward(commanded()).position).norm();
-  Eigen::Index axis = 0;
-  const double turned = off.head(count()).cwiseAbs().maxCoeff(&axis);
-  if (!(away <= parts_.settings.regain_distance) || turned > kMostTurned) {
+  if (!is_near(to)) {
+    const Joints off = (to - commanded()).head(kAxes);
+    const double away =
+        1000 * (places_.arm().forward(to).position - places_.arm().forward(commanded()).position).norm();
+    Eigen::Index axis = 0;
+    const double turned = off.head(count()).cwiseAbs().maxCoeff(&axis);
     char text[120];
     std::snprintf(
         text, sizeof text,
@@ -90,16 +95,28 @@ ErrorCode Group::resume_job() noexcept {
   return_ = Return::ToPath;
   state_ = GroupState::Moving;
   job_moves_ = true;
-  if (turned > kThere) {
+  const PlanRequest before = request_;
+  ask_for_way_back(to);
+  request_ = before;
+  return ErrorCode::Ok;
+}
+
+bool Group::is_near(const Joints& place) const noexcept {
+  const double away =
+      1000 * (places_.arm().forward(place).position - places_.arm().forward(commanded()).position).norm();
+  return away <= parts_.settings.regain_distance &&
+         (place - commanded()).head(count()).cwiseAbs().maxCoeff() <= kMostTurned;
+}
+
+// Nothing, if it is there.
+void Group::ask_for_way_back(const Joints& to) noexcept {
+  if ((to - commanded()).head(count()).cwiseAbs().maxCoeff() > kThere) {
     MoveCommand back;
     back.straight = true;
     back.target.joints = to;
     back.speed = speed_back(to);
-    const PlanRequest before = request_;
     ask_for_plan({back, nullptr, commanded(), false});
-    request_ = before;
   }
-  return ErrorCode::Ok;
 }
 
 // One motion back, of a job that pauses between two.
@@ -129,6 +146,10 @@ ErrorCode Group::back_job() noexcept {
 
 // It stands where the job left its path, or a motion further back.
 void Group::end_return() noexcept {
+  if (return_ == Return::FromInterrupt) {
+    end_come_back();
+    return;
+  }
   const bool back = return_ == Return::Back;
   return_ = Return::None;
   if (back) {

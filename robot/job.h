@@ -17,7 +17,7 @@
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,       // index: point; mid: point; value: 1 if a joint motion is to be straight,
+  Move,       // index: point, or kBack; mid: point; value: 1 if a joint motion is to be straight,
               // or if points of a spline follow
   Speed,      // value: part of full speed, or m/s if index is 1
   Zone,       // value: m
@@ -29,13 +29,18 @@ enum class Op : std::uint8_t {
   WaitUntil,  // formula; timeout
   WaitTime,   // value: s
   Call,       // index: job; formula: the first of its arguments; mid: how many
+  Arm,        // index: job; formula; slot: of the book's interrupts
+  Disarm,     // index: job
   Return,
-  Goto,    // index: step; loops between here and there are left or entered
-  If,      // formula; index: step if true, as Goto
-  Unless,  // formula; index: step if false, behind a block
-  Again,   // index: step at the beginning of the block
-  Loop,    // value: times, 0: for ever; index: step behind its End
-  End      // index: step of its Loop
+  Try,      // index: what comes behind RECOVER; mid: the variable that takes the error's number
+  EndTry,   // index: step behind all of it
+  Recover,  // the first step behind RECOVER
+  Goto,     // index: step; loops between here and there are left or entered
+  If,       // formula; index: step if true, as Goto
+  Unless,   // formula; index: step if false, behind a block
+  Again,    // index: step at the beginning of the block
+  Loop,     // value: times, 0: for ever; index: step behind its End
+  End       // index: step of its Loop
 };
 
 struct Step {
@@ -45,11 +50,16 @@ struct Step {
   int index = -1;
   int mid = -1;
   int formula = -1;
+  int slot = -1;
+  int guard = -1;        // step of the innermost TRY it is in
   bool by_tool = false;  // Move: the offset is along the axes of the tool
   double value = 0;
   double timeout = 0;  // s; 0: none
   double pulse = 0;    // s that it is on; 0: it is set
 };
+
+// Instead of a point: where an interrupt left the path.
+inline constexpr int kBack = -2;
 
 struct Point {
   std::string name;
@@ -93,6 +103,7 @@ struct Job {
 };
 
 inline constexpr std::size_t kMostVariables = 32;  // of one job
+inline constexpr std::size_t kMostInterrupts = 8;  // of all jobs
 
 struct JobBook {
   std::vector<Point> points;
@@ -101,6 +112,12 @@ struct JobBook {
   std::vector<Job> jobs;
   std::vector<std::string> signals;
   std::vector<Formula> formulas;
+  // What ON watches: the job it calls once its condition becomes true.
+  struct Interrupt {
+    int formula = -1;
+    int job = -1;
+  };
+  std::vector<Interrupt> interrupts{};
 
   // Index of the point called P<number>; -1 if there is none.
   [[nodiscard]] int numbered_point(std::uint32_t number) const noexcept;

@@ -328,12 +328,16 @@ void JobParser::loop() {
 
 void JobParser::end_block() {
   if (blocks_.empty()) {
-    error(tokens_[0], "END without LOOP, IF, WHILE or FOR");
+    error(tokens_[0], "END without LOOP, IF, WHILE, FOR or TRY");
     return;
   }
   const Block block = std::move(blocks_.back());
   blocks_.pop_back();
   const std::string_view word = block.word;
+  if (word == "TRY" && !block.has_else) {
+    error_in(job().file, block.line, 1, "TRY without RECOVER");
+    return;
+  }
   if (word == "LOOP") {
     add(Op::End).index = static_cast<int>(block.start);
     job().steps[block.start].index = static_cast<int>(job().steps.size());
@@ -345,7 +349,7 @@ void JobParser::end_block() {
     step.index = block.counter;
     step.formula = next;
   }
-  if (word != "IF") {
+  if (word != "IF" && word != "TRY") {
     add(Op::Again).index = static_cast<int>(block.start);
   }
   const auto behind = static_cast<int>(job().steps.size());

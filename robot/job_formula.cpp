@@ -65,6 +65,7 @@ void Formula::push(const FormulaPart& part) {
   parts_.push_back(part);
   depth_ += is_operand(part.op) ? 1 : takes_one(part.op) ? 0 : -1;
   deepest_ = std::max(deepest_, depth_);
+  looks_in_ = looks_in_ || part.op == FormulaOp::Variable;
   looks_out_ = looks_out_ || part.op == FormulaOp::Signal;
 }
 

@@ -48,6 +48,8 @@ class Formula {
   // False: deeper or longer than can be computed.
   [[nodiscard]] bool fits() const noexcept { return deepest_ <= kDeepest && parts_.size() <= kMost; }
   [[nodiscard]] std::size_t size() const noexcept { return parts_.size(); }
+  // It looks at variables of the job.
+  [[nodiscard]] bool looks_in() const noexcept { return looks_in_; }
   // It looks at shared variables.
   [[nodiscard]] bool looks_out() const noexcept { return looks_out_; }
   // NaN if any part of it has no finite value. Real-time safe.
@@ -62,6 +64,7 @@ class Formula {
   std::vector<FormulaPart> parts_;
   int depth_ = 0;
   int deepest_ = 0;
+  bool looks_in_ = false;
   bool looks_out_ = false;
 };
 

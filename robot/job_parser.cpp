@@ -13,11 +13,8 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, TOOL, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, WAIT, CALL, RETURN, LABEL, GOTO, IF, "
-    "ELSEIF, "
-    "ELSE, "
-    "WHILE, "
-    "FOR, LOOP and END";
+    "POINT, FRAME, TOOL, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, "
+    "LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END";
 
 std::string name_of(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -109,6 +106,8 @@ void JobParser::statement() {
       {"PULSE", [](JobParser& p) { p.pulse(); }},
       {"WAIT", [](JobParser& p) { p.wait(); }},
       {"CALL", [](JobParser& p) { p.call(); }},
+      {"ON", [](JobParser& p) { p.arm(); }},
+      {"OFF", [](JobParser& p) { p.disarm(); }},
       {"LABEL", [](JobParser& p) { p.label(); }},
       {"GOTO", [](JobParser& p) { p.jump(); }},
       {"IF", [](JobParser& p) { p.if_goto(); }},
@@ -121,6 +120,8 @@ void JobParser::statement() {
       {"ELSEIF", [](JobParser& p) { p.otherwise(true); }},
       {"WHILE", [](JobParser& p) { p.while_block(); }},
       {"FOR", [](JobParser& p) { p.for_block(); }},
+      {"TRY", [](JobParser& p) { p.try_block(); }},
+      {"RECOVER", [](JobParser& p) { p.recover(); }},
   };
   const auto* const known =
       std::find_if(std::begin(kKnown), std::end(kKnown), [this](const Known& each) { return accept(each.word); });

@@ -69,9 +69,13 @@ class JobParser {
   void parameters();
   void wait();
   void call();
+  void arm();
+  void disarm();
   void jump();
   void if_goto();
   void otherwise(bool condition);
+  void try_block();
+  void recover();
   void while_block();
   void for_block();
   void label();

@@ -27,6 +27,8 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   line_ = 0;
   message_[0] = '\0';
   triggers_ = {};
+  watched_ = {};
+  serving_ = Serving::None;
   ticket_ = present_ = 0;
   last_job_ = last_step_ = -1;
   free_ = false;
@@ -43,6 +45,11 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
 }
 
 void JobRunner::resume() noexcept {
+  if (serving_ == Serving::Leaving) {
+    serving_ = Serving::None;  // it is still pending
+  } else if (serving_ == Serving::Returning) {
+    end_interrupt();
+  }
   state_ = JobState::Runs;
   message_[0] = '\0';
   free_ = true;

@@ -87,17 +87,21 @@ void JobParser::resolve() {
         continue;
       }
       const Job& called = book_.jobs[static_cast<std::size_t>(step.index)];
-      if (called.parameters != static_cast<std::size_t>(step.mid)) {
+      if (step.op == Op::Arm) {
+        book_.interrupts[static_cast<std::size_t>(step.slot)].job = step.index;
+      }
+      if (step.op != Op::Disarm && called.parameters != static_cast<std::size_t>(step.mid)) {
         error_in(book_.jobs[reference.job].file, reference.line, reference.column,
                  "job '" + reference.name + "' takes " + count_of(called.parameters, "value") + ", here " +
                      (step.mid == 1 ? "is 1" : "are " + std::to_string(step.mid)));
       }
     } else {
       const int point = index_of(book_.points, reference.name);
-      (reference.to == JobReference::To::Mid ? step.mid : step.index) = point;
-      point < 0 ? fail(reference, "point", names_of(book_.points)) : void();
-      if (point >= 0 && reference.to == JobReference::To::Target && step.formula >= 0 &&
-          !book_.points[static_cast<std::size_t>(point)].target.is_pose) {
+      const bool back = point < 0 && reference.to == JobReference::To::Target && reference.name == "BACK";
+      (reference.to == JobReference::To::Mid ? step.mid : step.index) = back ? kBack : point;
+      point < 0 && !back ? fail(reference, "point", names_of(book_.points)) : void();
+      if ((point >= 0 || back) && reference.to == JobReference::To::Target && step.formula >= 0 &&
+          (back || !book_.points[static_cast<std::size_t>(point)].target.is_pose)) {
         error_in(book_.jobs[reference.job].file, reference.line, reference.column,
                  "an OFFSET goes from a point given as POSE; '" + reference.name + "' has joint angles");
       }

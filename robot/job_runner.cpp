@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace indurop::robot {
 
@@ -25,6 +24,8 @@ std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept
 bool JobRunner::touches_world(const Step& step) const noexcept {
   const auto formulas = formulas_of(step);
   return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
+         step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try || step.op == Op::EndTry ||
+         step.op == Op::Recover ||
          std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
 }
 
@@ -39,7 +40,7 @@ int JobRunner::cost_of(const Step& step) const noexcept {
 bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
   value = book_.formulas[static_cast<std::size_t>(formula)].value(frame().variables, signals);
   if (std::isnan(value)) {
-    fail({ErrorCode::Line}, "this has no value; is there a division by 0?", 0);
+    refuse({ErrorCode::Line}, "this has no value; is there a division by 0?");
   }
   return !std::isnan(value);
 }
@@ -65,11 +66,7 @@ void JobRunner::fail(Fault fault, const char* why, int source) noexcept {
   }
   state_ = JobState::Failed;
   fault_ = fault;
-  const int job = source > 0 ? source >> kLineBits : frame().job;
-  line_ = source > 0 ? line_of(source) : line_;
-  const std::string& file = job_of(job).file;
-  const char* name = file.c_str() + (file.find_last_of('/') + 1);
-  std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);
+  describe(why, source);
 }
 
 JobReport JobRunner::report(int source) const noexcept {
@@ -90,7 +87,12 @@ const Step* JobRunner::present() const noexcept {
 }
 
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
-  fire(seconds, signals, port);
+  if (serving_ != Serving::Leaving || port.place().ticket != 0) {
+    fire(seconds, signals, port);
+  }
+  if (!running() || interrupt(signals, port)) {
+    return;
+  }
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = present();
@@ -120,6 +122,9 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
 }
 
 JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
+  if (serving_ == Serving::Runs && depth_ == interrupted_.depth + 1) {
+    return leave_interrupt(port);
+  }
   if (depth_ > 0) {
     --depth_;
     return Next::Go;
@@ -144,6 +149,10 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       break;
     case Op::Call:
       return call(step, signals);
+    case Op::Arm:
+    case Op::Disarm:
+      next = arm(step, signals);
+      break;
     case Op::Return:
       frame().step = static_cast<int>(job_of(frame().job).steps.size());
       return Next::Go;
@@ -164,6 +173,9 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Assign:
       next = step.pulse > 0 ? pulse(step, signals) : assign(step, signals);
       break;
+    case Op::Try:
+    case Op::Recover:
+      break;
     case Op::Goto:
       jump(step.index);
       return Next::Go;
@@ -171,6 +183,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Unless:
       return branch(step, signals);
     case Op::Again:
+    case Op::EndTry:
       frame().step = step.index;
       return Next::Go;
     case Op::Loop:
@@ -202,13 +215,21 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
     return Next::Wait;
   }
   if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {
-    fail({ErrorCode::Line}, "a job cannot begin with a circle or a spline; begin with the motion before it", 0);
+    refuse({ErrorCode::Line}, "a job cannot begin with a circle or a spline; begin with the motion before it");
     return Next::Wait;
   }
   in_job_ = false;
   MoveCommand command;
   command.move = step.move;
-  command.target = book_.target(step.index, tool_);
+  if (step.index == kBack && port.left_at() == nullptr) {
+    refuse({ErrorCode::Line}, "BACK is where an interrupt left the path; there is none, this job was not called by ON");
+    return Next::Wait;
+  }
+  if (step.index == kBack) {
+    command.target.joints = *port.left_at();
+  } else {
+    command.target = book_.target(step.index, tool_);
+  }
   if (step.formula >= 0 && !shift(step, signals, command.target)) {
     return Next::Wait;
   }
@@ -274,7 +295,7 @@ JobRunner::Next JobRunner::wait_until(const Step& step, double seconds, Signals&
   state_ = JobState::Waits;
   waited_ += seconds;
   if (step.timeout > 0 && waited_ >= step.timeout) {
-    fail({ErrorCode::Line}, "waited in vain", 0);
+    refuse({ErrorCode::Line}, "waited in vain");
   }
   return Next::Wait;
 }
@@ -289,7 +310,7 @@ JobRunner::Next JobRunner::wait_time(const Step& step, double seconds) noexcept 
 
 JobRunner::Next JobRunner::call(const Step& step, Signals& signals) noexcept {
   if (depth_ + 1 >= kDeepest) {
-    fail({ErrorCode::Line}, "jobs call each other too deep; does one call itself without end?", 0);
+    refuse({ErrorCode::Line}, "jobs call each other too deep; does one call itself without end?");
     return Next::Wait;
   }
   Frame called;

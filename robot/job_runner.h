@@ -27,6 +27,14 @@ class MotionPort {
   // Everything has ended. False: not yet.
   virtual bool take_tool(int) noexcept { return true; }
   [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
+  // For an interrupt: comes to rest on the path and keeps what was left of it. False: not yet.
+  virtual bool step_aside() noexcept { return true; }
+  // Where it was left; null: no interrupt is being served.
+  [[nodiscard]] virtual const Joints* left_at() const noexcept { return nullptr; }
+  // All is settled: goes back to where the path was left. False: not yet. Errors: Away.
+  virtual bool come_back(Fault&) noexcept { return true; }
+  // It is there.
+  [[nodiscard]] virtual bool is_back() const noexcept { return true; }
 };
 
 class JobRunner {
@@ -54,6 +62,9 @@ class JobRunner {
   // Ends it with a message that names file and line: of the motion called `source`, or, if that is 0, of the present
   // step.
   void fail(Fault fault, const char* why, int source) noexcept;
+  // Goes on behind RECOVER, if the job is in a TRY. False: it is not, and has to fail. `ticket`: of a motion that is
+  // not possible; what is to be set on it and those behind is forgotten.
+  bool recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept;
   void step(double seconds, Signals& signals, MotionPort& port) noexcept;
   // Once a period, whether a job runs or not.
   void end_pulses(double seconds, Signals& signals) noexcept { pulses_.step(seconds, signals); }
@@ -89,6 +100,15 @@ class JobRunner {
   bool compute(int formula, Signals& signals, double& value) noexcept;
   Next wait_until(const Step& step, double seconds, Signals& signals) noexcept;
   Next set_on_path(const Step& step, Signals& signals) noexcept;
+  // Interrupts (job_interrupts.cpp).
+  void describe(const char* why, int source) noexcept;
+  void refuse(Fault fault, const char* why) noexcept;
+  Next arm(const Step& step, Signals& signals) noexcept;
+  [[nodiscard]] bool holds(int interrupt, Signals& signals) const noexcept;
+  bool interrupt(Signals& signals, MotionPort& port) noexcept;
+  void begin_interrupt() noexcept;
+  Next leave_interrupt(MotionPort& port) noexcept;
+  void end_interrupt() noexcept;
   void fire(double seconds, Signals& signals, const MotionPort& port) noexcept;
   void modal(const Step& step) noexcept;
   Next assign(const Step& step, Signals& signals) noexcept;
@@ -131,8 +151,32 @@ class JobRunner {
     double amount = 0;  // m or s
     double pulse = 0;   // s; 0: it is set
   };
-  std::array<Trigger, 16> triggers_{};
+  using Triggers = std::array<Trigger, 16>;
+  Triggers triggers_{};
   Pulses pulses_;
+  // Conditions that are watched, in the order of the book.
+  struct Watched {
+    bool on = false;
+    bool was = false;      // its condition, in the last period
+    bool pending = false;  // it has become true
+  };
+  std::array<Watched, kMostInterrupts> watched_{};
+  enum class Serving { None, Leaving, Runs, Returning };
+  Serving serving_ = Serving::None;
+  int served_ = -1;
+  // What goes on behind the interrupt.
+  struct Interrupted {
+    JobState state = JobState::Runs;
+    int depth = -1;
+    double waited = 0;
+    double speed = 1, tool_speed = 0, zone = 0;
+    int tool = 0;
+    Triggers triggers{};
+    std::uint32_t present = 0;
+    double since = 0;
+    bool in_job = false;
+  };
+  Interrupted interrupted_;
   std::uint32_t ticket_ = 0;   // of the last motion that was commanded
   std::uint32_t present_ = 0;  // of the one that was followed last
   double since_ = 0;           // s, that this one has been followed

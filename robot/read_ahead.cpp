@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/read_ahead.h"
 
+#include <utility>
+
 namespace indurop::robot {
 
 namespace {
@@ -16,6 +18,19 @@ ReadAhead::ReadAhead(const Places& places, const ToolLimits& tool)
 
 void ReadAhead::clear() noexcept {
   count_ = scanned_ = single_ = 0;
+}
+
+void ReadAhead::swap(ReadAhead& other) noexcept {
+  commands_.swap(other.commands_);
+  std::swap(first_, other.first_);
+  std::swap(count_, other.count_);
+  std::swap(scanned_, other.scanned_);
+  std::swap(single_, other.single_);
+  std::swap(closed_, other.closed_);
+  chains_.swap(other.chains_);
+  std::swap(chain_, other.chain_);
+  splines_.swap(other.splines_);
+  std::swap(spline_, other.spline_);
 }
 
 const MoveCommand& ReadAhead::command(int i) const noexcept {

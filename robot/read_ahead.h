@@ -19,6 +19,8 @@ class ReadAhead {
   ReadAhead(const Places& places, const ToolLimits& tool);
 
   void clear() noexcept;
+  // Each becomes what the other one was; chains and splines stay where they are.
+  void swap(ReadAhead& other) noexcept;
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int count() const noexcept { return count_; }
   // For a few motions, and for many lines with zones.

@@ -46,6 +46,7 @@ struct MoveCommand {
 struct Segment {
   Move move = Move::Joint;
   bool timed = false;  // the timing is taken
+  bool left = false;   // it was put aside once, and is followed more gently since
   int source = 0;
   std::uint32_t ticket = 0;
   Joints from = Joints::Zero();

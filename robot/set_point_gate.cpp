@@ -15,7 +15,7 @@ constexpr double kEdge = 1e-9;      // rad, likewise at the end of an axis
 constexpr double kNoise = 5e-11;
 
 // Speed at the end if the acceleration becomes `a` in this period and is then taken back as fast as possible.
-double unloaded(double velocity, double a, double step, double period) noexcept {
+double speed_unloaded(double velocity, double a, double step, double period) noexcept {
   const double size = std::abs(a);
   const double steps = std::max(0.0, std::ceil(size / step) - 1);
   return velocity + period * (a + std::copysign(steps * size - step * steps * (steps + 1) / 2, a));
@@ -56,7 +56,7 @@ LineState SetPointGate::braked(LineState state, const LineLimits& limits) const 
   if (std::abs(state.velocity) < 1e-12 && low <= 0 && high >= 0) {
     return {state.position, 0, 0};
   }
-  const auto end = [&](double a) { return unloaded(state.velocity, a, step, period_); };
+  const auto end = [&](double a) { return speed_unloaded(state.velocity, a, step, period_); };
   if (end(low) > 0) {
     high = low;
   } else if (end(high) < 0) {
@@ -80,6 +80,50 @@ LineState SetPointGate::braked(LineState state, const LineLimits& limits) const 
 void SetPointGate::brake(double hardness) noexcept {
   state_ = braked(state_, harder(hardness));
   steady_ = state_.acceleration;
+}
+
+LineState SetPointGate::unloaded() const noexcept {
+  const double step = limits_.jerk * period_;
+  const double a =
+      std::abs(state_.acceleration) <= step ? 0 : state_.acceleration - std::copysign(step, state_.acceleration);
+  const double velocity = state_.velocity + a * period_;
+  return {state_.position + velocity * period_, velocity, a};
+}
+
+bool SetPointGate::coasts() const noexcept {
+  return std::abs(state_.acceleration) <= 4 * kNoise / (period_ * period_);
+}
+
+// Half of what rounding may add is kept back, so that check() lets pass what this finds.
+double SetPointGate::nearest(double wanted) const noexcept {
+  constexpr double kMargin = 1 + kRounding / 2;
+  const double step = limits_.jerk * period_ * kMargin;
+  const double most = limits_.acceleration * kMargin;
+  double low = std::max(steady_ - step, -most);
+  double high = std::min(steady_ + step, most);
+  // The speed that it would come to, even if the acceleration were taken back at once.
+  const auto fastest = [&](double a) {
+    return speed_unloaded(state_.velocity + a * period_, a, limits_.jerk * period_, period_) - a * period_;
+  };
+  const auto bisect = [&](double good, double bad, double sign) {
+    for (int i = 0; i < 50 && sign * fastest(bad) > limits_.velocity * kMargin; ++i) {
+      const double middle = (good + bad) / 2;
+      (sign * fastest(middle) > limits_.velocity * kMargin ? bad : good) = middle;
+    }
+    return good;
+  };
+  if (fastest(high) > limits_.velocity * kMargin) {
+    high = bisect(low, high, 1);
+  }
+  if (-fastest(low) > limits_.velocity * kMargin) {
+    low = bisect(high, low, -1);
+  }
+  const double asked = after(wanted).acceleration;
+  if (asked >= low && asked <= high) {
+    return wanted;
+  }
+  const double a = std::clamp(asked, low, high);
+  return state_.position + (state_.velocity + a * period_) * period_;
 }
 
 // An axis that stands beyond an end may stay there and come back, not go further.
@@ -129,7 +173,7 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   }
   // What is so fast that taking back its acceleration makes it too fast will have to be refused later: refuse it now.
   const double sure = std::copysign(std::max(0.0, std::abs(next.acceleration) - noise), next.acceleration);
-  if (std::abs(unloaded(next.velocity, sure, limits.jerk * period_, period_) - period_ * sure) > fastest) {
+  if (std::abs(speed_unloaded(next.velocity, sure, limits.jerk * period_, period_) - period_ * sure) > fastest) {
     return ErrorCode::Speed;
   }
   return range_.endless || can_rest(next, limits) ? ErrorCode::Ok : ErrorCode::JointLimit;

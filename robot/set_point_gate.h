@@ -31,6 +31,17 @@ class SetPointGate {
   // The next set point on the shortest way to rest, as `hardness` allows.
   void brake(double hardness) noexcept;
 
+  // The set point nearest to `wanted` that speed, acceleration and jerk allow next; `wanted` itself, if they do.
+  [[nodiscard]] double nearest(double wanted) const noexcept;
+  // The next set point on the shortest way to no acceleration.
+  [[nodiscard]] LineState unloaded() const noexcept;
+  // Whether it could still come to rest before its end from there.
+  [[nodiscard]] bool can_rest(const LineState& from) const noexcept {
+    return range_.endless || can_rest(from, limits_);
+  }
+  // No acceleration, but for rounding.
+  [[nodiscard]] bool coasts() const noexcept;
+
   // The last set point, its speed and its acceleration, as differences between periods.
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   [[nodiscard]] bool at_rest() const noexcept { return state_.velocity == 0 && state_.acceleration == 0; }

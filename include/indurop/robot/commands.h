@@ -12,6 +12,8 @@
 namespace indurop::robot {
 
 inline constexpr std::size_t kCommands = 32;  // places
+inline constexpr std::size_t kCams = 4;
+inline constexpr std::size_t kCamPoints = 64;
 
 // What a command does with those before it.
 enum class BufferMode : std::int16_t {
@@ -64,6 +66,14 @@ struct Command {
   double transition = 0;        // mm, with blending: how far before the end of the motion before it the path may turn
 };
 
+// Of a cam: the master's place rises from point to point. Numbers of both are as their users count, or what they scale
+// it with.
+struct CamTable {
+  std::int16_t points = 0;
+  std::array<double, kCamPoints> master{};
+  std::array<double, kCamPoints> slave{};
+};
+
 struct CommandAnswer {
   std::uint32_t number = 0;
   CommandState state = CommandState::None;
@@ -71,6 +81,7 @@ struct CommandAnswer {
   bool reached = false;  // of motions without an end: has the velocity, is in gear
 };
 
+using CamTables = std::array<CamTable, kCams>;
 using Commands = std::array<Command, kCommands>;
 using CommandAnswers = std::array<CommandAnswer, kCommands>;
 

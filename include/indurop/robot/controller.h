@@ -46,11 +46,16 @@ struct DriveIn {
   std::uint16_t status = 0;
   std::int8_t mode = 0;
   std::int32_t position = 0;
+  // Of the touch probe: its status (60B9h) and what it stored.
+  std::uint16_t probe = 0;
+  std::int32_t probe_rise = 0;
+  std::int32_t probe_fall = 0;
 };
 struct DriveOut {
   std::uint16_t control = 0;
   std::int8_t mode = 0;
   std::int32_t position = 0;
+  std::uint16_t probe = 0;  // function of the touch probe (60B8h)
 };
 
 // What a service is asked for with, as ROBOT_MODULE_SERVICE.
@@ -113,6 +118,7 @@ struct Inputs {
   bool edit = false;  // msgRobotServiceEditNum: a request without a number
   std::array<AxisRequest, kJoints> axes{};
   Commands commands{};
+  CamTables cams{};
   // Parts of speed, acceleration and jerk of single axes; of the speed of the group.
   struct Factors {
     AxisNumbers velocity{1, 1, 1, 1, 1, 1, 1, 1};
@@ -148,6 +154,7 @@ struct AxisReport {
   // What it can do at most.
   double lower = 0, upper = 0;
   double most_velocity = 0, most_acceleration = 0, most_jerk = 0;
+  double probe = 0;  // deg, what its touch probe recorded last
 };
 
 // The tool in the coordinates of the machine or of the product: x y z in mm, roll pitch yaw in degrees. Velocity and

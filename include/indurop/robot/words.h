@@ -50,7 +50,8 @@ enum class Service : std::int32_t {
   Halt,
   Interrupt,
   Continue,
-  SetTransform
+  SetTransform,
+  SelectCam  // takes table `option` as a cam; `job` 1: periodic
 };
 
 // Services of one axis.
@@ -66,7 +67,15 @@ enum class AxisService : std::int32_t {
   Reset,
   Halt,
   MoveAdditive,
-  SetPosition
+  SetPosition,
+  GearIn,  // follows axis `option` with to[0] / to[1] of its speed
+  Decouple,
+  CamIn,  // follows axis `option` on cam `job`: to has offset and scale of both, aux whether zeros are those of the
+          // axes
+  MoveSuperimposed,  // by to[0] on top of what it does, `velocity` faster at most
+  HaltSuperimposed,
+  TouchProbe,  // where the next edge is; `option` 1: a falling one, + 2: of the mark; `job` 1: from to[0] to to[1] only
+  AbortTrigger
 };
 
 enum class ErrorCode : std::uint32_t {
@@ -94,7 +103,8 @@ enum class ErrorCode : std::uint32_t {
   Tool,          // no such tool
   NoResume,      // there is no job to go on with
   Away,          // the robot is too far from where its job left the path
-  Full           // more commands than there is room for
+  Full,          // more commands than there is room for
+  Master         // the axis to follow has no power, failed or looks for its place
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an

@@ -26,8 +26,8 @@ class RobotNode : public NodeTest {
     for (const auto& [robot, axes] : robots) {
       for (const char axis : axes) {
         const std::string name = robot + "::AXIS" + axis;
-        devices += "<device name='" + robot + axis + "' driver='cia402' speed='540' following='30' in='" + name +
-                   "_IN' out='" + name + "_OUT'/>\n";
+        devices += "<device name='" + robot + axis + "' driver='cia402' speed='540' following='30' probe='12' in='" +
+                   name + "_IN' out='" + name + "_OUT'/>\n";
       }
     }
     write("ioconfig.xml", devices + "</ioconfig>\n");
@@ -215,11 +215,15 @@ void RobotNode::run_blocks(const std::string& name) {
     ++blocks;
     EXPECT_EQ(indurop({"get", name + "::" + i->str()}).out, "true\n") << i->str();
   }
-  EXPECT_GT(blocks, 20);
+  EXPECT_GT(blocks, 5);
 }
 
 TEST_F(RobotNode, Every_block_of_single_axes) {
   run_blocks("axis_blocks");
+}
+
+TEST_F(RobotNode, Every_block_of_axes_that_follow_others) {
+  run_blocks("sync_blocks");
 }
 
 TEST_F(RobotNode, Every_block_of_the_group) {

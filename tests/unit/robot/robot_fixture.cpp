@@ -47,7 +47,8 @@ Arm arm_of(const std::string& name) {
   return model->arm;
 }
 
-std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings) {
+std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings,
+                                          const JobTexts& others) {
   const auto folder = std::filesystem::temp_directory_path() / ("robot_test." + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   settings.plan_in_tick = true;  // time is what the test says it is
@@ -55,6 +56,10 @@ std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::st
   std::ofstream(settings.urdf) << urdf;
   settings.jobs = {folder / "main.job"};
   std::ofstream(settings.jobs[0]) << job;
+  for (const auto& [name, text] : others) {
+    settings.jobs.push_back(folder / (name + ".job"));
+    std::ofstream(settings.jobs.back()) << text;
+  }
   std::vector<std::string> errors;
   auto controller = Controller::load(settings, errors);
   std::filesystem::remove_all(folder);

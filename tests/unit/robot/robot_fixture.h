@@ -6,6 +6,8 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "robot/group.h"
 #include "robot/planner.h"
@@ -21,8 +23,11 @@ Arm odd_arm();
 std::string urdf_of(const std::string& name);
 Arm arm_of(const std::string& name);
 JointLimits cell_limits();
-// One that has read both texts as files. Throws what it says of them.
-std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings = {});
+// Names and texts of jobs beside the first one, which is "main".
+using JobTexts = std::vector<std::pair<std::string, std::string>>;
+// One that has read the texts as files. Throws what it says of them.
+std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::string& job, Settings settings = {},
+                                          const JobTexts& others = {});
 
 // Somewhere within the limits, `margin` away from them. The same sequence for the same seed.
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin = 0.01);

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/axis_coupling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace indurop::robot {
+
+namespace {
+
+// Part of the axis' limits that are for catching up, whatever its master does. Both together are limited anyway.
+constexpr double kLeast = 0.2;
+
+LineState difference(double now, const LineState& before, double seconds) noexcept {
+  const double velocity = (now - before.position) / seconds;
+  return {now, velocity, (velocity - before.velocity) / seconds};
+}
+
+double left(double limit, double used, double most) noexcept {
+  return std::max(limit - std::abs(used), std::min(limit, kLeast * most));
+}
+
+}  // namespace
+
+void AxisCoupling::engage(const CouplingLaw& law, const LineLimits& limits, const LineLimits& most,
+                          const LineState& now) noexcept {
+  law_ = law;
+  limits_ = limits;
+  most_ = most;
+  begun_ = planned_ = synced_ = brakes_ = false;
+  state_ = now;
+  to_place_ = law.cam.known();
+  goal_ = 0;
+}
+
+// What the law has been saying.
+void AxisCoupling::begin(const LineState& master, double seconds) noexcept {
+  const double one = master.position - seconds * master.velocity;
+  const double two = one - seconds * (master.velocity - seconds * master.acceleration);
+  const LineState oldest{law_.at(two), (law_.at(one) - law_.at(two)) / seconds, 0};
+  law_state_ = {law_.at(one), oldest.velocity, 0};
+  law_state_ = difference(law_.at(master.position), law_state_, seconds);
+  begun_ = true;
+}
+
+// `from`: the gap as differences between periods, which are what it had in the middle of a period.
+void AxisCoupling::plan(const LineState& from, double seconds) noexcept {
+  const LineLimits limits{left(limits_.velocity, law_state_.velocity, most_.velocity),
+                          left(limits_.acceleration, law_state_.acceleration, most_.acceleration), limits_.jerk};
+  const LineState gap{from.position, from.velocity + from.acceleration * seconds / 2, from.acceleration};
+  gap_ = to_place_ && !held_ ? Profile::to_rest(gap, goal_, limits) : Profile::to_velocity(gap, 0, limits);
+  time_ = 0;
+  planned_ = true;
+}
+
+void AxisCoupling::put(double position, const LineState& before, double seconds) noexcept {
+  state_ = difference(position, before, seconds);
+}
+
+ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, double seconds) noexcept {
+  if (!begun_) {
+    begin(master.before, seconds);
+  }
+  const LineState& told = gate.state();
+  const LineState last = law_state_;
+  law_state_ = difference(law_.at(master.now), last, seconds);
+  if (!planned_) {
+    plan({told.position - last.position, told.velocity - last.velocity, told.acceleration - last.acceleration},
+         seconds);
+  }
+  time_ += seconds;
+  const bool ended = time_ >= gap_.duration();
+  const double wanted = law_state_.position + (ended ? gap_.end() : gap_.at(time_)).position;
+  const double next = synced_ ? wanted : gate.nearest(wanted);
+  if (const ErrorCode code = gate.check(next, 1); code != ErrorCode::Ok) {
+    return code;
+  }
+  synced_ = synced_ || (ended && next == wanted && !(held_ && to_place_));
+  planned_ = next == wanted;
+  put(next, told, seconds);
+  return ErrorCode::Ok;
+}
+
+void AxisCoupling::shift(double by, const LineLimits& limits) noexcept {
+  goal_ = (begun_ ? state_.position - law_state_.position : 0) + by;
+  to_place_ = true;
+  limits_ = limits;
+  planned_ = synced_ = false;
+}
+
+void AxisCoupling::stop_shift(const LineLimits& limits) noexcept {
+  to_place_ = false;
+  limits_ = limits;
+  planned_ = synced_ = false;
+}
+
+void AxisCoupling::hold(bool held) noexcept {
+  planned_ = planned_ && (held == held_ || synced_);
+  held_ = held;
+}
+
+bool AxisCoupling::leave(const SetPointGate& gate, double seconds) noexcept {
+  const LineState& told = gate.state();
+  const LineState next = gate.unloaded();
+  const LineState later{next.position + 2 * seconds * next.velocity, next.velocity, next.acceleration};
+  brakes_ = brakes_ || gate.check(next.position, 1) != ErrorCode::Ok || !gate.can_rest(later);
+  if (brakes_ ? gate.at_rest() : gate.coasts()) {
+    state_ = {told.position, told.velocity, 0};
+    brakes_ = false;
+    return true;
+  }
+  state_ = brakes_ ? told : next;
+  return false;
+}
+
+}  // namespace indurop::robot

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// A motion on top of what a single axis does: of its own motion, of one that follows another axis, or of none. Both
+// together keep the limits of the axis: what there is no room for comes later.
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/axis_control.h"
+
+namespace indurop::robot {
+
+ErrorCode AxisControl::check_superimposed(const Command& command) const noexcept {
+  const bool moves = state_ == AxisState::Standstill || state_ == AxisState::DiscreteMotion ||
+                     state_ == AxisState::ContinuousMotion || coupled_;
+  const bool catches_up = coupled_ && super_.ticket == kNobody && !coupling_.synced();
+  if (!drive_.enabled() || !moves || leaving_ || catches_up || queued_ > 0) {
+    return ErrorCode::State;
+  }
+  if (coupled_ || state_ == AxisState::ContinuousMotion || endless_) {
+    return ErrorCode::Ok;
+  }
+  // Where both of them end.
+  const double own = is_move(motion_owner_.service) ? motion_.target() - motion_.state().position : 0;
+  const double end = commanded().position + own + command.to[0] * scale_.unit;
+  return end >= lower_ - 1e-9 && end <= upper_ + 1e-9 ? ErrorCode::Ok : ErrorCode::JointLimit;
+}
+
+void AxisControl::superimpose(int ticket, const Command& command) noexcept {
+  Owner owner{ticket, AxisService::MoveSuperimposed};
+  Order order;
+  ErrorCode code = resolve(command, 0, order);
+  code = code == ErrorCode::Ok ? check_superimposed(command) : code;
+  if (code != ErrorCode::Ok) {
+    finish(owner, code);
+    return;
+  }
+  finish(super_, ErrorCode::Aborted);
+  LineLimits limits = order.limits;
+  limits.acceleration = std::min(limits.acceleration, order.braking.acceleration);
+  if (!coupled_ && !over_) {
+    coupling_.engage({}, limits, most_, motion_.state());
+    over_ = true;
+  }
+  coupling_.shift(command.to[0] * scale_.unit, limits);
+  super_ = owner;
+  state_ = state_ == AxisState::Standstill ? AxisState::DiscreteMotion : state_;
+  if (ticket != kRequest) {
+    table_->active(ticket);
+  }
+}
+
+void AxisControl::halt_superimposed(int ticket, const Command& command) noexcept {
+  Owner owner{ticket, AxisService::HaltSuperimposed};
+  Order order;
+  const ErrorCode code = resolve(command, 0, order);
+  if (code != ErrorCode::Ok || super_.ticket == kNobody) {
+    finish(owner, code != ErrorCode::Ok ? code : ErrorCode::State);
+    return;
+  }
+  finish(super_, ErrorCode::Aborted);
+  super_ = owner;
+  coupling_.stop_shift(order.braking);
+  if (ticket != kRequest) {
+    table_->active(ticket);
+  }
+}
+
+// On top of the axis' own motion, which has made its step.
+void AxisControl::advance_over(double seconds) noexcept {
+  const SetPointGate& gate = row_.gates[static_cast<std::size_t>(row_.own)];
+  const ErrorCode code = coupling_.step({gate.state(), motion_.state().position}, gate, seconds);
+  if (code != ErrorCode::Ok) {
+    finish(super_, code);
+    fail_coupling(code);
+  }
+}
+
+// What is on top is there; if nothing moves any more, the axis stands where both have led.
+void AxisControl::note_superimposed() noexcept {
+  if (super_.ticket != kNobody && coupling_.synced()) {
+    finish(super_, ErrorCode::Ok);
+  }
+  if (!over_ || state_ != AxisState::DiscreteMotion || !motion_.at_rest()) {
+    return;
+  }
+  if (motion_owner_.ticket != kNobody) {
+    end_motion(ErrorCode::Ok);
+  }
+  if (coupling_.synced()) {
+    over_ = false;
+    motion_.reset({coupling_.state().position, 0, 0});
+    state_ = AxisState::Standstill;
+  }
+}
+
+}  // namespace indurop::robot

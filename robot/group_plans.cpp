@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what was commanded to paths: what is planned next, and what becomes of a plan.
+
+#include <algorithm>
+
+#include "robot/group.h"
+
+namespace indurop::robot {
+
+Fault Group::move(const MoveCommand& command) noexcept {
+  ahead_.add(command);
+  return {};
+}
+
+// For a motion that begins where the last one ends.
+void Group::ask_for_plan(const PlanRequest& request) noexcept {
+  PlanRequest asked = request;
+  asked.follows = asked.follows && follower_.goes_over() && !unconnected_;
+  unconnected_ = false;
+  desk_.ask(asked);
+  request_ = asked;
+  if (follower_.idle()) {
+    follower_.reset(commanded());
+    last_command_ = commanded();
+  }
+}
+
+void Group::begin_next(bool more) noexcept {
+  // Chains are few and used again, so none is begun while a forgotten one is still looked at.
+  const bool leaving = shelf_ != nullptr && shelf_->leaving;
+  if (state_ != GroupState::Moving || leaving || !can_plan() || desk_.holds_forgotten()) {
+    return;
+  }
+  const Joints from = planned_end();
+  const ReadAhead::Next next = ahead_.next(from, more);
+  if (next.chain != nullptr) {
+    passed_known_ = 0;  // no step back goes over it
+    asked_ = next.chain->source_at(0);
+    PlanRequest request{{}, next.chain, from, !follower_.idle()};
+    request.command.ticket = next.ticket;
+    ask_for_plan(request);
+  } else if (next.command != nullptr) {
+    asked_ = next.command->source;
+    passed_[passed_count_++ % passed_.size()] = {*next.command, from};
+    passed_known_ = asked_ < 0 ? 0 : std::min(passed_known_ + 1, passed_.size());
+    ask_for_plan({*next.command, nullptr, from, !follower_.idle()});
+  }
+}
+
+void Group::take_plan() noexcept {
+  const Plan* plan = desk_.take();
+  if (plan == nullptr) {
+    return;
+  }
+  if (plan->fault.ok()) {
+    follower_.add(plan->segment, plan->blend);
+  } else {
+    motion_failed(plan->fault, plan->segment.source, plan->segment.ticket);
+  }
+}
+
+}  // namespace indurop::robot

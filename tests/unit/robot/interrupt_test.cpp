@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interrupts of jobs (ON c CALL job): their lines and what is wrong with them; when they come and how often; and, at
+// random instants of random motions, that the path goes on where it was left, with everything on it, within all limits.
+#include <gmock/gmock.h>
+
+#include <random>
+#include <vector>
+
+#include "job_world.h"
+#include "limit_judge.h"
+
+namespace indurop::robot {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> errors_of(const std::string& text) {
+  std::vector<std::string> all;
+  for (const auto& each :
+       parse_jobs({{"main.job", text}, {"eject.job", "SET O1 ON\n"}, {"two.job", "PARAM a\n"}}).diagnostics) {
+    all.push_back(base::to_text({each}));
+  }
+  return all;
+}
+
+TEST(Interrupt, What_is_wrong_is_told_with_its_place) {
+  EXPECT_THAT(errors_of("ON I1 CALL eject\nON I1 OFF AND count > 3 CALL eject\nOFF CALL eject\n"), ElementsAre());
+  EXPECT_THAT(errors_of("ON I1 CALL ejct\n"),
+              ElementsAre("main.job:1:12: error: there is no job 'ejct'; did you mean 'eject'?\n"));
+  EXPECT_THAT(errors_of("ON I1 eject\n"),
+              ElementsAre(HasSubstr("main.job:1:7: error: expected CALL and the name of a job, found 'eject'")));
+  EXPECT_THAT(errors_of("VAR n\nON n CALL eject\n"),
+              ElementsAre("main.job:2:4: error: an interrupt watches shared variables, and no variables of the job\n"));
+  EXPECT_THAT(errors_of("ON 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: an interrupt watches")));
+  EXPECT_THAT(errors_of("ON I1 CALL two\n"),
+              ElementsAre("main.job:1:12: error: job 'two' takes 1 value, here are 0\n"));
+  EXPECT_THAT(errors_of("OFF eject\n"), ElementsAre(HasSubstr("main.job:1:5: error: expected CALL")));
+  EXPECT_THAT(errors_of("ON a+b+c+d+e+f+g+h+i > 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: this")));
+  std::string many;
+  for (int i = 0; i < 9; ++i) {
+    many += "ON I1 CALL eject\n";
+  }
+  EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:9:1: error: there are more than 8 ON")));
+  EXPECT_THAT(errors_of("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
+              ElementsAre(HasSubstr("there is no point 'BACK'")));
+  EXPECT_THAT(errors_of("MOVJ BACK OFFSET 0, 0, 1\n"), ElementsAre(HasSubstr("'BACK' has joint angles")));
+}
+
+struct Outcome {
+  Ended ended;
+  std::map<std::string, double> values;
+};
+
+// `each` sets the inputs of a period, of which there are 1000, 10 ms each.
+template <class Each>
+Outcome run_with(const std::vector<JobFile>& files, const Each& each) {
+  ReadJobs read = parse_jobs(files);
+  EXPECT_TRUE(read.diagnostics.empty()) << base::to_text(read.diagnostics);
+  World world(read.book.signals);
+  JobRunner sut(read.book);
+  sut.start(0);
+  for (int i = 0; i < 1000 && sut.running(); ++i) {
+    each(i, world);
+    sut.step(0.01, world, world);
+  }
+  const JobReport report = sut.report(0);
+  return {{report.state, report.line, report.message}, world.values};
+}
+
+TEST(Interrupt, It_comes_once_for_each_rising_edge_and_not_while_it_is_off) {
+  const Outcome done = run_with({{"main.job", "SET n = 0\nON I1 CALL other\nWAIT 5s\nOFF CALL other\nWAIT 1s\n"},
+                                 {"other.job", "SET n = n + 1\n"}},
+                                [](int i, World& w) {
+                                  // On from the beginning does not count, and it is not watched in the end.
+                                  w.values["I1"] = i < 100 || (i >= 200 && i < 300) || i == 310 || i >= 540 ? 1 : 0;
+                                });
+  EXPECT_EQ(done.ended.state, JobState::Ended) << done.ended.message;
+  EXPECT_EQ(done.values.at("n"), 2);
+}
+
+TEST(Interrupt, An_edge_in_the_middle_of_serving_is_kept_once) {
+  const Outcome done =
+      run_with({{"main.job", "SET n = 0\nON I1 CALL other\nWAIT 3s\n"}, {"other.job", "SET n = n + 1\nWAIT 0.5s\n"}},
+               [](int i, World& w) { w.values["I1"] = i == 100 || i == 110 || i == 120 ? 1 : 0; });
+  EXPECT_EQ(done.ended.state, JobState::Ended) << done.ended.message;
+  EXPECT_EQ(done.values.at("n"), 2);
+}
+
+TEST(Interrupt, Several_of_one_moment_come_in_the_order_of_their_lines_and_not_inside_of_each_other) {
+  const Outcome done = run_with({{"main.job", "ON I2 CALL two\nON I1 CALL one\nWAIT 3s\n"},
+                                 {"one.job", "SET n = n * 10 + 1\nWAIT 0.2s\nSET n = n * 10 + 2\n"},
+                                 {"two.job", "SET n = n * 10 + 3\nWAIT 0.2s\nSET n = n * 10 + 4\n"}},
+                                [](int i, World& w) { w.values["I1"] = w.values["I2"] = i >= 100 ? 1 : 0; });
+  EXPECT_EQ(done.ended.state, JobState::Ended) << done.ended.message;
+  EXPECT_EQ(done.values.at("n"), 3412);
+}
+
+// 2 s of waiting behind the interrupt's second; its speed, variables and loops are its own.
+TEST(Interrupt, What_waited_goes_on_waiting_and_nothing_else_changes) {
+  int ended_at = 0;
+  const Outcome done = run_with({{"main.job", "VAR k = 7\nON I1 CALL other\nLOOP 2\nWAIT 1s\nEND\nSET n = k\n"},
+                                 {"other.job", "VAR k = 1\nLOOP 3\nWAIT 0.5s\nk = k + 1\nEND\nSET m = k\n"}},
+                                [&](int i, World& w) {
+                                  w.values["I1"] = i == 50 ? 1 : 0;
+                                  ended_at = i;
+                                });
+  EXPECT_EQ(done.ended.state, JobState::Ended) << done.ended.message;
+  EXPECT_EQ(done.values.at("n"), 7);
+  EXPECT_EQ(done.values.at("m"), 4);
+  EXPECT_NEAR(ended_at, 350, 10);
+}
+
+TEST(Interrupt, It_is_refused_where_jobs_call_each_other_too_deep) {
+  const Outcome done =
+      run_with({{"main.job", "PARAM n\nIF n = 0\nON I1 CALL other\nEND\nIF n < 7\nCALL main n + 1\nEND\nWAIT 2s\n"},
+                {"other.job", "SET m = 1\n"}},
+               [](int i, World& w) { w.values["I1"] = i == 50 ? 1 : 0; });
+  EXPECT_EQ(done.ended.state, JobState::Failed);
+  EXPECT_THAT(done.ended.message, HasSubstr("main.job:8: an interrupt came here, but jobs call each other too deep"));
+}
+
+TEST(Interrupt, BACK_is_known_to_what_ON_has_called_only) {
+  const Outcome done = run_with({{"main.job", "MOVJ BACK\n"}}, [](int, World&) {});
+  EXPECT_EQ(done.ended.state, JobState::Failed);
+  EXPECT_THAT(done.ended.message, HasSubstr("main.job:1: BACK is where an interrupt left the path"));
+}
+
+// ---- With the arm
+
+constexpr const char* kPoints =
+    "POINT H = JOINT 0 -20 10 0 100 0\nTOOL pen = POSE 0 40 90 RPY 0 0 0\n"
+    "POINT A = POSE 500 -250 300 RPY 180 0 180\nPOINT B = POSE 500 -100 200 RPY 180 0 150\n"
+    "POINT C = POSE 450 100 300 RPY 170 10 180\nPOINT D = POSE 450 250 350 RPY 180 0 200\n"
+    "POINT E = POSE 550 0 450 RPY 180 20 180\n";
+constexpr const char* kServe = "SET busy ON\nSPEED 40%\nTOOL pen\nMOVJ H\nTOOL FLANGE\nMOVJ BACK\nSET busy OFF\n";
+
+// Sets `out` to the number of each of its motions that is not a joint motion, on its way.
+std::string random_job(std::mt19937& random) {
+  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
+  const auto point = [&] { return std::string(1, static_cast<char>('A' + one_of(5))); };
+  std::string job = std::string(kPoints) + "ON I1 CALL other\nMOVJ H STRAIGHT\n";
+  for (int i = 1; i <= 6; ++i) {
+    job += one_of(3) == 0 ? fmt::format("SPEED {} mm/s\n", 100 + one_of(600)) : "";
+    switch (one_of(5)) {
+      case 0:
+        job += "MOVJ " + point() + " STRAIGHT\n";
+        continue;
+      case 1:
+        job += "MOVL A\nMOVC E D\n";
+        break;
+      case 2:
+        job += "MOVS A B C D\n";
+        break;
+      default:
+        job += "MOVL " + point() + "\n";
+    }
+    job += fmt::format("SET out = {} BEFORE {} mm\n", i, one_of(60));
+  }
+  return job + "SET out = 0\n";
+}
+
+Vec3 tip(const Cell& cell) {
+  return {cell.out.position[0], cell.out.position[1], cell.out.position[2]};
+}
+
+double away(const std::vector<Vec3>& path, const Vec3& place) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vec3 way = path[i] - path[i - 1];
+    const double part = std::clamp((place - path[i - 1]).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+    least = std::min(least, (place - path[i - 1] - part * way).squaredNorm());
+  }
+  return std::sqrt(least);
+}
+
+class Machine {
+ public:
+  Machine(const std::string& job, const std::string& other) {
+    cell.sut = controller_of(cell_urdf(), job, {}, {{"other", other}});
+    cell.step();
+    EXPECT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.service.job = 1;
+    cell.ask(Service::JobStart);
+  }
+  double& signal(const std::string& name) {
+    const auto& names = cell.sut->signals();
+    return cell.values[std::find(names.begin(), names.end(), name) - names.begin()];
+  }
+  // What is set on the way, in its order.
+  void step() {
+    cell.step();
+    broken += judge_.look(cell, cell.in.emergency ? kEmergency : 1);
+    if (signal("out") != last_) {
+      last_ = signal("out");
+      set.push_back(last_);
+    }
+  }
+  template <class Condition>
+  [[nodiscard]] bool until(const Condition& condition) {
+    for (int i = 0; i < 5000 && !condition(); ++i) {
+      step();
+    }
+    return condition();
+  }
+  [[nodiscard]] bool ended() const { return cell.out.done == cell.in.service.number; }
+
+  Cell cell;
+  std::string broken;
+  std::vector<double> set;
+
+ private:
+  Judge judge_{0.01};
+  double last_ = 0;
+};
+
+// Behind an emergency stop at any moment, also of an interrupt that comes, is served or returns.
+void go_on(Machine& sut) {
+  sut.cell.in.emergency = true;
+  ASSERT_TRUE(sut.cell.until([&] { return sut.cell.out.state == GroupState::ErrorStop; }));
+  sut.cell.in.emergency = false;
+  for (int i = 0; i < 50; ++i) {
+    sut.step();
+  }
+  ASSERT_TRUE(sut.cell.serve(Service::GroupReset)) << to_string(sut.cell.out.error);
+  ASSERT_TRUE(sut.cell.serve(Service::GroupEnable)) << to_string(sut.cell.out.error);
+  for (int i = 0; i < 4; ++i) {
+    sut.step();
+  }
+  sut.broken.clear();  // the judge did not see the stop
+  ASSERT_TRUE(sut.cell.out.job.can_resume);
+  sut.cell.ask(Service::JobResume);
+}
+
+TEST(Interrupt, Anywhere_on_a_path_it_is_left_and_taken_up_within_all_limits) {
+  const char* wanted = std::getenv("INDUROP_ROBOT_JOBS");
+  const unsigned jobs = wanted == nullptr ? 12 : static_cast<unsigned>(std::atoi(wanted));
+  int served = 0;
+  int stops = 0;
+  double farthest = 0;
+  for (unsigned seed = 1; seed <= jobs; ++seed) {
+    std::mt19937 random(seed);
+    const std::string job = random_job(random);
+    Machine calm(job, kServe);
+    std::vector<Vec3> path;
+    for (int i = 0; i < 20'000 && !calm.ended(); ++i) {
+      calm.step();
+      path.push_back(tip(calm.cell));
+    }
+    if (calm.cell.out.error != ErrorCode::Ok) {
+      continue;  // not every way is possible
+    }
+    Machine sut(job, kServe);
+    const auto happens = [&](double per_second) {
+      return std::uniform_real_distribution<double>(0, 1)(random) < per_second * 0.01;
+    };
+    int emergencies = seed % 2 == 0 ? 2 : 0;
+    bool returning = false;
+    double before = 0;
+    for (int i = 0; i < 40'000 && !sut.ended(); ++i) {
+      sut.signal("I1") = happens(0.7) ? 1 : 0;
+      sut.step();
+      ASSERT_EQ(sut.broken, "") << "seed " << seed << "\n" << job;
+      ASSERT_NE(sut.cell.out.state, GroupState::ErrorStop) << sut.cell.out.job.message << " seed " << seed << "\n"
+                                                           << job;
+      served += sut.signal("busy") > before ? 1 : 0;
+      before = sut.signal("busy");
+      returning = returning && sut.cell.out.job.state != JobState::Runs;
+      if (before == 0 && !returning && i % 4 == 0) {
+        farthest = std::max(farthest, away(path, tip(sut.cell)));
+      }
+      if (emergencies > 0 && sut.cell.out.state == GroupState::Moving && sut.cell.out.job.line != 0 && happens(0.5)) {
+        --emergencies;
+        ++stops;
+        go_on(sut);
+        returning = true;
+        if (HasFatalFailure()) {
+          return;
+        }
+      }
+    }
+    ASSERT_EQ(sut.cell.out.job.state, JobState::Ended) << sut.cell.out.job.message << " seed " << seed << "\n" << job;
+    EXPECT_LT((tip(sut.cell) - tip(calm.cell)).norm(), 1e-3) << "seed " << seed;
+    EXPECT_EQ(sut.set, calm.set) << "seed " << seed << "\n" << job;
+  }
+  fmt::print("{} interrupts and {} emergency stops; at most {:.4f} mm from the path without them\n", served, stops,
+             farthest);
+  EXPECT_GT(served, static_cast<int>(jobs));
+  EXPECT_LT(farthest, 0.2);  // arcs are cut short between places 10 ms apart
+}
+
+TEST(Interrupt, One_that_ends_far_from_the_path_stops_the_job_with_what_to_do) {
+  Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
+              "SET busy ON\nMOVJ D\n");
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
+  sut.signal("I1") = 1;
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.state == GroupState::ErrorStop; }));
+  EXPECT_EQ(sut.cell.out.error, ErrorCode::Away);
+  EXPECT_THAT(sut.cell.out.job.message, HasSubstr("other.job:2: this job was called by ON and has ended too far"));
+  EXPECT_FALSE(sut.cell.out.job.can_resume);
+  EXPECT_EQ(sut.broken, "");
+}
+
+TEST(Interrupt, A_hold_lets_it_wait) {
+  Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n", kServe);
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
+  sut.cell.in.hold = true;
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.tool_speed < 1e-9; }));
+  sut.signal("I1") = 1;
+  for (int i = 0; i < 100; ++i) {
+    sut.step();
+    ASSERT_EQ(sut.signal("busy"), 0);
+    ASSERT_LT(sut.cell.out.tool_speed, 1e-9);
+  }
+  sut.cell.in.hold = false;
+  ASSERT_TRUE(sut.until([&] { return sut.signal("busy") == 1; }));
+  ASSERT_TRUE(sut.until([&] { return sut.ended(); }));
+  EXPECT_EQ(sut.cell.out.job.state, JobState::Ended) << sut.cell.out.job.message;
+}
+
+}  // namespace
+}  // namespace indurop::robot
