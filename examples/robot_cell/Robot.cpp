@@ -46,10 +46,10 @@ std::vector<std::string> files(const std::string& names) {
 }
 
 robot::DriveIn from(const AXIS1_IN_t& axis) {
-  return {axis.error, axis.status, axis.mode, axis.position};
+  return {axis.error, axis.status, axis.mode, axis.position, axis.probe, axis.probe_rise, axis.probe_fall};
 }
 AXIS1_OUT_t to(const robot::DriveOut& drive) {
-  return {drive.control, drive.mode, drive.position};
+  return {drive.control, drive.mode, drive.position, drive.probe};
 }
 
 // A .glb of an arm with more axes has variables of these names, which are found before these.
@@ -103,6 +103,10 @@ void read_commands() {
                       c.dDeceleration,
                       c.dJerk,
                       c.dTransition};
+  }
+  const auto cams = MC_CAM.get();
+  for (std::size_t k = 0; k < cams.size(); ++k) {
+    in.cams[k] = {cams[k].nPoints, cams[k].dMaster, cams[k].dSlave};
   }
   const MC_FACTORS_t factors = MC_FACTORS;
   if (factors.bSet != 0) {
@@ -226,7 +230,8 @@ void write_axis_states() {
                a.upper,
                a.most_velocity,
                a.most_acceleration,
-               a.most_jerk};
+               a.most_jerk,
+               a.probe};
   }
 }
 

@@ -36,7 +36,7 @@ tour() {
   wait_for "$2" I14 1
   wait_for "$1" EMERGENCY_STOP.bActive 0
   indurop watch --node "$1" ROBOT_ARM.joint ROBOT_ARM.position ROBOT_ARM.tool_speed ROBOT_MODULE_STATE.eState ROBOT_JOB.name \
-    EMERGENCY_STOP.bActive I4 I5 O8 O9 --hz 50 --timeout 21s -o csv --units >"$3" &
+    EMERGENCY_STOP.bActive I4 I5 O8 O9 O10 --hz 50 --timeout 21s -o csv --units >"$3" &
   recorder=$!
   indurop set --node "$2" CELL::tour true
   second=0
@@ -62,7 +62,8 @@ picture() {
   indurop chart "$recording" --svg "$file" --title "$title" -q --way ROBOT_ARM.position "$@" \
     --words 'ROBOT_MODULE_STATE.eState=0 off, 1 standby, 2 moves, 3 homes, 4 stops, 5 error' \
     --name ROBOT_MODULE_STATE.eState=robot --name ROBOT_JOB.name=job --name EMERGENCY_STOP.bActive='emergency stop' \
-    --name 'I4=I4: holds a part' --name 'I5=I5: gripper open' --name 'O8=O8: close gripper' --name 'O9=O9: open gripper'
+    --name 'I4=I4: holds a part' --name 'I5=I5: gripper open' --name 'O8=O8: close gripper' --name 'O9=O9: open gripper' \
+    --name 'O10=O10: glue'
 }
 
 finish() {
@@ -73,13 +74,13 @@ finish() {
 
 forget
 say "The PLC program of the cell, two of its rungs; all of them are drawn in main.svg"
-indurop plc print main.xml | awk '/^rung (8|12)[: ]/ { on = 1 } /^$/ { if (on) print; on = 0 } on'
+indurop plc print main.xml | awk '/^rung (10|16)[: ]/ { on = 1 } /^$/ { if (on) print; on = 0 } on'
 indurop plc print main.xml --svg main.svg >/dev/null
 show indurop check module.xml
 say "\$ indurop run module.xml --node cell &"
 indurop run module.xml --node cell -q &
 runner=$!
-say "A visitor starts the cell, walks through the light curtain and hits the emergency stop (state 2 moves, 5 was stopped)"
+say "A visitor starts the cell, walks through the light curtain and hits the emergency stop (state 2 moves, 5 was stopped); its job goes on after that"
 tour cell cell cell.csv
 show indurop jitter --node cell --no-histogram
 show indurop get --node cell EMERGENCY_STOP CELL::world

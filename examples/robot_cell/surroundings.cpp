@@ -27,6 +27,7 @@ void Surroundings::step(double seconds, const Commands& commands, const Tool& to
   move_belt(seconds, commands.conveyor);
   move_gripper(seconds, commands.close_gripper, tool);
   exchange_pallet(seconds, commands.next_pallet);
+  glue(commands.open_valve, tool);
 }
 
 void Surroundings::move_belt(double seconds, bool runs) {
@@ -62,4 +63,13 @@ void Surroundings::exchange_pallet(double seconds, bool wanted) {
     on_pallet_ = 0;
     away_ = kPalletTime;
   }
+}
+
+// A dot each time the valve opens.
+void Surroundings::glue(bool open, const Tool& tool) {
+  if (open && !glues_) {
+    const double x = std::clamp(tool.x, double{CELL::GLUE_FROM_X}, double{CELL::GLUE_TO_X});
+    near(tool, x, CELL::GLUE_Y, CELL::GLUE_Z) ? ++dots_ : ++spilled_;
+  }
+  glues_ = open;
 }

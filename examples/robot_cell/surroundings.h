@@ -8,6 +8,7 @@ struct Commands {
   bool conveyor = false;
   bool close_gripper = false;
   bool next_pallet = false;
+  bool open_valve = false;
 };
 
 struct Tool {
@@ -27,11 +28,14 @@ class Surroundings {
   [[nodiscard]] std::uint16_t on_pallet() const { return on_pallet_; }
   [[nodiscard]] std::uint32_t placed() const { return placed_; }
   [[nodiscard]] std::uint32_t lost() const { return lost_; }
+  [[nodiscard]] std::uint32_t dots() const { return dots_; }
+  [[nodiscard]] std::uint32_t spilled() const { return spilled_; }
 
  private:
   void move_belt(double seconds, bool runs);
   void move_gripper(double seconds, bool closes, const Tool& tool);
   void exchange_pallet(double seconds, bool wanted);
+  void glue(bool open, const Tool& tool);
 
   static constexpr double kBelt = 1000;        // mm
   static constexpr std::uint16_t kPallet = 4;  // parts
@@ -42,4 +46,7 @@ class Surroundings {
   std::uint16_t on_pallet_ = 0;
   std::uint32_t placed_ = 0;
   std::uint32_t lost_ = 0;
+  bool glues_ = false;
+  std::uint32_t dots_ = 0;
+  std::uint32_t spilled_ = 0;
 };

@@ -55,6 +55,8 @@ void show(const Surroundings& cell, std::string_view doing, std::uint32_t reques
   now.on_pallet = cell.on_pallet();
   now.placed = cell.placed();
   now.lost = cell.lost();
+  now.dots = cell.dots();
+  now.spilled = cell.spilled();
   now.requests = requests;
   now.doing = doing;
   CELL::world = now;
@@ -78,7 +80,7 @@ int main() {
     }
     const Panel panel = pressed(on_tour ? Seconds(now - tour_began).count() : -1, doing);
     const auto arm = INDUROP_TYPEOF(PLC_ROBOT::ROBOT_ARM)(PLC_ROBOT::ROBOT_ARM);
-    cell.step(Seconds(now - last).count(), {station.coil(0), station.coil(1), station.coil(5)},
+    cell.step(Seconds(now - last).count(), {station.coil(0), station.coil(1), station.coil(5), station.coil(10)},
               {arm.position[0], arm.position[1], arm.position[2]});
     last = now;
     wire(station, panel, cell);

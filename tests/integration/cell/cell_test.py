@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The robot cell (examples/robot_cell) with its tour: parts are picked and placed, the light curtain and the emergency stop
-stop the robot, it goes on after reset and start; and all of it in the same order on one board, on two, and on one with the
+stop the robot, its job goes on after reset and start; and all of it in the same order on one board, on two, and on one with the
 PLC program on a core of its own. Without devices and in virtual time its values are the same on one core and on two."""
 
 import argparse
@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 
 from cell import Cell, jobs
 
@@ -65,7 +66,43 @@ class RunningCell(Cell):
 
         changes = self.changes(work)
         assert self.get(self.station, "CELL::world.lost") == 0, "a part was lost"
+        assert self.get(self.station, "CELL::world.spilled") == 0, "glue was spilled"
+        assert self.get(self.station, "CELL::world.dots") >= 3, "there is no glue on the pallet"
         return changes
+
+    def press(self, what, until):
+        self.indurop("set", "--node", self.station, f"CELL::panel.{what}", "true")
+        self.wait(what, until)
+        self.indurop("set", "--node", self.station, f"CELL::panel.{what}", "false")
+
+    def stop_on_the_way(self):
+        """An emergency stop while the robot carries a part to the pallet. True if the job can go on."""
+        self.wait("a motion of the job", lambda: self.get(self.robot, "ROBOT_JOB.name") == "place" and
+                  (self.get(self.robot, "ROBOT_ARM.tool_speed") or 0) > 50)
+        self.indurop("set", "--node", self.station, "CELL::panel.emergency_stop", "true")
+        self.wait("emergency stop", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 5)
+        return self.get(self.robot, "ROBOT_JOB.bResume") == 1
+
+    def go_on(self):
+        self.indurop("set", "--node", self.station, "CELL::panel.emergency_stop", "false")
+        self.wait("all is well", lambda: self.get(self.robot, "EMERGENCY_STOP.bActive") == 0)
+        self.press("reset", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") != 5)
+        self.press("start", lambda: self.get(self.robot, "ROBOT_MODULE_STATE.eState") == 2)
+
+    def resume(self):
+        """Stopped on its way and asked to go on, the job does, and the part comes to its place."""
+        while not self.stop_on_the_way():
+            self.go_on()
+        placed = self.get(self.station, "CELL::world.placed")
+
+        def work():
+            self.go_on()
+            self.wait("the part on the pallet", lambda: (self.get(self.station, "CELL::world.placed") or 0) > placed)
+
+        changes = self.changes(work)
+        assert "home" not in jobs(changes), f"the job began anew: {changes}"
+        assert self.get(self.station, "CELL::world.lost") == 0, "a part was lost"
+        assert self.get(self.station, "CELL::world.spilled") == 0, "glue was spilled"
 
 
 def on_two_cores(folder, cores):
@@ -106,6 +143,7 @@ def main():
         copy_configuration(os.path.abspath(arguments.cell), os.path.abspath(arguments.io_module), folder)
         with RunningCell(arguments, folder, ["module.xml", "--node", "cell_test"], "cell_test", "cell_test") as cell:
             one = cell.tour()
+            cell.resume()
         with RunningCell(arguments, folder, ["plant.xml", "--local"], "plc", "motion") as cell:
             two = cell.tour()
         cores = sorted(os.sched_getaffinity(0))
