@@ -124,6 +124,25 @@ bool is_forced(const std::vector<Force>& forces, const Line& line) {
   });
 }
 
+// The place of a note about the same part, else one that is free: nobody's, or of what is forced no more. Those just
+// `taken` are of forces that come yet.
+Place* place_for(CustodyBlock& block, const std::vector<Force>& forces,
+                 const std::vector<std::pair<Place*, Line>>& taken, const Line& wanted) {
+  Place* free = nullptr;
+  for (Place& place : block.notes) {
+    const auto line = read(place);
+    if (line && line->variable == wanted.variable && line->offset == wanted.offset) {
+      return &place;
+    }
+    const bool is_taken =
+        std::any_of(taken.begin(), taken.end(), [&place](const auto& one) { return one.first == &place; });
+    if (free == nullptr && !is_taken && (!line || line->variable == 0 || !is_forced(forces, *line))) {
+      free = &place;
+    }
+  }
+  return free;
+}
+
 }  // namespace
 
 const char* word_of(WriteLock lock) noexcept {
@@ -209,33 +228,33 @@ Status Custody::set_lock(const LockNote& note) {
   return {};
 }
 
-Status Custody::note_force(const Store& store, const DirectoryEntry& variable, std::uint32_t offset,
-                           const ForceNote& note) {
+Status Custody::hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until, const ForceNote& note) {
   if (file_.mode() == Mode::ReadOnly) {
     return Error{Errc::PermissionDenied, 0, "note through a read-only view"};
   }
   CustodyBlock& block = block_in(file_);
   const Writing writing(block);
   if (!writing.locked()) {
-    return Error{Errc::Busy, 0, "notes of forces"};
+    return vars::hold(store, values, until);
   }
   const std::vector<Force> forces = store.forces();
-  Place* free = nullptr;
-  for (Place& place : block.notes) {
-    const auto line = read(place);
-    if (line && line->variable == variable.name_hash && line->offset == offset) {
-      free = &place;
-      break;
-    }
-    if (free == nullptr && (!line || line->variable == 0 || !is_forced(forces, *line))) {
-      free = &place;
+  std::vector<std::pair<Place*, Line>> before;
+  for (const HeldValue& value : values) {
+    for (const HeldPart& part : value.parts) {
+      const Line line = line_of(note, value.variable->name_hash, value.offset + part.offset, note.lease ? 1 : 0);
+      if (Place* const place = place_for(block, forces, before, line)) {
+        before.emplace_back(place, read(*place).value_or(Line{}));
+        write(*place, line);
+      }
     }
   }
-  if (free == nullptr) {
-    return Error{Errc::NoSpace, 0, "notes of forces"};
+  const Status held = vars::hold(store, values, until);
+  if (!held) {
+    for (auto one = before.rbegin(); one != before.rend(); ++one) {
+      write(*one->first, one->second);
+    }
   }
-  write(*free, line_of(note, variable.name_hash, offset, note.lease ? 1 : 0));
-  return {};
+  return held;
 }
 
 std::optional<ForceNote> Custody::note_of(const DirectoryEntry& variable, std::uint32_t offset) const {
@@ -249,6 +268,12 @@ std::optional<ForceNote> Custody::note_of(const DirectoryEntry& variable, std::u
     }
   }
   return std::nullopt;
+}
+
+Status hold(const std::string& node, Store& store, std::span<const HeldValue> values, rt::MonoTime until,
+            const ForceNote& note) {
+  auto custody = Custody::open(node, Mode::ReadWrite);
+  return custody ? custody->hold(store, values, until, note) : hold(store, values, until);
 }
 
 LockNote lock_of(const std::string& node) {

@@ -9,9 +9,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "vars/held_value.h"
 #include "vars/shm_file.h"
 #include "vars/store.h"
 
@@ -59,14 +61,20 @@ class Custody {
   // Errors: Busy (somebody who changes it is stopped), PermissionDenied (read-only).
   Status set_lock(const LockNote& note);
 
-  // About the force of a part; its variable is one of the store's. Notes of what is no longer forced make room.
-  Status note_force(const Store& store, const DirectoryEntry& variable, std::uint32_t offset, const ForceNote& note);
+  // vars::hold() with a note about each part that is there before its force: no force is seen without who made it.
+  // Notes of what is no longer forced make room. Where somebody who writes notes is stopped, the values are held
+  // without. Errors: PermissionDenied (read-only), those of vars::hold(); the notes are then as they were.
+  Status hold(Store& store, std::span<const HeldValue> values, rt::MonoTime until, const ForceNote& note);
   [[nodiscard]] std::optional<ForceNote> note_of(const DirectoryEntry& variable, std::uint32_t offset) const;
 
  private:
   explicit Custody(ShmFile file) noexcept : file_(std::move(file)) {}
   ShmFile file_;
 };
+
+// As Custody::hold() of the node; without notes if no node of this version ran.
+Status hold(const std::string& node, Store& store, std::span<const HeldValue> values, rt::MonoTime until,
+            const ForceNote& note);
 
 // None if no node of this version ran.
 LockNote lock_of(const std::string& node);

@@ -109,23 +109,14 @@ void note(const std::string& board, const Command& command, const WriteOrder& or
 }
 
 // What `indurop forces` tells about them.
-void note_forces(const std::string& board, const Command& command, const WriteOrder& order, const vars::Store& store,
-                 const std::vector<Wanted>& all) {
-  auto custody = vars::Custody::open(board, vars::Mode::ReadWrite);
+vars::ForceNote note_about(const Command& command, const WriteOrder& order) {
   vars::ForceNote about;
   about.who = who(order);
   about.from = command.host;
   about.reason = order.reason;
   about.wall_ns = rt::wall_ns();
   about.lease = order.lease;
-  for (const Wanted& one : all) {
-    for (const vars::HeldPart& part : one.value.parts) {
-      if (custody) {
-        (void)custody->note_force(store, *one.value.variable, one.value.offset + part.offset, about);
-      }
-    }
-    note(board, command, order, "force", one.name, one.text);
-  }
+  return about;
 }
 
 Done set(const std::string& board, const Command& command, const WriteOrder& order, vars::Store& store) {
@@ -247,12 +238,14 @@ Done BoardForces::carry_out(const Command& command) {
     lease->second.until = until;
     return held ? Done() : Problem{"somebody else has let one of them go or forced it since"};
   }
-  if (const Status forced = vars::hold(*store, values_of(*all), until); !forced) {
+  if (const Status forced = vars::hold(board_, *store, values_of(*all), until, note_about(command, *order)); !forced) {
     return Problem{forced.error().code == Errc::NoSpace
                        ? fmt::format("a node holds at most {} numbers", vars::kMostForces)
                        : fmt::format("these are not forced: {}", forced.error().where)};
   }
-  note_forces(board_, command, *order, *store, *all);
+  for (const Wanted& one : *all) {
+    note(board_, command, *order, "force", one.name, one.text);
+  }
   if (order->lease) {
     leases_[command.commander] = {order->lines, until};
   }

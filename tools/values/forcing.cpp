@@ -58,22 +58,14 @@ std::string text_of(const std::vector<Assignment>& assignments) {
 }
 
 // What `indurop forces` tells about it. A node of an older version keeps no notes.
-void note_forces(const Context& context, const vars::Store& store, const std::vector<vars::HeldValue>& values,
-                 bool lease) {
-  auto custody = vars::Custody::open(context.node, vars::Mode::ReadWrite);
+vars::ForceNote note_about(const Context& context, bool lease) {
   vars::ForceNote note;
   note.who = context.who.empty() ? base::user_name() : context.who;
   note.from = context.from;
   note.reason = context.reason;
   note.wall_ns = rt::wall_ns();
   note.lease = lease;
-  for (const vars::HeldValue& value : values) {
-    for (const vars::HeldPart& part : value.parts) {
-      if (custody) {
-        (void)custody->note_force(store, *value.variable, value.offset + part.offset, note);
-      }
-    }
-  }
+  return note;
 }
 
 template <class Wanted>
@@ -157,13 +149,13 @@ int hold_values(Context& context, vars::Store& store, const std::vector<Assignme
   }
   std::vector<vars::HeldValue> values = to_hold(assignments);
   const rt::MonoTime until = for_ns > 0 ? store.now() + std::chrono::nanoseconds(for_ns) : vars::kForever;
-  if (const Status forced = vars::hold(store, values, until); !forced.ok()) {
+  if (const Status forced = vars::hold(context.node, store, values, until, note_about(context, lease != nullptr));
+      !forced.ok()) {
     context.out.error(fmt::format("{} not forced: {}",
                                   assignments.size() == 1 ? assignments[0].item.name + " is" : "these are",
                                   what_failed(forced.error())));
     return forced.error().code == Errc::Busy ? kUnreachable : kFailed;
   }
-  note_forces(context, store, values, lease != nullptr);
   const bool open_end = until == vars::kForever || lease != nullptr;
   for (const Assignment& one : assignments) {
     note_order(context, store, "force", one.item.name, schema::format_value(one.item.place.type, one.bytes),

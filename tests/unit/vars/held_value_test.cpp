@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include "test_schema.h"
 #include "vars/custody.h"
@@ -70,6 +72,9 @@ class HeldValues : public ::testing::Test {
     EXPECT_TRUE(schema::parse_value(type, text, made.bytes, message).ok()) << message;
     made.parts = parts_to_hold(type, text, made.bytes);
     return made;
+  }
+  static std::vector<HeldValue> number_at(const DirectoryEntry& entry, std::uint32_t offset) {
+    return {{&entry, offset, scalar_type(schema::Base::Double), test::bytes_of(1.0), {{0, 8}}}};
   }
   std::string now(const std::string& name) {
     const DirectoryEntry* entry = sut_->find(hash(name));
@@ -179,12 +184,11 @@ TEST_F(HeldValues, Notes_are_those_of_the_force) {
       expected.erase(offset);
       continue;
     }
-    ASSERT_TRUE(sut_->force(many, offset, test::bytes_of(1.0), kForever).ok());
     ForceNote note;
     note.who = "anna" + std::to_string(round);
     note.reason = std::string(300, 'r');
     note.lease = round % 2 == 0;
-    ASSERT_TRUE(custody->note_force(*sut_, many, offset, note).ok());
+    ASSERT_TRUE(custody->hold(*sut_, number_at(many, offset), kForever, note).ok());
     expected[offset] = note.who;
     for (const auto& [where, who] : expected) {
       const auto known = custody->note_of(many, where);
@@ -193,6 +197,59 @@ TEST_F(HeldValues, Notes_are_those_of_the_force) {
       EXPECT_EQ(known->reason.size(), 159U);
     }
   }
+}
+
+// Somebody who looks on at any moment.
+TEST_F(HeldValues, No_force_is_seen_without_its_note) {
+  auto custody = Custody::create(node_.name());
+  ASSERT_TRUE(custody.ok());
+  const DirectoryEntry& many = *sut_->find(hash("many"));
+  std::atomic<bool> done = false;
+  std::size_t seen = 0;
+  std::size_t bare = 0;
+  std::thread looker([&] {
+    const auto view = Custody::open(node_.name(), Mode::ReadOnly);
+    while (!done) {
+      for (const Force& force : sut_->forces()) {
+        ++seen;
+        const std::vector<Force> later = view->note_of(many, force.offset) ? std::vector<Force>() : sut_->forces();
+        bare += static_cast<std::size_t>(std::count_if(later.begin(), later.end(), [&](const Force& one) {
+          return one.offset == force.offset && one.until == force.until;
+        }));
+      }
+    }
+  });
+  ForceNote note;
+  note.who = "anna";
+  for (std::uint32_t i = 0; i < 2000 || seen < 1000; ++i) {
+    const std::uint32_t offset = i % 20 * 40;
+    // Each has another end, by which it is known again.
+    const rt::MonoTime until = sut_->now() + std::chrono::hours(1) + std::chrono::seconds(i);
+    EXPECT_TRUE(hold(node_.name(), *sut_, number_at(many, offset), until, note).ok());
+    if (i % 3 == 0) {
+      EXPECT_TRUE(sut_->let_go(many, offset).ok());
+    }
+  }
+  done = true;
+  looker.join();
+  EXPECT_EQ(bare, 0U);
+}
+
+TEST_F(HeldValues, Notes_stay_as_they_were_if_nothing_is_held) {
+  auto custody = Custody::create(node_.name());
+  ASSERT_TRUE(custody.ok());
+  const DirectoryEntry& many = *sut_->find(hash("many"));
+  ForceNote note;
+  note.who = "anna";
+  ASSERT_TRUE(custody->hold(*sut_, number_at(many, 40), kForever, note).ok());
+  note.who = "bert";
+  std::vector<HeldValue> too_many;
+  for (std::uint32_t offset = 0; too_many.size() <= kMostForces; offset += 8) {
+    too_many.push_back(number_at(many, offset)[0]);
+  }
+  EXPECT_EQ(custody->hold(*sut_, too_many, kForever, note).error().code, Errc::NoSpace);
+  EXPECT_EQ(custody->note_of(many, 40)->who, "anna");
+  EXPECT_FALSE(custody->note_of(many, 0).has_value());
 }
 
 TEST_F(HeldValues, The_lock_outlives_the_run_and_says_what_it_forbids) {
