@@ -57,7 +57,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
       libraries_(loaded.libraries),
       run_(prepared.run()),
       kernel_({&prepared.store->virtual_time(), &run_.virtual_ns}),
-      runner_(run_, kernel_, hooks(), trace_, 1),
+      runner_(run_, kernel_, run_hooks(), trace_, 1),
       phases_(checked.config, run_, loaded.libraries, console, signals, hooks(), kernel_),
       processes_(checked.config, run_, options.node, false, console, *prepared.failsafe, nullptr) {
   kernel_.set(rt::kNanosPerSecond);
@@ -78,10 +78,20 @@ Replay::~Replay() = default;
 scheduler::Hooks Replay::hooks() {
   scheduler::Hooks hooks;
   hooks.context = this;
-  hooks.entering = [](void*, std::uint32_t module) noexcept { runtime::set_current_module(module); };
+  hooks.entering = [](void*, std::uint32_t module, std::uint64_t, std::int64_t) noexcept {
+    runtime::set_current_module(module);
+  };
   hooks.faulted = [](void* context, std::uint32_t /*module*/) noexcept {
     static_cast<Replay*>(context)->prepared_.store->release_locks_of_this_thread();
     runtime::release_calls_of_this_thread();
+  };
+  return hooks;
+}
+
+scheduler::Hooks Replay::run_hooks() {
+  scheduler::Hooks hooks = this->hooks();
+  hooks.entering = [](void*, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept {
+    runtime::set_current_run(module, {tick, release_ns});
   };
   return hooks;
 }

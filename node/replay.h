@@ -128,6 +128,7 @@ class Replay {
   bool tell_left_out();
   void tell_differences();
   scheduler::Hooks hooks();
+  scheduler::Hooks run_hooks();
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
 
   const Options& options_;

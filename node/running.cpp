@@ -90,7 +90,9 @@ scheduler::EngineSettings Running::engine_settings() const {
 scheduler::Hooks Running::plain_hooks() {
   scheduler::Hooks hooks;
   hooks.context = this;
-  hooks.entering = [](void*, std::uint32_t module) noexcept { runtime::set_current_module(module); };
+  hooks.entering = [](void*, std::uint32_t module, std::uint64_t, std::int64_t) noexcept {
+    runtime::set_current_module(module);
+  };
   hooks.faulted = [](void* context, std::uint32_t module) noexcept {
     const Prepared& prepared = static_cast<Running*>(context)->prepared_;
     prepared.store->release_locks_of_this_thread();
@@ -111,6 +113,9 @@ scheduler::Hooks Running::plain_hooks() {
 // Those of the schedule.
 scheduler::Hooks Running::hooks() {
   scheduler::Hooks hooks = plain_hooks();
+  hooks.entering = [](void*, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept {
+    runtime::set_current_run(module, {tick, release_ns});
+  };
   hooks.ticks = [](void* context, std::uint64_t tick, std::int64_t /*release_ns*/) noexcept {
     static_cast<Running*>(context)->change_batch(tick);
   };

@@ -17,6 +17,8 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local std::uint32_t t_module = kNoModule;
 
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables): likewise
+[[gnu::tls_model("initial-exec")]] thread_local OwnRelease t_release;
+[[gnu::tls_model("initial-exec")]] thread_local bool t_in_run = false;
 [[gnu::tls_model("initial-exec")]] thread_local tape::Track* t_track = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_reading = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const std::int64_t* t_readings_end = nullptr;
@@ -70,6 +72,17 @@ std::int64_t see_confirmed(std::int64_t confirmed) noexcept {
 
 void set_current_module(std::uint32_t index) noexcept {
   t_module = index;
+  t_in_run = false;
+}
+
+void set_current_run(std::uint32_t index, OwnRelease release) noexcept {
+  t_module = index;
+  t_release = release;
+  t_in_run = true;
+}
+
+const OwnRelease* current_release() noexcept {
+  return t_in_run ? &t_release : nullptr;
 }
 
 std::uint32_t current_module() noexcept {

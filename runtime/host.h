@@ -31,6 +31,15 @@ namespace indurop::runtime {
 inline constexpr std::uint32_t kNoModule = 0xFFFFFFFF;
 void set_current_module(std::uint32_t index) noexcept;
 std::uint32_t current_module() noexcept;
+// Likewise its run of this tick and release, which irp::tick() and release_ns() tell, however late it is. Real-time
+// safe.
+struct OwnRelease {
+  std::uint64_t tick = 0;
+  std::int64_t release_ns = 0;
+};
+void set_current_run(std::uint32_t index, OwnRelease release) noexcept;
+// Null on threads that no run of a module is on.
+const OwnRelease* current_release() noexcept;
 
 // What irp::now_ns() says to the calling thread is told to this track, or comes from these readings as long as there
 // are some, so that a run can be repeated that asks for the time. Real-time safe; borrowed. Null, empty: neither.

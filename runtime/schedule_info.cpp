@@ -34,16 +34,10 @@ const RunBlock* current_run() noexcept {
   return runtime::hot.run.load(std::memory_order_acquire);
 }
 
-// The basic period whose grid point released the calling thread module: the last one that is its own.
-std::uint64_t own_tick(const RunBlock& run, const ModuleRecord* record) noexcept {
+// Of threads that no run is on: the basic period that the node is in.
+std::uint64_t present_tick(const RunBlock& run) noexcept {
   const std::uint64_t begun = run.tick.load(std::memory_order_acquire);
-  const std::uint64_t now = begun > 0 ? begun - 1 : 0;
-  if (record == nullptr || record->period_ns <= 0 || run.basic_period_ns <= 0) {
-    return now;
-  }
-  const auto every = static_cast<std::uint64_t>(record->period_ns / run.basic_period_ns);
-  const auto offset = static_cast<std::uint64_t>(record->offset_ns / run.basic_period_ns);
-  return now < offset || every == 0 ? now : now - (now - offset) % every;
+  return begun > 0 ? begun - 1 : 0;
 }
 
 }  // namespace
@@ -81,8 +75,11 @@ std::uint64_t tick() noexcept {
   if (enrolment.enrolled()) {
     return enrolment.release_tick();
   }
+  if (const auto* const own = runtime::current_release()) {
+    return own->tick;
+  }
   const RunBlock* run = current_run();
-  return run != nullptr ? own_tick(*run, calling_module(run)) : 0;
+  return run != nullptr ? present_tick(*run) : 0;
 }
 
 std::int64_t release_ns() noexcept {
@@ -90,11 +87,11 @@ std::int64_t release_ns() noexcept {
   if (enrolment.enrolled()) {
     return enrolment.release_ns();
   }
-  const RunBlock* run = current_run();
-  if (run == nullptr) {
-    return 0;
+  if (const auto* const own = runtime::current_release()) {
+    return own->release_ns;
   }
-  return run->epoch_ns + static_cast<std::int64_t>(own_tick(*run, calling_module(run))) * run->basic_period_ns;
+  const RunBlock* run = current_run();
+  return run != nullptr ? run->epoch_ns + static_cast<std::int64_t>(present_tick(*run)) * run->basic_period_ns : 0;
 }
 
 std::int64_t now_ns() noexcept {

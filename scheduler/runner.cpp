@@ -103,7 +103,7 @@ void Runner::call_current() noexcept {
   previous_exec_.store(trace_.exec_ns.load(std::memory_order_relaxed), std::memory_order_relaxed);
   current_.store(&state, std::memory_order_release);
   if (hooks_.entering != nullptr) {
-    hooks_.entering(hooks_.context, state.task.index);
+    hooks_.entering(hooks_.context, state.task.index, tick_, release_ns_);
   }
   if (!state.task.condition) {
     tell_begin();

@@ -33,7 +33,8 @@ struct TaskState {
 // What the embedding program wants to know, called on real-time threads: no allocation, no lock, no system call.
 struct Hooks {
   void* context = nullptr;
-  void (*entering)(void* context, std::uint32_t module) noexcept = nullptr;
+  // Code of the module comes next, of its run of this tick and release.
+  void (*entering)(void* context, std::uint32_t module, std::uint64_t tick, std::int64_t release_ns) noexcept = nullptr;
   // A run of a thread module begins: the condition, if it has one, was true. What is done here is no time of the run.
   void (*begins)(void* context, std::uint32_t module) noexcept = nullptr;
   // It is over.

@@ -107,8 +107,9 @@ requires(!std::is_arithmetic_v<T> && std::constructible_from<T, const char*>) T
 
 // Nominal period of the calling module; 0 if it is not periodic or runs outside a node. Real-time safe.
 std::chrono::nanoseconds period() noexcept;
-// Number of the basic period of the current release, from 0; and the point on the time grid it belongs to, in ns of
-// CLOCK_MONOTONIC: the same for all modules released together, whenever each really started. Real-time safe.
+// Number of the basic period that released the current run, from 0; and the point on the time grid it belongs to, in ns
+// of CLOCK_MONOTONIC: the same for all modules released together, however late each really started. Where no run is on
+// (start(), threads of a module's own, non-real-time modules), those of the present period. Real-time safe.
 std::uint64_t tick() noexcept;
 std::int64_t release_ns() noexcept;
 // The node's time now, in ns: CLOCK_MONOTONIC, in a simulation its virtual time. Real-time safe.

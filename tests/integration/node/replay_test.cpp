@@ -82,6 +82,22 @@ TEST_F(ReplayOfLess, Runs_behind_missing_ones_wait_for_what_they_read) {
   EXPECT_CONTAINS(again.err, "runs of counter before tick ");
 }
 
+// The releases behind a run that took too long are caught up; each is told its own tick, live and replayed.
+TEST_F(ReplayOfLess, Late_runs_are_told_their_own_release) {
+  const Module late{
+      .file = "late.so", .name = "late", .period = "2ms", .priority = 2, .more = "<overrun>catch-up</overrun>"};
+  Program& sut = start_and_wait({kCounter, late});
+  ASSERT_TRUE(runs_reach("late", 20));
+  const Outcome recorded = indurop({"record", "-o", file(), "--duration", "300ms"});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  EXPECT_GT(module("late").overruns.load(), 3U);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
 TEST_F(ReplayOfLess, A_process_that_died_dies_again) {
   SKIP_CRASHES_UNDER_TSAN();
   const std::vector<Module> modules = {kCounter, kWalker,

@@ -173,7 +173,9 @@ Facts run_schedule(const std::vector<Task>& given, const Injection& injection) {
   settings.order = scheduler::CoreOrder::Data;
   scheduler::Hooks hooks;
   hooks.context = &world;
-  hooks.entering = [](void* context, std::uint32_t module) noexcept { static_cast<World*>(context)->running = module; };
+  hooks.entering = [](void* context, std::uint32_t module, std::uint64_t, std::int64_t) noexcept {
+    static_cast<World*>(context)->running = module;
+  };
   scheduler::SimulatedKernel kernel(rt::mono_time(kBasic), {}, {});
   world.kernel = &kernel;
   scheduler::Engine engine(*block, tasks, settings, hooks, kernel);

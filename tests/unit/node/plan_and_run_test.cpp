@@ -131,7 +131,7 @@ TEST_P(PlanAndRun, Every_basic_period_runs_what_its_slot_shows_in_that_order) {
     Runs runs{config_, {}};
     scheduler::Hooks hooks;
     hooks.context = &runs;
-    hooks.entering = [](void* context, std::uint32_t module) noexcept {
+    hooks.entering = [](void* context, std::uint32_t module, std::uint64_t, std::int64_t) noexcept {
       auto& into = *static_cast<Runs*>(context);
       into.names.push_back(into.config.modules[module].name);
     };

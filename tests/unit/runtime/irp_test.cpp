@@ -93,18 +93,19 @@ TEST(Property, Outside_a_node_is_the_default) {
   EXPECT_EQ(irp::property("counter", 3), 3);
 }
 
-TEST(Schedule, Of_a_thread_module_follows_its_own_period) {
+TEST(Schedule, Of_a_thread_module_is_that_of_its_run_however_late) {
   TestNode node({{"m", {}, 5'000'000, {}, ""}, {"event", {}, 0, {}, ""}});
   const Hosted hosted(node);
   node.run().epoch_ns = 1000;
-  node.module(0).offset_ns = 2'000'000;
   node.run().tick = 14;  // tick 13 was begun last
+  indurop::runtime::set_current_run(0, {12, 1000 + 12'000'000});
   EXPECT_EQ(irp::period(), std::chrono::milliseconds(5));
   EXPECT_EQ(irp::tick(), 12U);
   EXPECT_EQ(irp::release_ns(), 1000 + 12'000'000);
   indurop::runtime::set_current_module(1);
   EXPECT_EQ(irp::period(), std::chrono::nanoseconds(0));
-  EXPECT_EQ(irp::tick(), 13U);
+  EXPECT_EQ(irp::tick(), 13U) << "on no run";
+  EXPECT_EQ(irp::release_ns(), 1000 + 13'000'000);
   EXPECT_FALSE(irp::stop_requested());
   node.run().state = indurop::scheduler::NodeState::Stopping;
   EXPECT_TRUE(irp::stop_requested());

@@ -76,7 +76,9 @@ Outcome run(const std::vector<Task>& tasks, const std::vector<Access>& access, C
   settings.order = order;
   Hooks hooks;
   hooks.context = &world;
-  hooks.entering = [](void* context, std::uint32_t module) noexcept { static_cast<World*>(context)->running = module; };
+  hooks.entering = [](void* context, std::uint32_t module, std::uint64_t, std::int64_t) noexcept {
+    static_cast<World*>(context)->running = module;
+  };
   SimulatedKernel kernel(rt::mono_time(kBasic), {}, {});
   Engine engine(*block, tasks, settings, hooks, kernel);
   EXPECT_TRUE(engine.start(kTicks).ok());
