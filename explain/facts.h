@@ -39,6 +39,16 @@ struct RunFact {
   bool faulted = false;
 };
 
+// Runs of a module that took place and that the recording does not have, between two that it has.
+struct HoleFact {
+  std::uint32_t module = 0;
+  std::uint64_t after_tick = 0;   // of the run before
+  std::uint64_t before_tick = 0;  // of the run behind
+  std::int64_t from_ns = 0;       // end of the one before
+  std::int64_t to_ns = 0;         // start of the one behind
+  std::uint64_t runs = 0;         // how many
+};
+
 // A release that found the module unfinished.
 struct OverrunFact {
   std::uint32_t module = 0;
@@ -116,6 +126,7 @@ struct Facts {
   std::int64_t lease_ns = 0;  // a board not heard for so long is gone
   std::vector<ModuleFact> modules;
   std::vector<RunFact> runs;  // by start
+  std::vector<HoleFact> holes;
   std::vector<OverrunFact> overruns;
   std::vector<OrderFact> orders;
   std::vector<KernelFact> kernel;   // what was unusual
@@ -127,6 +138,10 @@ struct Facts {
 
   [[nodiscard]] const ModuleFact* find_module(std::string_view name) const noexcept;
   [[nodiscard]] const VariableFact* find_variable(std::string_view name) const noexcept;
+  // Runs of the module (an index) are missing around the tick; null: none.
+  [[nodiscard]] const HoleFact* hole_around(std::uint32_t module, std::uint64_t number) const noexcept;
+  // The same of all modules of a core and a time.
+  [[nodiscard]] const HoleFact* hole_within(std::int32_t core, std::int64_t from_ns, std::int64_t to_ns) const noexcept;
   [[nodiscard]] std::uint64_t tick_at(std::int64_t time_ns) const noexcept;
   [[nodiscard]] std::int64_t release_of(std::uint64_t number) const noexcept {
     return epoch_ns + static_cast<std::int64_t>(number) * basic_period_ns;

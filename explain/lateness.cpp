@@ -168,6 +168,10 @@ Answer Lateness::blame(const RunFact& run, const Compared& compared, int depth) 
   if (compared.all.empty() || depth > kDeepest) {
     return not_known("what ran meanwhile is not known");
   }
+  if (const HoleFact* hole = facts_.hole_within(facts_.modules[run.module].core, run.release_ns, run.end_ns)) {
+    return not_known(
+        fmt::format("{} was late, and the recording lacks runs of {} meanwhile", name(run.module), name(hole->module)));
+  }
   const Excess& first = compared.all[0];
   if (!most_of(first.more_ns, compared.more_ns)) {
     return not_known(

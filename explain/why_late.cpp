@@ -60,7 +60,7 @@ class Question {
     if (tick_ < facts_.first_tick) {
       return not_known(fmt::format("what is known begins with tick {}", facts_.first_tick));
     }
-    for (Answer one : {not_there(), not_due(), after_fault(), stopped(), restarting()}) {
+    for (Answer one : {not_there(), not_due(), not_recorded(), after_fault(), stopped(), restarting()}) {
       if (!one.text.empty()) {
         return one;
       }
@@ -115,6 +115,16 @@ class Question {
             fmt::format("{} is not due in {}: it runs in every {}th tick, next in tick {}", module_.name, place(),
                         every, next),
             {}};
+  }
+
+  // A damaged file, a part that is gone, a recorder that could not follow.
+  [[nodiscard]] Answer not_recorded() const {
+    const HoleFact* const hole = facts_.hole_around(index_, tick_);
+    if (hole == nullptr) {
+      return {};
+    }
+    return not_known(fmt::format("the recording lacks {} {} of {} between the ticks {} and {}", hole->runs,
+                                 hole->runs == 1 ? "run" : "runs", module_.name, hole->after_tick, hole->before_tick));
   }
 
   [[nodiscard]] Answer faulted(const RunFact& run) const {
@@ -253,6 +263,11 @@ class Question {
                                 place(), facts_.modules[shared->module].name, shared->tick, answer.text);
       return answer;
     }
+    if (const auto* hole = facts_.hole_within(module_.core, release_ns_, release_ns_ + facts_.basic_period_ns)) {
+      return not_known(
+          fmt::format("{} did not run in {}, and the recording lacks runs of {} then, which may have kept it from it",
+                      module_.name, place(), facts_.modules[hole->module].name));
+    }
     const RunFact* holder = Timeline(facts_, module_.core).at(release_ns_);
     if (holder != nullptr && holder->tick < tick_) {
       Answer answer = lateness_.explain(*holder);
@@ -348,7 +363,8 @@ std::uint64_t last_trouble(const Facts& facts, const std::string& module) {
   // The tick that has just begun may be under way, and a run that still has time be to come.
   for (std::uint64_t tick = facts.tick - 1; known->operation == "periodic" && tick-- > facts.first_tick;) {
     const bool over = facts.release_of(tick) + limit <= facts.now_ns;
-    if (over && ends.at(tick) && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
+    const bool told = ends.at(tick) && facts.hole_around(index, tick) == nullptr;
+    if (over && told && due(facts, *known, tick) && !std::binary_search(ran.begin(), ran.end(), tick)) {
       return last == kNone ? tick : std::max(last, tick);
     }
   }

@@ -48,6 +48,23 @@ const RunFact* last_run(const Facts& facts, const std::string& module, std::int6
   return last;
 }
 
+// Runs of a writer that the recording lacks between two times.
+const HoleFact* hole_after(const Facts& facts, const std::string& variable, std::int64_t from_ns, std::int64_t to_ns) {
+  const VariableFact* const known = facts.find_variable(variable);
+  const auto writes = [&](const std::string& module) {
+    return std::any_of(known->writers.begin(), known->writers.end(), [&](const std::string& writer) {
+      const auto [name, board] = module_and_board(writer);
+      return name == module && (board.empty() || board == facts.board);
+    });
+  };
+  for (const HoleFact& hole : facts.holes) {
+    if (known != nullptr && hole.to_ns > from_ns && hole.from_ns < to_ns && writes(facts.modules[hole.module].name)) {
+      return &hole;
+    }
+  }
+  return nullptr;
+}
+
 bool names_of(const std::string& part, const std::string& variable) {
   return part == variable || part.starts_with(variable + ".") || part.starts_with(variable + "[");
 }
@@ -342,6 +359,15 @@ Answer who_changed(const Facts& facts, const std::string& variable, std::int64_t
   if (change != nullptr) {
     evidence.push_back(fmt::format("{}: new value by {}", at_tick(facts, change->tick),
                                    change->module.empty() ? "somebody beside the schedule" : change->module));
+  }
+  const std::int64_t since =
+      std::max(order != nullptr ? order->node_ns : INT64_MIN, change != nullptr ? change->time_ns : INT64_MIN);
+  if (const HoleFact* const hole = hole_after(facts, variable, since, at_ns)) {
+    Answer answer =
+        not_known(fmt::format("after that the recording lacks {} runs of {}, which writes it, up to tick {}",
+                              hole->runs, facts.modules[hole->module].name, hole->before_tick));
+    answer.evidence = evidence;
+    return answer;
   }
   const bool by_order = order != nullptr && (change == nullptr || change->module.empty() ||
                                              order->node_ns >= change->time_ns || order->action == "force");

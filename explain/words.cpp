@@ -31,6 +31,20 @@ const VariableFact* Facts::find_variable(std::string_view name) const noexcept {
   return found == variables.end() ? nullptr : &*found;
 }
 
+const HoleFact* Facts::hole_around(std::uint32_t module, std::uint64_t number) const noexcept {
+  const auto found = std::find_if(holes.begin(), holes.end(), [&](const HoleFact& one) {
+    return one.module == module && one.after_tick < number && number < one.before_tick;
+  });
+  return found == holes.end() ? nullptr : &*found;
+}
+
+const HoleFact* Facts::hole_within(std::int32_t core, std::int64_t from_ns, std::int64_t to_ns) const noexcept {
+  const auto found = std::find_if(holes.begin(), holes.end(), [&](const HoleFact& one) {
+    return modules[one.module].core == core && one.from_ns < to_ns && one.to_ns > from_ns;
+  });
+  return found == holes.end() ? nullptr : &*found;
+}
+
 std::uint64_t Facts::tick_at(std::int64_t time_ns) const noexcept {
   return time_ns <= epoch_ns || basic_period_ns <= 0
              ? 0

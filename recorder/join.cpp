@@ -48,11 +48,24 @@ bool share_virtual_time(const Part& a, const Part& b) {
   return !one.text("board").empty() && !other.text("board").empty() && one.text("config") == other.text("config");
 }
 
-// Its clock, to the nanosecond, was looked at once for all parts.
+// The number of a part; of an older release: 0.
+std::int64_t part_number(const Part& part) {
+  return part.sources.all.front().number(kPartText);
+}
+
+// What is said of a node is the same in all parts, to the nanosecond in which it was begun.
+bool said_alike(const Source& one, const Source& other) {
+  recording::TextMap about = one.about;
+  if (const auto part = other.about.find(kPartText); part != other.about.end()) {
+    about[kPartText] = part->second;
+  }
+  return about == other.about;
+}
+
 bool of_one_recording(const Part& a, const Part& b) {
   return !simulated(a) && a.names == b.names &&
          std::equal(a.sources.all.begin(), a.sources.all.end(), b.sources.all.begin(), b.sources.all.end(),
-                    [](const Source& one, const Source& other) { return one.about == other.about; });
+                    &said_alike);
 }
 
 Problem two_of_one(const std::string& file, const std::string& name) {
@@ -178,8 +191,17 @@ Result<std::vector<Chain>, Problem> open_all(const std::vector<std::filesystem::
   for (Chain& chain : chains) {
     // They begin with what was known, which may be old.
     std::stable_sort(chain.parts.begin(), chain.parts.end(), [](const Part& a, const Part& b) {
-      return a.reader.contents().span_ns().second < b.reader.contents().span_ns().second;
+      return std::pair(part_number(a), a.reader.contents().span_ns().second) <
+             std::pair(part_number(b), b.reader.contents().span_ns().second);
     });
+    for (std::size_t i = 1; i < chain.parts.size(); ++i) {
+      const std::int64_t missing = part_number(chain.parts[i]) - part_number(chain.parts[i - 1]) - 1;
+      if (missing > 0) {
+        joined.gaps.push_back(fmt::format("{} {} missing between {} and {}: what ran then is not in the recording",
+                                          missing, missing == 1 ? "part is" : "parts are", chain.parts[i - 1].file,
+                                          chain.parts[i].file));
+      }
+    }
   }
   if (chains.size() == 1 && chains.front().parts.size() > 1) {
     chains.front().prefix.clear();

@@ -17,6 +17,7 @@ namespace indurop::recorder {
 struct Joined {
   std::uint64_t messages = 0;
   std::vector<std::string> names;  // of the boards or nodes, in the order of the files
+  std::vector<std::string> gaps;   // what is missing between parts, in words
 };
 
 // Topics are NAME/TOPIC, NAME is that of the file's board, else of its node; those of a joined file are so already, and

@@ -105,7 +105,7 @@ Result<void, Problem> Parts::begin(std::uint64_t number) {
   }
   writer_ = std::make_shared<recording::McapWriter>(std::move(writer).value());
   for (Recorder& recorder : recorders_) {
-    if (auto begun = recorder.go_on_in(writer_); !begun) {
+    if (auto begun = recorder.go_on_in(writer_, limits_.in_parts() ? number : 0); !begun) {
       std::error_code ignored;
       fs::remove(path, ignored);
       return begun;

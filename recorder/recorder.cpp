@@ -39,6 +39,8 @@ Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, con
     return Problem{"the node's variables have just changed: try again"};
   }
   Recorder recorder(prefix, store, std::move(follower), about);
+  recorder.begun_wall_ns_ =
+      about.real_minus_node_ns != 0 ? about.real_minus_node_ns + store.now().time_since_epoch().count() : 0;
   recorder.choose(globs, matched);
   return recorder;
 }
@@ -71,8 +73,13 @@ const schema::Variable& Recorder::variable(std::uint32_t index) const {
   return store_.schema().variables[store_.directory()[index].schema_index];
 }
 
-std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
+std::uint64_t Recorder::real_time(std::int64_t node_ns) const noexcept {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(node_ns + about_.real_minus_node_ns, 0));
+}
+
+// A file begins when it was begun, however old what it knows then is; a run that began before lies behind that.
+std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
+  return real_time(std::max(node_ns, begin_ns_));
 }
 
 void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& matched) {
@@ -120,15 +127,19 @@ Result<void, Problem> Recorder::begin_file() {
       return attached;
     }
   }
-  return writer_->metadata(prefix_ + kNodeMetadata,
-                           {{"format", std::to_string(kRecordingFormat)},
-                            {"node", about_.node},
-                            {"config", about_.config},
-                            {"board", about_.board},
-                            {"deployment", about_.deployment},
-                            {"reason", about_.reason},
-                            {"basic_period_ns", std::to_string(about_.basic_period_ns)},
-                            {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)}});
+  recording::TextMap said{{"format", std::to_string(kRecordingFormat)},
+                          {"node", about_.node},
+                          {"config", about_.config},
+                          {"board", about_.board},
+                          {"deployment", about_.deployment},
+                          {"reason", about_.reason},
+                          {"basic_period_ns", std::to_string(about_.basic_period_ns)},
+                          {"real_minus_node_ns", std::to_string(about_.real_minus_node_ns)},
+                          {"begun_wall_ns", std::to_string(begun_wall_ns_)}};
+  if (part_ > 0) {
+    said[kPartText] = std::to_string(part_);
+  }
+  return writer_->metadata(prefix_ + kNodeMetadata, said);
 }
 
 // Those of runs, of the clock and of what they were told.
@@ -192,7 +203,7 @@ Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint3
     return Problem{fmt::format("{} has another size than its type", variable(value.variable).name)};
   }
   auto written =
-      writer_->write(*channel, log_time(time_ns), log_time(release_ns), to_sequence({module, value.kind}), cdr_);
+      writer_->write(*channel, log_time(time_ns), real_time(release_ns), to_sequence({module, value.kind}), cdr_);
   counts_.values += written.ok() ? 1U : 0U;
   return written;
 }
@@ -207,6 +218,7 @@ void Recorder::note(std::size_t track, const tape::Run& run) {
 
 // What the runs so far say, without recording them.
 void Recorder::learn() {
+  begin_ns_ = store_.now().time_since_epoch().count();
   tape::Run run;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     while (follower_.next(track, run)) {
@@ -256,7 +268,7 @@ Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t par
   }
   part -= run.values.size();
   const auto write = [&](std::uint16_t channel, std::uint32_t sequence) {
-    return writer_->write(channel, log_time(run.tail.end_ns), log_time(run.tail.release_ns), sequence, cdr_);
+    return writer_->write(channel, log_time(run.tail.end_ns), real_time(run.tail.release_ns), sequence, cdr_);
   };
   if (part < run.clock.size()) {
     to_cdr(run.clock[part], cdr_);
@@ -366,8 +378,10 @@ Result<void, Problem> Recorder::close() {
   return concluded ? writer_->close() : concluded;
 }
 
-Result<void, Problem> Recorder::go_on_in(std::shared_ptr<recording::McapWriter> writer) {
+Result<void, Problem> Recorder::go_on_in(std::shared_ptr<recording::McapWriter> writer, std::uint64_t part) {
   writer_ = std::move(writer);
+  part_ = part;
+  begin_ns_ = std::max(begin_ns_, latest_ns_);
   before_ = counts_;
   auto begun = begin_file();
   return begun && first_told_ ? tell_known_values() : begun;

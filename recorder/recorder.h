@@ -76,7 +76,8 @@ class Recorder {
   Result<void, base::Problem> close();
   // Goes on in another file, which begins with what every module knew last, so that it can be read and replayed by
   // itself. Errors: those of the disk; it may be repeated with a new file.
-  Result<void, base::Problem> go_on_in(std::shared_ptr<recording::McapWriter> writer);
+  // `part`: number of the file, from 1; 0: the only one.
+  Result<void, base::Problem> go_on_in(std::shared_ptr<recording::McapWriter> writer, std::uint64_t part = 0);
 
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return writer_->size(); }
@@ -116,6 +117,7 @@ class Recorder {
                                           std::int64_t release_ns);
   Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
+  [[nodiscard]] std::uint64_t real_time(std::int64_t node_ns) const noexcept;
   [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
 
   std::shared_ptr<recording::McapWriter> writer_;
@@ -136,7 +138,10 @@ class Recorder {
   bool first_told_ = false;
   std::vector<Known> known_;               // by track
   std::vector<std::optional<Held>> held_;  // by track
+  std::int64_t begun_wall_ns_ = 0;         // tells the recording from others of the node; 0: of a simulation
+  std::uint64_t part_ = 0;
   std::int64_t latest_ns_ = 0;
+  std::int64_t begin_ns_ = 0;  // no message of this file is earlier; 0: as early as the first run
   std::vector<std::uint8_t> cdr_;
   Counts counts_;
   Counts before_;  // those at the begin of this file

@@ -14,23 +14,10 @@ namespace {
 
 using base::Problem;
 
-// The metadata of this name that was written last.
-recording::TextMap about(const recording::McapReader& reader, const std::string& name) {
-  recording::TextMap found;
-  for (const recording::McapMetadataIndex& index : reader.contents().metadata) {
-    if (index.name == name) {
-      if (auto metadata = reader.metadata(index)) {
-        found = std::move(metadata->values);
-      }
-    }
-  }
-  return found;
-}
-
 Source source_of(const recording::McapReader& reader, const recording::McapChannel& runs) {
   Source source;
   source.prefix = runs.topic.substr(0, runs.topic.size() - kRunsTopic.size());
-  source.about = about(reader, source.prefix + kNodeMetadata);
+  source.about = last_metadata(reader, source.prefix + kNodeMetadata);
   for (std::size_t i = 0; runs.metadata.contains(std::to_string(i)); ++i) {
     source.modules.push_back(runs.metadata.at(std::to_string(i)));
   }
@@ -47,6 +34,18 @@ ChannelPlace place_of(const Source& source, std::size_t number, const std::strin
 }
 
 }  // namespace
+
+recording::TextMap last_metadata(const recording::McapReader& reader, const std::string& name) {
+  recording::TextMap found;
+  for (const recording::McapMetadataIndex& index : reader.contents().metadata) {
+    if (index.name == name) {
+      if (auto metadata = reader.metadata(index)) {
+        found = std::move(metadata->values);
+      }
+    }
+  }
+  return found;
+}
 
 std::string Source::text(const std::string& key) const {
   const auto found = about.find(key);

@@ -20,6 +20,10 @@ namespace indurop::recorder {
 
 inline constexpr const char* kNodeMetadata = "indurop.node";
 inline constexpr const char* kEndMetadata = "indurop.end";
+inline constexpr const char* kPartText = "part";  // of what is said of the node: the file's number, from 1
+
+// In what a replay wrote: variables, and how many runs left another value in them than the recorded one.
+inline constexpr const char* kDifferingMetadata = "indurop.differing";
 
 struct Source {
   std::string prefix;                // of its topics: "sensor/"; empty: the file is of one node
@@ -43,6 +47,9 @@ struct Sources {
   std::vector<Source> all;                         // empty: no recording of runs
   std::map<std::uint16_t, ChannelPlace> channels;  // those that belong to one
 };
+
+// The metadata of this name that was written last; none, or damaged: empty.
+recording::TextMap last_metadata(const recording::McapReader& reader, const std::string& name);
 
 // Damaged metadata counts as none.
 Sources find_sources(const recording::McapReader& reader);

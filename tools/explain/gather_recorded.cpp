@@ -92,12 +92,23 @@ class Recorded {
       return;
     }
     first_numbers_.try_emplace(run->module, run->tail.number);
+    note_hole(run->module, run->tail);
     last_tick_ = std::max(last_tick_, run->tail.tick);
     facts_.epoch_ns = run->tail.release_ns - static_cast<std::int64_t>(run->tail.tick) * facts_.basic_period_ns;
     if (run->module < facts_.modules.size()) {
       facts_.runs.push_back(
           {run->module, run->tail.tick, run->tail.release_ns, run->tail.start_ns, run->tail.end_ns, run->faulted});
     }
+  }
+
+  // Runs are numbered: those between two neighbours took place.
+  void note_hole(std::uint32_t module, const tape::RunTail& tail) {
+    const auto [last, first] = last_runs_.try_emplace(module, tail);
+    if (!first && tail.number > last->second.number + 1 && module < facts_.modules.size()) {
+      facts_.holes.push_back({module, last->second.tick, tail.tick, last->second.end_ns, tail.start_ns,
+                              tail.number - last->second.number - 1});
+    }
+    last->second = tail;
   }
 
   void take_value(const recording::McapMessage& message) {
@@ -145,6 +156,7 @@ class Recorded {
   std::string config_;
   Facts facts_;
   std::map<std::uint32_t, std::uint64_t> first_numbers_;  // of runs, by module
+  std::map<std::uint32_t, tape::RunTail> last_runs_;      // likewise
   std::uint64_t last_tick_ = 0;
   bool complete_ = false;
 };

@@ -24,6 +24,9 @@ int join(Context& context, const Options& options) {
     context.out.error(joined.error().text);
     return kFailed;
   }
+  for (const std::string& gap : joined->gaps) {
+    context.out.note("warning: " + gap);
+  }
   context.out.note(
       fmt::format("{}: {} messages of {}", options.to.string(), joined->messages, fmt::join(joined->names, ", ")));
   return kOk;

@@ -68,17 +68,30 @@ Result<std::vector<Facts>, Failure> gather(const Context& context, const Options
   return plant;
 }
 
+// Of a node that does not run any more, as far as it says so.
+std::string how_it_ended(const Facts& facts) {
+  if (facts.alive || facts.closed) {
+    return {};
+  }
+  return facts.stop_reason.empty()
+             ? "; there what is known ends without a reason: the node or its recorder was killed or lost its power"
+             : "; then the node ended: " + facts.stop_reason;
+}
+
 std::vector<Asked> ask_module(const Facts& facts, const Options& options) {
   std::uint64_t tick = options.tick;
   if (tick == explain::kNone) {
     tick = explain::last_trouble(facts, options.what);
   }
+  if (tick == explain::kNone && facts.runs.empty()) {
+    return {{fmt::format("{}: was it late?", options.what), explain::not_known("no run of the node is known")}};
+  }
   if (tick == explain::kNone) {
     return {{fmt::format("{}: was it late?", options.what),
              {explain::Cause::AllIsWell,
               {},
-              fmt::format("as far back as tick {}, {} ran whenever it was due and was not late", facts.first_tick,
-                          options.what),
+              fmt::format("from tick {} to {}, {} ran whenever it was due and was not late{}", facts.first_tick,
+                          facts.tick > 0 ? facts.tick - 1 : 0, options.what, how_it_ended(facts)),
               {}}}};
   }
   return {{fmt::format("why did {} not run, or end late, in tick {}?", options.what, tick),
@@ -100,17 +113,35 @@ std::vector<Asked> ask_variable(const std::vector<Facts>& plant, std::size_t ask
            explain::who_changed(its, name, at + facts.wall_minus_node_ns - its.wall_minus_node_ns)}};
 }
 
-// The first of the nodes that gets it from another board, else the first that knows it.
+// End of what is known of a node, on the common clock.
+std::int64_t end_of(const Facts& facts) {
+  const std::int64_t end = facts.alive ? facts.now_ns : std::min(facts.now_ns, facts.release_of(facts.tick));
+  return end + facts.wall_minus_node_ns;
+}
+
+// The node that gets it from another board and went on longest; one that did not see the end of who writes it says
+// nothing of it then. Else the first that knows it.
 std::optional<std::size_t> where_it_is_old(const std::vector<Facts>& plant, const std::string& name) {
-  std::optional<std::size_t> found;
+  constexpr std::int64_t kAlike = 1'000'000'000;  // ends of recordings that were stopped together
+  std::optional<std::size_t> reader;
+  std::optional<std::size_t> writer;
+  std::optional<std::size_t> known;
   for (std::size_t i = 0; i < plant.size(); ++i) {
     const explain::VariableFact* const variable = plant[i].find_variable(name);
-    if (variable != nullptr && !variable->owner.empty() && variable->owner != plant[i].board) {
-      return i;
+    if (variable == nullptr) {
+      continue;
     }
-    found = variable != nullptr && !found ? i : found;
+    known = known.value_or(i);
+    if (variable->owner.empty()) {
+      continue;
+    }
+    std::optional<std::size_t>& better = variable->owner == plant[i].board ? writer : reader;
+    better = !better || end_of(plant[i]) > end_of(plant[*better]) ? i : better;
   }
-  return found;
+  if (reader && (!writer || end_of(plant[*reader]) + kAlike >= end_of(plant[*writer]))) {
+    return reader;
+  }
+  return writer ? writer : known;
 }
 
 // The first of the nodes that knows what was asked about; a board is asked for at another one.

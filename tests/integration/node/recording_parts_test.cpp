@@ -77,6 +77,27 @@ TEST_F(RecordingParts, Begin_with_what_was_known) {
   EXPECT_EQ(second.code, 0) << second.out << second.err;
 }
 
+// However old what was known then: of a module that waits for its event, what it left at its start.
+TEST_F(RecordingParts, Begin_when_they_were_begun) {
+  Program& sut = start_and_wait({{.file = "counter.so", .name = "counter", .priority = 1},
+                                 {.file = "event.so", .name = "event", .operation = "sporadic", .priority = 2}});
+  ASSERT_TRUE(runs_reach("counter", 1000));
+  const std::int64_t now = rt::wall_ns();
+  ASSERT_EQ(indurop({"record", "-o", (folder() / "run.mcap").string(), "--split", "300ms", "--duration", "700ms"}).code,
+            0);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  std::int64_t end = now;
+  for (const char* part : {"run.0001.mcap", "run.0002.mcap"}) {
+    const auto info = indurop({"recording", "info", (folder() / part).string(), "-o", "json"}).json();
+    EXPECT_GE(info["begin_ns"].get<std::int64_t>(), end - 10'000'000) << part;
+    end = info["end_ns"].get<std::int64_t>();
+    const Outcome again = replay(folder() / part);
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    EXPECT_CONTAINS(again.out, " values: equal");
+  }
+}
+
 TEST_F(RecordingParts, Are_put_together_again) {
   Program& sut = start_and_wait(kCounter);
   for (const char* name : {"run.mcap", "other.mcap"}) {
@@ -104,6 +125,24 @@ TEST_F(RecordingParts, Are_put_together_again) {
   const Outcome again = replay(folder() / "all.mcap");
   EXPECT_EQ(again.code, 0) << again.out << again.err;
   EXPECT_CONTAINS(again.out, ", " + std::to_string(runs) + " runs, ");
+  EXPECT_FALSE(contains(joined.err, "missing")) << joined.err;
+
+  // What ran in a part that is gone, or beside a recorder that could not follow, is not taken for a machine that stood.
+  const Outcome holed = join({"run.0001.mcap", "run.0003.mcap"}, "holed.mcap");
+  ASSERT_EQ(holed.code, 0) << holed.err;
+  EXPECT_CONTAINS(holed.err, "1 part is missing between ");
+  const auto explained_of = [&](const char* file, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"explain", "counter", "--from", (folder() / file).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return indurop(words).out;
+  };
+  const auto second = indurop({"recording", "info", (folder() / "run.0002.mcap").string(), "-o", "json"}).json();
+  const std::uint64_t inside = second["modules"][0]["first_tick"].get<std::uint64_t>() + 100;
+  const std::string of_hole = explained_of("holed.mcap", {"--tick", std::to_string(inside)});
+  EXPECT_CONTAINS(of_hole, "the recording lacks ");
+  EXPECT_CONTAINS(of_hole, " runs of counter between the ticks ");
+  EXPECT_FALSE(contains(explained_of("all.mcap", {"--tick", std::to_string(inside)}), "lacks"));
+
   EXPECT_CONTAINS(join({"run.0001.mcap", "run.0001.mcap"}, "x.mcap").err,
                   "join one of each, or parts of one recording");
   EXPECT_CONTAINS(join({"run.0001.mcap", "other.0002.mcap"}, "x.mcap").err, "join one of each");

@@ -142,6 +142,30 @@ TEST(Explain, What_the_ends_of_a_box_do_not_hold_is_no_trouble) {
   EXPECT_EQ(last_trouble(facts, "slow"), 900U) << "so long nobody copies";
 }
 
+TEST(Explain, What_the_recording_lacks_is_no_trouble_and_nobodys_fault) {
+  Facts facts = board("here", 1000);
+  std::erase_if(facts.runs, [](const RunFact& run) { return run.tick > 500 && run.tick < 700; });
+  EXPECT_EQ(last_trouble(facts, "writer"), 699U);
+  EXPECT_EQ(why_late(facts, "writer", 600).cause, Cause::Machine) << "nothing says that it ran";
+  facts.holes.push_back({0, 500, 700, 501 * kMs, 700 * kMs, 199});
+  EXPECT_EQ(last_trouble(facts, "writer"), kNone);
+  const Answer sut = why_late(facts, "writer", 600);
+  EXPECT_EQ(sut.cause, Cause::NotKnown);
+  EXPECT_THAT(sut.text, HasSubstr("the recording lacks 199 runs of writer between the ticks 500 and 700"));
+
+  // Another module of the core that did not run meanwhile.
+  facts.modules.push_back(periodic("other", kMs));
+  for (std::uint64_t tick = 0; tick < 1000; ++tick) {
+    if (tick != 600) {
+      const auto release = static_cast<std::int64_t>(tick) * kMs;
+      facts.runs.push_back({1, tick, release, release + 100, release + 200, false});
+    }
+  }
+  EXPECT_EQ(why_late(facts, "other", 600).cause, Cause::NotKnown);
+  EXPECT_THAT(why_late(facts, "other", 600).text, HasSubstr("the recording lacks runs of writer then"));
+  EXPECT_EQ(why_late(facts, "other", 800).cause, Cause::AllIsWell);
+}
+
 TEST(Explain, What_is_not_known_is_said_with_its_reason) {
   Facts facts = board("here", 100);
   EXPECT_EQ(why_late(facts, "nobody", 3).cause, Cause::NotKnown);
