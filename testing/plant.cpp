@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -152,6 +153,16 @@ struct Plant::Impl {
       throw std::runtime_error(fmt::format("{} cannot be read", part.place.variable->name));
     }
     return bytes;
+  }
+
+  // As `indurop set` and `force` do it.
+  static void check_range(const Part& part, std::string_view name, std::span<const std::uint8_t> bytes) {
+    constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+    std::string message;
+    if (!schema::check_range(part.place.range.value_or(schema::Range{-kUnlimited, kUnlimited}), part.place.type, bytes,
+                             message)) {
+      throw std::runtime_error(fmt::format("{}: {}", name, message));
+    }
   }
 
   void write(const Part& part, std::span<const std::uint8_t> from) const {
@@ -302,6 +313,7 @@ void Plant::set_text(std::string_view name, const std::string& text, bool hold) 
   if (!schema::parse_value(part.place.type, text, bytes, message)) {
     throw std::runtime_error(fmt::format("{}: {}", name, message));
   }
+  Impl::check_range(part, name, bytes);
   if (!hold) {
     impl_->write(part, bytes);
   } else if (!part.store->force(*part.entry, part.place.offset, bytes, vars::kForever)) {
@@ -316,6 +328,7 @@ void Plant::set_bytes(std::string_view name, std::span<const std::uint8_t> from)
     throw std::runtime_error(fmt::format("{} is a {} of {} bytes, not of {}", name,
                                          schema::display_name(part.place.type), part.place.type.size(), from.size()));
   }
+  Impl::check_range(part, name, from);
   impl_->write(part, from);
 }
 

@@ -60,6 +60,7 @@ constexpr std::array kFiles{Symbol{"open", "open"},
                             Symbol{"shm_open", "shm_open"},
                             Symbol{"_ZNSt14basic_ifstream*", "std::ifstream"},
                             Symbol{"_ZNSt13basic_filebuf*", "std::fstream"}};
+constexpr std::array kCalls{Symbol{"syscall", "syscall"}};
 constexpr std::array kThreads{Symbol{"pthread_create", "pthread_create"},
                               Symbol{"thrd_create", "thrd_create"},
                               Symbol{"_ZNSt6thread15_M_start_thread*", "std::thread"},
@@ -72,6 +73,7 @@ constexpr std::array kSources{Source{"real time", kTime},
                               Source{"numbers of processes", kIds},
                               Source{"the network", kNetwork},
                               Source{"files or devices", kFiles},
+                              Source{"calls of the kernel", kCalls},
                               Source{"threads or processes of its own", kThreads}};
 
 bool is(std::string_view import, std::string_view symbol) {

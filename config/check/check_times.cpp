@@ -52,6 +52,7 @@ class Times {
     place_on_cores();
     result.dispatch_share = static_cast<double>(cost_.tick.count()) / static_cast<double>(basic.count()) *
                             static_cast<double>(cores_.size());
+    refuse_impossible();
     keep_known();
     find();
     for (std::size_t i = 0; i < order_.modules.size(); ++i) {
@@ -134,6 +135,23 @@ class Times {
               demand.waiting, kWakeCost + (process ? kWakeCost : base::Nanos::zero()) +
                                   (other.type == scheduler::ModuleType::Process ? kLookCost : base::Nanos::zero()));
         }
+      }
+    }
+  }
+
+  // Whatever runs before it.
+  void refuse_impossible() {
+    for (std::size_t i = 0; i < order_.modules.size(); ++i) {
+      const Module& module = config_.modules[order_.modules[i]];
+      const base::Nanos limit = module.deadline > base::Nanos::zero() ? module.deadline : order_.demands[i].period;
+      const bool behind_unknown =
+          std::any_of(order_.demands.begin(), order_.demands.begin() + static_cast<std::ptrdiff_t>(i),
+                      [](const Demand& demand) { return demand.execution == base::Nanos::zero(); });
+      if (behind_unknown && module.wcet > limit) {
+        context_.report.error(
+            module.places.wcet,
+            fmt::format("{} executes for {}, and has {} for it; make it shorter, or its period longer", module.name,
+                        base::format_duration(module.wcet), base::format_duration(limit)));
       }
     }
   }

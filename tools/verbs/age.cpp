@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -16,6 +17,7 @@
 #include "tools/plant/check_chain.h"
 #include "tools/values/mirror_view.h"
 #include "tools/verbs/verbs.h"
+#include "vars/node_lock.h"
 
 namespace indurop::tools {
 namespace {
@@ -42,6 +44,20 @@ struct Asked {
   std::string board;  // that node's
 };
 
+// Of nodes that are all boards of one plant on this machine, one; else none: then somebody has to choose.
+std::string any_board() {
+  std::string chosen;
+  std::set<std::string> configs;
+  for (const std::string& node : vars::list_nodes()) {
+    const auto run = vars::running_node(node) != 0 ? RunView::open(node) : Result<RunView>(Error{Errc::NotFound});
+    if (run) {
+      configs.insert(fixed_text(run->block().config_file));
+      chosen = view_mirror(node) ? node : chosen;
+    }
+  }
+  return configs.size() == 1 ? chosen : "";
+}
+
 Result<Asked, Failure> whom(const Context& context, const Options& options) {
   Asked asked;
   if (!options.files.empty()) {
@@ -51,7 +67,8 @@ Result<Asked, Failure> whom(const Context& context, const Options& options) {
     }
     asked.config = *config;
   } else {
-    const auto run = open_run(context.node);
+    const auto run =
+        open_run(context.node.empty() && std::getenv("INDUROP_NODE") == nullptr ? any_board() : context.node);
     if (!run) {
       return run.error();
     }

@@ -80,9 +80,15 @@ TEST(Times, With_a_core_that_the_node_chooses_it_is_a_warning) {
 }
 
 TEST(Times, Behind_a_module_that_does_not_say_nothing_is_known) {
-  const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("2ms"))), kScheduleOnly);
+  const Checked sut =
+      check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("900us"))), kScheduleOnly);
   EXPECT_THAT(sut.lines(), IsEmpty());
   EXPECT_FALSE(sut.result.timings[1].known);
+}
+
+TEST(Times, What_takes_longer_than_its_period_is_refused_behind_any_module) {
+  const Checked sut = check(root(periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2, wcet("2ms"))), kScheduleOnly);
+  EXPECT_THAT(sut.lines(), ElementsAre(HasSubstr("error: b executes for 2 ms, and has 1 ms for it; make it shorter")));
 }
 
 TEST(Times, That_were_measured_stand_in_for_those_not_declared) {

@@ -43,6 +43,7 @@ TEST(SourcesOfChance, Are_found_in_a_file_that_was_compiled) {
 TEST(SourcesOfChance, Are_sorted_by_what_they_are) {
   EXPECT_THAT(sources_of_chance({"clock_gettime", "malloc", "recvfrom", "socket", "time"}),
               ElementsAre("real time (clock_gettime, time)", "the network (recvfrom, socket)"));
+  EXPECT_THAT(sources_of_chance({"syscall"}), ElementsAre("calls of the kernel (syscall)"));
   EXPECT_THAT(sources_of_chance({"getpid"}), ElementsAre("numbers of processes (getpid)"));
   EXPECT_THAT(sources_of_chance({"open", "open64"}), ElementsAre("files or devices (open)")) << "once";
   EXPECT_THAT(sources_of_chance({"cos", "memcpy", "timer_of_mine", "_ZN3irp6now_nsEv", "srand"}), IsEmpty());
