@@ -249,11 +249,13 @@ void print(Context& context, const Coverage& coverage) {
   print_table(context, table, {}, "pous");
 }
 
-int cover(Context& context, const Request& request) {
+}  // namespace
+
+int show_coverage(Context& context, const std::filesystem::path& folder, const std::string& lcov) {
   Coverage coverage;
   std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(request.folder, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".plccov") {
       files.push_back(entry.path());
     }
@@ -262,7 +264,7 @@ int cover(Context& context, const Request& request) {
     context.out.error(
         fmt::format("there are no counters in {}: build with indurop plc build --coverage, and run with "
                     "INDUROP_PLC_COVERAGE={}",
-                    request.folder, request.folder));
+                    folder.string(), folder.string()));
     return kFailed;
   }
   std::sort(files.begin(), files.end());
@@ -274,22 +276,21 @@ int cover(Context& context, const Request& request) {
     }
   }
   print(context, coverage);
-  if (!request.lcov.empty()) {
-    if (const auto saved = base::replace_file(request.lcov, lcov_text(coverage), base::Durable::No); !saved) {
-      context.out.error(base::cannot_write(request.lcov, saved.error()));
+  if (!lcov.empty()) {
+    if (const auto saved = base::replace_file(lcov, lcov_text(coverage), base::Durable::No); !saved) {
+      context.out.error(base::cannot_write(lcov, saved.error()));
       return kFailed;
     }
   }
   return code;
 }
 
-}  // namespace
-
 void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
   auto request = std::make_shared<Request>();
   base::Options& made =
-      app.command("coverage", "Say which lines, rungs and branches were tried by tests",
-                  [request, chosen] { *chosen = [request](Context& c) { return cover(c, *request); }; });
+      app.command("coverage", "Say which lines, rungs and branches were tried by tests", [request, chosen] {
+        *chosen = [request](Context& c) { return show_coverage(c, request->folder, request->lcov); };
+      });
   made.add("folder", "FOLDER", request->folder, "What INDUROP_PLC_COVERAGE named while the tests ran").required();
   made.add("--lcov", "FILE.info", request->lcov, "Write it for lcov, genhtml and others, too")
       .completes(base::Completion::File);

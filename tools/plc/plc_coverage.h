@@ -42,6 +42,10 @@ Result<void, base::Problem> add_counters(const std::filesystem::path& file, Cove
 // As lcov, genhtml and others read it. What is in a file of this machine is named by its whole path.
 std::string lcov_text(const Coverage& coverage);
 
+// What the counters in a folder say, as context.format says; `lcov`: also into this file, if not empty. Returns the
+// exit code.
+int show_coverage(Context& context, const std::filesystem::path& folder, const std::string& lcov);
+
 // Adds the subcommand; once it was parsed, `chosen` is what to do.
 void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen);
 

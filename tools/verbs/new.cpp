@@ -11,6 +11,7 @@
 #include "base/program_folder.h"
 #include "base/replace_file.h"
 #include "glb2idl/names.h"
+#include "tools/command/package_folder.h"
 #include "tools/verbs/new_templates.h"
 #include "tools/verbs/verbs.h"
 
@@ -25,23 +26,6 @@ bool good_name(const std::string& name) {
   return !name.empty() && name.size() <= kLongest && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
          std::all_of(name.begin(), name.end(),
                      [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_' || c == '-'); });
-}
-
-// Folder with InduRoPConfig.cmake that belongs to this program: its build directory or its installation.
-fs::path package_folder(const fs::path& programs) {
-  constexpr const char* kFile = "InduRoPConfig.cmake";
-  const fs::path prefix = programs.parent_path();
-  std::vector<fs::path> places{prefix};
-  std::error_code error;
-  for (const char* library : {"lib", "lib64"}) {
-    places.push_back(prefix / library / "cmake/InduRoP");
-    for (const auto& entry : fs::directory_iterator(prefix / library, error)) {
-      places.push_back(entry.path() / "cmake/InduRoP");  // lib/x86_64-linux-gnu
-    }
-  }
-  const auto found = std::find_if(places.begin(), places.end(),
-                                  [&](const fs::path& place) { return fs::exists(place / kFile, error); });
-  return found == places.end() ? fs::path{} : *found;
 }
 
 std::string filled_in(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {

@@ -46,6 +46,7 @@ extern const Verb kSetVerb;
 extern const Verb kStartVerb;
 extern const Verb kStatusVerb;
 extern const Verb kStopVerb;
+extern const Verb kTestVerb;
 extern const Verb kStreamVerb;
 extern const Verb kTopVerb;
 extern const Verb kTypeofVerb;

@@ -142,6 +142,34 @@ TEST_F(CommandLine, New_makes_a_project_and_never_overwrites) {
   EXPECT_THAT(again.err, HasSubstr("nothing was written"));
 }
 
+TEST_F(CommandLine, Test_builds_runs_and_tells_what_failed) {
+  const fs::path folder = scratch() / "tested";
+  EXPECT_EQ(indurop({"test", scratch().string()}).code, 2) << "no project";
+  fs::create_directories(folder);
+  const auto project = [&](const std::string& tests) {
+    std::ofstream(folder / "CMakeLists.txt")
+        << "cmake_minimum_required(VERSION 3.25)\nproject(tested LANGUAGES NONE)\nenable_testing()\n" + tests;
+    return indurop({"test", folder.string()});
+  };
+  const auto nothing = project("");
+  EXPECT_EQ(nothing.code, 4) << nothing.out << nothing.err;
+  const auto good = project("add_test(NAME good COMMAND ${CMAKE_COMMAND} -E true)\n");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  EXPECT_THAT(good.err, HasSubstr("all tests passed"));
+  const auto bad = project(
+      "add_test(NAME good COMMAND ${CMAKE_COMMAND} -E true)\nadd_test(NAME bad COMMAND ${CMAKE_COMMAND} -E false)\n");
+  EXPECT_EQ(bad.code, 4) << bad.out << bad.err;
+  std::ifstream junit(folder / "build/tests.xml");
+  const std::string text(std::istreambuf_iterator<char>(junit), {});
+  EXPECT_THAT(text, HasSubstr("<failure"));
+  EXPECT_THAT(text, HasSubstr("name=\"bad\""));
+  const auto chosen = indurop({"test", folder.string(), "--select", "good", "--junit", (scratch() / "j.xml").string()});
+  EXPECT_EQ(chosen.code, 0) << chosen.err;
+  EXPECT_TRUE(fs::exists(scratch() / "j.xml"));
+  EXPECT_EQ(indurop({"test", folder.string(), "--lcov", (scratch() / "c.info").string()}).code, 1) << "nothing counts";
+  EXPECT_EQ(project("error here\n").code, 1);
+}
+
 TEST_F(CommandLine, New_calls_the_namespace_like_the_project_if_it_can) {
   for (const auto& [name, space] : {std::pair("five", "five"), std::pair("cell-7", "cell_7"),
                                     std::pair("class", "class_project"), std::pair("wave", "wave_project")}) {
