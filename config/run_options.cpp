@@ -122,6 +122,9 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--with", "FILE.so", options.replay.with,
            "With --replay: use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
+  line.add("--replay-output", "FILE", options.replay.output,
+           "With --replay: write what the modules leave now to this MCAP file")
+      .completes(base::Completion::File);
   line.add("--record", "FILE", options.record, "Record every run of every module to this MCAP file")
       .completes(base::Completion::File);
   declare_simulation(line, options.simulation);
@@ -156,6 +159,7 @@ std::vector<std::string> words_of(const RunOptions& options) {
   for (const std::string& file : options.replay.with) {
     value("--with", file);
   }
+  value("--replay-output", options.replay.output.string());
   flag("--sim", options.simulation.on);
   flag("--step", options.simulation.step);
   value("--speed", options.simulation.speed > 0 ? fmt::format("{}", options.simulation.speed) : "");

@@ -34,6 +34,7 @@ struct Replay {
   std::filesystem::path file;     // empty: none
   std::string board;              // whose runs, of a file that was joined; else empty
   std::vector<std::string> with;  // module files that take the place of those of the configuration
+  std::filesystem::path output;   // what modules leave now, as a recording; empty: none
 };
 
 struct RunOptions {

@@ -26,6 +26,9 @@ std::string idle_options(const Options& options) {
   if (!replays && !options.replay.with.empty()) {
     return "--with is for --replay; to run another file, name it in the configuration";
   }
+  if (!replays && !options.replay.output.empty()) {
+    return "--replay-output is for --replay; to record a run: --record";
+  }
   if (replays && options.duration) {
     return "a replay ends with its recording; shorten that: indurop recording cut";
   }

@@ -36,6 +36,7 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
   }
   modules_ = sources.all[*source].modules;
   prefix_ = sources.all[*source].prefix;
+  real_minus_node_ns_ = sources.all[*source].number("real_minus_node_ns");
   format_ = std::max<std::int64_t>(sources.all[*source].number("format"), 1);
   std::string changed;
   for (const auto& [id, place] : sources.channels) {
@@ -70,7 +71,7 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
   return {};
 }
 
-std::vector<explain::ModuleFact> RecordedRuns::module_facts() const {
+explain::Facts RecordedRuns::facts() const {
   explain::Facts facts;
   for (const recording::McapAttachmentIndex& index : reader_.contents().attachments) {
     const bool own = index.name == prefix_ + std::string(explain::kFactsFile);
@@ -78,7 +79,7 @@ std::vector<explain::ModuleFact> RecordedRuns::module_facts() const {
       (void)explain::read_facts({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, facts);
     }
   }
-  return std::move(facts.modules);
+  return facts;
 }
 
 Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {

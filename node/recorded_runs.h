@@ -62,8 +62,10 @@ class RecordedRuns {
 
   // kRecordingFormat of who recorded it.
   [[nodiscard]] std::int64_t format() const noexcept { return format_; }
-  // What is known of the modules; empty: the recording does not say it.
-  [[nodiscard]] std::vector<explain::ModuleFact> module_facts() const;
+  // CLOCK_REALTIME less the node's time, then; 0: virtual time.
+  [[nodiscard]] std::int64_t real_minus_node_ns() const noexcept { return real_minus_node_ns_; }
+  // What is known of the node, its modules and of orders to it; empty: the recording does not say it.
+  [[nodiscard]] explain::Facts facts() const;
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
   [[nodiscard]] const std::vector<std::string>& unknown_variables() const noexcept { return unknown_; }
   // The recording was ended, not cut off.
@@ -76,6 +78,7 @@ class RecordedRuns {
   recording::McapReader reader_;
   std::string prefix_;  // of names in the file
   std::int64_t format_ = 1;
+  std::int64_t real_minus_node_ns_ = 0;
   std::vector<std::string> modules_;
   std::map<std::uint16_t, std::uint32_t> variables_;  // by channel
   std::vector<std::string> unknown_;

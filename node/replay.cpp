@@ -148,7 +148,9 @@ bool Replay::choose_modules(const RecordedRuns& recorded) {
   }
   tell_of_conditions();
   tell_of_format(recorded);
-  tell_of_schedule(recorded);
+  const explain::Facts facts = recorded.facts();
+  tell_of_schedule(facts);
+  forced_then_ = ForcedThen(facts.orders);
   return any;
 }
 
@@ -300,6 +302,7 @@ bool Replay::replay(RecordedRuns& recorded) {
     auto item = recorded.next();
     if (!item) {
       console_.warning("{}", item.error().text);
+      damaged_ = true;
       continue;
     }
     if (!*item) {
@@ -344,6 +347,15 @@ Ending Replay::run() {
   if (!begin(*recorded)) {
     return {kFailed, "the recording cannot be replayed"};
   }
+  if (!options_.replay.output.empty()) {
+    auto output = ReplayOutput::create(options_.replay.output, options_.replay.file.string());
+    if (!output) {
+      console_.error("{}", output.error().text);
+      return {kFailed, "what modules leave cannot be written"};
+    }
+    output_ = std::move(output).value();
+    real_minus_node_ns_ = recorded->real_minus_node_ns();
+  }
   rt::install_guard_handlers();
   runner_.attach_thread();
   HangWatch hang_watch([this] { return returned_.load(std::memory_order_relaxed); },
@@ -354,6 +366,7 @@ Ending Replay::run() {
   processes_.end_all();
   runtime::stop_function_servers();
   (void)phases_.call_all("stop", &ModuleDescriptor::stop);
+  close_output();
   return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};
 }
 

@@ -13,11 +13,13 @@
 
 #include "node/checked.h"
 #include "node/console.h"
+#include "node/forced_then.h"
 #include "node/loaded.h"
 #include "node/phases.h"
 #include "node/prepared.h"
 #include "node/processes.h"
 #include "node/recorded_runs.h"
+#include "node/replay_output.h"
 #include "scheduler/runner.h"
 #include "tape/retold.h"
 
@@ -63,6 +65,9 @@ class Replay {
     std::uint64_t compared = 0;   // runs whose value was compared, what they read being the same
     std::uint64_t differing = 0;  // of these: that left another value
     std::uint64_t first_tick = 0;
+    std::string first_place;  // what of it differed first
+    std::string first_was;
+    std::string first_is;
   };
   // What a run left, by its track.
   struct Left {
@@ -102,7 +107,7 @@ class Replay {
   bool choose_modules(const RecordedRuns& recorded);
   void tell_of_conditions() const;
   void tell_of_format(const RecordedRuns& recorded) const;
-  void tell_of_schedule(const RecordedRuns& recorded) const;
+  void tell_of_schedule(const explain::Facts& facts) const;
   void look_ahead();
   bool learn_early(const RecordedValue& value, Module& module, bool behind_a_gap) const;
   void leave_out_if_unknown(Module& module, const std::string& name);
@@ -124,6 +129,8 @@ class Replay {
   void compare(Module& module, std::uint32_t index, const recorder::RunWords& run);
   void differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
                const std::vector<std::uint8_t>& now);
+  void close_output();
+  void put_out(std::uint32_t variable, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
   Ending conclude();
   bool tell_left_out();
   void tell_differences();
@@ -147,13 +154,18 @@ class Replay {
   std::vector<std::unique_ptr<Module>> modules_;  // as in the configuration
   std::vector<std::uint32_t> of_recording_;       // its modules among them; kNoSuchModule: none
   std::int64_t real_minus_node_ns_ = 0;
+  std::optional<ReplayOutput> output_;
+  bool output_failed_ = false;
+  bool damaged_ = false;  // parts of the recording could not be read
   std::uint64_t ticks_ = 0;
   std::uint64_t runs_ = 0;
   std::atomic<std::uint64_t> returned_{0};  // the same, for who looks whether one hangs
   std::uint64_t runs_not_here_ = 0;         // of modules that the configuration does not have
   std::uint64_t values_ = 0;
   std::uint64_t differences_ = 0;
-  std::uint64_t unclear_ = 0;  // differences of runs whose inputs changed while they ran
+  ForcedThen forced_then_;
+  std::map<std::string, std::uint64_t> forced_;  // values that were not compared, by variable
+  std::uint64_t unclear_ = 0;                    // differences of runs whose inputs changed while they ran
 };
 
 }  // namespace indurop::node

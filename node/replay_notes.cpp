@@ -40,8 +40,8 @@ void Replay::tell_of_format(const RecordedRuns& recorded) const {
 }
 
 // Runs come when they came: another period or priority shows nowhere.
-void Replay::tell_of_schedule(const RecordedRuns& recorded) const {
-  for (const explain::ModuleFact& then : recorded.module_facts()) {
+void Replay::tell_of_schedule(const explain::Facts& facts) const {
+  for (const explain::ModuleFact& then : facts.modules) {
     for (const config::Module& now : checked_.config.modules) {
       const bool periodic = now.operation == scheduler::Operation::Periodic;
       if (now.name != then.name) {

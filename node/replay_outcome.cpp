@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "node/replay.h"
 
@@ -12,22 +13,38 @@ namespace {
 
 constexpr std::size_t kShown = 10;
 
+// Of a struct or an array, so much that a line holds two.
+std::string shortened(const std::string& value) {
+  constexpr std::size_t kMost = 40;
+  return value.size() <= kMost ? value : value.substr(0, kMost - 3) + "...";
+}
+
 }  // namespace
 
+// Of each variable, in the order in which they began to differ.
 void Replay::tell_differences() {
-  std::vector<std::pair<std::uint64_t, std::string>> lines;
+  struct Line {
+    const Known* known;
+    std::string name;
+    std::string module;
+  };
+  std::vector<Line> lines;
   for (std::size_t i = 0; i < modules_.size(); ++i) {
     for (const Known& known : modules_[i]->known) {
       if (known.differing > 0) {
-        lines.emplace_back(known.first_tick, fmt::format("  {} of {}: {} of {} runs, first at tick {}",
-                                                         variable(known.variable).name, checked_.config.modules[i].name,
-                                                         known.differing, known.compared, known.first_tick));
+        lines.push_back({&known, variable(known.variable).name, checked_.config.modules[i].name});
       }
     }
   }
-  std::sort(lines.begin(), lines.end());
+  std::sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+    return std::tie(a.known->first_tick, a.name) < std::tie(b.known->first_tick, b.name);
+  });
   for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i) {
-    fmt::print("{}\n", lines[i].second);
+    const auto& [known, name, module] = lines[i];
+    fmt::print("  {} of {}: {} of {} runs, first at tick {}: {}{}, now {}\n", name, module, known->differing,
+               known->compared, known->first_tick,
+               known->first_place == name ? "" : known->first_place.substr(name.size()) + " ",
+               shortened(known->first_was), shortened(known->first_is));
   }
   if (lines.size() > kShown) {
     fmt::print("  and {} other variables\n", lines.size() - kShown);
@@ -74,7 +91,10 @@ Ending Replay::conclude() {
     fmt::print("what {} of the runs read changed while they ran: {} of their values differ, which says nothing\n",
                disturbed, unclear_);
   }
-  const bool whole = tell_left_out();
+  for (const auto& [name, values] : forced_) {
+    fmt::print("{} values of {} were not compared: it was forced\n", values, name);
+  }
+  const bool whole = tell_left_out() && !output_failed_ && !damaged_;
   if (runs_ == 0) {
     console_.error("{} holds no run of these modules: nothing was compared", options_.replay.file.string());
     return {kFailed, "the recording cannot be replayed"};

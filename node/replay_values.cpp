@@ -10,6 +10,29 @@ namespace indurop::node {
 
 using scheduler::ModuleState;
 
+namespace {
+
+// Of a struct or an array the number, or the text, that differs first, and where it is. What lies between the parts of
+// a value is none.
+std::pair<schema::Part, std::size_t> first_different_part(const schema::Variable& variable,
+                                                          const std::vector<std::uint8_t>& was,
+                                                          const std::vector<std::uint8_t>& is) {
+  schema::Schema alone;
+  alone.variables.push_back(variable);
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    std::string message;
+    const schema::Part part = schema::part_at(variable, static_cast<std::uint32_t>(i));
+    const auto place =
+        was[i] == is[i] ? Result<schema::Place>(Error{Errc::NotFound}) : schema::find_place(alone, part.name, message);
+    if (place && i >= place->offset && i < place->offset + part.type.size()) {
+      return {part, place->offset};
+    }
+  }
+  return {{variable.name, variable.type}, 0};
+}
+
+}  // namespace
+
 // Takes a value to what the track of its module says. A first value goes to the store. False: it is damaged.
 bool Replay::take(const RecordedValue& value) {
   vars::Store& store = *prepared_.store;
@@ -92,6 +115,13 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
       continue;
     }
     const vars::DirectoryEntry& entry = store.directory()[known.variable];
+    const std::string& name = variable(known.variable).name;
+    if (!forced_then_.empty() && forced_then_.any(name, run.tail.start_ns, run.tail.end_ns)) {
+      ++forced_[name];
+      put_out(known.variable, known.cdr, run.tail.end_ns);
+      (void)store.write(entry, 0, known.bytes);
+      continue;
+    }
     now.resize(entry.value_size);
     ++values_;
     known.ever_compared = true;
@@ -99,9 +129,37 @@ void Replay::compare(Module& module, std::uint32_t index, const recorder::RunWor
     // What lies between the parts of a value differs as it likes.
     if (!store.read(entry, 0, now).ok() || now == known.bytes ||
         (recording::to_cdr(variable(known.variable).type, now, cdr).ok() && cdr == known.cdr)) {
+      put_out(known.variable, known.cdr, run.tail.end_ns);
       continue;
     }
+    put_out(known.variable, module.disturbed ? known.cdr : cdr, run.tail.end_ns);
     differs(module, index, known, run.tail.tick, now);
+  }
+}
+
+void Replay::put_out(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
+  if (!output_) {
+    return;
+  }
+  if (auto written = output_->take(index, variable(index), cdr, end_ns + real_minus_node_ns_); !written) {
+    console_.error("{}", written.error().text);
+    output_failed_ = true;
+    output_.reset();
+  }
+}
+
+void Replay::close_output() {
+  std::map<std::string, std::uint64_t> differing;
+  for (const auto& module : modules_) {
+    for (const Known& known : module->known) {
+      if (known.differing > 0) {
+        differing[variable(known.variable).name] += known.differing;
+      }
+    }
+  }
+  if (auto closed = output_ ? output_->close(differing) : Result<void, base::Problem>(); !closed) {
+    console_.error("{}", closed.error().text);
+    output_failed_ = true;
   }
 }
 
@@ -118,6 +176,10 @@ void Replay::differs(Module& module, std::uint32_t index, Known& known, std::uin
     }
     if (known.differing++ == 0) {
       known.first_tick = tick;
+      const auto [part, offset] = first_different_part(differing, known.bytes, now);
+      known.first_place = part.name;
+      known.first_was = schema::format_value(part.type, std::span(known.bytes).subspan(offset, part.type.size()));
+      known.first_is = schema::format_value(part.type, std::span(now).subspan(offset, part.type.size()));
     }
   }
   // The next run begins with what was recorded.

@@ -3,26 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "base/replace_file.h"
 #include "tools/recordings/recorded_csv.h"
 #include "tools/recordings/recorded_trace.h"
 
 namespace indurop::tools {
 namespace {
-
-struct Options {
-  std::filesystem::path file;
-  std::vector<std::string> names;
-  std::string csv;
-  std::string trace;
-  std::int64_t every_ns = 0;
-  bool units = false;
-};
 
 // False after an error message.
 bool save(Context& context, const std::string& file, const Result<Exported, base::Problem>& made, const char* what,
@@ -42,7 +28,9 @@ bool save(Context& context, const std::string& file, const Result<Exported, base
   return true;
 }
 
-int export_recording(Context& context, const Options& options) {
+}  // namespace
+
+int export_recording(Context& context, const ExportWish& options) {
   if (options.csv.empty() && options.trace.empty()) {
     context.out.error("what is to be made of it? --csv FILE, --trace FILE, or both");
     return kUsage;
@@ -60,10 +48,8 @@ int export_recording(Context& context, const Options& options) {
   return good ? kOk : kFailed;
 }
 
-}  // namespace
-
 void add_recording_export(base::Options& app, const std::shared_ptr<Action>& chosen) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportWish>();
   base::Options& verb =
       app.command("export", "Write values as CSV, or runs as a trace for Perfetto",
                   [options, chosen] { *chosen = [options](Context& c) { return export_recording(c, *options); }; });

@@ -94,7 +94,9 @@ void print_head(Context& context, const std::filesystem::path& file, const Surve
   }
 }
 
-int info(Context& context, const std::filesystem::path& file) {
+}  // namespace
+
+int show_recording(Context& context, const std::filesystem::path& file) {
   const auto survey = recorder::survey(file);
   if (!survey) {
     context.out.error(survey.error().text);
@@ -124,12 +126,11 @@ int info(Context& context, const std::filesystem::path& file) {
   return kOk;
 }
 
-}  // namespace
-
 void add_recording_info(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
   auto file = std::make_shared<std::filesystem::path>();
-  base::Options& verb = app.command("info", "Show what a recording holds, and what is missing in it",
-                                    [file, chosen] { *chosen = [file](Context& c) { return info(c, *file); }; });
+  base::Options& verb = app.command("info", "Show what a recording holds, and what is missing in it", [file, chosen] {
+    *chosen = [file](Context& c) { return show_recording(c, *file); };
+  });
   verb.add("file", "FILE.mcap", *file, "The recording").required().completes(base::Completion::File);
   add_format_option(verb, context, {Format::Table, Format::Json, Format::Csv});
   verb.details(

@@ -19,7 +19,10 @@
 #include "tools/plant/board_boxes.h"
 #include "tools/plant/board_commander.h"
 #include "tools/plant/board_file.h"
-#include "tools/plant/board_roster.h"
+#include "tools/plant/heard_boards.h"
+#include "tools/recordings/recording_export.h"
+#include "tools/recordings/recording_info.h"
+#include "tools/recordings/recording_replay.h"
 #include "tools/values/node_choice.h"
 #include "tools/values/variables.h"
 #include "tools/verbs/verbs.h"
@@ -34,53 +37,20 @@ struct Options {
   std::string what;  // why, or a file
   std::string when;
   std::string at;  // name of a box; empty: the newest
+  ExportWish out;  // with export
+  std::string svg;
+  std::vector<std::string> with;
   bool remote = false;
   std::string board;  // empty: all
   deploy::LinkSettings link;
   [[nodiscard]] bool far() const noexcept { return remote || !board.empty(); }
 };
 
-// Boards that were heard, and what speaks to them.
-struct Boards {
-  std::unique_ptr<deploy::DeployLink> link;
-  BoardRoster roster;
-  std::vector<deploy::BoardReport> reports;
-
-  // What they say by now.
-  void refresh(const std::string& only) {
-    roster.listen(*link, rt::now_ns());
-    reports.clear();
-    for (const auto& [key, entry] : roster.all()) {
-      if (only.empty() || key.first == only) {
-        reports.push_back(entry.report);
-      }
-    }
-  }
-};
-
-Result<Boards, Failure> hear(Context& context, Options& options) {
-  constexpr std::int64_t kHearNs = 3'000'000'000;  // agents speak twice a second
+Result<HeardBoards, Failure> hear(Context& context, Options& options) {
   if (!context.node.empty() && options.when.empty()) {
     return Failure{kUsage, "--node names a node of this machine; a board in the network is chosen with --board"};
   }
-  Boards boards{open_link(context, options.link), {}, {}};
-  if (boards.link == nullptr) {
-    return Failure{kUnreachable, {}};
-  }
-  const BoardRoster& roster = boards.roster;
-  boards.roster.gather(*boards.link, kHearNs, [&] {
-    return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr;
-  });
-  if (interrupted()) {
-    return Failure{interrupt_code(), {}};
-  }
-  boards.refresh(options.board);
-  if (boards.reports.empty()) {
-    return with_keys_hint(
-        {kUnreachable, options.board.empty() ? "no board was heard" : "board " + options.board + " was not heard"},
-        options.link);
-  }
-  return boards;
+  return hear_boards(context, options.link, options.board);
 }
 
 // Those of this host, as if their nodes were boards.
@@ -160,7 +130,8 @@ int fetch_here(Context& context, const Options& options) {
 }
 
 // Boards of the plant whose boxes are not among these.
-std::vector<std::string> missing(const Boards& boards, const BoardBox& first, const std::vector<BoardBox>& chosen) {
+std::vector<std::string> missing(const HeardBoards& boards, const BoardBox& first,
+                                 const std::vector<BoardBox>& chosen) {
   const auto of = std::find_if(boards.reports.begin(), boards.reports.end(),
                                [&](const deploy::BoardReport& report) { return report.agent == first.agent; });
   std::vector<std::string> names = of->members;
@@ -217,6 +188,41 @@ int fetch(Context& context, Options& options) {
     return kUsage;
   }
   return options.far() ? fetch_far(context, options) : fetch_here(context, options);
+}
+
+// What is done with one box, or with what the boards kept of one moment: as with any recording.
+int use(Context& context, Options& options) {
+  const TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "moment.mcap";
+  if (options.far()) {
+    options.what = file.string();
+    if (const int code = folder.path().empty() ? kFailed : fetch_far(context, options); code != kOk) {
+      return code;
+    }
+  } else {
+    const auto boxes = boxes_here(context.node);
+    const BoardBox* const box = choose(context, options, boxes);
+    if (box == nullptr) {
+      return kFailed;
+    }
+    file = file_here(*box);
+    context.out.note(fmt::format("{}: {}", file.string(), printable(box->reason)));
+  }
+  if (options.action == "show") {
+    return show_recording(context, file);
+  }
+  if (options.action == "export") {
+    options.out.file = file;
+    return export_recording(context, options.out);
+  }
+  ReplayWish wish;
+  wish.file = file;
+  wish.board = options.board;
+  wish.node = context.node.empty() ? "" : context.node + "-replay";
+  wish.with = options.with;
+  wish.svg = options.svg;
+  wish.comes_back = true;
+  return replay_recording(context, wish);
 }
 
 // Until a variable is not 0 any more. Returns the exit code.
@@ -308,8 +314,12 @@ int act(Context& context, Options& options) {
   if (options.action == "fetch") {
     return fetch(context, options);
   }
+  if (options.action == "show" || options.action == "export" || options.action == "replay") {
+    return use(context, options);
+  }
   if (options.action != "keep") {
-    context.out.error(fmt::format("blackbox cannot '{}'; it can list, keep or fetch", printable(options.action)));
+    context.out.error(fmt::format("blackbox cannot '{}'; it can list, show, export, replay, keep or fetch",
+                                  printable(options.action)));
     return kUsage;
   }
   options.what = options.what.empty() ? options.when : options.what;
@@ -324,12 +334,18 @@ int act(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  app.add("action", "list|keep|fetch", options->action, "What to do (default: list)");
+  app.add("action", "list|show|export|replay|keep|fetch", options->action, "What to do (default: list)");
   app.add("what", "TEXT", options->what, "With keep: why, for whoever lists it; with fetch: the file to write");
   app.add("--when", "NAME", options->when,
           "With keep: wait until this variable of a node of this machine is not 0 any more")
       .completes(base::Completion::Variable);
-  app.add("--at", "BOX", options->at, "With fetch: the moment of this box, as listed (default: the newest)");
+  app.add("--at", "BOX", options->at, "This box, as listed, or its moment (default: the newest)");
+  app.add("--csv", "FILE", options->out.csv, "With export: write the values, as indurop recording export");
+  app.add("--trace", "FILE", options->out.trace,
+          "With export: write when each module ran, for https://ui.perfetto.dev");
+  app.add("--with", "FILE.so", options->with, "With replay: use this file for the module of its name")
+      .completes(base::Completion::File);
+  app.add("--svg", "FILE", options->svg, "With replay: draw what differs");
   app.flag("--remote", options->remote, "All boards that are heard, by their agents, not the nodes of this machine");
   app.add("--board", "NAME", options->board, "Only this one of them; implies --remote");
   deploy::add_link_options(app, options->link);
@@ -346,10 +362,14 @@ const Verb kBlackboxVerb{
     "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest "
     "ten\n"
     "of each node stay. The newest is listed first. They are read by `indurop explain --from`, `replay`, `recording`,\n"
-    "Foxglove and PlotJuggler. blackbox keep keeps what there is now. blackbox fetch writes what the boards kept\n"
+    "Foxglove and PlotJuggler; blackbox show, export and replay do the same with the newest one. blackbox keep keeps "
+    "what there is now. blackbox fetch writes what the boards kept\n"
     "within ten seconds of one moment into one file on common time; exit code 1 if a board of the plant has none.\n"
     "Examples:\n"
     "  indurop blackbox\n"
+    "  indurop blackbox show\n"
+    "  indurop blackbox export --csv box.csv --trace box.json\n"
+    "  indurop blackbox replay --with new/main.so\n"
     "  indurop blackbox keep 'the drill broke'\n"
     "  indurop blackbox keep --when PLC_ROBOT::alarm\n"
     "  indurop blackbox --remote\n"

@@ -1,74 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop replay: the modules of a recording run again with what they began with, and are compared with it.
-#include <fmt/format.h>
-
-#include "recorder/sources.h"
-#include "recording/mcap_reader.h"
-#include "tools/command/node_program.h"
+#include "tools/recordings/recording_replay.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
 
-struct Options {
-  std::filesystem::path file;
-  std::filesystem::path config;
-  std::string node;
-  std::string board;
-  std::vector<std::string> with;
-};
-
-// What the recording says of the node it is of.
-Result<recording::TextMap, base::Problem> about(const Options& options) {
-  auto reader = recording::McapReader::open(options.file);
-  if (!reader) {
-    return std::move(reader).error();
-  }
-  const recorder::Sources sources = recorder::find_sources(*reader);
-  const auto source = recorder::choose_source(sources, options.board, options.file.string());
-  if (!source) {
-    return source.error();
-  }
-  return sources.all[*source].about;
-}
-
-int replay(Context& context, const Options& options) {
-  const auto program = node_program(context);
-  if (program.empty()) {
-    return kFailed;
-  }
-  auto known = about(options);
-  if (!known) {
-    context.out.error(known.error().text);
-    return kFailed;
-  }
-  config::RunOptions run;
-  run.quiet = context.out.quiet();
-  run.replay.file = options.file;
-  run.replay.board = options.board;
-  run.replay.with = options.with;
-  run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
-  run.board = (*known)["board"];
-  run.node = options.node;
-  std::error_code ignored;
-  if (!std::filesystem::exists(run.config, ignored)) {
-    context.out.error(fmt::format("{} was recorded with {}, which is not here; name the configuration with --config",
-                                  options.file.string(), run.config.string()));
-    return kFailed;
-  }
-  return become_node(context, program, run);
-}
-
 Action declare(base::Options& app, Context& /*context*/) {
-  auto options = std::make_shared<Options>();
-  app.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
-  app.add("--config", "FILE", options->config, "module.xml or plant.xml (default: that of the recording)")
+  auto wish = std::make_shared<ReplayWish>();
+  app.add("file", "FILE.mcap", wish->file, "The recording").required().completes(base::Completion::File);
+  app.add("--config", "FILE", wish->config, "module.xml or plant.xml (default: that of the recording)")
       .completes(base::Completion::File);
-  app.add("--with", "FILE.so", options->with, "Use this file for the module of its name; may be given several times")
+  app.add("--with", "FILE.so", wish->with, "Use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
-  app.add("--board", "NAME", options->board, "The board whose runs are meant, if the recording is of several");
-  app.add("--node", "NAME", options->node, "Name of the replaying node (default: replay)");
-  return [options](Context& c) { return replay(c, *options); };
+  app.add("-o,--output", "FILE.mcap", wish->output,
+          "Write what the modules leave now to this recording, to be laid over the other")
+      .completes(base::Completion::File);
+  app.add("--svg", "FILE", wish->svg, "Draw what differs, recorded and now, one over the other");
+  app.add("--board", "NAME", wish->board, "The board whose runs are meant, if the recording is of several");
+  app.add("--node", "NAME", wish->node, "Name of the replaying node (default: replay)");
+  return [wish](Context& c) { return replay_recording(c, *wish); };
 }
 
 }  // namespace
@@ -81,7 +32,8 @@ const Verb kReplayVerb{
     "Examples:\n"
     "  indurop run module.xml --duration 60s --record run.mcap\n"
     "  indurop replay run.mcap\n"
-    "  indurop replay run.mcap --with new/main.so\n",
+    "  indurop replay run.mcap --with new/main.so\n"
+    "  indurop replay run.mcap --with new/main.so --svg differs.svg\n",
     &declare};
 
 }  // namespace indurop::tools

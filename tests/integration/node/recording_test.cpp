@@ -2,6 +2,9 @@
 // Runs are recorded, and run again: with the same modules they leave the same, with another one it is told where not.
 
 #include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
@@ -63,6 +66,33 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(changed.err, "tick 0, module walker: nt::pace was ");
   EXPECT_CONTAINS(changed.out, "nt::walked of walker: ");
   EXPECT_FALSE(contains(changed.out, "of counter:")) << changed.out;
+  const std::filesystem::path now = folder() / "now.mcap";
+  const std::filesystem::path svg = folder() / "now.svg";
+  const Outcome drawn = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so", "-o", now, "--svg", svg});
+  EXPECT_EQ(drawn.code, 4) << drawn.err;
+  EXPECT_EQ(drawn.out, changed.out);
+  std::ifstream in(svg);
+  const std::string picture{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_CONTAINS(picture, "run.mcap: recorded, and what is left now");
+  EXPECT_CONTAINS(picture, ">walked<");
+  EXPECT_FALSE(contains(picture, "counted")) << "is equal";
+  // What walker leaves by itself: in each run one more of STEP, as the next one begins with what was recorded.
+  const auto column = [&](const std::filesystem::path& of) {
+    EXPECT_EQ(indurop({"recording", "export", of, "nt::pace", "--csv", folder() / "c.csv"}).code, 0);
+    std::ifstream csv(folder() / "c.csv");
+    std::vector<double> own;
+    for (std::string line; std::getline(csv, line);) {
+      own.push_back(std::atof(line.substr(line.rfind(',') + 1).c_str()) * 8);
+    }
+    return own;
+  };
+  const std::vector<double> then = column(file());
+  const std::vector<double> left = column(now);
+  ASSERT_EQ(then.size(), left.size() + 1) << "the first value is none of a run";
+  for (std::size_t i = 1; i < left.size(); ++i) {
+    EXPECT_EQ(left[i], 4.0 * static_cast<double>(i));
+    EXPECT_EQ(then[i + 1], 3.0 * static_cast<double>(i));
+  }
   const Outcome same = replay({"--with", std::string(MODULE_DIR) + "/walker.so"});
   EXPECT_EQ(same.code, 0) << same.out << same.err;
   const Outcome nobody = replay({"--with", "/nowhere/stranger.so"});
@@ -265,6 +295,19 @@ TEST_F(Recording, Is_kept_by_the_next_run_when_the_node_crashed) {
   const Outcome list = indurop({"blackbox", "-o", "json", "--node", node()});
   const Outcome again = indurop({"replay", newest_box(list), "--node", node() + "-r"});
   EXPECT_EQ(again.code, 0) << again.out << again.err;
+
+  // The same by its verb.
+  const Outcome replayed = indurop({"blackbox", "replay", "--node", node()});
+  EXPECT_EQ(replayed.out, again.out) << replayed.err;
+  EXPECT_EQ(replayed.code, 0);
+  const Outcome shown = indurop({"blackbox", "show", "--node", node()});
+  EXPECT_EQ(shown.out, indurop({"recording", "info", newest_box(list)}).out) << shown.err;
+  EXPECT_CONTAINS(shown.err, "did not end, it crashed");
+  const auto csv = folder() / "box.csv";
+  EXPECT_EQ(indurop({"blackbox", "export", "--csv", csv, "--node", node()}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(csv));
+  EXPECT_EQ(indurop({"blackbox", "export", "--node", node()}).code, 2) << "what?";
+  EXPECT_EQ(indurop({"blackbox", "show", "--at", "other.mcap", "--node", node()}).code, 1);
 }
 
 TEST_F(Recording, Of_other_variables_is_not_replayed) {

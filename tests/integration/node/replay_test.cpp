@@ -98,6 +98,29 @@ TEST_F(ReplayOfLess, Late_runs_are_told_their_own_release) {
   EXPECT_CONTAINS(again.out, " values: equal");
 }
 
+// What a module writes into a variable that is forced is not what that holds, live; a replay has no forces.
+TEST_F(ReplayOfLess, What_was_forced_is_not_compared_meanwhile) {
+  const Module late{.file = "late.so", .name = "late", .period = "2ms", .priority = 2};
+  Program& sut = start_and_wait({kCounter, late});
+  Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(file()); }));
+  const auto later = [&] { return runs_reach("counter", module("counter").runs.load() + 300); };
+  ASSERT_TRUE(later());
+  ASSERT_EQ(indurop({"force", "nt::pace.walked", "3"}).code, 0);
+  ASSERT_TRUE(later());
+  ASSERT_EQ(indurop({"unforce", "nt::pace.walked"}).code, 0);
+  ASSERT_TRUE(later());
+  recorder.signal(SIGINT);
+  EXPECT_EQ(recorder.wait(), 130) << recorder.err();
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay();
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values of nt::pace were not compared: it was forced\n");
+  EXPECT_FALSE(contains(again.out, "values of nt::walked were")) << again.out;
+  EXPECT_CONTAINS(again.out, " values: equal");
+}
+
 TEST_F(ReplayOfLess, A_process_that_died_dies_again) {
   SKIP_CRASHES_UNDER_TSAN();
   const std::vector<Module> modules = {kCounter, kWalker,
