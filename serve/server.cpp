@@ -29,6 +29,17 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   return facts;
 }
 
+DoorSettings door_of(const tools::ServeOptions& options) {
+  DoorSettings settings;
+  settings.bind = options.bind;
+  settings.port = static_cast<int>(options.port);
+  settings.cert = options.cert;
+  settings.key = options.key;
+  settings.client_ca = options.client_ca;
+  settings.most_streams = options.clients;
+  return settings;
+}
+
 }  // namespace
 
 Server::Server(tools::ServeOptions options, GateSettings gate, const std::string& version)
@@ -39,7 +50,7 @@ Server::Server(tools::ServeOptions options, GateSettings gate, const std::string
       jogs_(audit_),
       api_(gate_, audit_, leases_, jogs_, facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
       page_(options_.web),
-      boards_(options_.node),
+      boards_(options_.node, &far_boards_),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node),
@@ -57,6 +68,9 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
                               : refusal(status::kNotFound, "there is nothing at this path; see /api/v1/openapi.json");
   }
   match.call.who = gate_.who(request);
+  if (is_far(match)) {
+    return ask_far(std::move(match), ticket);
+  }
   switch (match.route->pace) {
     case Pace::Files:
       return hand_over(files_, std::move(match), ticket);
@@ -108,6 +122,37 @@ std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
+}
+
+bool Server::is_far(const Match& match) const {
+  const auto board = match.call.part.find("board");
+  return far_ != nullptr && board != match.call.part.end() &&
+         (options_.node.empty() || board->second == options_.node) && far_boards_.find(board->second) != nullptr;
+}
+
+std::optional<Reply> Server::ask_far(Match match, Ticket ticket) {
+  const FarRoute route = far_route(*match.route);
+  const std::string board = match.call.part.find("board")->second;
+  if (!route.possible) {
+    return refusal(status::kConflict,
+                   fmt::format("board {} is on another host, where this is seen: indurop serve there", board));
+  }
+  if (match.route->pace == Pace::Quick && route.answer == nullptr) {
+    match.call.boards = &boards_;
+    return match.route->answer(api_, match.call);
+  }
+  match.call.plant = &far_->watch;
+  match.call.boards = &far_->boards;
+  const auto request = std::make_shared<Request>(*match.call.request);
+  match.call.request = request.get();
+  const bool added = far_->worker.add([this, request, route, board, match = std::move(match), ticket] {
+    if (route.answer == nullptr) {
+      far_boards_.fetch(far_->watch, board);
+    }
+    door_->reply(ticket, (route.answer != nullptr ? route.answer : match.route->answer)(api_, match.call));
+  });
+  return added ? std::nullopt
+               : std::optional(refusal(status::kUnavailable, "too many requests wait already; try again later"));
 }
 
 std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
@@ -174,14 +219,7 @@ int Server::run() {
     fmt::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
     return programs.error().code;
   }
-  DoorSettings settings;
-  settings.bind = options_.bind;
-  settings.port = static_cast<int>(options_.port);
-  settings.cert = options_.cert;
-  settings.key = options_.key;
-  settings.client_ca = options_.client_ca;
-  settings.most_streams = options_.clients;
-  auto opened = Door::open(settings, *this);
+  auto opened = Door::open(door_of(options_), *this);
   if (!opened) {
     fmt::print(stderr, "indurop-serve: error: {}\n", opened.error().text);
     return kFailed;
@@ -197,20 +235,28 @@ int Server::run() {
   constexpr std::int64_t kLookNs = 500'000'000;
   std::unique_ptr<Door::Alarm> looking;
   if (options_.plant) {
-    far_ = std::make_unique<Far>(options_.link);
+    far_ = std::make_unique<Far>(options_.link, options_.node, far_boards_);
   }
   looking = std::make_unique<Door::Alarm>(*door_, [this, &looking] {
     hub_.look_around();
     (void)holds_.worker.add_if_idle([this] { leases_.look(); });
-    if (far_ != nullptr) {
-      (void)far_->worker.add_if_idle([this] { far_->watch.look(); });
-    }
     looking->set(kLookNs);
   });
+  constexpr std::int64_t kHearNs = 125'000'000;
+  Door::Alarm hearing(*door_, [this, &hearing] {
+    if (far_ != nullptr) {
+      (void)far_->worker.add_if_idle([this] {
+        far_->watch.look();
+        far_boards_.look(far_->watch);
+      });
+      hearing.set(kHearNs);
+    }
+  });
+  hearing.set(kHearNs);
   looking->set(kLookNs);
   constexpr std::int64_t kAlarmsNs = 100'000'000;
   Door::Alarm watching(*door_, [this, &watching] {
-    alarms_.look(boards_.names());
+    alarms_.look(boards_.here());
     for (const std::string& word : alarms_.news()) {
       hub_.tell_all(word);
     }

@@ -40,7 +40,8 @@ class Server final : public House {
  private:
   // Boards and jobs of one more thread. The worker ends first.
   struct Helper {
-    explicit Helper(const std::string& node) : boards(node) {}
+    explicit Helper(const std::string& node, const FarBoards* far = nullptr, std::size_t reader = 0)
+        : boards(node, far, reader) {}
     Boards boards;
     Worker worker;
   };
@@ -49,6 +50,9 @@ class Server final : public House {
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
   std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
+  // About a board of another host. Nothing to do with it: nothing.
+  [[nodiscard]] bool is_far(const Match& match) const;
+  std::optional<Reply> ask_far(Match match, Ticket ticket);
   // Answers on the helper's thread.
   std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
   void announce() const;
@@ -61,6 +65,7 @@ class Server final : public House {
   JogDesk jogs_;
   Api api_;
   Page page_;
+  FarBoards far_boards_;
   Boards boards_;
   Hub hub_;
   std::unique_ptr<Door> door_;  // after all that its connections use
@@ -69,8 +74,11 @@ class Server final : public House {
   Helper orders_;
   Helper holds_;
   struct Far {
-    explicit Far(const deploy::LinkSettings& settings) : watch(settings) {}
-    tools::PlantWatch watch;  // of the worker's thread
+    Far(const deploy::LinkSettings& settings, const std::string& node, const FarBoards& boards_of_it)
+        : watch(settings), boards(node, &boards_of_it, kReader) {}
+    static constexpr std::size_t kReader = 1;  // the door's thread is 0
+    tools::PlantWatch watch;                   // of the worker's thread
+    Boards boards;                             // likewise
     Worker worker;
     Worker orders;  // one at a time
   };

@@ -79,7 +79,8 @@ class Agent {
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
         board_commands_(options.board, self_, keys_, process_, recorder_, log),
-        server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_); }),
+        values_(options.board),
+        server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_, values_); }),
         net_(link_settings(options, self_), keys_, log) {
     host_ = host_name();
   }
@@ -213,8 +214,10 @@ class Agent {
   }
 
   void work(rt::MonoTime now) {
-    board_commands_.step(*commands_, state_.committed().plant,
-                         transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now);
+    if (board_commands_.step(*commands_, state_.committed().plant,
+                             transaction_.phase() == Phase::Steady ? "" : "a deployment is under way", now)) {
+      values_.forget();  // who has set something sees it at once
+    }
     if (fetcher_.active()) {
       const Fetcher::State state = fetcher_.step(*link_, now);
       if (state == Fetcher::State::Done) {
@@ -356,6 +359,7 @@ class Agent {
   std::string held_before_;  // the trial
   BoardRecorder recorder_;
   BoardCommands board_commands_;
+  BoardValues values_;
   BlobServer server_;
   ServiceManager service_manager_;
   BoardLink net_;

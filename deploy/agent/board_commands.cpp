@@ -97,14 +97,16 @@ CommandReply BoardCommands::reply(const Command& command, Outcome outcome, const
   return {command.commander, board_, self_, command.nonce, outcome, text};
 }
 
-void BoardCommands::step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now) {
+bool BoardCommands::step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now) {
+  bool any = false;
   for (const Command& command : link.take_commands()) {
     if (command.board == board_ && command.agent == self_) {
       hear(link, command, plant, busy, now);
+      any = true;
     }
   }
   if (!command_) {
-    return;
+    return any;
   }
   if (const auto done = look(now)) {
     if (!is_recording(command_->action)) {  // its recorder tells what it does
@@ -115,6 +117,7 @@ void BoardCommands::step(CommandLink& link, const std::string& plant, const std:
     command_.reset();
     run_.reset();
   }
+  return any;
 }
 
 void BoardCommands::tell(const CommandReply& done) const {

@@ -26,8 +26,8 @@ class BoardCommands {
                 BoardRecorder& recorder, const base::Log& log);
 
   // Takes what has come and goes on with the command under way. `plant`: what is committed here; `busy`: why no command
-  // is taken now, empty: it is.
-  void step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  // is taken now, empty: it is. True: somebody has commanded something.
+  bool step(CommandLink& link, const std::string& plant, const std::string& busy, rt::MonoTime now);
 
  private:
   struct Known {

@@ -9,7 +9,8 @@
 
 namespace indurop::deploy {
 
-std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state) {
+std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state,
+                                      BoardValues& values) {
   const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
   if (name == kHistoryBlob) {
     return text(state.history_text());
@@ -19,6 +20,13 @@ std::optional<BlobServer::Blob> offer(const std::string& name, const std::string
   }
   if (name == kRunBlob) {
     return text(run_image(board));
+  }
+  if (name == kVariablesBlob || name == kValuesBlob) {
+    std::string what = name == kValuesBlob ? values.values(rt::MonoClock::now()) : values.variables();
+    return what.empty() ? std::nullopt : std::optional(text(std::move(what)));
+  }
+  if (name == kMessagesBlob) {
+    return text(messages_text(board));
   }
   if (name == kBoxesBlob) {
     return text(boxes_text(board));

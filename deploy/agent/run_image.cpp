@@ -23,38 +23,6 @@ using scheduler::OverrunEntry;
 using scheduler::RunBlock;
 using scheduler::SlotEntry;
 
-Json forces_of(const std::string& board) {
-  Json list = Json::array();
-  const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
-  if (!store) {
-    return list;
-  }
-  const rt::MonoTime now = store->now();
-  const auto custody = vars::Custody::open(board, vars::Mode::ReadOnly);
-  for (const vars::ForcedPart& part : vars::forced_parts(*store)) {
-    const vars::ForceNote note =
-        custody ? custody->note_of(*part.variable, part.offset).value_or(vars::ForceNote()) : vars::ForceNote();
-    list.push_back({{"name", part.name},
-                    {"value", schema::format_value(part.type, part.bytes)},
-                    {"raw", Json::parse(schema::value_to_json(part.type, part.bytes)).value_or(Json())},
-                    {"left_ns", part.until == vars::kForever ? Json() : Json((part.until - now).count())},
-                    {"who", note.who},
-                    {"from", note.from},
-                    {"reason", note.reason},
-                    {"lease", note.lease}});
-  }
-  return list;
-}
-
-Json lock_of(const std::string& board) {
-  const vars::LockNote note = vars::lock_of(board);
-  return {{"lock", vars::word_of(note.lock)},
-          {"who", note.who},
-          {"from", note.from},
-          {"reason", note.reason},
-          {"wall_ns", note.wall_ns}};
-}
-
 // An entry that changes meanwhile counts as being written.
 template <class Entry>
 void copy_log(const Entry* from, Entry* to, std::uint64_t count) {
@@ -121,11 +89,47 @@ std::string block_of(const std::string& board) {
 
 }  // namespace
 
+base::Json told_forces(const std::string& board) {
+  using base::Json;
+  Json list = Json::array();
+  const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
+  if (!store) {
+    return list;
+  }
+  const rt::MonoTime now = store->now();
+  const auto custody = vars::Custody::open(board, vars::Mode::ReadOnly);
+  for (const vars::ForcedPart& part : vars::forced_parts(*store)) {
+    const vars::ForceNote note =
+        custody ? custody->note_of(*part.variable, part.offset).value_or(vars::ForceNote()) : vars::ForceNote();
+    list.push_back({{"name", part.name},
+                    {"value", schema::format_value(part.type, part.bytes)},
+                    {"raw", Json::parse(schema::value_to_json(part.type, part.bytes)).value_or(Json())},
+                    {"left_ns", part.until == vars::kForever ? Json() : Json((part.until - now).count())},
+                    {"who", note.who},
+                    {"from", note.from},
+                    {"reason", note.reason},
+                    {"lease", note.lease},
+                    {"variable", store->schema().variables[part.variable->schema_index].name},
+                    {"offset", part.offset},
+                    {"size", part.bytes.size()}});
+  }
+  return list;
+}
+
+base::Json told_lock(const std::string& board) {
+  const vars::LockNote note = vars::lock_of(board);
+  return {{"lock", vars::word_of(note.lock)},
+          {"who", note.who},
+          {"from", note.from},
+          {"reason", note.reason},
+          {"wall_ns", note.wall_ns}};
+}
+
 std::string run_image(const std::string& board) {
   const Json head{{"running", vars::running_node(board) > 0},
                   {"now_ns", rt::now_ns()},
-                  {"forces", forces_of(board)},
-                  {"lock", lock_of(board)}};
+                  {"forces", told_forces(board)},
+                  {"lock", told_lock(board)}};
   return head.dump() + "\n" + block_of(board);
 }
 

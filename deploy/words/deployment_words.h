@@ -141,6 +141,10 @@ inline constexpr const char* kHistoryBlob = "history";
 inline constexpr const char* kMirrorBlob = "mirror";
 // Likewise: the run block of the board's node as it is at this moment (deploy/agent/run_image.h), for tools elsewhere.
 inline constexpr const char* kRunBlob = "run";
+// Likewise: the variables of the board's node, their values, and what was printed (deploy/agent/board_values.h).
+inline constexpr const char* kVariablesBlob = "variables";
+inline constexpr const char* kValuesBlob = "values";
+inline constexpr const char* kMessagesBlob = "messages";
 // Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
 inline constexpr const char* kBoxesBlob = "boxes";
 inline constexpr std::string_view kBoxBlob = "box/";

@@ -35,6 +35,16 @@ Reply plant_history(Api& api, const Call& call);
 Reply plant_difference(Api& api, const Call& call);
 Reply plant_rollback(Api& api, const Call& call);
 
+// The same of a board of another host.
+Reply far_messages(Api& api, const Call& call);
+Reply far_set(Api& api, const Call& call);
+Reply far_force(Api& api, const Call& call);
+Reply far_release(Api& api, const Call& call);
+Reply far_lock(Api& api, const Call& call);
+Reply far_start(Api& api, const Call& call);
+Reply far_stop(Api& api, const Call& call);
+Reply far_restart(Api& api, const Call& call);
+
 Reply histograms(Api& api, const Call& call);
 Reply schedule(Api& api, const Call& call);
 Reply runs(Api& api, const Call& call);

@@ -23,6 +23,24 @@ base::Json texts_of(const std::vector<Trouble>& troubles) {
   return out;
 }
 
+std::uint64_t number_of(const base::Json& row, const char* what) {
+  return row[what].natural().value_or(0);
+}
+
+// Of another host: what its agent says, and where it is.
+void add_far(base::Json& out, const Board& board) {
+  if (board.far() == nullptr) {
+    return;
+  }
+  const auto said = board.far()->said();
+  out["here"] = false;
+  out["host"] = said.row["host"].text().value_or("");
+  out["deployment"] = said.row["deployment"].text().value_or("");
+  out["overruns"] = number_of(said.row, "overruns");
+  out["faults"] = number_of(said.row, "faults");
+  out["lost_ticks"] = number_of(said.row, "lost_ticks");
+}
+
 base::Json summary_of(const Api& api, const Board& board) {
   const auto run = board.run();
   const tools::NodeReport report = run ? tools::report_of(board.name(), *run) : tools::NodeReport{};
@@ -40,7 +58,20 @@ base::Json summary_of(const Api& api, const Board& board) {
   out["alarms"] = tools::json_of(alarms);
   out["trouble"] = texts_of(troubles_of(board, run, alarms));
   out["layout"] = board.layout();
+  add_far(out, board);
   return out;
+}
+
+void add_forces(base::Json& out, const Board& board) {
+  if (board.far() != nullptr) {
+    auto said = board.far()->said();
+    out["forces"] = std::move(said.forces);
+    out["lock"] = std::move(said.lock);
+    return;
+  }
+  const auto* const store = board.store();
+  out["forces"] = store != nullptr ? tools::json_of(tools::view_forces(board.name(), *store)) : base::Json::array();
+  out["lock"] = tools::json_of(vars::lock_of(board.name()));
 }
 
 base::Json module_of(base::Json row, const scheduler::ModuleRecord& record) {
@@ -74,6 +105,7 @@ Reply board(Api& api, const Call& call) {
   const Board& one = **found;
   const auto run = one.run();
   base::Json body = run ? tools::json_of(tools::report_of(one.name(), *run)) : base::Json::object();
+  add_far(body, one);
   const auto mirror = tools::view_mirror(one.name());
   const auto external = tools::view_external(one.name());
   body["node"] = one.name();
@@ -83,9 +115,7 @@ Reply board(Api& api, const Call& call) {
   const tools::AlarmCounts alarms = api.facts().alarms(one.name());
   body["alarms"] = tools::json_of(alarms);
   body["trouble"] = texts_of(troubles_of(one, run, alarms));
-  body["forces"] =
-      one.store() != nullptr ? tools::json_of(tools::view_forces(one.name(), *one.store())) : base::Json::array();
-  body["lock"] = tools::json_of(vars::lock_of(one.name()));
+  add_forces(body, one);
   body["mirror"] = mirror ? tools::json_of(*mirror) : base::Json();
   body["external"] = external ? tools::json_of(*external) : base::Json();
   return json_reply(body);
@@ -138,10 +168,8 @@ Reply forces(Api& /*api*/, const Call& call) {
     return found.error();
   }
   base::Json body = about(**found);
-  const auto* const store = (*found)->store();
-  body["forces"] =
-      store != nullptr ? tools::json_of(tools::view_forces((*found)->name(), *store)) : base::Json::array();
-  body["lock"] = tools::json_of(vars::lock_of((*found)->name()));
+  (*found)->want();
+  add_forces(body, **found);
   return json_reply(body);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers that change something: values, forces, modules. The store is opened to write for that moment only.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "serve/api/answers.h"
+#include "serve/api/wish.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
 #include "serve/boards/variable.h"
@@ -14,53 +14,6 @@
 
 namespace indurop::serve::answers {
 namespace {
-
-// What a body asks for, after it was understood.
-struct Wish {
-  std::vector<std::pair<std::string, std::string>> values;  // name, value as `indurop set` takes it
-  std::vector<std::string> names;
-  std::string reason;
-  std::int64_t for_ns = 0;
-  bool all = false;
-  bool lease = false;
-};
-
-Result<Wish, std::string> read_wish(const std::string& body) {
-  const auto json = base::Json::parse(body);
-  if (!json || !json->is_object()) {
-    return std::string("the body is no JSON object");
-  }
-  Wish wish;
-  base::read(*json, "reason", wish.reason);
-  base::read(*json, "names", wish.names);
-  base::read(*json, "all", wish.all);
-  base::read(*json, "lease", wish.lease);
-  if (wish.lease && json->find("for_ns") != nullptr) {
-    return std::string("lease and for_ns are two ways of ending: choose one");
-  }
-  if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", wish.for_ns) || wish.for_ns <= 0)) {
-    return std::string("for_ns is a number of nanoseconds greater than 0");
-  }
-  if (const base::Json* const values = json->find("values")) {
-    if (!values->is_object() || values->values().empty()) {
-      return std::string("values is an object of NAME: value");
-    }
-    std::size_t i = 0;
-    for (const std::string& name : values->keys()) {
-      const base::Json& value = values->values()[i++];
-      wish.values.emplace_back(name, value.is_text() ? *value.text() : value.dump());
-    }
-  }
-  return wish;
-}
-
-std::string text_of(const Wish& wish) {
-  std::string text;
-  for (const auto& [name, value] : wish.values) {
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
-  }
-  return text.empty() ? fmt::format("{}", fmt::join(wish.names, " ")) : text;
-}
 
 // All values found good, or none.
 std::optional<std::vector<tools::Assignment>> check_values(Write& write, const vars::Store& store, const Wish& wish,

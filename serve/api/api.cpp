@@ -6,6 +6,10 @@
 namespace indurop::serve {
 
 const tools::KnownUses& Api::uses_of(const Board& board) {
+  static const tools::KnownUses none;
+  if (board.far() != nullptr) {
+    return none;
+  }
   const auto run = board.run();
   const std::int64_t started = run ? run->block().started_wall_ns : 0;
   const auto known = uses_.find(board.name());

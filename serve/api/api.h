@@ -60,6 +60,7 @@ class Api {
   [[nodiscard]] LeaseDesk& leases() const noexcept { return *leases_; }
   [[nodiscard]] JogDesk& jogs() const noexcept { return *jogs_; }
   // Writers and readers by variable; read once per run of the board. For the thread that reads files.
+  // Of boards of other hosts none.
   const tools::KnownUses& uses_of(const Board& board);
 
  private:

@@ -49,6 +49,13 @@ struct Route {
 };
 
 std::span<const Route> all_routes();
+// How a question about a board is answered if that is on another host: in the same way (null), in another one, which
+// goes through the plant, or not.
+struct FarRoute {
+  bool possible = false;
+  Reply (*answer)(Api& api, const Call& call) = nullptr;
+};
+FarRoute far_route(const Route& route);
 
 struct Match {
   const Route* route = nullptr;  // null: see `other_method`

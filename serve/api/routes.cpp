@@ -63,4 +63,32 @@ std::span<const Route> all_routes() {
   return kRoutes;
 }
 
+FarRoute far_route(const Route& route) {
+  struct Way {
+    Reply (*here)(Api& api, const Call& call);
+    Reply (*far)(Api& api, const Call& call);
+  };
+  static constexpr std::array kWays{
+      Way{&answers::board, nullptr},
+      Way{&answers::faults, nullptr},
+      Way{&answers::forces, nullptr},
+      Way{&answers::variables, nullptr},
+      Way{&answers::variable, nullptr},
+      Way{&answers::messages, &answers::far_messages},
+      Way{&answers::set, &answers::far_set},
+      Way{&answers::force, &answers::far_force},
+      Way{&answers::release, &answers::far_release},
+      Way{&answers::set_lock, &answers::far_lock},
+      Way{&answers::start_module, &answers::far_start},
+      Way{&answers::stop_module, &answers::far_stop},
+      Way{&answers::restart_module, &answers::far_restart},
+  };
+  for (const Way& way : kWays) {
+    if (way.here == route.answer) {
+      return {true, way.far};
+    }
+  }
+  return {};
+}
+
 }  // namespace indurop::serve

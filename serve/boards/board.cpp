@@ -4,22 +4,56 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
+#include "rt/clock.h"
 #include "scheduler/words.h"
 
 namespace indurop::serve {
+namespace {
+
+// One for each store that any board has attached: a name may be on this host now and on another one then.
+std::uint64_t next_attachment() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+}  // namespace
+
+void Board::want() const {
+  if (far_ != nullptr) {
+    far_->want(rt::now_ns());
+  }
+}
+
+void Board::refresh_far() {
+  const auto said = far_->said();
+  if (far_->generation() != generation_) {
+    const std::uint64_t generation = far_->generation();
+    if (auto fresh = far_->attach(reader_); fresh.ok()) {
+      store_ = std::move(fresh).value();
+      generation_ = generation;
+      attachment_ = next_attachment();
+    }
+  }
+  absence_ = said.running ? std::string() : said.state;
+}
 
 void Board::refresh() {
+  if (far_ != nullptr) {
+    refresh_far();
+    return;
+  }
   if (!store_ || store_->retired() || source_.generation() != generation_) {
     const std::uint64_t generation = source_.generation();
     auto fresh = source_.attach();
     if (fresh.ok()) {
       store_ = std::move(fresh).value();
       generation_ = generation;
-      ++attachment_;
+      attachment_ = next_attachment();
     } else if (generation == 0 && store_) {
       store_.reset();
-      ++attachment_;
+      attachment_ = next_attachment();
     }
   }
   absence_ = source_.absence(store());
@@ -30,6 +64,9 @@ std::string Board::layout() const {
 }
 
 std::optional<tools::RunView> Board::run() const {
+  if (far_ != nullptr) {
+    return std::nullopt;
+  }
   auto run = tools::RunView::open(name_);
   return run.ok() ? std::optional(std::move(run).value()) : std::nullopt;
 }
@@ -38,16 +75,35 @@ std::string Board::state() const {
   if (!absence_.empty()) {
     return absence_;
   }
+  if (far_ != nullptr) {
+    return far_->said().state;
+  }
   const auto view = run();
   return view && view->node_alive() ? scheduler::to_text(view->block().state.load(std::memory_order_relaxed))
                                     : "starting";
 }
 
-std::vector<std::string> Boards::names() const {
+std::vector<std::string> Boards::here() const {
   std::vector<std::string> all = vars::list_nodes();
+  std::erase_if(all, [](const std::string& name) { return name.starts_with(tools::far_store_prefix()); });
   if (!only_.empty()) {
     std::erase_if(all, [this](const std::string& name) { return name != only_; });
   }
+  return all;
+}
+
+std::vector<std::string> Boards::names() const {
+  std::vector<std::string> all = here();
+  if (far_ == nullptr) {
+    return all;
+  }
+  for (std::string& name : far_->names()) {
+    if (only_.empty() || name == only_) {
+      all.push_back(std::move(name));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
@@ -61,8 +117,10 @@ Board* Boards::find(const std::string& name) {
     const auto all = names();
     return all.size() == 1 ? find(all.front()) : nullptr;
   }
-  const auto known = std::find_if(boards_.begin(), boards_.end(),
-                                  [&name](const std::unique_ptr<Board>& board) { return board->name() == name; });
+  const auto far = far_ != nullptr && (only_.empty() || name == only_) ? far_->find(name) : nullptr;
+  const auto known = std::find_if(boards_.begin(), boards_.end(), [&](const std::unique_ptr<Board>& board) {
+    return board->name() == name && board->far() == far.get();
+  });
   if (known != boards_.end()) {
     (*known)->refresh();
     return (*known)->store() != nullptr || listed(name) ? known->get() : nullptr;
@@ -70,7 +128,7 @@ Board* Boards::find(const std::string& name) {
   if (!listed(name)) {
     return nullptr;
   }
-  boards_.push_back(std::make_unique<Board>(name));
+  boards_.push_back(far != nullptr ? std::make_unique<Board>(far, reader_) : std::make_unique<Board>(name));
   boards_.back()->refresh();
   return boards_.back().get();
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A node of this host as an observer has it: its store, attached read-only and again when the node comes back with
-// another one. Of one thread.
+// another one; or a board of another host, by what its agent says. Of one thread.
 
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "serve/boards/far_boards.h"
 #include "tools/values/here_source.h"
 #include "tools/values/run_view.h"
 #include "vars/store.h"
@@ -19,12 +21,20 @@ class Board {
  public:
   explicit Board(std::string name) : name_(std::move(name)), source_(name_, vars::Mode::ReadOnly) {}
 
+  // Of another host; `reader` is the number of this thread.
+  Board(std::shared_ptr<tools::FarBoard> far, std::size_t reader)
+      : name_(far->name()), source_(name_, vars::Mode::ReadOnly), far_(std::move(far)), reader_(reader) {}
+
   // Looks whether the store is still the one that is attached. Costs two small files.
   void refresh();
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const vars::Store* store() const noexcept { return store_ ? &*store_ : nullptr; }
   [[nodiscard]] bool alive() const noexcept { return store_ && absence_.empty(); }
+  // Null: it is on this host.
+  [[nodiscard]] const tools::FarBoard* far() const noexcept { return far_.get(); }
+  // Somebody wants to see its values: those of another host come as long as that is so.
+  void want() const;
   // Changes whenever another store was attached: what points into the one before is void.
   [[nodiscard]] std::uint64_t attachment() const noexcept { return attachment_; }
   // Of names and types of the variables, 16 hexadecimal digits; empty: there is no store.
@@ -34,19 +44,27 @@ class Board {
   [[nodiscard]] std::optional<tools::RunView> run() const;
 
  private:
+  void refresh_far();
+
   std::string name_;
   tools::HereSource source_;
   std::optional<vars::Store> store_;
   std::uint64_t generation_ = 0;
   std::uint64_t attachment_ = 0;
   std::string absence_ = "not running";
+  std::shared_ptr<tools::FarBoard> far_;
+  std::size_t reader_ = 0;
 };
 
-// All nodes of the host, or the one that is wanted. Of one thread.
+// All nodes of the host, or the one that is wanted, and boards of other hosts. Of one thread.
 class Boards {
  public:
-  explicit Boards(std::string only) : only_(std::move(only)) {}
+  // `far`: boards of other hosts, which `reader` tells this thread from others by.
+  explicit Boards(std::string only, const FarBoards* far = nullptr, std::size_t reader = 0)
+      : only_(std::move(only)), far_(far), reader_(reader) {}
 
+  // Those of this host.
+  [[nodiscard]] std::vector<std::string> here() const;
   // Names of all that are there now.
   [[nodiscard]] std::vector<std::string> names() const;
   // Refreshed; null if there is no such node. `name` empty: the only one. A board lives as long as
@@ -58,6 +76,8 @@ class Boards {
   [[nodiscard]] bool listed(const std::string& name) const;
 
   std::string only_;
+  const FarBoards* far_;
+  std::size_t reader_;
   std::vector<std::unique_ptr<Board>> boards_;  // those that were asked for
 };
 

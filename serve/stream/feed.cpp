@@ -79,6 +79,9 @@ void Feed::read(const vars::Store& store) {
 
 bool Feed::sample(const Board* board, std::int64_t now_ns) {
   due_ns_ = (now_ns / interval_ns_ + 1) * interval_ns_;
+  if (board != nullptr) {
+    board->want();
+  }
   const vars::Store* const store = board != nullptr ? board->store() : nullptr;
   if (store != nullptr && board->attachment() != attachment_) {
     if (board->layout() != layout_) {

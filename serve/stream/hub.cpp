@@ -12,6 +12,14 @@
 #include "serve/stream/foxglove.h"
 
 namespace indurop::serve {
+namespace {
+
+// A board of another host, whose node may not run.
+bool is_heard(const Board& board) {
+  return board.far() != nullptr && board.far()->said().heard;
+}
+
+}  // namespace
 
 std::unique_ptr<Visitor> Hub::receive(const Request& request, Line& line) {
   if (boards_word_.empty()) {
@@ -50,6 +58,7 @@ Result<std::shared_ptr<Feed>, Refusal> Hub::feed_for(const ClientWord& word) {
                                                    : fmt::format("there is no board '{}'{}", word.board,
                                                                  base::suggestion(word.board, names))};
   }
+  board->want();
   if (board->store() == nullptr) {
     return Refusal{"unavailable", fmt::format("the variables of board {} cannot be read", board->name())};
   }
@@ -119,7 +128,9 @@ void Hub::look_around() {
     base::Json one = base::Json::object();
     one["board"] = name;
     one["alive"] = board->alive();
-    one["state"] = board->alive() ? board->state() : "not running";
+    one["state"] = board->alive() || is_heard(*board) ? board->state()
+                   : board->far() != nullptr          ? "not heard"
+                                                      : "not running";
     one["layout"] = board->layout();
     list.push_back(std::move(one));
   }

@@ -49,13 +49,21 @@ void PlantWatch::look() {
   }
 }
 
-base::Json PlantWatch::json() const {
+std::vector<base::Json> PlantWatch::rows() const {
   const std::int64_t now = rt::now_ns();
-  base::Json boards = base::Json::array();
+  std::vector<base::Json> all;
   for (const auto& [name, seen] : seen_) {
     base::Json row = seen.row;
     row["heard"] = roster_.find(name) != nullptr && now - seen.heard_ns < kLateNs;
     row["age_ns"] = now - seen.heard_ns;
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+base::Json PlantWatch::json() const {
+  base::Json boards = base::Json::array();
+  for (base::Json& row : rows()) {
     boards.push_back(std::move(row));
   }
   base::Json out = base::Json::object();

@@ -7,10 +7,13 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/json.h"
 #include "base/problem.h"
 #include "deploy/link/deploy_link.h"
+#include "tools/command/failure.h"
+#include "tools/plant/board_commander.h"
 #include "tools/plant/board_roster.h"
 
 namespace indurop::tools {
@@ -31,6 +34,25 @@ class PlantWatch {
   // Of two deployments, by their whole ids: see deployment_difference.h.
   [[nodiscard]] Result<base::Json, base::Problem> difference(const std::string& before, const std::string& after);
 
+  // Boards whose agents are heard now, or were: what json() says of each.
+  [[nodiscard]] std::vector<base::Json> rows() const;
+  // What these boards say by that name (deploy/words/deployment_words.h); within two seconds, without those that do
+  // not.
+  [[nodiscard]] std::map<std::string, std::string> texts(const char* name, const std::vector<std::string>& boards);
+
+  struct FarOrder {
+    enum class What : std::uint8_t { Set, Force, Unforce, Lock, StopModule, StartModule, RestartModule };
+    What what = What::Set;
+    std::vector<std::string>
+        lines;                // NAME=VALUE; of Unforce names, none: all; else the word of the lock, or the module
+    std::int64_t for_ns = 0;  // of Force, 0: until it is let go
+    std::string who;
+    std::string reason;
+  };
+  // Given to the board's agent, which looks whether it may be; waits until it is done, a few seconds at most. Boards
+  // with keys want those of the settings. Returns what the board says of it.
+  Result<std::string, Failure> order(const std::string& board, const FarOrder& order);
+
  private:
   struct Gone {
     base::Json row;
@@ -43,6 +65,7 @@ class PlantWatch {
   std::unique_ptr<deploy::DeployLink> link_;
   std::string problem_;
   BoardRoster roster_;
+  std::unique_ptr<BoardCommander> commander_;
   std::map<std::string, Gone> seen_;  // all that were ever heard, by name
 };
 

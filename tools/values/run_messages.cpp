@@ -1,66 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What modules printed, from the rings the node prints from: an entry stays there until it is used again.
-#include <indurop/detail/access.h>
-
-#include <algorithm>
-#include <span>
-
+// What modules printed, as people read it.
+#include "scheduler/printed_messages.h"
 #include "tools/values/run_view.h"
 
 namespace indurop::tools {
-namespace {
-
-using scheduler::MessageEntry;
-using scheduler::MessageRing;
-
-// Objects of this kind, if they all lie in the block.
-template <class T>
-std::span<const T> objects(const scheduler::RunBlock& block, std::uint64_t offset, std::uint64_t count,
-                           std::uint64_t total) {
-  const bool good =
-      offset >= sizeof block && offset % alignof(T) == 0 && offset <= total && count <= (total - offset) / sizeof(T);
-  return good ? std::span(block.at<T>(offset), count) : std::span<const T>();
-}
-
-// Tickets count messages of a ring; twice around it an entry's sequence goes from free to filled to free again
-// (runtime/message_ring.cpp). It is copied and kept only if nobody has taken it for another message meanwhile.
-template <class Keep>
-void read_ring(const MessageRing& ring, std::span<const MessageEntry> entries, const Keep& keep) {
-  const std::uint64_t head = ring.head.load(std::memory_order_acquire);
-  for (std::uint64_t ticket = head - std::min<std::uint64_t>(head, entries.size()); ticket < head; ++ticket) {
-    const MessageEntry& entry = entries[ticket % entries.size()];
-    const std::uint64_t free = ticket / entries.size() * 2;
-    const std::uint64_t sequence = entry.sequence.load(std::memory_order_acquire);
-    if (sequence != free + 1 && sequence != free + 2) {
-      continue;
-    }
-    MessageEntry copy{};
-    detail::copy_from_shared(&copy.module, &entry.module, sizeof copy - offsetof(MessageEntry, module));
-    std::atomic_thread_fence(std::memory_order_acquire);
-    if (ring.head.load(std::memory_order_relaxed) - ticket <= entries.size()) {
-      keep(copy.module, copy.time_ns,
-           std::string_view(copy.text, std::min<std::size_t>(copy.length, scheduler::kMessageText)));
-    }
-  }
-}
-
-}  // namespace
 
 std::vector<MessageSample> RunView::messages(std::size_t most) const {
   std::vector<MessageSample> all;
-  const auto keep = [&](std::uint32_t module, std::int64_t time_ns, std::string_view text) {
-    all.push_back({module < checked_.module_count ? module_name(module) : "node", time_ns,
-                   std::string(text.substr(0, text.find_last_not_of("\r\n") + 1))});
-  };
-  const std::uint64_t rings = checked_.module_count + 1ULL;
-  for (const MessageRing& ring : objects<MessageRing>(*block_, block_->rings_offset, rings, checked_.total)) {
-    const auto entries = objects<MessageEntry>(*block_, ring.entries_offset, ring.capacity, checked_.total);
-    if (!entries.empty()) {
-      read_ring(ring, entries, keep);
-    }
+  for (scheduler::PrintedMessage& one :
+       scheduler::printed_messages(*block_, checked_.total, checked_.module_count, most)) {
+    const bool node = one.module >= checked_.module_count;
+    all.push_back({node ? "node" : module_name(one.module), one.time_ns, std::move(one.text)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.time_ns < b.time_ns; });
-  all.erase(all.begin(), all.end() - static_cast<std::ptrdiff_t>(std::min(all.size(), most)));
   return all;
 }
 

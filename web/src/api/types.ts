@@ -16,7 +16,8 @@ export interface ServerStatus {
 
 export interface BoardSummary {
   board: string;
-  here: boolean;
+  here: boolean;  // on this host
+  host?: string;  // of a board that is not
   alive: boolean;
   state: string;
   deployment: string;

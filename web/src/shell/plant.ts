@@ -22,13 +22,20 @@ function update(part: Partial<Plant>): void {
   plant.set({ ...plant.get(), ...part });
 }
 
+let looking = false;
+
+// One question at a time: at the start the stream opens and tells of boards while the first one is still open.
 async function look(): Promise<void> {
+  if (looking) return;
+  looking = true;
   try {
     const [status, { boards }] = await Promise.all([
       get<ServerStatus>("status"), get<{ boards: BoardSummary[] }>("boards")]);
     update({ status, boards, error: "" });
   } catch (error) {
     update({ error: words(error) });
+  } finally {
+    looking = false;
   }
 }
 
@@ -56,10 +63,10 @@ export function start_looking(): void {
   void again();
 }
 
-// The board the address names, else the first that runs, else the first.
+// The board the address names, else the first of this host that runs, else the first that runs, else the first.
 export function useBoard(): BoardSummary | null {
   const { boards } = useStore(plant);
   const named = useStore(place).query.get("board");
   if (!boards) return null;
-  return boards.find(({ board }) => board === named) ?? boards.find(({ alive }) => alive) ?? boards[0] ?? null;
+  return boards.find(({ board }) => board === named) ?? boards.find(({ alive, here }) => alive && here) ?? boards.find(({ alive }) => alive) ?? boards[0] ?? null;
 }

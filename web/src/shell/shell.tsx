@@ -51,7 +51,8 @@ function Notice() {
   useStore(plant);
   const board = useBoard();
   const what = missing();
-  const gone = !what && board && !board.alive ? `Node ${board.board} is gone: looking for it again. Values are its last ones.` : "";
+  const where = board && !board.here ? `Board ${board.board} is ${board.state}` : `Node ${board?.board} is gone`;
+  const gone = !what && board && !board.alive ? `${where}: looking for it again. Values are its last ones.` : "";
   return <div role="status" class="notices">{(what || gone) && <p class="notice">{what || gone}</p>}</div>;
 }
 
@@ -62,7 +63,7 @@ function BoardChoice() {
   return (
     <label class="choice">Board{" "}
       <select value={board.board} onChange={(event) => change_query({ board: event.currentTarget.value })}>
-        {boards.map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : " (gone)"}</option>)}
+        {boards.map((one) => <option key={one.board} value={one.board}>{one.board}{one.alive ? "" : one.here ? " (gone)" : " (not heard)"}</option>)}
       </select>
     </label>);
 }

@@ -164,9 +164,10 @@ function Headline({ boards, far }: { boards: BoardSummary[]; far: string[] }) {
 }
 
 export function Overview() {
-  const { boards, status } = useStore(plant);
+  const { boards: all, status } = useStore(plant);
   const far = usePlant();
-  if (!boards) return <Waiting />;
+  if (!all) return <Waiting />;
+  const boards = all.filter(({ here }) => here);  // the others are the plant's
   // Boards of this host say themselves what is wrong with them.
   const silent = far.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
   const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);

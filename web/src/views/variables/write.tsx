@@ -4,6 +4,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, post, words } from "../../api/http";
 import { keep } from "../../shell/leases";
+import { plant } from "../../shell/plant";
 import { value_text } from "../../ui/format";
 import { has_parts, type Part } from "../../ui/paths";
 
@@ -66,6 +67,8 @@ interface Props {
 }
 
 export function Write({ board, part, value, forced, done }: Props) {
+  const here = plant.get().boards?.find((one) => one.board === board)?.here ?? true;
+  const ways = here ? HOW_LONG : HOW_LONG.filter(([, ns]) => ns >= 0);  // leases are for boards of this host
   const [text, put] = useState("");
   const touched = useRef(false);  // not a state: the effect must know at once
   const [how_long, choose] = useState(0);
@@ -105,7 +108,7 @@ export function Write({ board, part, value, forced, done }: Props) {
       <div class="bar">
         <button type="button" onClick={() => with_value("/force", until, `Forced to ${text} ${HOW_LONG[how_long][0]}.`)}>Force</button>
         <select aria-label="How long to force" value={how_long} onChange={(event) => choose(Number(event.currentTarget.value))}>
-          {HOW_LONG.map(([name], i) => <option key={name} value={i}>{name}</option>)}
+          {ways.map(([name], i) => <option key={name} value={i}>{name}</option>)}
         </select>
         {forced && <button type="button" onClick={() => order("/release", { names: [part.name] }, "Released.")}>Release</button>}
       </div>

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The variables of the board's node, their values and what its modules printed, for tools elsewhere. Only reads, as
+// every observer of the store does: no tick notices. Not real-time safe.
+//   variables: {"layout": 16 hexadecimal digits} in a line, then the schema as JSON (schema/schema.h)
+//   values:    {"layout", "running", "now_ns": CLOCK_MONOTONIC or virtual time of the board,
+//               "forces" and "lock" as run_image.h has them} in a line, then of each variable, in the order of the
+//              schema, its freshness (i64, little endian: see below) and the bytes of its value
+//   messages:  {"epoch_ns", "basic_period_ns", "messages": [{"who", "time_ns", "text"}]}, oldest first
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+
+// Freshness of a value: its own is 0, one of another board its age in ns and 1 more, negative while that board is
+// silent.
+inline constexpr std::int64_t kNeverHeard = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kNotRead = std::numeric_limits<std::int64_t>::max();  // it was being written
+
+class BoardValues {
+ public:
+  static constexpr std::size_t kMostBytes = 4U << 20U;
+  static constexpr std::chrono::milliseconds kKeep{100};
+
+  explicit BoardValues(std::string board) : board_(std::move(board)) {}
+
+  // Empty: no node of this board has left any, or they are more than kMostBytes.
+  [[nodiscard]] std::string variables() const;
+  // Likewise. Whoever asks within kKeep gets the same again, however many ask.
+  const std::string& values(rt::MonoTime now);
+  void forget() { kept_until_ = {}; }
+
+ private:
+  std::string board_;
+  std::string kept_;
+  rt::MonoTime kept_until_;
+};
+
+// Empty list: no node of this board has left any.
+std::string messages_text(const std::string& board);
+
+}  // namespace indurop::deploy

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""indurop-serve before a board of another host: a board whose memory it cannot see, heard through its agent only. The board's
+values, as they come here, are compared with what a server beside it reads from its memory. far_test.py PROGRAMS FAKE_NODE [TEST...]"""
+
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+
+import harness
+from harness import wait_for
+from plant_test import API, start_agent, take_domain
+from websocket import WebSocket
+
+# Of its own: memory (/dev/shm) and the mounts to have it.
+ELSEWHERE = ["unshare", "--mount", "--propagation", "private", "sh", "-c", 'mount -t tmpfs none /dev/shm && exec "$0" "$@"']
+
+
+def there_are_namespaces():
+    if shutil.which("unshare") is None:
+        return False
+    for words in ([], ["--user", "--map-root-user"]):
+        tried = subprocess.run(["unshare", *words, *ELSEWHERE[1:], "true"], stderr=subprocess.DEVNULL, check=False)
+        if tried.returncode == 0:
+            ELSEWHERE[1:1] = words
+            return True
+    return False
+
+
+def start_far_server(setting, domain, *options):
+    """A server on another host than the nodes of this one."""
+    child = setting.start(*ELSEWHERE, setting.programs / "indurop-serve", "--port", 0, "--plant", "--domain", domain, "--one-host",
+                          "--write", "--token-file", setting.tokens, *options)
+    found = re.match(r"https?://[^/]*:(\d+)/", child.stdout.readline())
+    assert found
+    return harness.Server(int(found.group(1)), child)
+
+
+def board_of(setting):
+    return f"{API}/boards/{setting.node}"
+
+
+def begin(setting, *options):
+    """A board with its agent, a server beside it, and one elsewhere that has heard the board."""
+    domain = take_domain(setting)
+    setting.start_node(*options)
+    agent = start_agent(setting, setting.node, domain)
+    near = setting.start_server()
+    far = start_far_server(setting, domain)
+    wait_for(lambda: [one["board"] for one in far.get(API + "/boards").json()["boards"]] == [setting.node], "the board to be heard")
+    return domain, agent, near, far
+
+
+def variables(server, setting):
+    answer = server.get(board_of(setting) + "/variables")
+    return {one["name"]: one for one in answer.json()["variables"]} if answer.status == 200 else {}
+
+
+def test_shows_the_variables_of_a_board_elsewhere(setting):
+    _, _, near, far = begin(setting)
+    assert far.get(API + "/boards").json()["boards"][0]["here"] is False
+    wait_for(lambda: variables(far, setting), "variables")
+    there, here = variables(near, setting), variables(far, setting)
+    assert there.keys() == here.keys() and len(here) > 3, here.keys()
+    for name, one in here.items():
+        for what in ("type", "form", "unit", "range", "description", "retain"):
+            assert one[what] == there[name][what], (name, what)
+        assert one["age_ns"] is not None and one["age_ns"] >= 0, one
+    steady = [name for name in here if there[name]["value"] == variables(near, setting)[name]["value"]]
+    assert steady and all(here[name]["value"] == there[name]["value"] for name in steady), steady
+    one = far.get(board_of(setting) + "/variables/gain").json()
+    assert one["value"] == there["knu::Robot::gain"]["value"] and one["quality"] == "good", one
+    missing = far.get(board_of(setting) + "/variables/gian")
+    assert missing.status == 404 and "did you mean" in missing.json()["message"], missing.body
+
+
+def test_follows_values_and_says_when_they_are_old(setting):
+    domain, agent, _, far = begin(setting)
+    wait_for(lambda: variables(far, setting), "variables")
+    client = WebSocket(far.port)
+    client.say(type="subscribe", id=1, board=setting.node, names=["tick", "gain"], rate_hz=10)
+    told = client.heard("subscribed")
+    assert [one["name"] for one in told["variables"]] == ["knu::Robot::tick", "knu::Robot::gain"], told
+    ticks = set()
+    while len(ticks) < 4:
+        frame = client.heard("values")
+        assert frame["alive"] and not frame["quality"], frame
+        ticks.add(frame["values"].get("knu::Robot::tick"))
+    setting.end(agent, signal.SIGKILL)
+    while client.heard("values")["quality"].get("knu::Robot::gain") != "silent":
+        pass
+    summary = wait_for(lambda: [one for one in far.get(API + "/boards").json()["boards"] if not one["alive"]], "the board to be missed")
+    assert summary[0]["state"].startswith("not heard, last ") and summary[0]["trouble"], summary
+    last = variables(far, setting)["knu::Robot::gain"]
+    assert last["quality"] == "silent" and last["value"] is not None, last
+    start_agent(setting, setting.node, domain)
+    while client.heard("values")["quality"]:
+        pass
+    client.close()
+
+
+def deploy(setting, domain, *modules):
+    """These of tests/modules, every 10 ms, by the board's agent; a module that is there already is replaced."""
+    for name in modules:
+        shutil.copy(pathlib.Path(setting.fake_node).parent / "modules" / f"{name}.so", setting.folder)
+    (setting.folder / "plant.xml").write_text(
+        f"""<plant name="{setting.node}"><domain>{domain % 200 + 1}</domain><external>off</external><board name="{setting.node}">""" + "".join(
+            f"""<module><filename>./{name}.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
+<period>10ms</period><priority>{i + 1}</priority></module>""" for i, name in enumerate(modules)) + "</board></plant>\n")
+    done = subprocess.run([setting.programs / "indurop", "deploy", "plant.xml", "--health", "300ms", "--domain", str(domain), "--one-host"],
+                          cwd=setting.folder, env=setting.environment, capture_output=True, text=True, timeout=harness.DEADLINE_S, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def begin_deployed(setting):
+    domain = take_domain(setting)
+    agent = start_agent(setting, setting.node, domain)
+    far = start_far_server(setting, domain)
+    deploy(setting, domain, "counter", "faulty")
+    wait_for(lambda: variables(far, setting), "variables of what was deployed")
+    return domain, agent, setting.start_server(), far
+
+
+def end_deployed(setting, agent):
+    setting.end(agent)  # and with it the node
+
+
+def test_sets_forces_and_lets_go_with_a_note_of_it(setting):
+    _, agent, near, far = begin_deployed(setting)
+    base = board_of(setting)
+    looks = lambda server: variables(server, setting)["nt::looks"]
+    refused = far.post(base + "/set", {"values": {"looks": 3}}, token=None)
+    assert refused.status in (401, 403), refused.status
+    done = far.post(base + "/set", {"values": {"looks": 3}, "reason": "because"})
+    assert done.status == 200 and done.json()["written"] == ["looks"], done.body
+    assert looks(near)["value"] == 3 and looks(far)["value"] == 3
+    for values in ({"looks": "many"}, {"look": 1}, {"looks": "1\nlooks=2"}, {"looks=1\nx": 1}, {"looks": 4, "look": 1}):
+        answer = far.post(base + "/set", {"values": values})
+        assert answer.status == 422 and answer.json()["message"], answer.body
+        assert looks(near)["value"] == 3, "all or nothing"
+    assert far.post(base + "/force", {"values": {"looks": 5}, "lease": True}).status == 409
+    assert far.post(base + "/force", {"values": {"looks": 5}, "reason": "stuck"}).status == 200
+    forced = wait_for(lambda: far.get(base + "/forces").json()["forces"], "the force to be seen")
+    assert (forced[0]["name"], forced[0]["value"], forced[0]["reason"]) == ("nt::looks", 5, "stuck") and "ana" in forced[0]["who"], forced
+    assert looks(far)["forced"] == ["nt::looks"] == looks(near)["forced"] and looks(far)["value"] == 5
+    assert far.post(base + "/release", {"names": ["looks"]}).status == 200
+    assert not looks(far)["forced"] and not looks(near)["forced"]
+    assert far.post(base + "/lock", {"lock": "all", "reason": "night"}).status == 200
+    locked = far.post(base + "/set", {"values": {"looks": 1}})
+    assert locked.status == 422 and "lock" in locked.json()["message"] and looks(near)["value"] == 5, locked.body
+    assert looks(far) and far.get(base + "/forces").json()["lock"]["lock"] == "all"
+    assert far.post(base + "/lock", {"lock": "none"}).status == 200
+    assert far.post(base + "/modules/counter/stop").status == 200
+    assert near.get(base + "/modules").json()["modules"][0]["state"] == "stopped"
+    assert far.post(base + "/modules/nobody/stop").status == 422
+    notes = far.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
+    done = sorted(one["action"] for one in notes if one["outcome"] == "done" and one["who"] == "ana")
+    assert done == ["force", "lock", "lock", "release", "set", "stop"], notes
+    assert len([one for one in notes if one["outcome"] not in ("begun", "done")]) >= 7, "what was refused is noted, too"
+    end_deployed(setting, agent)
+
+
+def test_says_what_was_printed_and_what_is_not_seen_from_here(setting):
+    _, agent, near, far = begin_deployed(setting)
+    base = board_of(setting)
+    there, here = near.get(base + "/messages").json(), far.get(base + "/messages").json()
+    assert here["messages"] and here["messages"] == there["messages"], (here, there)
+    assert any(one["who"] == "counter" and "starts with" in one["text"] for one in here["messages"]), here
+    assert far.get(base + "/messages?count=1").json()["messages"] == here["messages"][-1:]
+    for path in ("/schedule", "/modules", "/alarms", "/recipes", "/scope?channel=looks"):
+        answer = far.get(base + path)
+        assert answer.status == 409 and "on another host" in answer.json()["message"], answer.body
+    end_deployed(setting, agent)
+
+
+def test_a_deployment_of_others_ends_what_was_followed(setting):
+    domain, agent, _, far = begin_deployed(setting)
+    client = WebSocket(far.port)
+    client.say(type="subscribe", id=7, board=setting.node, names=["nt::*"], rate_hz=10)
+    client.heard("subscribed")
+    deploy(setting, domain, "layout_old")
+    assert client.heard("layout_changed")["ids"] == [7]
+    old = variables(far, setting)["nt_layout::axis"]
+    client.say(type="subscribe", id=8, board=setting.node, names=["nt_layout::*"], rate_hz=10)
+    client.heard("subscribed")
+    deploy(setting, domain, "layout_new")
+    assert client.heard("layout_changed")["ids"] == [8]
+    new = variables(far, setting)["nt_layout::axis"]
+    assert new["form"] != old["form"], new
+    client.close()
+    end_deployed(setting, agent)
+
+
+if __name__ == "__main__":
+    if not there_are_namespaces():
+        print("skipped: no namespaces for memory of its own here")
+        sys.exit(77)
+    os.environ.pop("INDUROP_NODE", None)
+    harness.main(globals())
