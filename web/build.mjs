@@ -28,9 +28,21 @@ const { metafile } = await esbuild.build({
   logLevel: "warning",
 });
 const script = Object.entries(metafile.outputs).find(([, made]) => made.entryPoint === "src/main.tsx");
+// What the start needs is asked for at once, not when its importer has come.
+const needed = new Set();
+const need = (path) => {
+  for (const { path: next, kind } of metafile.outputs[path].imports) {
+    if (kind !== "import-statement" || needed.has(next)) continue;
+    needed.add(next);
+    need(next);
+  }
+};
+need(script[0]);
+const preloads = [...needed].map((path) => `  <link rel="modulepreload" href="${basename(path)}">\n`).join("");
 const page = (await readFile("src/index.html", "utf8"))
   .replace("page.css", basename(script[1].cssBundle))
-  .replace("page.js", basename(script[0]));
+  .replace("page.js", basename(script[0]))
+  .replace("</head>", `${preloads}</head>`);
 await writeFile(join(folder, "index.html"), page);
 
 let sum = 0;

@@ -15,13 +15,46 @@ const OVERRIDE = "PLC_ROBOT::ROBOT_OVERRIDE";
 const browser = await Browser.launch();
 const value_of = async (name) => (await (await fetch(`${origin}/api/v1/boards/${node}/variables/${encodeURIComponent(name)}`)).json()).value;
 
+// The arm as it stands, not its canvas only: what is drawn has many colours, and some of them are the arm's blue. Without WebGL the
+// page says so; the numbers are there in any case.
+async function is_drawn(page) {
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector(".arm canvas[data-drawn]");
+    if (!canvas) return !!document.querySelector(".robot .warn");
+    const copy = Object.assign(document.createElement("canvas"), { width: 200, height: 200 });
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0, 200, 200);
+    const { data } = context.getImageData(0, 0, 200, 200);
+    const colours = new Set();
+    let blue = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      colours.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+      if (data[i + 2] > data[i] + 60) blue++;
+    }
+    return colours.size > 50 && blue > 100;
+  });
+}
+
+// What the page must fetch before it shows the overview, in bytes as they are on the wire, and how long it kept the processor.
+async function cost_of(page) {
+  return await page.evaluate(() => {
+    const all = performance.getEntriesByType("resource").map(({ name, transferSize }) => ({ name: new URL(name).pathname, bytes: transferSize }));
+    const files = all.filter(({ name }) => !name.startsWith("/api/"));
+    return { files: files.length, bytes: files.reduce((sum, { bytes }) => sum + bytes, 0), questions: all.length - files.length };
+  });
+}
+
 await browser.run({
   async "The overview says what runs"() {
     for (const [screen, size] of Object.entries(SCREENS)) {
       const began = Date.now();
       const page = await browser.open("overview", size);
       await sees(page, node);
-      if (screen === "wide") console.log(`usable after ${Date.now() - began} ms`);
+      if (screen === "wide") {
+        const { files, bytes, questions } = await cost_of(page);
+        console.log(`usable after ${Date.now() - began} ms, ${files} files, ${bytes} bytes, ${questions} questions`);
+        check(files <= 10 && bytes < 90_000, `the first view needs ${files} files and ${bytes} bytes`);
+      }
       for (const text of ["Robot", "every 10 ms", "Lost ticks", "running"]) await sees(page, text);
       await browser.judge(page, `overview-${screen}`);
       await page.close();
@@ -197,12 +230,49 @@ await browser.run({
       await sees(page, "Commanded");
       await sees(page, "mm/s");
       await sees(page, "cell_arm");
-      // Without WebGL the page says so; the numbers are there in any case.
-      await page.waitForFunction(() => document.querySelector(".arm canvas") || document.querySelector(".robot .warn"));
+      await is_drawn(page);
       if (screen === "wide") await new Promise((done) => setTimeout(done, 4000));  // the way of the tool
       await browser.judge(page, `robot-${screen}`);
       await page.close();
     }
+  },
+
+  async "Override, hold and stop of the robot are pressed, and do what they say"() {
+    await order("start-tour");
+    const page = await browser.open("robot", { width: 1280, height: 900 });
+    const until = async (what, condition) => {
+      for (const end = Date.now() + 60_000; !(await condition());) {
+        check(Date.now() < end, what);
+        await new Promise((done) => setTimeout(done, 20));
+      }
+    };
+    const arm = async () => await value_of("PLC_ROBOT::ROBOT_ARM");
+    const job = async () => (await value_of("PLC_ROBOT::ROBOT_JOB")).eState;
+    const moves = async () => (await arm()).tool_speed > 1;
+    await sees(page, "By hand");
+    await until("the robot does not move", moves);
+    const override = "::-p-xpath(//section[@aria-label='Moving by hand']//label[starts-with(., 'Override')]/input)";
+    const before = await value_of(OVERRIDE);
+    await page.waitForFunction((wanted) => document.querySelector("[aria-label='Moving by hand'] input").value === String(wanted), {}, before);
+    await (await page.waitForSelector(override)).focus();
+    await page.keyboard.press("ArrowLeft");
+    await until("the override is not set", async () => await value_of(OVERRIDE) === before - 5);
+    await sees(page, `Override ${before - 5} %.`);
+    await page.keyboard.press("ArrowRight");
+    await until("the override is not set back", async () => await value_of(OVERRIDE) === before);
+    await until("the robot does not move any more", moves);
+    await press(page, "Hold");
+    await sees(page, "Held.");
+    await until("it is not held", async () => !!(await value_of("PLC_ROBOT::ROBOT_HOLD")) && !(await moves()));
+    await sees(page, "Go on");
+    await browser.judge(page, "robot-held");
+    await press(page, "Go on");
+    await sees(page, "Goes on.");
+    await until("it does not go on", async () => !(await value_of("PLC_ROBOT::ROBOT_HOLD")) && await moves());
+    await press(page, "Stop");
+    await sees(page, "Stopped.");
+    await until("it is not stopped", async () => !(await moves()) && ![1, 2].includes(await job()));
+    await page.close();
   },
 
   async "The robot is moved by hand while a button is held, and stops when hand, page or server are lost"() {
@@ -267,7 +337,7 @@ await browser.run({
     await until("no rest after the page was closed", async () => !(await moves()) && !(await jog()).bEnable);
     const other = await browser.open("robot", phone);
     await sees(other, "standing by");
-    await other.waitForFunction(() => document.querySelector(".arm canvas") || document.querySelector(".robot .warn"));
+    await is_drawn(other);
     await other.evaluate(() => document.querySelector("[aria-label='Moving by hand']").scrollIntoView());
     await browser.judge(other, "robot-jog-phone");
     const button = await other.waitForSelector("[aria-label$='back, while held down']");

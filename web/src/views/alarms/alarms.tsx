@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Alarms of a board: those that need somebody first, what to do about them, and what happened before.
 
-import "./alarms.css";
 import { useEffect, useState } from "preact/hooks";
 import { board_path, get, post, words } from "../../api/http";
 import type { Alarm, AlarmEvent, Alarms as All, Message } from "../../api/types";

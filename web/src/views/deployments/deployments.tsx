@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was deployed to the plant, what differs between two of it, and the way back.
 
-import "./deployments.css";
 import { useState } from "preact/hooks";
 import { get, post, words } from "../../api/http";
 import type { Deployment } from "../../api/types";

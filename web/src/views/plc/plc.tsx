@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PLC program as it runs: power in ladders and function blocks, active steps, values beside lines of text.
 
-import "./plc.css";
 import { useMemo } from "preact/hooks";
 import { board_path, get, words } from "../../api/http";
 import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLive, PlcProgram, Variables } from "../../api/types";

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values over time, as strips or around a trigger. All charts show the same time; what is shown is in the address.
 
-import "uplot/dist/uPlot.min.css";
-import "./plots.css";
 import { useMemo } from "preact/hooks";
 import { board_path, get, words } from "../../api/http";
 import type { Variables } from "../../api/types";

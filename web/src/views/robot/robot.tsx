@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arm as it stands now, the way of its tool, and the same as numbers.
 
-import "./robot.css";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, get, Refusal, words } from "../../api/http";
 import type { Robot as Description, Variables } from "../../api/types";

@@ -26,6 +26,7 @@ export class Scene {
   private arm: Arm | null = null;
   private used = 0;
   private asked = 0;
+  private moved = false;
   private readonly watch: ResizeObserver;
 
   constructor(private readonly box: HTMLElement) {
@@ -64,6 +65,7 @@ export class Scene {
     this.arm.robot.updateMatrixWorld(true);
     const at = this.arm.tool.getWorldPosition(new THREE.Vector3());
     const last = this.used > 0 ? new THREE.Vector3().fromArray(this.points, (this.used - 1) * 3) : null;
+    this.moved = true;
     if (!last || last.distanceTo(at) > this.arm.size * 5e-4) this.add_point(at);
     this.draw();
   }
@@ -134,6 +136,7 @@ export class Scene {
     this.asked = requestAnimationFrame(() => {
       this.asked = 0;
       this.renderer.render(this.scene, this.camera);
+      if (this.moved) this.renderer.domElement.dataset.drawn = "as it stands";
     });
   }
 }

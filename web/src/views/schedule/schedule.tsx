@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which module ran when, as measured; what was late, and why.
 
-import "./schedule.css";
 import { useMemo, useState } from "preact/hooks";
 import { board_path, get, words } from "../../api/http";
 import type { Module, Overrun, Runs, Schedule as Plan } from "../../api/types";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All variables of a board as a tree, with their values as they change.
 
-import "./variables.css";
 import { useMemo, useState } from "preact/hooks";
 import { board_path, get, words } from "../../api/http";
 import type { Variables as Answer } from "../../api/types";
