@@ -38,7 +38,8 @@ Result<rt::MonoTime> last_beat(const std::string& node) {
   if (const Status status = check_header({file->data(), file->size()}); !status) {
     return status.error();
   }
-  return rt::mono_time(header_of(file->data())->heartbeat_ns.load());
+  const std::int64_t beat = header_of(file->data())->heartbeat_ns.load();
+  return beat != 0 ? Result<rt::MonoTime>(rt::mono_time(beat)) : Error{Errc::NotFound, 0, "no heartbeat yet"};
 }
 
 std::vector<std::string> list_nodes() {

@@ -107,8 +107,8 @@ class Store {
 // Names of nodes that have a block on this machine, sorted.
 std::vector<std::string> list_nodes();
 
-// Last heartbeat of a node, without a look at what its store holds. Errors: NotFound, PermissionDenied, Busy,
-// VersionMismatch, Corrupt.
+// Last heartbeat of a node, without a look at what its store holds. Errors: NotFound (no node, or it has
+// not beaten yet), PermissionDenied, Busy, VersionMismatch, Corrupt.
 Result<rt::MonoTime> last_beat(const std::string& node);
 // Removes every shared-memory file of a node. Errors: Busy while the node runs.
 Status remove_node(const std::string& node);
