@@ -13,7 +13,7 @@ Action declare(base::Options& app, Context& /*context*/) {
       .completes(base::Completion::File);
   app.add("--with", "FILE.so", wish->with, "Use this file for the module of its name; may be given several times")
       .completes(base::Completion::File);
-  app.add("-o,--output", "FILE.mcap", wish->output,
+  app.add("-o,--file", "FILE.mcap", wish->output,
           "Write what the modules leave now to this recording, to be laid over the other")
       .completes(base::Completion::File);
   app.add("--svg", "FILE", wish->svg, "Draw what differs, recorded and now, one over the other");

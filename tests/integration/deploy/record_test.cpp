@@ -127,8 +127,9 @@ TEST_F(Record, Boards_that_fail_meanwhile_give_what_they_have_and_are_named) {
   const Outcome done = desk.finish();
   EXPECT_EQ(done.code, 1);
   EXPECT_THAT(done.err, HasSubstr("board " + board("a") + ": its agent"));
-  EXPECT_THAT(done.err, HasSubstr("board " + board("b") + ": its recording had ended before: node " + board("b") +
-                                  " crashed or was killed"));
+  // Its agent may not have noticed yet that the recorder has ended by itself.
+  EXPECT_THAT(done.err, HasSubstr("board " + board("b") + ": "));
+  EXPECT_THAT(done.err, HasSubstr("node " + board("b") + " crashed or was killed"));
   EXPECT_EQ(info(path("run.mcap"))["nodes"].size(), 2U);
 }
 
