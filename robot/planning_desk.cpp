@@ -25,6 +25,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       tool_(tool),
       due_(settings.plan_time / std::chrono::duration<double>(settings.period).count()),
       in_tick_(settings.plan_in_tick),
+      learned_(settings.learned),
       planner_(places, joints, tool) {
   in_tick_ = in_tick_ || !begin_thread();
 }
@@ -139,6 +140,7 @@ void PlanningDesk::post() noexcept {
 }
 
 void PlanningDesk::forget() noexcept {
+  forgot_ = forgot_ || asked_;
   asked_ = waits_ = false;
   dropped_.store(true, std::memory_order_relaxed);
   State asked = State::Asked;
@@ -154,11 +156,25 @@ const Plan* PlanningDesk::take() noexcept {
     --periods_left_;
     return nullptr;
   }
-  if (waits_ || state_.load(std::memory_order_acquire) != State::Made) {
+  const auto made = [this] { return !waits_ && state_.load(std::memory_order_acquire) == State::Made; };
+  if (!learned(made())) {
     return nullptr;
+  }
+  // What was learned in a recording may not be so yet: there is time in a replay.
+  while (!made()) {
+    std::this_thread::sleep_for(kSoon);
+    post();
   }
   asked_ = false;
   return &plan_;
+}
+
+bool PlanningDesk::holds_forgotten() noexcept {
+  if (asked_ || !forgot_) {
+    return false;
+  }
+  forgot_ = learned(state_.load(std::memory_order_acquire) == State::Working);
+  return forgot_;
 }
 
 }  // namespace indurop::robot

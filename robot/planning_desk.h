@@ -38,9 +38,7 @@ class PlanningDesk {
   // Of the tick, real-time safe: no system call, no lock. Nothing is being planned.
   [[nodiscard]] bool free() const noexcept { return !asked_; }
   // The thread has not let go of what was forgotten: its chain must stay as it is.
-  [[nodiscard]] bool holds_forgotten() const noexcept {
-    return !asked_ && state_.load(std::memory_order_acquire) == State::Working;
-  }
+  [[nodiscard]] bool holds_forgotten() noexcept;
   // It is free.
   void ask(const PlanRequest& request) noexcept;
   // What is being planned is not wanted any more, and nothing follows on it.
@@ -54,6 +52,7 @@ class PlanningDesk {
   // What the request and the plan are: the tick's in Free, Asked and Made; the planning thread's in Working.
   enum class State { Free, Asked, Working, Made };
 
+  [[nodiscard]] bool learned(bool what) const noexcept { return learned_ != nullptr ? learned_(what) : what; }
   [[nodiscard]] double seconds_of(const PlanRequest& request) const noexcept;
   void post() noexcept;
   void work() noexcept;
@@ -65,10 +64,12 @@ class PlanningDesk {
   ToolLimits tool_;
   double due_ = 0;  // periods
   bool in_tick_;
+  bool (*learned_)(bool what) noexcept;
 
   // The tick's.
   bool asked_ = false;
-  bool waits_ = false;  // for the thread to end what was forgotten
+  bool waits_ = false;   // for the thread to end what was forgotten
+  bool forgot_ = false;  // something that the thread may not have let go of yet
   int periods_left_ = 0;
   PlanRequest waiting_;
 

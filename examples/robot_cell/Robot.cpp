@@ -243,6 +243,7 @@ void start() {
   settings.jobs = files(irp::property("jobs", ""));
   settings.period = irp::period();
   settings.plan_in_tick = time_stands();
+  settings.learned = [](bool what) noexcept { return irp::learned(what ? 1 : 0) != 0; };
   std::vector<std::string> errors;
   robot::take_properties([](const char* name) { return irp::property(name, ""); }, settings, errors);
   plcRobot = robot::Controller::load(settings, errors);

@@ -115,6 +115,11 @@ std::int64_t release_ns() noexcept;
 // The node's time now, in ns: CLOCK_MONOTONIC, in a simulation its virtual time. Real-time safe.
 std::int64_t now_ns() noexcept;
 
+// What a run learns from elsewhere than shared variables, calls and now_ns(), as from a thread of its module: returns
+// it, and in a replay what the run learned then, so that it does the same again. Whether or not it runs in a node.
+// Real-time safe. Counts as an answer to a call: a run has up to 1024 of them (docs/recording.md).
+std::int64_t learned(std::int64_t what) noexcept;
+
 // True once the node wants this module to end: for the loops of non-real-time modules,
 // `while (!irp::stop_requested()) { ... }`. Outside a node always false. Cheap, but not real-time safe.
 bool stop_requested() noexcept;

@@ -234,6 +234,9 @@ struct Settings {
   // short lines, as much again for each second that they take.
   double plan_time = 0.02;
   bool plan_in_tick = false;  // not beside it: where time is simulated, or no thread wanted
+  // What the tick learns of the thread that plans beside it, and what is to count instead: a replay learns it again
+  // from the recording (irp::learned()). Real-time safe. Null: it counts.
+  bool (*learned)(bool what) noexcept = nullptr;
   // Of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };

@@ -46,6 +46,49 @@ class Planning_desk : public testing::TestWithParam<bool> {
   PlanningDesk sut{places, cell_limits(), ToolLimits{}, settings(GetParam())};
 };
 
+// What the tick of a run learned of its thread, and a replay learns again, whichever thread it has.
+std::vector<bool>& told() {
+  static std::vector<bool> all;
+  return all;
+}
+std::size_t& retold() {
+  static std::size_t at = 0;
+  return at;
+}
+
+TEST_P(Planning_desk, Gives_plans_in_the_same_period_again_however_late_they_were) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    told().clear();
+    const int lates = static_cast<int>(random() % 30);
+    for (int i = 0; i < lates; ++i) {
+      told().push_back(false);
+    }
+    told().push_back(true);
+    retold() = 0;
+    Settings s = settings(GetParam());
+    s.learned = [](bool) noexcept -> bool { return told()[retold()++]; };
+    PlanningDesk desk(places, cell_limits(), ToolLimits{}, s);
+    desk.ask(line(-0.1, 1));
+    int periods = 0;
+    while (desk.take() == nullptr) {
+      ASSERT_LT(++periods, 100);
+    }
+    EXPECT_EQ(periods, 22 + lates);
+    EXPECT_FALSE(desk.holds_forgotten()) << "nothing was, so nothing is asked";
+    EXPECT_EQ(retold(), told().size());
+    // A forgotten one: asked until it is let go of.
+    told().insert(told().end(), {true, true, false});
+    desk.ask(line(-0.1, 2));
+    desk.forget();
+    EXPECT_TRUE(desk.holds_forgotten());
+    EXPECT_TRUE(desk.holds_forgotten());
+    EXPECT_FALSE(desk.holds_forgotten());
+    EXPECT_FALSE(desk.holds_forgotten());
+    EXPECT_EQ(retold(), told().size());
+  }
+}
+
 TEST_P(Planning_desk, Makes_the_same_plan_and_not_before_it_is_due) {
   PlanningDesk other(places, cell_limits(), ToolLimits{}, settings(true));
   other.ask(line(-0.1, 1));
