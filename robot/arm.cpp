@@ -42,6 +42,7 @@ Arm Arm::with_tool(const Pose& tool) const noexcept {
   } else {
     arm.home_ = home_ * tool;
   }
+  arm.end_ = tool.orientation.conjugate() * (end_ - tool.position);
   return arm;
 }
 

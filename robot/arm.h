@@ -66,6 +66,8 @@ class Arm {
   [[nodiscard]] bool turns_six() const noexcept;
   // Real-time safe, as all the rest.
   [[nodiscard]] Pose forward(const Joints& q) const noexcept;
+  // Where the arm itself ends when the tool is there.
+  [[nodiscard]] Vec3 end_of(const Pose& tool) const noexcept { return tool.position + tool.orientation * end_; }
   // Of the tool's point, in the base's frame.
   [[nodiscard]] Jacobian jacobian(const Joints& q) const noexcept;
   // 0 in singular positions; of six axes with another sign on their other side.
@@ -85,6 +87,7 @@ class Arm {
   std::size_t link_count_ = 0;
   std::optional<Delta> delta_;  // instead of links
   Pose tool_;                   // of a delta; of links it is in `home_`
+  Vec3 end_ = Vec3::Zero();     // of the arm without a tool, seen from the tool
 };
 
 // The rotation by `angle` about the unit vector `axis`.

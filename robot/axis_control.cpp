@@ -78,7 +78,7 @@ void AxisControl::finish(Owner& owner, ErrorCode code) noexcept {
   report_.error = keeps ? report_.error : code;
 }
 
-void AxisControl::serve(const AxisRequest& request, bool group_moves) noexcept {
+void AxisControl::serve(const AxisRequest& request, ErrorCode permit) noexcept {
   if (first_) {
     // What was asked for before this program started is not done now.
     first_ = false;
@@ -95,9 +95,9 @@ void AxisControl::serve(const AxisRequest& request, bool group_moves) noexcept {
   }
   report_.acknowledged = request.number;
   const auto service = static_cast<AxisService>(request.code);
-  if (group_moves && service != AxisService::Reset && service != AxisService::PowerOn) {
+  if (permit != ErrorCode::Ok && service != AxisService::Reset && service != AxisService::PowerOn) {
     Owner owner{kRequest, service};
-    finish(owner, ErrorCode::State);
+    finish(owner, permit);
     return;
   }
   report_.error = state_ == AxisState::ErrorStop ? report_.error : ErrorCode::Ok;

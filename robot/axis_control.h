@@ -36,10 +36,10 @@ class AxisControl {
 
   // What the drive says, at the start of a period. Real-time safe, as all the rest.
   void sense(const DriveIn& in, double seconds) noexcept;
-  // A new request, if its number is another one. `group_moves`: the axis is not free.
-  void serve(const AxisRequest& request, bool group_moves) noexcept;
+  // A new request, if its number is another one. `permit`: Ok, or why the axis may not move by itself.
+  void serve(const AxisRequest& request, ErrorCode permit) noexcept;
   // A command from the table (axis_orders.cpp).
-  void take(int ticket, bool group_moves) noexcept;
+  void take(int ticket, ErrorCode permit) noexcept;
   // Goes on with its own motion; after its master's.
   void move(double seconds) noexcept;
   // Others may follow it.

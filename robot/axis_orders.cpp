@@ -43,14 +43,14 @@ void AxisControl::set_factors(double acceleration, double jerk) noexcept {
   jerk_factor_ = sane(jerk) ? jerk : 1;
 }
 
-void AxisControl::take(int ticket, bool group_moves) noexcept {
+void AxisControl::take(int ticket, ErrorCode permit) noexcept {
   const Command& command = table_->command(ticket);
   const AxisService service = service_of(command);
   const bool always = service == AxisService::Reset || service == AxisService::PowerOn ||
                       service == AxisService::SetPosition || service == AxisService::TouchProbe ||
                       service == AxisService::AbortTrigger;
-  if (group_moves && !always) {
-    table_->end(ticket, ErrorCode::State);
+  if (permit != ErrorCode::Ok && !always) {
+    table_->end(ticket, permit);
     return;
   }
   report_.error = state_ == AxisState::ErrorStop ? report_.error : ErrorCode::Ok;

@@ -57,6 +57,10 @@ const char* to_string(ErrorCode code) noexcept {
       return "there are more commands than there is room for";
     case ErrorCode::Master:
       return "the axis to follow has no power, failed or looks for its place";
+    case ErrorCode::Enabling:
+      return "in manual mode the robot moves only while the enabling switch is held; hold it and ask again";
+    case ErrorCode::Mode:
+      return "another operating mode was chosen; ask again once the robot stands";
   }
   return "unknown error";
 }

@@ -91,7 +91,12 @@ double Follower::to_go() const noexcept {
 }
 
 double Follower::wanted_pace() const noexcept {
-  return mode_ == Mode::Run && override_ >= kStill ? override_ : 0;
+  return mode_ == Mode::Run && override_ >= kStill ? std::min(override_, pace_for(segment(0).tip_speed)) : 0;
+}
+
+// At which the tip goes no faster than it may.
+double Follower::pace_for(double tip_speed) const noexcept {
+  return tip_speed > tip_limit_ ? tip_limit_ / tip_speed : 1;
 }
 
 int Follower::source() const noexcept {
@@ -117,7 +122,8 @@ void Follower::begin_piece() noexcept {
   to_end_ = false;
   if (!in_blend_ && state_.position <= 0 && state_.velocity <= 0 && (first.timing.known() || first.together)) {
     if (first.together) {
-      first.take_joint_timing({first.from, Joints::Zero(), Joints::Zero()}, most_, wanted_pace());
+      first.tip_speed = 0;
+      make_joint_timing(first, {first.from, Joints::Zero(), Joints::Zero()}, most_, wanted_pace());
     } else {
       first.take_timing();
     }
@@ -137,8 +143,9 @@ void Follower::replan() noexcept {
   Profile next;
   bool to_end = false;
   if (mode_ == Mode::Run && override_ >= kStill) {
-    limits.velocity *= override_;
-    const double exit = in_blend_ || blend_.zone > 0 ? blend_.limits.velocity : 0;
+    const double most = pace_for(in_blend_ ? blend_.tip_speed : segment(0).tip_speed);
+    limits.velocity = std::min(limits.velocity * override_, most);
+    const double exit = in_blend_ || blend_.zone > 0 ? std::min(blend_.limits.velocity, pace_for(blend_.tip_speed)) : 0;
     next = Profile::to_position(state_, piece_end(), exit, limits);
     to_end = !next.overshoots();
   } else {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "robot/errors.h"
 #include "robot/path_brake.h"
@@ -56,6 +57,8 @@ class Follower final : private PathAhead {
 
   // Part of the planned speed, from 0 to 1.
   void set_override(double part) noexcept;
+  // m/s that neither the tool's tip nor the arm's end goes beyond; HUGE_VAL: no such limit. Only while it is idle.
+  void set_tip_limit(double speed) noexcept { tip_limit_ = speed; }
   // Slows down to rest on the path, or goes on.
   void set_hold(bool hold) noexcept;
   // Comes to rest on the path and forgets the rest of it, as softly as it moves.
@@ -92,6 +95,9 @@ class Follower final : private PathAhead {
   [[nodiscard]] const LineLimits& piece_limits() const noexcept;
   [[nodiscard]] Profile into_blend() const noexcept;
   [[nodiscard]] double wanted_pace() const noexcept;
+  [[nodiscard]] double pace_for(double tip_speed) const noexcept;
+  [[nodiscard]] double measured_tip_speed(const Segment& segment) const noexcept;
+  void make_joint_timing(Segment& segment, const JointState& from, const JointLimits& limits, double pace) noexcept;
   void begin_piece() noexcept;
   Reach motion(JointState& now) const noexcept;
   [[nodiscard]] bool can_begin(const JointState& now, double pace) const noexcept;
@@ -133,6 +139,7 @@ class Follower final : private PathAhead {
   bool in_blend_ = false;  // the present piece is the blend, not the first segment
   Mode mode_ = Mode::Run;
   double override_ = 1;
+  double tip_limit_ = HUGE_VAL;
   PathBrake brake_;
   PathHistory past_;
   Profile profile_;

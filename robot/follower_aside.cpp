@@ -56,6 +56,7 @@ void Follower::go_on() noexcept {
     s.made_for = std::min(s.made_for, 1 - 1e-9);
     s.fastest = std::min(s.fastest, kGently);
     s.settled = 0;
+    s.tip_speed = measured_tip_speed(s);
     s.moving = aside_.place > 0;
   } else if (s.timed) {
     passed_.fill(s.timing.at(aside_.place).place);

@@ -68,6 +68,32 @@ bool Follower::can_begin(const JointState& now, double pace) const noexcept {
   return places_.arm().goes_beyond(now.position, JointTiming::stopping(now, limits), 1e-9) < 0;
 }
 
+// Of joints on their way, as far as places all along it show.
+double Follower::measured_tip_speed(const Segment& segment) const noexcept {
+  constexpr int kPlaces = 64;
+  TipSpeed tip(places_.arm());
+  tip.begin(segment.joints_at(0));
+  for (int i = 1; i <= kPlaces; ++i) {
+    tip.note(segment.joints_at(segment.length * i / kPlaces));
+  }
+  return segment.length > 0 ? tip.farthest() * kPlaces / segment.length : 0;
+}
+
+// For a pace, or a slower one at which the tip keeps its limit. What moves already keeps its pace.
+void Follower::make_joint_timing(Segment& segment, const JointState& from, const JointLimits& limits,
+                                 double pace) noexcept {
+  segment.take_joint_timing(from, limits, pace);
+  for (int again = 0; again < 3 && std::isfinite(tip_limit_); ++again) {
+    segment.tip_speed = measured_tip_speed(segment);
+    const double slower = pace_for(segment.tip_speed);
+    if (pace <= slower || segment.moving) {
+      break;
+    }
+    pace = slower;
+    segment.take_joint_timing(from, limits, pace);
+  }
+}
+
 // It is made for the pace that is wanted, as far as what the joints do now can be part of it at that pace.
 Fault Follower::redirect(const Segment& target) noexcept {
   constexpr double kNotExact = 0.98;  // of the jerk, where the present acceleration is not known exactly
@@ -97,10 +123,14 @@ Fault Follower::redirect(const Segment& target) noexcept {
   limits.jerk *= at_rest() || (segment(0).move == Move::Joint && !in_blend_) ? 1 : kNotExact;
   Segment next = target;
   next.moving = !at_rest();
-  next.take_joint_timing(seen, limits, pace);
+  make_joint_timing(next, seen, limits, pace);
   if (!places_.inside(next, kLooks)) {
     return {ErrorCode::Workspace};
   }
+  if (next.moving && pace > pace_for(next.tip_speed)) {
+    return {ErrorCode::Speed};
+  }
+  pace = next.made_for;
   segments_[0] = next;
   count_ = 1;
   blend_ = {};
@@ -133,8 +163,8 @@ bool Follower::leave_shares() noexcept {
       return false;
     }
   }
-  s.take_joint_timing(now, most_, kNearlyFull);
   s.moving = true;
+  make_joint_timing(s, now, most_, kNearlyFull);
   state_ = {0, 1, 0};
   return true;
 }
@@ -192,7 +222,7 @@ Profile Follower::pace_of_timing(double seconds) noexcept {
     // Where it has not begun there is nothing yet that a jump of the pace could change.
     state_ = {0, wanted, 0};
     if (s.move == Move::Joint && s.made_for != wanted) {
-      s.take_joint_timing({s.from, Joints::Zero(), Joints::Zero()}, most_, wanted);
+      make_joint_timing(s, {s.from, Joints::Zero(), Joints::Zero()}, most_, wanted);
     }
   }
   if (s.move == Move::Joint) {

@@ -58,11 +58,12 @@ Joints Group::commanded() const noexcept {
 void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   sense(in);
   watch(in);
+  serve_mode(in.mode);
   serve_commands(in);
   if (in.requests_known) {
     serve(in.service, in.edit);
     for (int i = 0; i < count(); ++i) {
-      axes_[at(i)].serve(in.axes[at(i)], powered() && state_ != GroupState::Standby);
+      axes_[at(i)].serve(in.axes[at(i)], axis_permit());
     }
   }
   serve_jog(in.jog);

@@ -58,9 +58,20 @@ class Group final : public Controller, private MotionPort {
   // Moving by hand (group_jog.cpp).
   void serve_jog(const JogRequest& jog) noexcept;
   void begin_jog() noexcept;
+  [[nodiscard]] const WorkFrame* work_frame(std::string_view name) const noexcept;
   [[nodiscard]] MoveCommand jog_axis(int axis, double part) const noexcept;
   [[nodiscard]] MoveCommand jog_tip(int direction, double part) const noexcept;
   void jog_shorter() noexcept;
+
+  // Operating modes (group_mode.cpp).
+  void serve_mode(const ModeRequest& asked) noexcept;
+  [[nodiscard]] bool stands() const noexcept;
+  void rest_for(ErrorCode code) noexcept;
+  [[nodiscard]] bool reduced() const noexcept { return jogging_ || mode_ == OperatingMode::Manual; }
+  [[nodiscard]] double tip_limit() const noexcept;
+  [[nodiscard]] double axes_pace() const noexcept;
+  [[nodiscard]] bool tip_too_fast() const noexcept;
+  [[nodiscard]] ErrorCode axis_permit() const noexcept;
 
   // Jobs that were left and go on (group_resume.cpp).
   void set_job_aside() noexcept;
@@ -192,11 +203,16 @@ class Group final : public Controller, private MotionPort {
   bool quick_stop_ = false;
   bool job_moves_ = false;
 
+  OperatingMode mode_ = OperatingMode::Any;
+  DeadMan enabling_switch_;
+  ErrorCode permit_ = ErrorCode::Ok;  // to move at all, or why not
+
   DeadMan dead_man_;
   bool jogging_ = false;
   bool jog_blocked_ = false;  // it cannot go on that way, until another one is asked for
   double jog_part_ = 1;       // of the longest way
   JogFrame jog_frame_ = JogFrame::Joint;
+  Quat jog_axes_ = Quat::Identity();  // of a work frame
   int jog_index_ = -1;
   double jog_speed_ = 0;  // part of the fastest, with its sign
 

@@ -39,7 +39,7 @@ void Group::serve_commands(const Inputs& in) noexcept {
     if (axis == 0) {
       take(ticket, in.cams);
     } else if (axis > 0 && axis <= count()) {
-      axes_[static_cast<std::size_t>(axis - 1)].take(ticket, powered() && state_ != GroupState::Standby);
+      axes_[static_cast<std::size_t>(axis - 1)].take(ticket, axis_permit());
     } else {
       table_.end(ticket, ErrorCode::Value);
     }
@@ -179,9 +179,11 @@ void Group::set_pace(const Inputs& in) noexcept {
   const double part = sane ? in.speed_override / 100 : 0;
   const auto factor = [](double given) { return given >= 0 && given <= 1 ? given : 0; };
   follower_.set_override(part * factor(in.factors.group));
+  follower_.set_tip_limit(tip_limit());
   follower_.set_hold(in.hold || interrupted_);
+  const double slow = axes_pace();
   for (std::size_t i = 0; i < axis_count(); ++i) {
-    axes_[i].set_override(in.hold ? 0 : part * factor(in.factors.velocity[i]));
+    axes_[i].set_override(in.hold ? 0 : std::min(part * factor(in.factors.velocity[i]), slow));
     axes_[i].set_factors(in.factors.acceleration[i], in.factors.jerk[i]);
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "robot/group.h"
 
@@ -12,8 +13,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kFastest = 0.25 * 0.98;  // m/s of the tip
-constexpr double kFarthest = 1;           // m
+constexpr double kFastest = 0.98 * kReducedSpeed;  // m/s of the tip
+constexpr double kFarthest = 1;                    // m
 constexpr double kMostTurned = kPi / 2;
 constexpr double kAhead = 8;              // s of motion of the tip that are planned: more makes the hand wait for it
 constexpr double kTurning = 0.15;         // part of full speed
@@ -23,13 +24,18 @@ constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns on and o
 }  // namespace
 
 void Group::serve_jog(const JogRequest& jog) noexcept {
-  const bool enabled = dead_man_.holds(jog.enabled, jog.beat, period_);
+  const bool enabled =
+      dead_man_.holds(jog.enabled, jog.beat, period_) && permit_ == ErrorCode::Ok && mode_ != OperatingMode::Automatic;
   const auto* const wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
   const int most = jog.frame == JogFrame::Joint ? count() : 6;
-  int index = enabled && wanted != jog.speed.end() ? static_cast<int>(wanted - jog.speed.begin()) : -1;
+  const WorkFrame* const work = jog.frame == JogFrame::Work ? work_frame(jog.work.view()) : nullptr;
+  const bool known = jog.frame >= JogFrame::Joint && (jog.frame < JogFrame::Work || work != nullptr);
+  const Quat axes = work != nullptr ? work->pose.orientation : Quat::Identity();
+  int index = enabled && known && wanted != jog.speed.end() ? static_cast<int>(wanted - jog.speed.begin()) : -1;
   index = index < most && index >= 0 && std::abs(*wanted) <= 100 ? index : -1;
   const double speed = index >= 0 ? *wanted / 100 : 0;
-  const bool same = index == jog_index_ && speed == jog_speed_ && jog.frame == jog_frame_;
+  const bool same =
+      index == jog_index_ && speed == jog_speed_ && jog.frame == jog_frame_ && axes.coeffs() == jog_axes_.coeffs();
   jog_blocked_ = jog_blocked_ && same;
   if (jogging_ && !same && state_ == GroupState::Moving) {
     jogging_ = false;
@@ -40,11 +46,21 @@ void Group::serve_jog(const JogRequest& jog) noexcept {
   jog_index_ = index;
   jog_speed_ = speed;
   jog_frame_ = jog.frame;
+  jog_axes_ = axes;
   if (index >= 0 && !jog_blocked_ && !active_ && state_ == GroupState::Standby && can_plan() &&
       may_move() == ErrorCode::Ok) {
     jog_part_ = 1;
     begin_jog();
   }
+}
+
+const WorkFrame* Group::work_frame(std::string_view name) const noexcept {
+  constexpr std::size_t kMost = sizeof(JogRequest::work) - 1;
+  const std::vector<WorkFrame>& frames = parts_.book.frames;
+  const auto found = std::find_if(frames.begin(), frames.end(), [&](const WorkFrame& frame) {
+    return std::string_view(frame.name).substr(0, kMost) == name;
+  });
+  return found != frames.end() ? &*found : nullptr;
 }
 
 void Group::begin_jog() noexcept {
@@ -93,10 +109,10 @@ MoveCommand Group::jog_tip(int direction, double part) const noexcept {
   Pose& to = command.target.pose;
   const bool by_tool = jog_frame_ == JogFrame::Tool;
   if (turns) {
-    to.orientation = by_tool ? now.orientation * rotation_by(way) : rotation_by(way) * now.orientation;
+    to.orientation = by_tool ? now.orientation * rotation_by(way) : rotation_by(jog_axes_ * way) * now.orientation;
     command.speed = kTurning * std::abs(jog_speed_);
   } else {
-    to.position += by_tool ? now.orientation * way : way;
+    to.position += by_tool ? now.orientation * way : jog_axes_ * way;
     command.tool_speed = kFastest * std::abs(jog_speed_);
   }
   return command;

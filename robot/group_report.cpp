@@ -17,6 +17,8 @@ void Group::report(Outputs& out) noexcept {
   out.done = done_;
   out.error = error_;
   out.error_axis = static_cast<std::uint32_t>(error_axis_);
+  out.mode = mode_;
+  out.may_move = permit_ == ErrorCode::Ok;
   out.tool = static_cast<std::uint32_t>(tool_);
   out.tool_name = parts_.book.tools[static_cast<std::size_t>(tool_)].name.c_str();
   out.job = job_.report(follower_.source());

@@ -126,7 +126,10 @@ ErrorCode Group::back_job() noexcept {
   }
   const bool between = !follower_.has_path_aside() && !request_aside_ && ahead_.empty();
   const bool there = (follower_.aside() - commanded()).head(count()).cwiseAbs().maxCoeff() <= kThere;
-  if (state_ != GroupState::Standby || !between || !there || may_move() != ErrorCode::Ok || !take_tool(aside_tool_)) {
+  if (const ErrorCode code = may_move(); code != ErrorCode::Ok) {
+    return code;
+  }
+  if (state_ != GroupState::Standby || !between || !there || !take_tool(aside_tool_)) {
     return ErrorCode::State;
   }
   const Passed& last = passed_[(passed_count_ - 1) % passed_.size()];

@@ -219,8 +219,8 @@ ErrorCode Group::reset() noexcept {
 
 ErrorCode Group::home() noexcept {
   const bool free = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.busy(); });
-  if (state_ != GroupState::Standby || !free) {
-    return ErrorCode::State;
+  if (state_ != GroupState::Standby || !free || permit_ != ErrorCode::Ok) {
+    return permit_ != ErrorCode::Ok ? permit_ : ErrorCode::State;
   }
   for (AxisControl& a : axes()) {
     a.home();
@@ -231,6 +231,9 @@ ErrorCode Group::home() noexcept {
 
 // By a service, which moves nothing that a job moves.
 ErrorCode Group::may_move() const noexcept {
+  if (permit_ != ErrorCode::Ok) {
+    return permit_;
+  }
   const bool free = std::none_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   if (!(state_ == GroupState::Standby && free) && !(state_ == GroupState::Moving && !job_.running())) {
     return ErrorCode::State;
@@ -316,8 +319,8 @@ ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
   if (number == 0 || number > parts_.book.jobs.size()) {
     return ErrorCode::Job;
   }
-  if (state_ != GroupState::Standby || !free) {
-    return ErrorCode::State;
+  if (state_ != GroupState::Standby || !free || permit_ != ErrorCode::Ok) {
+    return permit_ != ErrorCode::Ok ? permit_ : ErrorCode::State;
   }
   if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return !a.homed(); })) {
     return ErrorCode::NotHomed;

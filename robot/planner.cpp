@@ -161,6 +161,23 @@ void Planner::measure_joint_motion(double speed) noexcept {
     segment_.limits.acceleration = std::min(segment_.limits.acceleration, shared(joints_.acceleration[i], rate));
     segment_.limits.jerk = std::min(segment_.limits.jerk, shared(joints_.jerk[i], rate));
   }
+  constexpr int kPlaces = 64;
+  TipSpeed tip(places_.arm());
+  tip.begin(segment_.from);
+  for (int i = 1; i <= kPlaces; ++i) {
+    tip.note(segment_.joints_at(segment_.length * i / kPlaces));
+  }
+  segment_.tip_speed = tip.farthest() * kPlaces / segment_.length;
+}
+
+// Of a motion of the tool, at the places that were looked at.
+void Planner::measure_tip() noexcept {
+  TipSpeed tip(places_.arm());
+  tip.begin(samples_[0]);
+  for (int i = 1; i <= count_; ++i) {
+    tip.note(samples_[static_cast<std::size_t>(i)]);
+  }
+  segment_.tip_speed = tip.farthest() * count_ / segment_.length;
 }
 
 void Planner::measure_tool_motion(const MoveCommand& command) noexcept {
@@ -292,6 +309,7 @@ Fault Planner::look(int& places) noexcept {
 
 Fault Planner::looked() noexcept {
   segment_.to = samples_[static_cast<std::size_t>(count_)];
+  measure_tip();
   // What few axes cannot do is told by where they come to.
   constexpr double kTurned = 2e-3;  // rad
   const Quat turned_to = places_.arm().forward(segment_.to).orientation;

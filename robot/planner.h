@@ -67,6 +67,7 @@ class Planner {
   void bound_tool(int place) noexcept;
   Fault make_circle(const Vec3& mid) noexcept;
   void measure_joint_motion(double speed) noexcept;
+  void measure_tip() noexcept;
   void measure_tool_motion(const MoveCommand& command) noexcept;
 
   const Places& places_;

@@ -58,13 +58,16 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
   std::array<Joints, kBlendPlaces + 1> places;
   const double spacing = result.length() / kBlendPlaces;
   Joints near = first.to;
+  TipSpeed tip(places_.arm());
   for (int i = 0; i <= kBlendPlaces; ++i) {
     if (places_.on(first, result, second, spacing * i, near, near) != Reach::Ok ||
         places_.arm().beyond_limits(near) >= 0 || places_.box().outside(places_.arm().forward(near).position) > 0) {
       return {};
     }
     places[static_cast<std::size_t>(i)] = near;
+    i == 0 ? tip.begin(near) : tip.note(near);
   }
+  result.tip_speed = std::max({tip.farthest() / spacing, first.tip_speed, second.tip_speed});
   LineLimits most{std::min(first.limits.velocity, second.limits.velocity),
                   std::min(first.limits.acceleration, second.limits.acceleration),
                   std::min(first.limits.jerk, second.limits.jerk)};

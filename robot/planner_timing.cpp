@@ -94,6 +94,7 @@ void Planner::end_rehearsal() noexcept {
     return;
   }
   segment_.timing.slow_down(slower);
+  segment_.timing_tip_speed = rehearsal_.tip_speed() / slower;
   if (crawls()) {
     stage_ = Stage::Done;  // what comes of it is refused; going through it once more may take long
     return;

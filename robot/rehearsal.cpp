@@ -25,6 +25,8 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
   pace_ = {};
   seen_.fill(from);
+  tip_ = TipSpeed(places_.arm());
+  tip_.begin(from);
 }
 
 double Rehearsal::time() const noexcept {
@@ -37,6 +39,7 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
     return false;
   }
   seen_ = {here, seen_[0], seen_[1], seen_[2]};
+  tip_.note(here);
   const auto& q = seen_;
   const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
   const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();

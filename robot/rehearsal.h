@@ -13,7 +13,8 @@ namespace indurop::robot {
 
 class Rehearsal {
  public:
-  Rehearsal(const Places& places, const JointLimits& joints) noexcept : places_(places), joints_(joints) {}
+  Rehearsal(const Places& places, const JointLimits& joints) noexcept
+      : places_(places), joints_(joints), tip_(places.arm()) {}
 
   // A motion from rest to rest, with or without a timing. `step`: from one instant to the next, at most. Real-time
   // safe, as all here.
@@ -26,6 +27,8 @@ class Rehearsal {
   // How many times as long it has to take, 1 at least: by the last instant, and, when done, as a whole.
   [[nodiscard]] double last_factor() const noexcept;
   [[nodiscard]] double factor() const noexcept;
+  // m/s, of the tool's tip or the arm's end.
+  [[nodiscard]] double tip_speed() const noexcept { return tip_.farthest() / step_; }
   // Of changes of the pace at which it is followed.
   [[nodiscard]] const PaceLimits& pace_limits() const noexcept { return pace_; }
 
@@ -38,6 +41,7 @@ class Rehearsal {
   double last_ = 0, worst_ = 0;
   double acceleration_share_ = 1, jerk_share_ = 1;
   PaceLimits pace_;
+  TipSpeed tip_;
   std::array<Joints, 4> seen_;
 };
 

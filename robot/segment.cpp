@@ -25,6 +25,7 @@ Segment Segment::together_to(const Joints& to, double speed) noexcept {
 void Segment::take_timing() noexcept {
   stretch = length;
   length = timing.duration();
+  tip_speed = timing_tip_speed;
   timed = true;
 }
 

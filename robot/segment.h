@@ -11,6 +11,7 @@
 #include "robot/pace.h"
 #include "robot/path_timing.h"
 #include "robot/profile.h"
+#include "robot/tip_speed.h"
 #include "robot/tool_path.h"
 #include "robot/workspace.h"
 
@@ -60,11 +61,15 @@ struct Segment {
   double way = 0;                                                                // m, of lines and circles
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m
+  // m/s of the tool's tip or of the arm's end, what is faster, at full speed; of joint motions whose axes arrive
+  // together it is known once they begin.
+  double tip_speed = 0;
   LineLimits most;    // of the speed along it, as the tool and the command allow
   LineLimits limits;  // the same as the joints allow too
   // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places and
   // length are seconds of the timing, and `pace_limits` limits changes of it, not `limits`.
   PathTiming timing;
+  double timing_tip_speed = 0;
   PaceLimits pace_limits;
   double stretch = 0;  // what `length` is otherwise
   // Of joint motions. Those that may come together have a timing too, which is another path; it is made where they
@@ -106,8 +111,9 @@ struct PathPlace {
 // Where two paths meet with a zone: from `zone` before the end of the first to `zone` behind the start of the second.
 // The first one fades out while the second fades in, with continuous acceleration.
 struct Blend {
-  double zone = 0;    // s at full speed, on either side
-  LineLimits limits;  // velocity: what it is passed with
+  double zone = 0;       // s at full speed, on either side
+  LineLimits limits;     // velocity: what it is passed with
+  double tip_speed = 0;  // m/s, as that of a segment; not less than that of both
   [[nodiscard]] double length() const noexcept { return 2 * zone; }
   // How far beyond its end the first one is (not positive), and the second beyond its start.
   void parts_at(double place, double& first, double& second) const noexcept;

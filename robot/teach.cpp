@@ -111,7 +111,10 @@ void write(const FileNames& names, const Arm& arm, int line, TaughtPoint& point)
 
 ListedPoints list_points(const FileNames& names) {
   ReadFiles read = read_files(names);
-  ListedPoints out{{}, std::move(read.errors)};
+  ListedPoints out{{}, {}, std::move(read.errors)};
+  for (const WorkFrame& one : read.book.frames) {
+    out.frames.push_back(one.name);
+  }
   for (const Point& one : read.book.points) {
     if (out.errors.empty() && read.model) {
       out.points.push_back({one.name, place_text(read.book, one, read.model->arm), one.file, one.place.line});

@@ -19,7 +19,8 @@ struct ListedPoint {
 };
 struct ListedPoints {
   std::vector<ListedPoint> points;       // in the order of the files
-  std::vector<base::Diagnostic> errors;  // of the files; without any, the points count
+  std::vector<std::string> frames;       // work frames, by name
+  std::vector<base::Diagnostic> errors;  // of the files; without any, the others count
 };
 ListedPoints list_points(const FileNames& names);
 

@@ -144,7 +144,13 @@ void read_requests() {
   in.speed_override = ROBOT_OVERRIDE;
   in.hold = ROBOT_HOLD != 0;
   const ROBOT_JOG_t jog = ROBOT_JOG;
-  in.jog = {jog.bEnable != 0, static_cast<robot::JogFrame>(jog.eFrame), jog.dSpeed, jog.nBeat};
+  in.jog = {jog.bEnable != 0, static_cast<robot::JogFrame>(jog.eFrame), jog.dSpeed, jog.nBeat, jog.frame};
+  const ROBOT_MODE_t mode = ROBOT_MODE;
+  in.mode = {static_cast<robot::OperatingMode>(mode.eMode), mode.bEnable != 0, mode.nBeat};
+  if (!valid(ROBOT_MODE)) {
+    in.mode.mode = robot::OperatingMode::Manual;  // nobody knows, so nothing moves
+    in.mode.enabled = false;
+  }
   const ROBOT_PAUSE_t pause = ROBOT_PAUSE;
   in.single_step = pause.bStep != 0;
   for (std::size_t k = 0; k < in.breakpoints.size(); ++k) {
@@ -196,6 +202,8 @@ void write_arm() {
   arm->to_go = out.to_go;
   arm->nTool = static_cast<uint16_t>(out.tool);
   arm->tool = out.tool_name;
+  arm->eMode = static_cast<short>(out.mode);
+  arm->bMayMove = out.may_move;
 }
 
 void write_job() {

@@ -30,7 +30,8 @@ std::optional<Direction> read_direction(const Hand& hand) {
   if (word.size() < 2 || (word.back() != '+' && word.back() != '-')) {
     return std::nullopt;
   }
-  Direction out{hand.frame == "tool" ? 2 : 1, 0, word.back() == '+' ? 1.0 : -1.0};
+  const int frame = hand.frame.empty() || hand.frame == "base" ? 1 : hand.frame == "tool" ? 2 : 3;
+  Direction out{frame, 0, word.back() == '+' ? 1.0 : -1.0};
   word.pop_back();
   if (word.size() == 2 && word[0] == 'j' && word[1] >= '1' && word[1] <= '8') {
     out.frame = 0;
@@ -77,12 +78,30 @@ int let_go_before(Context& context, vars::Store& store, const Item& enable, cons
   return wait_until(rt::now_ns() + kPeriodsNs) == Woken::Signal ? interrupt_code() : kOk;
 }
 
+// Whether the robot's files know the work frame, where they can be read: those of another host cannot.
+bool knows_frame(Context& context, const RobotChoice& choice, const std::string& frame) {
+  const auto files = files_of_node(context.node, choice, false);
+  const robot::ListedPoints listed = files ? robot::list_points(files->names) : robot::ListedPoints{};
+  if (!files || !listed.errors.empty() ||
+      std::find(listed.frames.begin(), listed.frames.end(), frame) != listed.frames.end()) {
+    return true;
+  }
+  context.out.error(fmt::format("there is no work frame '{}': base, tool{}{}", frame, listed.frames.empty() ? "" : ", ",
+                                fmt::join(listed.frames, ", ")));
+  return false;
+}
+
 }  // namespace
 
 int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
   const auto direction = read_direction(hand);
   if (!direction) {
     context.out.error(fmt::format("'{}' is no direction: J1+ to J8-, x+ y+ z+ rx+ ry+ rz+, or with -", hand.direction));
+    return kUsage;
+  }
+  constexpr int kWork = 3;
+  const bool work = direction->frame == kWork;
+  if (work && !knows_frame(context, choice, hand.frame)) {
     return kUsage;
   }
   const std::string name = choice.space + "::ROBOT_JOG";
@@ -104,9 +123,10 @@ int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
   for (int i = 0; i < count; ++i) {
     speeds += fmt::format("{}{}", i == 0 ? "" : ", ", i == direction->index ? direction->sign * hand.percent : 0);
   }
-  const auto go = read_assignments(
-      context, *store, "robot jog",
-      {fmt::format("{}={{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: 1}}", name, direction->frame, speeds)});
+  const auto go =
+      read_assignments(context, *store, "robot jog",
+                       {fmt::format("{}={{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: 1{}}}", name, direction->frame,
+                                    speeds, work ? fmt::format(", frame: \"{}\"", hand.frame) : "")});
   const auto rest = read_assignments(context, *store, "robot jog", {name + ".bEnable=0"});
   if (!go || !rest || any_forced(context, *store, *go)) {
     return kFailed;

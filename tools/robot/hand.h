@@ -12,7 +12,7 @@ namespace indurop::tools {
 
 struct Hand {
   std::string direction;    // "J1+", "x-", "rz+"
-  std::string frame;        // of x to rz: "base", "tool"
+  std::string frame;        // of x to rz: "base", "tool" or a work frame
   double percent = 10;      // of the fastest by hand
   std::int64_t for_ns = 0;  // 0: until Ctrl-C
 };

@@ -58,7 +58,7 @@ void declare_jog(base::Options& app, Context& context, Options& options) {
   Hand& hand = options.hand;
   command.add("direction", "AXIS+|AXIS-", hand.direction, "J1+ to J8-, or of the tip x+ y+ z+ rx+ ry+ rz+ and with -")
       .required();
-  command.add("--frame", "base|tool", hand.frame, "Whose axes x to rz are (default: base)").choices({"base", "tool"});
+  command.add("--frame", "base|tool|FRAME", hand.frame, "Whose axes x to rz are: a work frame by name (default: base)");
   command.add("--speed", "PERCENT", hand.percent, "Of the fastest by hand, 250 mm/s (default: 10)").range(0.1, 100);
   add_time_option(command, "--for", hand.for_ns, "Let go after this time (default: Ctrl-C)");
   add_choice(command, context, options);

@@ -6,6 +6,7 @@
 
 #include <indurop/robot/commands.h>
 #include <indurop/robot/words.h>
+#include <indurop/string.h>
 
 #include <algorithm>
 #include <array>
@@ -96,12 +97,21 @@ class Signals {
 };
 
 // Moving by hand while the group stands by: one axis, or the tip along or about one direction.
-enum class JogFrame : std::int16_t { Joint, Base, Tool };
+enum class JogFrame : std::int16_t { Joint, Base, Tool, Work };
 struct JogRequest {
   bool enabled = false;  // the enabling switch; without it the robot comes to rest
   JogFrame frame = JogFrame::Joint;
   AxisNumbers speed{};     // %, with its sign; of axes, or x y z and turns about them. The first that is not 0 counts
   std::uint32_t beat = 0;  // 0: the switch counts by itself; else only while this changes at least every 0.3 s
+  // JogFrame::Work: a frame of the jobs by its name, as far as that fits; another one moves nothing.
+  string<32> work;
+};
+
+// The operating mode that is asked for. It changes once the robot stands, and the robot comes to rest for that.
+struct ModeRequest {
+  OperatingMode mode = OperatingMode::Any;  // a number that is none of them is manual mode without the switch
+  bool enabled = false;                     // the enabling switch of manual mode
+  std::uint32_t beat = 0;                   // of the switch, as JogRequest::beat
 };
 
 // A job that is to pause before a line of its file.
@@ -134,6 +144,7 @@ struct Inputs {
   bool single_step = false;  // jobs pause before each line
   Breakpoints breakpoints{};
   JogRequest jog;
+  ModeRequest mode;
 };
 
 // What is told of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.
@@ -204,8 +215,10 @@ struct Outputs {
   ToolReport machine, product;
   AxisNumbers acceleration{};  // deg/s^2, commanded
   JobReport job;
-  std::uint32_t tool = 0;      // held now; 0: none
-  const char* tool_name = "";  // lives as long as the controller
+  OperatingMode mode = OperatingMode::Any;  // that holds now
+  bool may_move = true;                     // as far as the mode and its enabling switch are concerned
+  std::uint32_t tool = 0;                   // held now; 0: none
+  const char* tool_name = "";               // lives as long as the controller
 };
 
 // What the task is made of; the module reads it from its properties.

@@ -104,7 +104,16 @@ enum class ErrorCode : std::uint32_t {
   NoResume,      // there is no job to go on with
   Away,          // the robot is too far from where its job left the path
   Full,          // more commands than there is room for
-  Master         // the axis to follow has no power, failed or looks for its place
+  Master,        // the axis to follow has no power, failed or looks for its place
+  Enabling,      // manual mode, and the enabling switch is not held
+  Mode           // another operating mode was chosen
+};
+
+// How the robot is run (ISO 10218-1), as a key switch says.
+enum class OperatingMode : std::int16_t {
+  Any,        // there is no switch: jobs run, and it may be moved by hand
+  Automatic,  // it is not moved by hand
+  Manual      // at most 250 mm/s, and only while the enabling switch is held
 };
 
 // Stop categories of IEC 60204-1. Hold and ordinary stops are of category 2, disabling the group is of category 1, an

@@ -162,6 +162,32 @@ TEST_F(RobotNode, A_hand_at_a_terminal_moves_it_and_is_missed_when_it_is_killed)
   EXPECT_TRUE(wait_until([&] { return joint(1) < rests - 0.5 && state() == 1; }));
 }
 
+TEST_F(RobotNode, Manual_mode_moves_it_slowly_and_only_with_the_enabling_switch) {
+  begin("FRAME pallet = POSE 300 100 0 RPY 0 0 90\n");
+  set("PLC_ROBOT::ROBOT_MODE", "{eMode: 2}");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_ARM.eMode") == 2; }));
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  EXPECT_EQ(serve("eOpCode: 8, dTarget: [0, 0, 0, 0, 90, 0]"), 26) << "ROBOT_ERR_ENABLING";
+  set("PLC_ROBOT::ROBOT_MODE.bEnable", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_ARM.bMayMove") == 1; }));
+  EXPECT_EQ(serve("eOpCode: 8, dTarget: [0, 0, 0, 0, 90, 0]"), 0);
+  const double from = number("PLC_ROBOT::ROBOT_ARM.position[1]");
+  EXPECT_EQ(indurop({"robot", "jog", "x+", "--frame", "pallet", "--speed", "40", "--for", "500ms"}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return state() == 1; }));
+  EXPECT_GT(number("PLC_ROBOT::ROBOT_ARM.position[1]"), from + 5) << "its x is the base's y";
+  const Outcome unknown = indurop({"robot", "jog", "x+", "--frame", "palet"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, testing::HasSubstr("there is no work frame 'palet': base, tool, pallet"));
+
+  const int wanted = next_request();
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE",
+      "{eOpCode: 8, dTarget: [160, 0, 0, 0, 90, 0], nRequest: " + std::to_string(wanted) + "}");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_ARM.tool_speed") > 50; }));
+  set("PLC_ROBOT::ROBOT_MODE", "{eMode: 1, bEnable: 1}");
+  EXPECT_TRUE(wait_until([&] { return state() == 1; }));
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_MODULE_STATE.nError"), 27) << "ROBOT_ERR_MODE";
+}
+
 TEST_F(RobotNode, The_emergency_stop_is_told_in_its_tick_and_the_robot_brakes_on_its_path) {
   begin("");
   ASSERT_EQ(serve("eOpCode: 1"), 0);

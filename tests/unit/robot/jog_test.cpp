@@ -74,6 +74,46 @@ TEST(Jog, Goes_straight_and_rests_when_the_switch_is_released) {
   EXPECT_LT((tip(cell) - from).head<2>().norm(), 1e-6);
 }
 
+// Frames of any direction: the tip goes along their axes, and turns about them where it is.
+TEST(Jog, In_a_work_frame_goes_along_its_axes) {
+  std::mt19937 random(5);
+  const auto angle = [&] { return std::uniform_real_distribution<double>(-180, 180)(random); };
+  for (int k = 0; k < 12; ++k) {
+    const Vec3 rpy(angle(), angle() / 2, angle());
+    Cell cell(fmt::format("FRAME other = POSE 0 0 0 RPY 0 0 0\nFRAME pallet = POSE 900 0 100 RPY {} {} {}\n", rpy.x(),
+                          rpy.y(), rpy.z()));
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.service.point = 2;
+    ASSERT_TRUE(cell.serve(Service::MoveJoints));
+    const auto turned = [&] {
+      return from_rpy(Vec3(cell.out.orientation[0], cell.out.orientation[1], cell.out.orientation[2]) * (kPi / 180));
+    };
+    const Vec3 from = tip(cell);
+    const Quat before = turned();
+    const auto direction = static_cast<std::size_t>(k % 6);
+    cell.in.jog.enabled = true;
+    cell.in.jog.frame = JogFrame::Work;
+    cell.in.jog.speed[direction] = k < 6 ? 40 : -40;
+    for (int i = 0; i < 60; ++i) {
+      cell.step();
+    }
+    EXPECT_LT((tip(cell) - from).norm(), 1e-9) << "no frame of that name";
+    cell.in.jog.work = "pallet";
+    for (int i = 0; i < 60; ++i) {
+      cell.step();
+    }
+    const Vec3 axis =
+        from_rpy(rpy * (kPi / 180)) * Vec3::Unit(static_cast<Eigen::Index>(direction % 3)) * (k < 6 ? 1 : -1);
+    const Vec3 moved = direction < 3 ? Vec3(tip(cell) - from) : Vec3(rotation_between(before, turned()));
+    const Vec3 by = direction < 3 ? moved : Vec3(before * moved);
+    ASSERT_GT(by.norm(), 0.01) << k;
+    EXPECT_LT((by.normalized() - axis).norm(), 1e-4) << k;
+    if (direction >= 3) {
+      EXPECT_LT((tip(cell) - from).norm(), 1e-6);
+    }
+  }
+}
+
 // Whoever holds a button down waits for the motion: at 1 % as at 100 %, and it goes on for as long as it is asked for.
 TEST(Jog, Begins_soon_at_any_speed_and_goes_on) {
   for (const double speed : {1.0, 5.0, 100.0}) {

@@ -259,7 +259,7 @@ TEST(StateDiagram, Of_an_axis_by_random_commands) {
 }
 
 TEST(StateDiagram, Of_the_group_by_random_commands) {
-  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 20);
+  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 10);
   const long first = from_environment("INDUROP_ROBOT_SEED", 1);
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
