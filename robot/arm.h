@@ -42,6 +42,13 @@ struct JointLimits {
   Joints jerk = Joints::Constant(40);         // rad/s^3
 };
 
+// Motions that are to take only part of the accelerations and jerks.
+inline JointLimits gentler(JointLimits limits, double part) noexcept {
+  limits.acceleration *= part;
+  limits.jerk *= part;
+  return limits;
+}
+
 class Arm {
  public:
   using Axes = std::array<Axis, kAxes>;

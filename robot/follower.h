@@ -100,7 +100,7 @@ class Follower final : private PathAhead {
   void make_joint_timing(Segment& segment, const JointState& from, const JointLimits& limits, double pace) noexcept;
   void begin_piece() noexcept;
   Reach motion(JointState& now) const noexcept;
-  [[nodiscard]] bool can_begin(const JointState& now, double pace) const noexcept;
+  [[nodiscard]] bool can_begin(const JointState& now, double pace, const JointLimits& most) const noexcept;
   bool leave_shares() noexcept;
   Profile pace_of_timing(double seconds) noexcept;
   void note_place(double seconds) noexcept;

@@ -53,11 +53,11 @@ Reach Follower::motion(JointState& now) const noexcept {
 
 // Of one that is made for a pace below 1, and so brakes later and softer: whether no joint gets too fast or too far, or
 // turns back only because it cannot take its braking back in time.
-bool Follower::can_begin(const JointState& now, double pace) const noexcept {
-  const JointLimits limits = limits_for(most_, 1, JointShares::at(pace));
+bool Follower::can_begin(const JointState& now, double pace, const JointLimits& most) const noexcept {
+  const JointLimits limits = limits_for(most, 1, JointShares::at(pace));
   const JointState real{now.position, pace * now.velocity, pace * pace * now.acceleration};
   const Joints later = pace * JointTiming::unloaded(now, limits);
-  const Joints sooner = JointTiming::unloaded(real, most_);
+  const Joints sooner = JointTiming::unloaded(real, most);
   for (int i = 0; i < kAxes; ++i) {
     const double v = real.velocity[i];
     if (std::abs(later[i]) > most_.velocity[i] * (1 + 1e-9) ||
@@ -115,7 +115,7 @@ Fault Follower::redirect(const Segment& target) noexcept {
     }
     pace = std::min(tried, 1.0);
     seen = {now.position, now.velocity / pace, now.acceleration / (pace * pace)};
-    if (pace >= 1 || can_begin(seen, pace)) {
+    if (pace >= 1 || can_begin(seen, pace, most_)) {
       break;
     }
   }
@@ -146,14 +146,15 @@ Fault Follower::redirect(const Segment& target) noexcept {
 bool Follower::leave_shares() noexcept {
   Segment& s = segments_[0];
   const JointState now = s.joint_timing.at(state_.position);
-  const Joints soon = JointTiming::stopping(now, most_);
-  const Joints late = JointTiming::stopping(now, limits_for(most_, 1, JointShares::at(kNearlyFull)));
+  const JointLimits most = gentler(most_, s.acceleration);
+  const Joints soon = JointTiming::stopping(now, most);
+  const Joints late = JointTiming::stopping(now, limits_for(most, 1, JointShares::at(kNearlyFull)));
   for (int i = 0; i < kAxes; ++i) {
     if (passes(now.position[i], s.to[i], late[i]) && !passes(now.position[i], s.to[i], soon[i])) {
       return false;
     }
   }
-  if (!can_begin(now, kNearlyFull)) {
+  if (!can_begin(now, kNearlyFull, most)) {
     return false;
   }
   if (places_.box().known()) {

@@ -38,6 +38,7 @@ void Group::begin_next(bool more) noexcept {
     asked_ = next.chain->source_at(0);
     PlanRequest request{{}, next.chain, from, !follower_.idle()};
     request.command.ticket = next.ticket;
+    request.command.acceleration = next.acceleration;
     ask_for_plan(request);
   } else if (next.command != nullptr) {
     asked_ = next.command->source;

@@ -17,20 +17,21 @@
 namespace indurop::robot {
 
 enum class Op : std::uint8_t {
-  Move,       // index: point, or kBack; mid: point; value: 1 if a joint motion is to be straight,
-              // or if points of a spline follow
-  Speed,      // value: part of full speed, or m/s if index is 1
-  Zone,       // value: m
-  Tool,       // index: tool
-  Set,        // index: signal; formula; pulse
-  SetOnPath,  // the same, of the motion before it: value: m before its end, behind its beginning if mid is 1;
-              // timeout above 0: s instead
-  Assign,     // index: variable of the job; formula
-  WaitUntil,  // formula; timeout
-  WaitTime,   // value: s
-  Call,       // index: job; formula: the first of its arguments; mid: how many
-  Arm,        // index: job; formula; slot: of the book's interrupts
-  Disarm,     // index: job
+  Move,          // index: point, or kBack; mid: point; value: 1 if a joint motion is to be straight,
+                 // or if points of a spline follow
+  Speed,         // value: part of full speed, or m/s if index is 1
+  Zone,          // value: m
+  Acceleration,  // value: part of the full ones, of jerk too
+  Tool,          // index: tool
+  Set,           // index: signal; formula; pulse
+  SetOnPath,     // the same, of the motion before it: value: m before its end, behind its beginning if mid is 1;
+                 // timeout above 0: s instead
+  Assign,        // index: variable of the job; formula
+  WaitUntil,     // formula; timeout
+  WaitTime,      // value: s
+  Call,          // index: job; formula: the first of its arguments; mid: how many
+  Arm,           // index: job; formula; slot: of the book's interrupts
+  Disarm,        // index: job
   Return,
   Try,      // index: what comes behind RECOVER; mid: the variable that takes the error's number
   EndTry,   // index: step behind all of it

@@ -66,7 +66,7 @@ bool JobRunner::interrupt(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_, depth_, waited_, speed_, tool_speed_, zone_, tool_, triggers_, present_, since_, in_job_};
+  interrupted_ = {state_, depth_, waited_, modal_, tool_, triggers_, present_, since_, in_job_};
   watched_[static_cast<std::size_t>(served_)].pending = false;
   serving_ = Serving::Runs;
   state_ = JobState::Runs;
@@ -95,9 +95,7 @@ void JobRunner::end_interrupt() noexcept {
   depth_ = left.depth;
   state_ = left.state;
   waited_ = left.waited;
-  speed_ = left.speed;
-  tool_speed_ = left.tool_speed;
-  zone_ = left.zone;
+  modal_ = left.modal;
   tool_ = left.tool;
   triggers_ = left.triggers;
   present_ = left.present;

@@ -98,6 +98,7 @@ void JobParser::statement() {
       {"TOOL", [](JobParser& p) { p.tool(); }},
       {"SPEED", [](JobParser& p) { p.speed(); }},
       {"ZONE", [](JobParser& p) { p.zone(); }},
+      {"ACC", [](JobParser& p) { p.acceleration(); }},
       {"MOVJ", [](JobParser& p) { p.move(Move::Joint); }},
       {"MOVL", [](JobParser& p) { p.move(Move::Line); }},
       {"MOVC", [](JobParser& p) { p.move(Move::Circle); }},
@@ -350,6 +351,22 @@ void JobParser::zone() {
   add(Op::Zone).value = value / 1000;
   if (!(value >= 0 && value <= 1000)) {
     error(number, "a zone is from 0 (stop at the point) to 1000 mm");
+  }
+}
+
+void JobParser::acceleration() {
+  const JobToken number = peek();
+  double value = 0;
+  if (!numbers(1, &value, "the acceleration, 50%")) {
+    return;
+  }
+  if (!accept("%")) {
+    error(peek(), "expected %, found " + shown(peek()));
+    return;
+  }
+  add(Op::Acceleration).value = value / 100;
+  if (!(value >= 1 && value <= 100)) {
+    error(number, "an acceleration is from 1 to 100 % of the full one");
   }
 }
 

@@ -60,6 +60,7 @@ class JobParser {
   void spline();
   void speed();
   void zone();
+  void acceleration();
   void set();
   void pulse();
   void add_setting(Step step);

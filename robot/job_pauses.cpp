@@ -20,9 +20,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   frames_[0].job = job;
   job_ = job;
   waited_ = 0;
-  speed_ = 1;
-  tool_speed_ = 0;
-  zone_ = 0;
+  modal_ = {};
   tool_ = 0;
   line_ = 0;
   message_[0] = '\0';
@@ -34,7 +32,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   free_ = false;
   in_job_ = first != steps.begin();
   for (auto before = steps.begin(); before != first; ++before) {
-    if (before->op == Op::Speed || before->op == Op::Zone) {
+    if (before->op == Op::Speed || before->op == Op::Zone || before->op == Op::Acceleration) {
       modal(*before);
     } else if (before->op == Op::Tool) {
       tool_ = before->index;

@@ -47,11 +47,15 @@ bool JobRunner::compute(int formula, Signals& signals, double& value) noexcept {
 
 void JobRunner::modal(const Step& step) noexcept {
   if (step.op == Op::Zone) {
-    zone_ = step.value;
+    modal_.zone = step.value;
     return;
   }
-  (step.index == 1 ? tool_speed_ : speed_) = step.value;
-  tool_speed_ = step.index == 1 ? tool_speed_ : 0;
+  if (step.op == Op::Acceleration) {
+    modal_.acceleration = step.value;
+    return;
+  }
+  (step.index == 1 ? modal_.tool_speed : modal_.speed) = step.value;
+  modal_.tool_speed = step.index == 1 ? modal_.tool_speed : 0;
 }
 
 void JobRunner::stop() noexcept {
@@ -136,6 +140,7 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
   return Next::Wait;
 }
 
+// Long: a case for each kind of step.
 JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   Next next = Next::Go;
   switch (step.op) {
@@ -158,6 +163,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       return Next::Go;
     case Op::Speed:
     case Op::Zone:
+    case Op::Acceleration:
       modal(step);
       break;
     case Op::SetOnPath:
@@ -236,9 +242,10 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
   if (step.mid >= 0) {
     command.mid = book_.target(step.mid, tool_);
   }
-  command.speed = speed_;
-  command.tool_speed = step.move == Move::Joint ? 0 : tool_speed_;
-  command.zone = zone_;
+  command.speed = modal_.speed;
+  command.tool_speed = step.move == Move::Joint ? 0 : modal_.tool_speed;
+  command.zone = modal_.zone;
+  command.acceleration = modal_.acceleration;
   command.straight = step.move == Move::Joint && step.value != 0;
   command.more = step.move == Move::Spline && step.value != 0;
   command.source = frame().job << kLineBits | static_cast<int>(step.line);

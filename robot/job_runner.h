@@ -41,7 +41,7 @@ class JobRunner {
  public:
   explicit JobRunner(const JobBook& book) noexcept : book_(book) {}
 
-  // `job` counts from 0 and exists; `line`: where it begins, with what the lines before say of speed, zone and tool.
+  // `job` counts from 0 and exists; `line`: where it begins, with what the lines before say of speed and so on.
   // False: there is no step from there on. Real-time safe, as all here.
   bool start(int job, std::uint32_t line = 0) noexcept;
   // Goes on behind stop(), fail() or a pause.
@@ -137,9 +137,11 @@ class JobRunner {
   int depth_ = 0;
   int job_ = -1;
   double waited_ = 0;  // s in the present step
-  double speed_ = 1;
-  double tool_speed_ = 0;
-  double zone_ = 0;
+  // What holds until a line says otherwise.
+  struct Modal {
+    double speed = 1, tool_speed = 0, zone = 0, acceleration = 1;
+  };
+  Modal modal_;
   int tool_ = 0;
   // What is to be set on the way.
   struct Trigger {
@@ -169,7 +171,7 @@ class JobRunner {
     JobState state = JobState::Runs;
     int depth = -1;
     double waited = 0;
-    double speed = 1, tool_speed = 0, zone = 0;
+    Modal modal;
     int tool = 0;
     Triggers triggers{};
     std::uint32_t present = 0;

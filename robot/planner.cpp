@@ -33,6 +33,8 @@ bool finite(const Target& target) noexcept {
 
 Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool)
     : places_(places),
+      all_joints_(joints),
+      all_tool_(tool),
       joints_(joints),
       tool_(tool),
       way_(places.box(), Vec3::Zero()),
@@ -64,8 +66,11 @@ Fault Planner::resolve(const MoveCommand& command, const Joints& near, Joints& j
   return {code_of(found.reach)};
 }
 
-void Planner::begin(const Joints& from) noexcept {
+void Planner::begin(const Joints& from, double acceleration) noexcept {
   segment_ = {};
+  segment_.acceleration = acceleration;
+  joints_ = gentler(all_joints_, acceleration);
+  tool_ = gentler(all_tool_, acceleration);
   segment_.from = from;
   segment_.start = places_.arm().forward(from);
   count_ = 0;
@@ -77,12 +82,13 @@ void Planner::begin(const Joints& from) noexcept {
 }
 
 Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
-  begin(from);
+  begin(from, command.acceleration);
   segment_.move = command.move;
   segment_.zone = command.zone;
   segment_.source = command.source;
   const bool sane = command.speed >= kSlowest && command.speed <= 1 &&
-                    (command.tool_speed == 0 || command.tool_speed >= kSlowest) && command.zone >= 0;
+                    (command.tool_speed == 0 || command.tool_speed >= kSlowest) && command.zone >= 0 &&
+                    command.acceleration >= kSlowest && command.acceleration <= 1;
   if (!sane || !from.allFinite()) {
     return {ErrorCode::Value};
   }
@@ -118,7 +124,7 @@ Fault Planner::check_joint_way() const noexcept {
   for (const double pace : {1.0, 0.7, 0.4, 0.1}) {
     Segment way = segment_;
     if (way.together) {
-      way.take_joint_timing({way.from, Joints::Zero(), Joints::Zero()}, joints_, pace);
+      way.take_joint_timing({way.from, Joints::Zero(), Joints::Zero()}, all_joints_, pace);
     }
     if (!places_.inside(way, kPlaces)) {
       return {ErrorCode::Workspace};

@@ -22,8 +22,8 @@ class Planner {
   // JointLimit, Circle, Workspace.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
   // Begins with a way of many pieces that starts where the arm is at `from` and stays as it is until the motion has
-  // ended. Errors: Value.
-  Fault begin(const ToolPath& chain, const Joints& from) noexcept;
+  // ended; its tool limits are those of `acceleration` already. Errors: Value.
+  Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
   // Singular, Workspace.
   Fault check(int places) noexcept;
@@ -62,7 +62,7 @@ class Planner {
                       int depth) noexcept;
   void note(const Rates& rates) noexcept;
   void bound(const Rates& rates, double from, double length) noexcept;
-  void begin(const Joints& from) noexcept;
+  void begin(const Joints& from, double acceleration) noexcept;
   void begin_look(double spacing, int most) noexcept;
   void bound_tool(int place) noexcept;
   Fault make_circle(const Vec3& mid) noexcept;
@@ -71,7 +71,9 @@ class Planner {
   void measure_tool_motion(const MoveCommand& command) noexcept;
 
   const Places& places_;
-  JointLimits joints_;
+  const JointLimits all_joints_;
+  const ToolLimits all_tool_;
+  JointLimits joints_;  // of the motion that is planned
   ToolLimits tool_;
   Segment segment_;
   Samples samples_{};

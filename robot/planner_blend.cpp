@@ -68,20 +68,23 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
     i == 0 ? tip.begin(near) : tip.note(near);
   }
   result.tip_speed = std::max({tip.farthest() / spacing, first.tip_speed, second.tip_speed});
+  const double gentlest = std::min(first.acceleration, second.acceleration);
   LineLimits most{std::min(first.limits.velocity, second.limits.velocity),
                   std::min(first.limits.acceleration, second.limits.acceleration),
                   std::min(first.limits.jerk, second.limits.jerk)};
   if (first.move != Move::Joint && second.move != Move::Joint) {
     // What changes between the two, at full speed, changes that much as fast in the middle as on average.
     constexpr double kMiddle = 5.0 / 3;
+    const ToolLimits tool = gentler(all_tool_, gentlest);
     const Heading before = heading(first, true);
     const Heading behind = heading(second, false);
     const double bend = kMiddle * (behind.moving - before.moving).norm() / result.length();
     const double turn = kMiddle * (behind.turning - before.turning).norm() / result.length();
-    most.velocity = std::min({most.velocity, std::sqrt(shared(tool_.acceleration / 2, bend)),
-                              std::sqrt(shared(tool_.turn_acceleration / 2, turn))});
+    most.velocity = std::min({most.velocity, std::sqrt(shared(tool.acceleration / 2, bend)),
+                              std::sqrt(shared(tool.turn_acceleration / 2, turn))});
   }
-  result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints_, most);
+  const JointLimits joints = gentler(all_joints_, gentlest);
+  result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints, most);
   return faster(first, result, second) ? result : Blend{};
 }
 

@@ -14,8 +14,8 @@ constexpr double kSpacing = 0.005;  // m between places that are looked at
 
 }  // namespace
 
-Fault Planner::begin(const ToolPath& chain, const Joints& from) noexcept {
-  begin(from);
+Fault Planner::begin(const ToolPath& chain, const Joints& from, double acceleration) noexcept {
+  begin(from, acceleration);
   Segment& s = segment_;
   s.move = Move::Line;
   s.chain = &chain;

@@ -77,8 +77,9 @@ void PlanningDesk::run() noexcept {
 
 void PlanningDesk::work() noexcept {
   plan_.blend = {};
-  plan_.fault = request_.chain != nullptr ? planner_.begin(*request_.chain, request_.from)
-                                          : planner_.begin(request_.command, request_.from);
+  plan_.fault = request_.chain != nullptr
+                    ? planner_.begin(*request_.chain, request_.from, request_.command.acceleration)
+                    : planner_.begin(request_.command, request_.from);
   while (plan_.fault.ok() && !planner_.done() && !dropped_.load(std::memory_order_relaxed)) {
     plan_.fault = planner_.check(kPortion);
   }

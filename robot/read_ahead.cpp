@@ -58,11 +58,12 @@ const MoveCommand& ReadAhead::take() noexcept {
 }
 
 bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
-  return command.move == Move::Line && !command.alone && command.speed > 0 && command.speed <= 1;
+  return command.move == Move::Line && !command.alone && command.speed > 0 && command.speed <= 1 &&
+         command.acceleration == this->command(0).acceleration;
 }
 
 void ReadAhead::begin_scan(const Joints& from) noexcept {
-  chains_[chain_].begin(places_.arm().forward(from), tool_);
+  chains_[chain_].begin(places_.arm().forward(from), gentler(tool_, command(0).acceleration));
   closed_ = false;
 }
 
@@ -94,7 +95,8 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
     return {};  // the others are still to come
   }
   Spline& spline = splines_[spline_];
-  spline.begin(places_.arm().forward(from), tool_);
+  const double acceleration = command(0).acceleration;
+  spline.begin(places_.arm().forward(from), gentler(tool_, acceleration));
   for (int i = 0; i < points && spline.count() < Spline::kMost; ++i) {
     const MoveCommand& point = command(i);
     spline.add({pose_of(point.target), point.speed, point.tool_speed, point.source});
@@ -107,7 +109,7 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   }
   spline.finish();
   spline_ = (spline_ + 1) % splines_.size();
-  return {&spline, nullptr, last.ticket};
+  return {&spline, nullptr, last.ticket, acceleration};
 }
 
 ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
@@ -129,10 +131,11 @@ ReadAhead::Next ReadAhead::next(const Joints& from, bool more) noexcept {
     if (chain.crowded()) {
       chain.finish();
       chain_ = (chain_ + 1) % chains_.size();
+      const double acceleration = command(0).acceleration;
       first_ = (first_ + scanned_) % Chain::kMost;
       count_ -= scanned_;
       scanned_ = 0;
-      return {&chain, nullptr};
+      return {&chain, nullptr, 0, acceleration};
     }
     single_ = scanned_ > 0 ? scanned_ : 1;
     scanned_ = 0;

@@ -33,6 +33,7 @@ class ReadAhead {
     const ToolPath* chain = nullptr;  // stays as it is while five others are taken
     const MoveCommand* command = nullptr;
     std::uint32_t ticket = 0;  // of a spline
+    double acceleration = 1;   // of a chain, MoveCommand::acceleration
   };
   // It begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;

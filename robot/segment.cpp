@@ -31,14 +31,15 @@ void Segment::take_timing() noexcept {
 
 void Segment::take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept {
   const JointShares shares = JointShares::at(pace);
-  const JointLimits own = limits_for(joints, limits.velocity, shares);
+  const JointLimits part = gentler(joints, acceleration);
+  const JointLimits own = limits_for(part, limits.velocity, shares);
   joint_timing.plan(state, to, own);
   from = state.position;
   length = joint_timing.duration();
   timed = true;
   made_for = pace;
   fastest = pace < 1 ? shares.fastest() : 1;
-  pace_limits = joint_timing.pace_limits(joints, shares);
+  pace_limits = joint_timing.pace_limits(part, shares);
   settled = JointTiming::settling(state, own, joints.velocity);
 }
 

@@ -37,6 +37,7 @@ struct MoveCommand {
   bool more = false;         // of splines: there are points behind this one
   double speed = 1;          // part of full speed, above 0 to 1
   double tool_speed = 0;     // m/s, of lines and circles instead of `speed`; 0: none
+  double acceleration = 1;   // part of the full accelerations and jerks, above 0 to 1
   double zone = 0;           // m, how far before the target the path may already turn to the next one
   bool straight = false;     // of joint motions: all joints in step, on a straight line between joint angles
   int source = 0;            // the caller's name for it
@@ -64,8 +65,9 @@ struct Segment {
   // m/s of the tool's tip or of the arm's end, what is faster, at full speed; of joint motions whose axes arrive
   // together it is known once they begin.
   double tip_speed = 0;
-  LineLimits most;    // of the speed along it, as the tool and the command allow
-  LineLimits limits;  // the same as the joints allow too
+  double acceleration = 1;  // part of the joints' accelerations and jerks that it is to take
+  LineLimits most;          // of the speed along it, as the tool and the command allow
+  LineLimits limits;        // the same as the joints allow too
   // Of lines and circles from rest to rest: as fast as the joints allow at each place. While it is taken, places and
   // length are seconds of the timing, and `pace_limits` limits changes of it, not `limits`.
   PathTiming timing;

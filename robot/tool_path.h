@@ -19,6 +19,14 @@ struct ToolLimits {
   double turn_jerk = 200;         // rad/s^3
 };
 
+inline ToolLimits gentler(ToolLimits limits, double part) noexcept {
+  limits.acceleration *= part;
+  limits.jerk *= part;
+  limits.turn_acceleration *= part;
+  limits.turn_jerk *= part;
+  return limits;
+}
+
 class ToolPath {
  public:
   virtual ~ToolPath() = default;

@@ -38,7 +38,7 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   const JobBook book = good(
       "POINT A = JOINT 0 10 20 30 40 50   # degrees\n"
       "point B = POSE 500, 0, 300 RPY 180 0 0 posture 4\n"
-      "SPEED 50%\nZONE 20 mm\nMOVJ A\nSPEED 250 mm/s\nMOVL B\nMOVC A B\n");
+      "SPEED 50%\nZONE 20 mm\nMOVJ A\nSPEED 250 mm/s\nACC 30%\nMOVL B\nMOVC A B\n");
   JobRunner sut(book);
   Recorder port;
   sut.start(0);
@@ -48,6 +48,8 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   EXPECT_DOUBLE_EQ(port.moves[0].speed, 0.5);
   EXPECT_DOUBLE_EQ(port.moves[0].zone, 0.02);
   EXPECT_DOUBLE_EQ(port.moves[1].tool_speed, 0.25);
+  EXPECT_DOUBLE_EQ(port.moves[0].acceleration, 1);
+  EXPECT_DOUBLE_EQ(port.moves[1].acceleration, 0.3);
   EXPECT_EQ(port.moves[1].target.posture, std::uint8_t{4});
   EXPECT_DOUBLE_EQ(port.moves[1].target.pose.position.x(), 0.5);
   EXPECT_EQ(port.moves[2].move, Move::Circle);
@@ -199,6 +201,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"SPEED 120%\n", "a.job:1:7: error: a speed is above 0 and at most 100 %"},
         Bad{"SPEED 20 km/h\n", "a.job:1:10: error: expected % or mm/s, found 'km'"},
         Bad{"ZONE -1\n", "a.job:1:6: error: a zone is from 0 (stop at the point) to 1000 mm"},
+        Bad{"ACC 0%\n", "a.job:1:5: error: an acceleration is from 1 to 100 % of the full one"},
+        Bad{"ACC 101%\n", "a.job:1:5: error: an acceleration is from 1 to 100 % of the full one"},
+        Bad{"ACC 2 m/s\n", "a.job:1:7: error: expected %, found 'm'"},
+        Bad{"ACC\n", "a.job:1:4: error: expected the acceleration, 50%, found the end of the line"},
         Bad{"WAIT 5\n", "a.job:1:7: error: expected s or ms, found the end of the line"},
         Bad{"WAIT I2 ON now\n", "a.job:1:12: error: unexpected 'now'; one statement per line"},
         Bad{"GOTO nowhere\n", "a.job:1:6: error: there is no label 'nowhere'"},

@@ -24,7 +24,9 @@ class Judge {
       : period_(period), model_(arm_from_urdf("robot.urdf", urdf).value()), limits_(limits_of(model_, Settings{})) {}
 
   // Empty, or what is broken.
-  std::string look(const Cell& cell, double hardness) {
+  std::string look(const Cell& cell, double hardness) { return look(cell, hardness, hardness * hardness); }
+  // Parts of the limits of acceleration and jerk.
+  std::string look(const Cell& cell, double hardness, double jerk_part) {
     std::string broken;
     for (std::size_t i = 0; i < static_cast<std::size_t>(model_.arm.count()); ++i) {
       Seen& seen = seen_[i];
@@ -46,7 +48,7 @@ class Judge {
       judge(broken, i, "acceleration", a / limits_.acceleration[k] / hardness);
       // A third difference is off by eight times as much as what each set point is rounded by.
       const double rounding = 8 * 5e-11 / (period_ * period_ * period_);
-      judge(broken, i, "jerk", std::max(0.0, std::abs(j) - rounding) / limits_.jerk[k] / hardness / hardness);
+      judge(broken, i, "jerk", std::max(0.0, std::abs(j) - rounding) / limits_.jerk[k] / jerk_part);
       seen = {p, v, a};
     }
     return broken;
