@@ -153,7 +153,7 @@ bool JobParser::numbers(int count, double* to, const char* what) {
 }
 
 void JobParser::joint_point(Target& target) {
-  double q[kAxes];
+  double q[kAxes] = {};
   const bool usual = shape_.axes == 6 && shape_.slides == ArmShape{}.slides;
   if (numbers(shape_.axes, q,
               usual ? "the angles of the six joints in degrees" : "one of each axis, degrees, mm where it slides")) {

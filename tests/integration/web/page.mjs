@@ -352,6 +352,9 @@ await browser.run({
     // The server's memory of it is gone: the switch stays pressed, the robot task sees no beat.
     await order("start-server");
     await until("no rest after the server was killed", async () => !(await moves()));
+    await sees(other, "when the group stands by");
+    await order("automatic");
+    await sees(other, "Automatic mode: the robot is not moved by hand.");
     await other.close();
   },
 

@@ -40,6 +40,9 @@ class Cell(PageServer):
             time.sleep(0.5)
         raise AssertionError("the group does not stand by")
 
+    def automatic(self):
+        self.indurop("set", "--node", self.node, "PLC_ROBOT::ROBOT_MODE", "{eMode: 1}", check=True)
+
     def kill_server(self):
         self.server.kill()
         self.server.wait(timeout=PATIENCE)
@@ -52,7 +55,8 @@ class Cell(PageServer):
 
     def obey(self, word):
         {"start-node": self.start_node, "stop-node": self.stop_node, "start-server": self.start_server,
-         "stop-server": self.stop_server, "start-tour": self.start_tour, "power-on": self.power_on, "kill-server": self.kill_server, "record": self.record}[word]()
+         "stop-server": self.stop_server, "start-tour": self.start_tour, "power-on": self.power_on, "automatic": self.automatic,
+         "kill-server": self.kill_server, "record": self.record}[word]()
 
 
 def main():

@@ -68,7 +68,7 @@ class Hardness {
   int since_ = 0;
 };
 
-struct Drive_by {
+struct DriveBy {
   double often = 0;  // releases of the switch, holds and overrides per second
   double fastest = 0;
   double longest = 0;  // s from the release of the switch until it stands
@@ -76,7 +76,7 @@ struct Drive_by {
 };
 
 // Random jobs in manual mode; what the switch stops goes on when it is asked for.
-void run_job(unsigned seed, double period_ms, const std::string& urdf, Drive_by& by) {
+void run_job(unsigned seed, double period_ms, const std::string& urdf, DriveBy& by) {
   std::mt19937 random(seed);
   const Arm arm = arm_from_urdf("arm.urdf", urdf).value().arm;
   const std::string job = (seed % 2 == 0 ? kTool : "") + random_job(arm, random).text;
@@ -117,8 +117,8 @@ void run_job(unsigned seed, double period_ms, const std::string& urdf, Drive_by&
 class Manual_mode_of : public testing::TestWithParam<const char*> {};
 
 TEST_P(Manual_mode_of, Jobs_are_never_faster_than_250_mm_per_second) {
-  Drive_by undisturbed;
-  Drive_by disturbed{3};
+  DriveBy undisturbed;
+  DriveBy disturbed{3};
   for (unsigned seed = 1; seed <= 8; ++seed) {
     constexpr std::array kPeriods{2.0, 4.0, 10.0};
     ASSERT_NO_FATAL_FAILURE(run_job(seed, kPeriods[seed % 3], urdf_of(GetParam()), undisturbed));

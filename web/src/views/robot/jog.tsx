@@ -128,6 +128,8 @@ export function Jog({ board, scope, state, names }: Props) {
       <ul class="plain jogs">
         {axes.map((name, i) => <li key={name}>{button(i, -1, name)} <span>{name}</span> {button(i, 1, name)}</li>)}
       </ul>
+      {state?.automatic && <p class="warn">Automatic mode: the robot is not moved by hand.</p>}
+      {state && !state.may_move && <p class="warn">Nothing moves: the enabling switch is not held, or another mode was chosen.</p>}
       <p role="status" class="warn">{said}</p>
       <p class="quiet">Moves while a button (or the space bar on it) is held down, at most at 250 mm/s, when the group stands by. This is no safety function: keep the emergency stop within reach.</p>
     </section>);

@@ -8,7 +8,7 @@ import type { Variable } from "../../api/types";
 
 const RATE_HZ = 25;
 const GROUP_STATES = ["no power", "standing by", "moving", "homing", "stopping", "stopped by an error"];
-const JOB_STATES = ["idle", "runs", "waits", "has ended", "failed"];
+const JOB_STATES = ["idle", "runs", "waits", "has ended", "failed", "pauses"];
 
 export interface RobotState {
   joint: number[];
@@ -27,6 +27,8 @@ export interface RobotState {
   job_message: string;
   override_set: number;
   hold: boolean;
+  automatic: boolean;
+  may_move: boolean;  // as far as operating mode and enabling switch are concerned
   acknowledged: number;  // the number of the service that was taken last
 }
 
@@ -48,6 +50,7 @@ function state_of(values: Record<string, any>): RobotState {
     group: words_of(GROUP_STATES, module.eState), error: module.nError ?? 0,
     job: job.name ?? "", job_line: job.nLine ?? 0, job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
+    automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
 }
 
