@@ -257,6 +257,7 @@ class Group final : public Controller, private MotionPort {
   int asked_ = 0;  // MoveCommand::source of what is being planned
   Pose ahead_of_;  // where the next motion begins
   Pose product_;   // the product's coordinates
+  std::array<double, 6> product_given_{};  // as they were set
 
   // The request that is being served.
   bool first_ = true;

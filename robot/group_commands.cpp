@@ -194,6 +194,7 @@ ErrorCode Group::set_transform(const Command& command) noexcept {
     return ErrorCode::Value;
   }
   product_ = pose_of(command.to);
+  std::copy_n(command.to.begin(), product_given_.size(), product_given_.begin());
   return ErrorCode::Ok;
 }
 

@@ -92,6 +92,7 @@ void Group::report_tool(const Twist& moved, Outputs& out) noexcept {
   const Quat back = product_.orientation.conjugate();
   tell(tool, Quat::Identity(), out.machine);
   tell({back * (tool.position - product_.position), back * tool.orientation}, back, out.product);
+  out.product_frame = product_given_;
 }
 
 }  // namespace indurop::robot

@@ -118,7 +118,7 @@ void read_commands() {
 
 void write_tool() {
   MC_TOOL = {out.machine.position,     out.product.position,     out.machine.velocity, out.product.velocity,
-             out.machine.acceleration, out.product.acceleration, out.acceleration};
+             out.machine.acceleration, out.product.acceleration, out.acceleration, out.product_frame};
 }
 
 void write_answers() {

@@ -213,6 +213,7 @@ struct Outputs {
   std::array<AxisReport, kJoints> axes{};
   CommandAnswers commands{};
   ToolReport machine, product;
+  std::array<double, 6> product_frame{};  // the product's coordinates in those of the machine, as they were set last
   AxisNumbers acceleration{};  // deg/s^2, commanded
   JobReport job;
   OperatingMode mode = OperatingMode::Any;  // that holds now

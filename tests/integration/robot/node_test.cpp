@@ -226,7 +226,7 @@ TEST_F(RobotNode, Single_axes_and_the_request_of_the_chapter) {
 
 // Each ok_NAME of the program says whether the block did what it should.
 void RobotNode::run_blocks(const std::string& name) {
-  auto all = modules("");
+  auto all = modules("TOOL gripper = POSE 0 0 120 RPY 0 0 0\n");
   all.push_back({.file = std::string(BLOCKS_DIR) + "/" + name + ".so", .name = "plc", .period = "5ms", .priority = 3});
   const Outcome outcome = run_to_end(all, {"--sim", "--until", "90s"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
