@@ -280,6 +280,7 @@ AxisReport AxisControl::report() const noexcept {
   report.most_acceleration = most_.acceleration / scale_.unit;
   report.most_jerk = most_.jerk / scale_.unit;
   report.velocity = commanded().velocity / scale_.unit;
+  report.phase = coupled_ ? coupling_.phase() / row_.axes[static_cast<std::size_t>(leaders_[0].axis)].scale_.unit : 0;
   return report;
 }
 

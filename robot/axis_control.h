@@ -44,8 +44,12 @@ class AxisControl {
   void move(double seconds) noexcept;
   // Others may follow it.
   [[nodiscard]] bool leads() const noexcept;
-  // The axis that it follows by itself, from 0; -1: none.
-  [[nodiscard]] int master() const noexcept { return coupled_ ? master_ : -1; }
+  // An axis that it follows by itself, from 0, and what each of its steps counts.
+  struct Leader {
+    int axis = 0;
+    double ratio = 1;
+  };
+  [[nodiscard]] std::span<const Leader> leaders() const noexcept { return {leaders_.data(), coupled_ ? leading_ : 0}; }
   // Follows the group.
   void follow(const LineState& state) noexcept;
   // Is commanded to be here, whatever it was doing.
@@ -123,9 +127,18 @@ class AxisControl {
   void end_motion(ErrorCode code) noexcept;
 
   // Following another axis (axis_couple.cpp).
-  [[nodiscard]] ErrorCode resolve(const Command& command, CouplingLaw& law) const noexcept;
+  struct Coupled {
+    CouplingLaw law;
+    std::array<Leader, 2> leaders;
+    std::size_t leading = 1;
+  };
+  [[nodiscard]] bool follows_itself(const Coupled& way) const noexcept;
+  [[nodiscard]] ErrorCode resolve(const Command& command, const Order& order, Coupled& way) const noexcept;
+  [[nodiscard]] ErrorCode resolve_ratios(const Command& command, Coupled& way) const noexcept;
+  [[nodiscard]] ErrorCode resolve_meeting(const Command& command, const Order& order, Coupled& way) const noexcept;
   [[nodiscard]] ErrorCode resolve_cam(const Command& command, const AxisControl& master,
                                       CouplingLaw& law) const noexcept;
+  [[nodiscard]] bool inside(double one, double other) const noexcept;
   void couple(const Command& command, const Order& order) noexcept;
   void decouple(int ticket) noexcept;
   void let_go() noexcept;
@@ -139,6 +152,8 @@ class AxisControl {
   void halt_superimposed(int ticket, const Command& command) noexcept;
   void advance_over(double seconds) noexcept;
   void note_superimposed() noexcept;
+  void shift_master(int ticket, const Command& command) noexcept;
+  [[nodiscard]] ErrorCode check_shift(const Command& command) const noexcept;
 
   // Its touch probe (axis_probe.cpp).
   void begin_probe(int ticket, const Command& command) noexcept;
@@ -164,7 +179,8 @@ class AxisControl {
   bool coupled_ = false;
   bool over_ = false;     // the coupling is on top of its own motion
   bool leaving_ = false;  // what is asked for begins once it has no acceleration
-  int master_ = 0;        // from 0
+  std::array<Leader, 2> leaders_;
+  std::size_t leading_ = 1;  // so many of them
   AxisState state_ = AxisState::Disabled;
   double measured_ = 0;
   double measured_speed_ = 0;

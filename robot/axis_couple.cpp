@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "robot/axis_control.h"
 
@@ -11,6 +12,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kMostRatio = 1e6;
+constexpr double kLeastWay = 1e-6;  // rad or m of a master, to come into gear on
 
 constexpr std::size_t at(int axis) noexcept {
   return static_cast<std::size_t>(axis);
@@ -23,27 +25,98 @@ bool AxisControl::leads() const noexcept {
          state_ != AxisState::Homing;
 }
 
-ErrorCode AxisControl::resolve(const Command& command, CouplingLaw& law) const noexcept {
-  const int master = command.option - 1;
-  if (master < 0 || at(master) >= row_.axes.size()) {
-    return ErrorCode::Value;
+// Nobody follows himself, not even by way of others.
+bool AxisControl::follows_itself(const Coupled& way) const noexcept {
+  std::array<bool, kAxes> ahead{};
+  for (std::size_t i = 0; i < way.leading; ++i) {
+    ahead[at(way.leaders[i].axis)] = true;
   }
-  // Nobody follows himself, not even by way of others.
-  for (int next = master; next >= 0; next = row_.axes[at(next)].master()) {
-    if (next == row_.own) {
+  for (std::size_t rounds = 0; rounds < row_.axes.size(); ++rounds) {
+    for (std::size_t i = 0; i < row_.axes.size(); ++i) {
+      for (const Leader& leader : row_.axes[i].leaders()) {
+        ahead[at(leader.axis)] = ahead[at(leader.axis)] || ahead[i];
+      }
+    }
+  }
+  return ahead[at(row_.own)];
+}
+
+ErrorCode AxisControl::resolve(const Command& command, const Order& order, Coupled& way) const noexcept {
+  const AxisService service = service_of(command);
+  way.leading = service == AxisService::Combine ? 2 : 1;
+  way.leaders = {Leader{command.option - 1}, Leader{command.job - 1}};
+  for (std::size_t i = 0; i < way.leading; ++i) {
+    if (way.leaders[i].axis < 0 || at(way.leaders[i].axis) >= row_.axes.size()) {
       return ErrorCode::Value;
     }
   }
-  const AxisControl& leading = row_.axes[at(master)];
-  if (!leading.leads()) {
-    return ErrorCode::Master;
+  if (follows_itself(way)) {
+    return ErrorCode::Value;
   }
-  if (static_cast<AxisService>(command.code) == AxisService::CamIn) {
-    return resolve_cam(command, leading, law);
+  for (std::size_t i = 0; i < way.leading; ++i) {
+    if (!row_.axes[at(way.leaders[i].axis)].leads()) {
+      return ErrorCode::Master;
+    }
   }
-  const double ratio = command.to[0] / command.to[1];
-  law.ratio = ratio * scale_.unit / leading.scale_.unit;
-  return std::abs(ratio) <= kMostRatio ? ErrorCode::Ok : ErrorCode::Value;
+  switch (service) {
+    case AxisService::CamIn:
+      return resolve_cam(command, row_.axes[at(way.leaders[0].axis)], way.law);
+    case AxisService::GearInPos:
+      return resolve_meeting(command, order, way);
+    default:
+      return resolve_ratios(command, way);
+  }
+}
+
+// In gear with one: the law has the ratio. With two, it follows what they make together.
+ErrorCode AxisControl::resolve_ratios(const Command& command, Coupled& way) const noexcept {
+  for (std::size_t i = 0; i < way.leading; ++i) {
+    const double ratio = command.to[2 * i] / command.to[2 * i + 1];
+    if (!(std::abs(ratio) <= kMostRatio)) {
+      return ErrorCode::Value;
+    }
+    Leader& leader = way.leaders[i];
+    leader.ratio = ratio * scale_.unit / row_.axes[at(leader.axis)].scale_.unit;
+  }
+  if (way.leading == 1) {
+    way.law.ratio = std::exchange(way.leaders[0].ratio, 1);
+  }
+  return ErrorCode::Ok;
+}
+
+// In gear from a place of both axes on.
+ErrorCode AxisControl::resolve_meeting(const Command& command, const Order& order, Coupled& way) const noexcept {
+  const AxisControl& master = row_.axes[at(way.leaders[0].axis)];
+  const auto finite = [](double x) { return std::abs(x) <= kMostRatio; };
+  if (!std::all_of(command.to.begin(), command.to.begin() + 5, finite) || command.to[4] < 0) {
+    return ErrorCode::Value;
+  }
+  if (const ErrorCode code = resolve_ratios(command, way); code != ErrorCode::Ok) {
+    return code;
+  }
+  if (!homed_ || !master.homed_) {
+    return ErrorCode::NotHomed;
+  }
+  CouplingLaw& law = way.law;
+  law.master_zero = master.origin_ + command.to[2] * master.scale_.unit;
+  law.slave_zero = origin_ + command.to[3] * scale_.unit;
+  const double ahead = law.master_zero - master.commanded().position;
+  const double asked = command.to[4] * master.scale_.unit;
+  const double length = asked > 0 ? std::min(asked, std::abs(ahead)) : std::abs(ahead);
+  if (length < kLeastWay) {
+    return ErrorCode::Speed;  // the master is there
+  }
+  const LineState& now = motion_.state();
+  const LineLimits braking{order.limits.velocity, std::min(order.limits.acceleration, order.braking.acceleration),
+                           order.limits.jerk};
+  const double start = now.position + ramp(now, 0, braking).distance;
+  law.approach = {law.master_zero - std::copysign(length, ahead), law.master_zero, start, law.slave_zero, law.ratio};
+  const auto [least, greatest] = law.approach.extent();
+  return inside(least, greatest) ? ErrorCode::Ok : ErrorCode::JointLimit;
+}
+
+bool AxisControl::inside(double one, double other) const noexcept {
+  return endless_ || (std::min(one, other) >= lower_ - 1e-9 && std::max(one, other) <= upper_ + 1e-9);
 }
 
 // Its zeros are those of the axes, or where both are now.
@@ -71,18 +144,18 @@ ErrorCode AxisControl::resolve_cam(const Command& command, const AxisControl& ma
   const auto [least, greatest] = law.cam.extent();
   const double one = law.slave_zero + least * law.slave_scale;
   const double other = law.slave_zero + greatest * law.slave_scale;
-  const bool inside = endless_ || (std::min(one, other) >= lower_ - 1e-9 && std::max(one, other) <= upper_ + 1e-9);
-  return inside ? ErrorCode::Ok : ErrorCode::JointLimit;
+  return inside(one, other) ? ErrorCode::Ok : ErrorCode::JointLimit;
 }
 
 void AxisControl::couple(const Command& command, const Order& order) noexcept {
-  CouplingLaw law;
-  static_cast<void>(resolve(command, law));  // which has been looked at before
+  Coupled way;
+  static_cast<void>(resolve(command, order, way));  // which has been looked at before
   LineLimits limits = order.limits;
   limits.acceleration = std::min(limits.acceleration, order.braking.acceleration);
-  master_ = command.option - 1;
+  leaders_ = way.leaders;
+  leading_ = way.leading;
   finish(super_, ErrorCode::Aborted);
-  coupling_.engage(law, limits, most_, motion_.state());
+  coupling_.engage(way.law, limits, most_, motion_.state());
   coupled_ = true;
   leaving_ = false;
   state_ = AxisState::SynchronizedMotion;
@@ -128,10 +201,18 @@ void AxisControl::put(const LineState& state) noexcept {
 }
 
 void AxisControl::advance_coupled(double seconds) noexcept {
-  const AxisControl& master = row_.axes[at(master_)];
-  const AxisCoupling::Master leading{row_.gates[at(master_)].state(), master.commanded().position};
-  const ErrorCode code =
-      master.leads() ? coupling_.step(leading, row_.gates[at(row_.own)], seconds) : ErrorCode::Master;
+  AxisCoupling::Master master;
+  bool all_lead = true;
+  for (const Leader& leader : leaders()) {
+    const LineState& before = row_.gates[at(leader.axis)].state();
+    const AxisControl& axis = row_.axes[at(leader.axis)];
+    master.before.position += leader.ratio * before.position;
+    master.before.velocity += leader.ratio * before.velocity;
+    master.before.acceleration += leader.ratio * before.acceleration;
+    master.now += leader.ratio * axis.commanded().position;
+    all_lead = all_lead && axis.leads();
+  }
+  const ErrorCode code = all_lead ? coupling_.step(master, row_.gates[at(row_.own)], seconds) : ErrorCode::Master;
   if (code != ErrorCode::Ok) {
     fail_coupling(code);
   } else {

@@ -27,9 +27,10 @@ void AxisCoupling::engage(const CouplingLaw& law, const LineLimits& limits, cons
   law_ = law;
   limits_ = limits;
   most_ = most;
-  begun_ = planned_ = synced_ = brakes_ = false;
+  begun_ = planned_ = synced_ = brakes_ = phasing_ = false;
   state_ = now;
-  to_place_ = law.cam.known();
+  phase_ = {};
+  to_place_ = law.places();
   goal_ = 0;
 }
 
@@ -63,7 +64,12 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   }
   const LineState& told = gate.state();
   const LineState last = law_state_;
-  law_state_ = difference(law_.at(master.now), last, seconds);
+  step_phase(seconds);
+  law_state_ = difference(law_.at(master.now + phase_.position), last, seconds);
+  const double jerk = (law_state_.acceleration - last.acceleration) / seconds;
+  if (const ErrorCode code = judge_approach(master.now, jerk, seconds); code != ErrorCode::Ok) {
+    return code;
+  }
   if (!planned_) {
     plan({told.position - last.position, told.velocity - last.velocity, told.acceleration - last.acceleration},
          seconds);
@@ -75,7 +81,7 @@ ErrorCode AxisCoupling::step(const Master& master, const SetPointGate& gate, dou
   if (const ErrorCode code = gate.check(next, 1); code != ErrorCode::Ok) {
     return code;
   }
-  synced_ = synced_ || (ended && next == wanted && !(held_ && to_place_));
+  synced_ = synced_ || (ended && next == wanted && !phasing_ && !(held_ && to_place_));
   planned_ = next == wanted;
   put(next, told, seconds);
   return ErrorCode::Ok;
@@ -94,7 +100,60 @@ void AxisCoupling::stop_shift(const LineLimits& limits) noexcept {
   planned_ = synced_ = false;
 }
 
+void AxisCoupling::shift_master(double to, const LineLimits& limits) noexcept {
+  goal_ = to_place_ || !begun_ ? goal_ : state_.position - law_state_.position;
+  to_place_ = true;
+  phase_to_ = to;
+  phase_limits_ = limits;
+  const double slope = law_.cam.known() ? 0 : std::abs(law_.ratio);
+  if (slope > 0) {
+    phase_limits_ = {
+        std::min(limits.velocity, left(most_.velocity, law_state_.velocity, most_.velocity) / slope),
+        std::min(limits.acceleration, left(most_.acceleration, law_state_.acceleration, most_.acceleration) / slope),
+        std::min(limits.jerk, most_.jerk / slope)};
+  }
+  phasing_ = true;
+  phase_planned_ = planned_ = synced_ = false;
+}
+
+void AxisCoupling::step_phase(double seconds) noexcept {
+  if (!phasing_) {
+    return;
+  }
+  if (!phase_planned_) {
+    phase_way_ =
+        held_ ? Profile::to_velocity(phase_, 0, phase_limits_) : Profile::to_rest(phase_, phase_to_, phase_limits_);
+    phase_planned_ = true;
+    phase_time_ = 0;
+  }
+  phase_time_ += seconds;
+  const bool ended = phase_time_ >= phase_way_.duration();
+  phase_ = ended ? LineState{held_ ? phase_way_.end().position : phase_to_, 0, 0} : phase_way_.at(phase_time_);
+  phasing_ = !ended || held_;
+}
+
+// On its way to the gear the law keeps the limits that were asked for, and at its end the follower has to be there.
+ErrorCode AxisCoupling::judge_approach(double master, double jerk, double seconds) noexcept {
+  if (!law_.approach.known()) {
+    return ErrorCode::Ok;
+  }
+  if (!law_.approach.leads(master)) {
+    law_.approach = {};
+    return synced_ ? ErrorCode::Ok : ErrorCode::Speed;
+  }
+  constexpr double kMargin = 1 + 1e-4;
+  const double noise = 8 * 5e-11 / (seconds * seconds * seconds);  // of the jerk
+  if (std::abs(law_state_.velocity) > limits_.velocity * kMargin) {
+    return ErrorCode::Speed;
+  }
+  if (std::abs(law_state_.acceleration) > limits_.acceleration * kMargin + noise * seconds) {
+    return ErrorCode::Acceleration;
+  }
+  return std::abs(jerk) > limits_.jerk * kMargin + noise ? ErrorCode::Jerk : ErrorCode::Ok;
+}
+
 void AxisCoupling::hold(bool held) noexcept {
+  phase_planned_ = phase_planned_ && held == held_;
   planned_ = planned_ && (held == held_ || synced_);
   held_ = held;
 }

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "robot/approach.h"
 #include "robot/cam.h"
 #include "robot/errors.h"
 #include "robot/profile.h"
@@ -16,10 +17,17 @@ namespace indurop::robot {
 struct CouplingLaw {
   double ratio = 1;
   Cam cam;                                 // known(): instead of the ratio
-  double master_zero = 0, slave_zero = 0;  // where the cam's zeros are
+  Approach approach;                       // known(): how it comes to the ratio
+  double master_zero = 0, slave_zero = 0;  // where the cam's zeros are, or both in gear
   double master_scale = 1, slave_scale = 1;
+  // The law says places, not only the speed.
+  [[nodiscard]] bool places() const noexcept { return cam.known() || approach.known(); }
   [[nodiscard]] double at(double master) const noexcept {
-    return cam.known() ? slave_zero + slave_scale * cam.at((master - master_zero) / master_scale) : ratio * master;
+    if (approach.leads(master)) {
+      return approach.at(master);
+    }
+    return slave_zero +
+           (cam.known() ? slave_scale * cam.at((master - master_zero) / master_scale) : ratio * (master - master_zero));
   }
 };
 
@@ -33,6 +41,10 @@ class AxisCoupling {
   void shift(double by, const LineLimits& limits) noexcept;
   // No further.
   void stop_shift(const LineLimits& limits) noexcept;
+  // The law sees its master so much further on than it is. `limits` are those of that way, in what the master counts;
+  // what the follower has no room for comes later. It is synced() again when that is done.
+  void shift_master(double to, const LineLimits& limits) noexcept;
+  [[nodiscard]] double phase() const noexcept { return phase_.position; }
 
   struct Master {
     LineState before;  // its set point of the last period, as its gate has it
@@ -50,12 +62,14 @@ class AxisCoupling {
 
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // It is where the law says, but for what it had not caught up with before.
-  [[nodiscard]] bool synced() const noexcept { return synced_; }
+  [[nodiscard]] bool synced() const noexcept { return synced_ && !law_.approach.known(); }
 
  private:
   void begin(const LineState& master, double seconds) noexcept;
   void plan(const LineState& from, double seconds) noexcept;
   void put(double position, const LineState& before, double seconds) noexcept;
+  void step_phase(double seconds) noexcept;
+  [[nodiscard]] ErrorCode judge_approach(double master, double jerk, double seconds) noexcept;
 
   CouplingLaw law_;
   LineLimits limits_, most_;
@@ -69,6 +83,13 @@ class AxisCoupling {
   LineState law_state_;    // where the law is, as differences between periods
   Profile gap_;            // what is between the law and the axis, until it is caught up with
   double time_ = 0;
+  LineState phase_;  // what the master is further on
+  double phase_to_ = 0;
+  LineLimits phase_limits_;
+  Profile phase_way_;
+  double phase_time_ = 0;
+  bool phasing_ = false;
+  bool phase_planned_ = false;
   LineState state_;
 };
 

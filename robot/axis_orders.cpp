@@ -12,7 +12,8 @@ namespace indurop::robot {
 namespace {
 
 bool follows(AxisService service) noexcept {
-  return service == AxisService::GearIn || service == AxisService::CamIn;
+  return service == AxisService::GearIn || service == AxisService::CamIn || service == AxisService::GearInPos ||
+         service == AxisService::Combine;
 }
 
 // deg/s, deg/s^2, deg/s^3 or mm: what is asked for, if it is neither 0 (as much as there is) nor something.
@@ -83,7 +84,12 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     case AxisService::MoveVelocity:
     case AxisService::GearIn:
     case AxisService::CamIn:
+    case AxisService::GearInPos:
+    case AxisService::Combine:
       queue(ticket, command);
+      break;
+    case AxisService::ShiftMaster:
+      shift_master(ticket, command);
       break;
     case AxisService::Decouple:
       decouple(ticket);
@@ -274,8 +280,8 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
     order.target = negative ? -order.limits.velocity : order.limits.velocity;
   }
   if (follows(service)) {
-    CouplingLaw law;
-    return resolve(command, law);
+    Coupled way;
+    return resolve(command, order, way);
   }
   if (!is_move(service)) {
     return ErrorCode::Ok;

@@ -9,11 +9,18 @@
 
 namespace indurop::robot {
 
+namespace {
+
+constexpr double kMostShift = 1e6;  // deg or mm
+
+}  // namespace
+
 ErrorCode AxisControl::check_superimposed(const Command& command) const noexcept {
   const bool moves = state_ == AxisState::Standstill || state_ == AxisState::DiscreteMotion ||
                      state_ == AxisState::ContinuousMotion || coupled_;
   const bool catches_up = coupled_ && super_.ticket == kNobody && !coupling_.synced();
-  if (!drive_.enabled() || !moves || leaving_ || catches_up || queued_ > 0) {
+  const bool shifts = super_.service == AxisService::ShiftMaster;
+  if (!drive_.enabled() || !moves || leaving_ || catches_up || shifts || queued_ > 0) {
     return ErrorCode::State;
   }
   if (coupled_ || state_ == AxisState::ContinuousMotion || endless_) {
@@ -53,13 +60,49 @@ void AxisControl::halt_superimposed(int ticket, const Command& command) noexcept
   Owner owner{ticket, AxisService::HaltSuperimposed};
   Order order;
   const ErrorCode code = resolve(command, 0, order);
-  if (code != ErrorCode::Ok || super_.ticket == kNobody) {
+  if (code != ErrorCode::Ok || super_.ticket == kNobody || super_.service == AxisService::ShiftMaster) {
     finish(owner, code != ErrorCode::Ok ? code : ErrorCode::State);
     return;
   }
   finish(super_, ErrorCode::Aborted);
   super_ = owner;
   coupling_.stop_shift(order.braking);
+  if (ticket != kRequest) {
+    table_->active(ticket);
+  }
+}
+
+ErrorCode AxisControl::check_shift(const Command& command) const noexcept {
+  const bool on_top = super_.ticket != kNobody && super_.service != AxisService::ShiftMaster;
+  if (!drive_.enabled() || !coupled_ || on_top || (super_.ticket == kNobody && !coupling_.synced())) {
+    return ErrorCode::State;
+  }
+  const bool one_master = leading_ == 1 && command.option == leaders_[0].axis + 1;
+  const bool sane = std::abs(command.to[0]) <= kMostShift && command.buffer == BufferMode::Aborting;
+  return one_master && sane ? ErrorCode::Ok : ErrorCode::Value;
+}
+
+// The follower sees its master somewhere else; the master knows nothing of it.
+void AxisControl::shift_master(int ticket, const Command& command) noexcept {
+  Owner owner{ticket, AxisService::ShiftMaster};
+  Order order;
+  ErrorCode code = resolve(command, 0, order);
+  code = code == ErrorCode::Ok ? check_shift(command) : code;
+  if (code != ErrorCode::Ok) {
+    finish(owner, code);
+    return;
+  }
+  finish(super_, ErrorCode::Aborted);
+  const AxisControl& master = row_.axes[static_cast<std::size_t>(leaders_[0].axis)];
+  const double unit = master.scale_.unit;
+  const auto chosen = [unit](double wanted, double most) { return wanted == 0 ? most : std::min(wanted * unit, most); };
+  const double slowing = command.deceleration == 0 ? command.acceleration : command.deceleration;
+  const LineLimits limits{
+      chosen(command.velocity, master.most_.velocity),
+      std::min(chosen(command.acceleration, master.most_.acceleration), chosen(slowing, master.most_.acceleration)),
+      chosen(command.jerk, master.most_.jerk)};
+  coupling_.shift_master((command.job == 1 ? coupling_.phase() : 0) + command.to[0] * unit, limits);
+  super_ = owner;
   if (ticket != kRequest) {
     table_->active(ticket);
   }

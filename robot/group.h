@@ -253,10 +253,10 @@ class Group final : public Controller, private MotionPort {
   bool interrupted_ = false;
   std::array<int, CommandTable::kMost> motions_{};
   int motion_count_ = 0;
-  int fed_ = 0;    // so many have been given to the planner
-  int asked_ = 0;  // MoveCommand::source of what is being planned
-  Pose ahead_of_;  // where the next motion begins
-  Pose product_;   // the product's coordinates
+  int fed_ = 0;                            // so many have been given to the planner
+  int asked_ = 0;                          // MoveCommand::source of what is being planned
+  Pose ahead_of_;                          // where the next motion begins
+  Pose product_;                           // the product's coordinates
   std::array<double, 6> product_given_{};  // as they were set
 
   // The request that is being served.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The axes one by one: in which order they move by themselves, and which of them does not follow.
 
+#include <algorithm>
 #include <cmath>
 
 #include "robot/group.h"
@@ -21,7 +22,8 @@ void Group::move_axes() noexcept {
   for (int left = count(); left > 0;) {
     for (int i = 0; i < count(); ++i) {
       AxisControl& a = axes_[at(i)];
-      if (moved[at(i)] || (a.master() >= 0 && !moved[at(a.master())])) {
+      const auto waits = [&moved](const AxisControl::Leader& leader) { return !moved[at(leader.axis)]; };
+      if (moved[at(i)] || std::any_of(a.leaders().begin(), a.leaders().end(), waits)) {
         continue;
       }
       moved[at(i)] = true;

@@ -118,7 +118,7 @@ void read_commands() {
 
 void write_tool() {
   MC_TOOL = {out.machine.position,     out.product.position,     out.machine.velocity, out.product.velocity,
-             out.machine.acceleration, out.product.acceleration, out.acceleration, out.product_frame};
+             out.machine.acceleration, out.product.acceleration, out.acceleration,     out.product_frame};
 }
 
 void write_answers() {
@@ -239,7 +239,8 @@ void write_axis_states() {
                a.most_velocity,
                a.most_acceleration,
                a.most_jerk,
-               a.probe};
+               a.probe,
+               a.phase};
   }
 }
 

@@ -166,6 +166,7 @@ struct AxisReport {
   double lower = 0, upper = 0;
   double most_velocity = 0, most_acceleration = 0, most_jerk = 0;
   double probe = 0;  // deg, what its touch probe recorded last
+  double phase = 0;  // deg or mm of the axis that it follows, which it sees so much further on
 };
 
 // The tool in the coordinates of the machine or of the product: x y z in mm, roll pitch yaw in degrees. Velocity and
@@ -214,7 +215,7 @@ struct Outputs {
   CommandAnswers commands{};
   ToolReport machine, product;
   std::array<double, 6> product_frame{};  // the product's coordinates in those of the machine, as they were set last
-  AxisNumbers acceleration{};  // deg/s^2, commanded
+  AxisNumbers acceleration{};             // deg/s^2, commanded
   JobReport job;
   OperatingMode mode = OperatingMode::Any;  // that holds now
   bool may_move = true;                     // as far as the mode and its enabling switch are concerned

@@ -75,7 +75,12 @@ enum class AxisService : std::int32_t {
   MoveSuperimposed,  // by to[0] on top of what it does, `velocity` faster at most
   HaltSuperimposed,
   TouchProbe,  // where the next edge is; `option` 1: a falling one, + 2: of the mark; `job` 1: from to[0] to to[1] only
-  AbortTrigger
+  AbortTrigger,
+  // As GearIn, from where it is at to[3] and its master at to[2] on; on the last to[4] of the master's way it gets
+  // there.
+  GearInPos,
+  Combine,     // follows axes `option` and `job` with to[0] / to[1] and to[2] / to[3] of their speeds
+  ShiftMaster  // of a follower of axis `option`: sees its master to[0] further on; `job` 1: so much more than it does
 };
 
 enum class ErrorCode : std::uint32_t {
