@@ -304,7 +304,7 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
   }
   began_at_ = service == AxisService::MoveAdditive ? added_to_ : motion_.state().position;
   ErrorCode code = resolve(command, began_at_, order);
-  if (service == AxisService::Home && !motion_.at_rest()) {
+  if (service == AxisService::Home && (state_ == AxisState::ContinuousMotion || !motion_.at_rest())) {
     code = ErrorCode::State;
   }
   if (code != ErrorCode::Ok) {

@@ -45,6 +45,14 @@ bool may_follow(AxisState from, AxisState to) {
       {ContinuousMotion, DiscreteMotion},
       {ContinuousMotion, Stopping},
       {ContinuousMotion, Standstill},  // power is taken away at rest
+      {Standstill, SynchronizedMotion},
+      {DiscreteMotion, SynchronizedMotion},
+      {ContinuousMotion, SynchronizedMotion},
+      {Homing, SynchronizedMotion},  // over Standstill
+      {SynchronizedMotion, DiscreteMotion},
+      {SynchronizedMotion, ContinuousMotion},
+      {SynchronizedMotion, Stopping},
+      {SynchronizedMotion, Standstill},  // a motion that has nothing to do
       {Stopping, Standstill},
       {ErrorStop, Standstill},
       {ErrorStop, Disabled},
@@ -74,7 +82,17 @@ bool accepts(AxisState state, AxisService service) {
     case AxisService::MoveAdditive:
     case AxisService::MoveVelocity:
     case AxisService::Halt:
-      return state == Standstill || state == DiscreteMotion || state == ContinuousMotion;
+    case AxisService::GearIn:
+    case AxisService::GearInPos:
+    case AxisService::CamIn:
+    case AxisService::Combine:
+    case AxisService::MoveSuperimposed:
+      return state == Standstill || state == DiscreteMotion || state == ContinuousMotion || state == SynchronizedMotion;
+    case AxisService::Decouple:
+    case AxisService::ShiftMaster:
+      return state == SynchronizedMotion;
+    case AxisService::HaltSuperimposed:
+      return state == DiscreteMotion || state == ContinuousMotion || state == SynchronizedMotion;
     case AxisService::Stop:
       return state != Disabled && state != ErrorStop;
     default:
@@ -184,25 +202,79 @@ class AxisDiagram : public Diagram {
       EXPECT_TRUE(may_follow(before, axis(0)))
           << "from " << static_cast<int>(before) << " to " << static_cast<int>(axis(0));
       before = axis(0);
+      followed_ += before == AxisState::SynchronizedMotion ? 1 : 0;
       look_at_answers();
       look_at_limits();
     }
   }
 
+  [[nodiscard]] long followed() const { return followed_; }
+
  private:
+  long followed_ = 0;  // so many periods
   void give_one() {
     using enum AxisService;
-    static constexpr AxisService kAll[] = {PowerOn,      PowerOn,      MoveAbsolute, MoveAbsolute,
-                                           MoveRelative, MoveAdditive, Halt,         MoveVelocity,
-                                           Stop,         Reset,        Home,         PowerOff};
-    const int pick = one_of(60);
-    const AxisService service = pick < 55 ? kAll[pick % 11] : PowerOff;
-    const BufferMode mode = any_mode();
+    static constexpr AxisService kAll[] = {
+        PowerOn, PowerOn, PowerOn,  MoveAbsolute, MoveAbsolute, MoveRelative, MoveAdditive, Halt,        MoveVelocity,
+        Stop,    Reset,   Home,     GearIn,       GearIn,       GearInPos,    CamIn,        Combine,     ShiftMaster,
+        Reset,   Stop,    Decouple, Decouple,     TouchProbe,   AbortTrigger, ShiftMaster,  MoveRelative};
+    constexpr int kMany = std::size(kAll);
+    if (one_of(4) == 0) {
+      move_masters();
+      return;
+    }
+    const int pick = one_of(5 * kMany + 10);
+    const AxisService service = pick < 5 * kMany ? kAll[pick % kMany] : pick % 2 == 0 ? PowerOff : MoveSuperimposed;
+    const bool at_once = service == ShiftMaster || service == MoveSuperimposed;
+    const BufferMode mode = at_once ? BufferMode::Aborting : any_mode();
     const Given given = give(1, service, in(-100, 100), in(5, 150), mode);
+    follow(command(given), service);
     // Buffered ones wait for their turn; whether the state allows them is seen then.
     const bool may = accepts(axis(0), service) || (mode != BufferMode::Aborting && axis(0) == AxisState::Homing) ||
                      (mode != BufferMode::Aborting && service == Home && accepts(axis(0), Halt));
     watch(given, may || faulty_now(), fmt::format("service {}", static_cast<int>(service)));
+  }
+  // Axes 2 and 3, which axis 1 follows.
+  void move_masters() {
+    using enum AxisService;
+    const int which = one_of(2) + 2;
+    if (cell.out.axes[static_cast<std::size_t>(which - 1)].state == AxisState::Disabled) {
+      give(which, PowerOn);
+    } else {
+      give(which, one_of(2) == 0 ? MoveAbsolute : MoveVelocity, in(-50, 20), in(5, 60));
+    }
+    if (one_of(4) == 0) {
+      CamTable& table = cell.in.cams[0];
+      table.points = 3;
+      table.master = {-40, 0, 40};
+      table.slave = {in(-30, 30), in(-30, 30), in(-30, 30)};
+      Command& c = next();
+      c.code = static_cast<std::int32_t>(Service::SelectCam);
+      c.option = 1;
+    }
+  }
+  void follow(Command& c, AxisService service) {
+    c.option = static_cast<std::int16_t>(one_of(2) + 2);
+    c.job = service == AxisService::Combine ? 2 : 1;
+    switch (service) {
+      case AxisService::GearIn:
+      case AxisService::Combine:
+        c.to = {in(-1, 1), 1, in(-1, 1), 1};
+        break;
+      case AxisService::GearInPos:
+        c.to = {in(-1, 1), 1, in(-50, 20), in(-60, 60), one_of(2) * in(5, 40)};
+        c.velocity = 0;
+        break;
+      case AxisService::CamIn:
+        c.to = {0, 0, 1, 1};
+        c.aux = {1, 1};
+        break;
+      case AxisService::TouchProbe:
+        c.option = c.job = 0;
+        break;
+      default:
+        c.option = service == AxisService::ShiftMaster ? c.option : 0;
+    }
   }
   // What the drive says next is not known to whoever gives the command.
   [[nodiscard]] bool faulty_now() const { return axis(0) == AxisState::Disabled && cell.in.drives[0].status == 0x27; }
@@ -252,10 +324,14 @@ class GroupDiagram : public Diagram {
 TEST(StateDiagram, Of_an_axis_by_random_commands) {
   const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 40);
   const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  long followed = 0;
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
-    AxisDiagram(static_cast<unsigned>(i)).run(4000);
+    AxisDiagram sut(static_cast<unsigned>(i));
+    sut.run(4000);
+    followed += sut.followed();
   }
+  EXPECT_GT(followed, runs * 100);
 }
 
 TEST(StateDiagram, Of_the_group_by_random_commands) {
