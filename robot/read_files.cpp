@@ -256,6 +256,7 @@ ReadFiles read_files(const FileNames& names) {
     read.errors.push_back(std::move(text).error());
   } else if (auto arm = arm_from_urdf(names.urdf, *text)) {
     read.model = std::move(arm).value();
+    read.notes = read.model->notes;
   } else {
     take_over(std::move(arm).error(), read.errors);
   }

@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <sstream>
 #include <utility>
+
+#include "robot/urdf_bodies.h"
 
 namespace indurop::robot {
 
@@ -47,16 +50,22 @@ class Reader {
   void follow(const urdf::JointMimic& mimic, const Link& link);
   void take_axis(const urdf::Joint& joint, const Link& link);
   void connect();
+  [[nodiscard]] Dynamics masses();
+  void note(const std::string& text);
 
   const std::string& file_;
   const std::string& text_;
+  urdf::ModelInterfaceSharedPtr model_;
   std::vector<base::Diagnostic> errors_;
+  std::vector<base::Diagnostic> notes_;
   Arm::Axes axes_;
   Joints velocity_ = Joints::Ones();
   Pose frame_;  // behind the joint that was read last
   int count_ = 0;
   std::vector<Link> links_;
   std::vector<urdf::JointConstSharedPtr> driven_by_;  // the joint of a linkage; else none
+  std::vector<urdf::JointConstSharedPtr> joints_;     // of `links_`
+  std::vector<ChainLink> chain_;
 };
 
 bool slides(const urdf::Joint& joint) noexcept {
@@ -67,24 +76,12 @@ bool moves(const urdf::Joint& joint) noexcept {
   return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS || slides(joint);
 }
 
-Pose pose_of(const urdf::Pose& pose) noexcept {
-  const auto& r = pose.rotation;
-  return {{pose.position.x, pose.position.y, pose.position.z}, Quat(r.w, r.x, r.y, r.z).normalized()};
-}
-
 Pose after(const Pose& first, const Pose& second) noexcept {
   return {first.position + first.orientation * second.position, first.orientation * second.orientation};
 }
 
 void Reader::error(std::size_t offset, const std::string& text) {
-  offset = std::min(offset, text_.size());
-  const auto begin = text_.begin();
-  const auto here = begin + static_cast<std::ptrdiff_t>(offset);
-  const auto line = std::count(begin, here, '\n') + 1;
-  const std::size_t start = offset == 0 ? std::string::npos : text_.rfind('\n', offset - 1);
-  const std::size_t column = start == std::string::npos ? offset + 1 : offset - start;
-  errors_.push_back(
-      {base::Diagnostic::Severity::Error, file_, {static_cast<int>(line), static_cast<int>(column)}, text});
+  errors_.push_back({base::Diagnostic::Severity::Error, file_, place_in(text_, offset), text});
 }
 
 std::size_t Reader::place_of(const std::string& joint) const {
@@ -160,16 +157,66 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
   if (text_.find("<delta") != std::string::npos) {
     return read_delta(*model);
   }
+  model_ = model;
+  chain_.push_back({model->getRoot(), {}, -1});
   take_chain(chain_to(tip_of(*model)));
   if (count_ == 0 || count_ > kAxes) {
     error(0, "the arm has " + std::to_string(count_) + " axes between root and tool; 1 to " + std::to_string(kAxes) +
                  " are possible");
   }
   connect();
+  Dynamics dynamics = masses();
   if (!errors_.empty()) {
     return std::move(errors_);
   }
-  return ArmModel{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_};
+  return ArmModel{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_, dynamics,
+                  std::move(notes_)};
+}
+
+void Reader::note(const std::string& text) {
+  notes_.push_back({base::Diagnostic::Severity::Note, file_, {1, 1}, text});
+}
+
+// Without all of them nothing is known of torques.
+Dynamics Reader::masses() {
+  UrdfBodies found = bodies_of(chain_, links_.size(), file_, text_);
+  std::move(found.errors.begin(), found.errors.end(), std::back_inserter(errors_));
+  if (!errors_.empty()) {
+    return {};
+  }
+  if (!found.without.empty()) {
+    std::string names;
+    for (const std::string& name : found.without) {
+      names += (names.empty() ? "'" : ", '") + name + "'";
+    }
+    note("torques are not known and have no limit: there is no <inertial> in " +
+         std::string(found.without.size() > 1 ? "the links " : "the link ") + names);
+    return {};
+  }
+  Friction friction;
+  Joints effort = Joints::Zero();
+  std::string free;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const urdf::Joint& joint = *joints_[i];
+    const int axis = links_[i].axis;
+    if (joint.dynamics != nullptr) {
+      const double ratio = std::abs(links_[i].ratio);
+      friction.damping[axis] += ratio * ratio * joint.dynamics->damping;
+      friction.dry[axis] += ratio * joint.dynamics->friction;
+      if (!(joint.dynamics->damping >= 0 && joint.dynamics->friction >= 0)) {
+        error(place_of(joint.name), "joint '" + joint.name + "': damping and friction of <dynamics> cannot be below 0");
+      }
+    }
+    if (driven_by_[i] == nullptr && joint.limits != nullptr && joint.limits->effort > 0) {
+      effort[axis] = joint.limits->effort;
+    } else if (driven_by_[i] == nullptr) {
+      free += (free.empty() ? "'" : ", '") + joint.name + "'";
+    }
+  }
+  if (!free.empty()) {
+    note("the torque of " + free + " has no limit; give it <limit effort> above 0 (N m, sliding N)");
+  }
+  return {links_, found.bodies, frame_, friction, effort};
 }
 
 // What URDF has no words for, since its chains have no loops: <delta arms="a1 a2 a3" turn="a4" base="0.2" upper="0.24"
@@ -203,7 +250,8 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::M
   if (!errors_.empty()) {
     return std::move(errors_);
   }
-  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_};
+  note("torques are not known and have no limit: the arm is a delta");
+  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, std::move(notes_)};
 }
 
 // Of the element at `at`; empty if it has none of that name.
@@ -223,6 +271,7 @@ void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
   for (const auto& joint : chain) {
     frame_ = after(frame_, pose_of(joint->parent_to_joint_origin_transform));
     if (joint->type == urdf::Joint::FIXED) {
+      chain_.push_back({model_->getLink(joint->child_link_name), frame_, static_cast<int>(links_.size()) - 1});
       continue;
     }
     if (!moves(*joint)) {
@@ -245,6 +294,8 @@ void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
     }
     links_.push_back(link);
     driven_by_.push_back(joint->mimic == nullptr ? nullptr : joint);
+    joints_.push_back(joint);
+    chain_.push_back({model_->getLink(joint->child_link_name), frame_, static_cast<int>(links_.size()) - 1});
   }
 }
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "robot/urdf_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace indurop::robot {
+
+namespace {
+
+// The <inertial> of a link, or the link itself.
+std::size_t inertial_of(const std::string& text, const std::string& link) noexcept {
+  for (std::size_t at = text.find("<link"); at != std::string::npos; at = text.find("<link", at + 1)) {
+    const std::string element = text.substr(at, text.find('>', at) - at);
+    if (element.find("name=\"" + link + "\"") != std::string::npos ||
+        element.find("name='" + link + "'") != std::string::npos) {
+      const std::size_t inertial = text.find("<inertial", at);
+      return inertial < text.find("</link", at) ? inertial : at;
+    }
+  }
+  return 0;
+}
+
+class Gatherer {
+ public:
+  Gatherer(UrdfBodies& found, const std::string& file, const std::string& text)
+      : found_(found), file_(file), text_(text) {}
+
+  // A link, and those that branch off from it, however they are fixed there; `next`: the chain goes on with that one.
+  void gather(const urdf::Link& link, const Pose& frame, int body, const urdf::Link* next);
+
+ private:
+  [[nodiscard]] Body body_of(const urdf::Link& link);
+
+  UrdfBodies& found_;
+  const std::string& file_;
+  const std::string& text_;
+};
+
+Body Gatherer::body_of(const urdf::Link& link) {
+  const urdf::Inertial& given = *link.inertial;
+  Body body;
+  body.mass = given.mass;
+  body.inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz, given.izz;
+  std::string wrong;
+  if (!(std::isfinite(body.mass) && body.mass > 0)) {
+    std::ostringstream value;
+    value << body.mass;
+    wrong =
+        "its mass is " + value.str() + " kg, and has to be above 0; leave <inertial> out of links that are no bodies";
+  } else {
+    wrong = wrong_inertia(body.inertia);
+  }
+  if (!wrong.empty()) {
+    found_.errors.push_back({base::Diagnostic::Severity::Error, file_, place_in(text_, inertial_of(text_, link.name)),
+                             "link '" + link.name + "': " + wrong});
+    return {};
+  }
+  return seen_from(pose_of(given.origin), body);
+}
+
+void Gatherer::gather(const urdf::Link& link, const Pose& frame, int body, const urdf::Link* next) {
+  if (link.inertial != nullptr) {
+    const Body own = body_of(link);
+    if (body >= 0) {
+      Body& all = found_.bodies[static_cast<std::size_t>(body)];
+      all = joined(all, seen_from(frame, own));
+    }
+  }
+  for (const auto& joint : link.child_joints) {
+    const auto child = std::find_if(link.child_links.begin(), link.child_links.end(),
+                                    [&](const auto& each) { return each->name == joint->child_link_name; });
+    if (child != link.child_links.end() && child->get() != next) {
+      gather(**child, frame * pose_of(joint->parent_to_joint_origin_transform), body, nullptr);
+    }
+  }
+}
+
+}  // namespace
+
+Pose pose_of(const urdf::Pose& pose) noexcept {
+  const auto& r = pose.rotation;
+  return {{pose.position.x, pose.position.y, pose.position.z}, Quat(r.w, r.x, r.y, r.z).normalized()};
+}
+
+base::SourcePlace place_in(const std::string& text, std::size_t offset) noexcept {
+  offset = std::min(offset, text.size());
+  const auto here = text.begin() + static_cast<std::ptrdiff_t>(offset);
+  const auto line = std::count(text.begin(), here, '\n') + 1;
+  const std::size_t start = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
+  const std::size_t column = start == std::string::npos ? offset + 1 : offset - start;
+  return {static_cast<int>(line), static_cast<int>(column)};
+}
+
+UrdfBodies bodies_of(const std::vector<ChainLink>& chain, std::size_t count, const std::string& file,
+                     const std::string& text) {
+  UrdfBodies found;
+  found.bodies.resize(count);
+  Gatherer gatherer(found, file, text);
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const urdf::Link* next = i + 1 < chain.size() ? chain[i + 1].link.get() : nullptr;
+    gatherer.gather(*chain[i].link, chain[i].frame, chain[i].body, next);
+  }
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const int body = chain[i].body;
+    const bool first = body >= 0 && (i == 0 || chain[i - 1].body != body);
+    if (first && !(found.bodies[static_cast<std::size_t>(body)].mass > 0)) {
+      found.without.push_back(chain[i].link->name);
+    }
+  }
+  return found;
+}
+
+}  // namespace indurop::robot
