@@ -4,26 +4,13 @@
 
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
 #include "robot/arm.h"
+#include "robot/body.h"
 
 namespace indurop::robot {
-
-// A rigid body, seen from some frame.
-struct Body {
-  double mass = 0;  // kg
-  Vec3 centre = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();  // kg m^2, about the centre
-};
-
-// The same one, seen from where `frame` is seen from.
-Body seen_from(const Pose& frame, const Body& body) noexcept;
-// Two that are fixed to each other.
-Body joined(const Body& a, const Body& b) noexcept;
-// What is wrong with it, and what to do; empty if a real body has it. Not real-time safe.
-std::string wrong_inertia(const Mat3& inertia);
 
 // Of the axes, one each.
 struct Friction {
@@ -58,6 +45,7 @@ class Dynamics {
   }
   // What friction adds at that velocity.
   [[nodiscard]] Joints friction(const Joints& velocity) const noexcept;
+  [[nodiscard]] const Friction& friction() const noexcept { return friction_; }
 
  private:
   static constexpr double kGravity = 9.80665;  // m/s^2, along -z of the base

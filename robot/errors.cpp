@@ -62,6 +62,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "in manual mode the robot moves only while the enabling switch is held; hold it and ask again";
     case ErrorCode::Mode:
       return "another operating mode was chosen; ask again once the robot stands";
+    case ErrorCode::Torque:
+      return "an axis has not enough torque to hold the arm on the way there; hold less, nearer, or go another way";
   }
   return "unknown error";
 }

@@ -60,7 +60,7 @@ bool Follower::can_begin(const JointState& now, double pace, const JointLimits& 
   const Joints sooner = JointTiming::unloaded(real, most);
   for (int i = 0; i < kAxes; ++i) {
     const double v = real.velocity[i];
-    if (std::abs(later[i]) > most_.velocity[i] * (1 + 1e-9) ||
+    if (std::abs(later[i]) > most.velocity[i] * (1 + 1e-9) ||
         (v * later[i] < 0 && v * sooner[i] > -kRounding * std::abs(v))) {
       return false;
     }
@@ -146,7 +146,7 @@ Fault Follower::redirect(const Segment& target) noexcept {
 bool Follower::leave_shares() noexcept {
   Segment& s = segments_[0];
   const JointState now = s.joint_timing.at(state_.position);
-  const JointLimits most = gentler(most_, s.acceleration);
+  const JointLimits most = s.slowed(most_);
   const Joints soon = JointTiming::stopping(now, most);
   const Joints late = JointTiming::stopping(now, limits_for(most, 1, JointShares::at(kNearlyFull)));
   for (int i = 0; i < kAxes; ++i) {

@@ -18,6 +18,7 @@ constexpr std::size_t at(int axis) noexcept {
 Group::Group(GroupParts parts)
     : parts_(std::move(parts)),
       tools_(parts_.arm, parts_.book.tips()),
+      dynamics_(parts_.dynamics),
       places_(tools_.arm(0), tools_.inverse(0), Workspace::of(parts_.settings.workspace)),
       follower_(places_, parts_.joints),
       job_(parts_.book),
@@ -26,6 +27,8 @@ Group::Group(GroupParts parts)
   if (!parts_.book.interrupts.empty()) {
     shelf_ = std::make_unique<Shelf>(places_, parts_.tool);
   }
+  weigh();
+  places_.weigh(dynamics_.limited() ? &dynamics_ : nullptr);
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
   const AxisControl::Scale turning{settings.counts_per_turn / (2 * kPi), settings.gear, kPi / 180};

@@ -28,6 +28,7 @@ struct GroupParts {
   ToolLimits tool;
   JobBook book;
   std::string kind;
+  Dynamics dynamics{};
 };
 
 class Group final : public Controller, private MotionPort {
@@ -163,6 +164,8 @@ class Group final : public Controller, private MotionPort {
   }
   Fault move(const MoveCommand& command) noexcept override;
   bool take_tool(int tool) noexcept override;
+  bool take_load(int load) noexcept override;  // group_load.cpp
+  void weigh() noexcept;
   [[nodiscard]] PathPlace place() const noexcept override { return follower_.path_place(); }
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
@@ -180,8 +183,10 @@ class Group final : public Controller, private MotionPort {
   GroupParts parts_;
   ToolSet tools_;
   CommandTable table_;
+  Dynamics dynamics_;  // with what is held
   Places places_;
   int tool_ = 0;
+  int load_ = 0;
   Follower follower_;
   JobRunner job_;
   ReadAhead ahead_;

@@ -330,9 +330,9 @@ ErrorCode Group::start_job(std::uint32_t number, std::uint32_t line) noexcept {
     job_.stop();
     return ErrorCode::Value;
   }
-  if (!take_tool(job_.tool())) {
+  if (!take_tool(job_.tool()) || !take_load(job_.load())) {
     job_.stop();
-    return ErrorCode::State;  // what a job does must not depend on the tool of the one before
+    return ErrorCode::State;  // what a job does must not depend on what the one before held
   }
   follower_.reset(commanded());
   last_command_ = commanded();
@@ -349,6 +349,7 @@ bool Group::take_tool(int tool) noexcept {
   if (tool != tool_) {
     tool_ = tool;
     places_.take(tools_.arm(tool), tools_.inverse(tool));
+    weigh();
     last_pose_ = places_.arm().forward(last_command_);
   }
   return true;

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source_place.h"
+#include "robot/body.h"
 #include "robot/job_formula.h"
 #include "robot/segment.h"
 
@@ -23,6 +24,7 @@ enum class Op : std::uint8_t {
   Zone,          // value: m
   Acceleration,  // value: part of the full ones, of jerk too
   Tool,          // index: tool
+  Load,          // index: of the book's loads
   Set,           // index: signal; formula; pulse
   SetOnPath,     // the same, of the motion before it: value: m before its end, behind its beginning if mid is 1;
                  // timeout above 0: s instead
@@ -92,6 +94,7 @@ struct Tool {
   Pose tip;
   std::vector<int> points{};
   bool is_taught = false;
+  Body body{};  // seen from the arm's end; a mass of 0: not known
 };
 
 struct Job {
@@ -110,6 +113,7 @@ struct JobBook {
   std::vector<Point> points;
   std::vector<WorkFrame> frames;
   std::vector<Tool> tools;  // the first one is none: the arm's end
+  std::vector<Body> loads;  // seen from the arm's end; the first one is none
   std::vector<Job> jobs;
   std::vector<std::string> signals;
   std::vector<Formula> formulas;

@@ -45,6 +45,8 @@ class JobParser {
   void offset();
   void tool();
   void taught_tool(Tool& tool);
+  void load();
+  void mass(Body& body);
   void resolve_frames();
   void resolve_tools();
   [[nodiscard]] int tool_called(std::string_view name) const noexcept;

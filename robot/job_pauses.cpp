@@ -22,6 +22,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   waited_ = 0;
   modal_ = {};
   tool_ = 0;
+  load_ = 0;
   line_ = 0;
   message_[0] = '\0';
   triggers_ = {};
@@ -36,6 +37,8 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
       modal(*before);
     } else if (before->op == Op::Tool) {
       tool_ = before->index;
+    } else if (before->op == Op::Load) {
+      load_ = before->index;
     }
   }
   jump(static_cast<int>(first - steps.begin()));

@@ -112,7 +112,8 @@ void JobParser::resolve() {
 ReadJobs parse_jobs(const std::vector<JobFile>& files, const ArmShape& shape) {
   ReadJobs read;
   JobBook& book = read.book;
-  book.tools.push_back({"FLANGE", "", {}, {}, {}, false});
+  book.tools.push_back({"FLANGE", "", {}, {}, {}, false, {}});
+  book.loads.emplace_back();
   constexpr std::size_t kMostErrors = 100;
   base::Diagnostics errors("", read.diagnostics, kMostErrors);
   JobParser parser(book, errors, shape);

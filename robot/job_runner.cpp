@@ -24,8 +24,8 @@ std::span<const Formula> JobRunner::formulas_of(const Step& step) const noexcept
 bool JobRunner::touches_world(const Step& step) const noexcept {
   const auto formulas = formulas_of(step);
   return step.op == Op::Set || step.op == Op::WaitUntil || step.op == Op::WaitTime || step.op == Op::Tool ||
-         step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try || step.op == Op::EndTry ||
-         step.op == Op::Recover ||
+         step.op == Op::Load || step.op == Op::Arm || step.op == Op::Disarm || step.op == Op::Try ||
+         step.op == Op::EndTry || step.op == Op::Recover ||
          std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.looks_out(); });
 }
 
@@ -170,10 +170,8 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       next = set_on_path(step, signals);
       break;
     case Op::Tool:
-      if (!port.take_tool(step.index)) {
-        return Next::Wait;
-      }
-      tool_ = step.index;
+    case Op::Load:
+      next = hold(step, port);
       break;
     case Op::Set:
     case Op::Assign:
@@ -201,6 +199,14 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
   }
   frame().step += next == Next::Go ? 1 : 0;
   return next;
+}
+
+JobRunner::Next JobRunner::hold(const Step& step, MotionPort& port) noexcept {
+  if (!(step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index))) {
+    return Next::Wait;
+  }
+  tool_ = step.op == Op::Tool ? step.index : tool_;
+  return Next::Go;
 }
 
 bool JobRunner::shift(const Step& step, Signals& signals, Target& target) noexcept {

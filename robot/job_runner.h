@@ -26,6 +26,8 @@ class MotionPort {
   virtual Fault move(const MoveCommand& command) noexcept = 0;
   // Everything has ended. False: not yet.
   virtual bool take_tool(int) noexcept { return true; }
+  // Likewise.
+  virtual bool take_load(int) noexcept { return true; }
   [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
   // For an interrupt: comes to rest on the path and keeps what was left of it. False: not yet.
   virtual bool step_aside() noexcept { return true; }
@@ -57,6 +59,8 @@ class JobRunner {
     breakpoints_ = lines;
   }
   [[nodiscard]] int tool() const noexcept { return tool_; }
+  // What it holds where it begins.
+  [[nodiscard]] int load() const noexcept { return load_; }
   // Ends the job where it is. `why` is kept as message and must outlive this; null: ended by request.
   void stop() noexcept;
   // Ends it with a message that names file and line: of the motion called `source`, or, if that is 0, of the present
@@ -111,6 +115,7 @@ class JobRunner {
   void end_interrupt() noexcept;
   void fire(double seconds, Signals& signals, const MotionPort& port) noexcept;
   void modal(const Step& step) noexcept;
+  Next hold(const Step& step, MotionPort& port) noexcept;
   Next assign(const Step& step, Signals& signals) noexcept;
   Next pulse(const Step& step, Signals& signals) noexcept {
     return pulses_.start(static_cast<std::size_t>(step.index), step.pulse, signals) ? Next::Go : Next::Wait;
@@ -143,6 +148,7 @@ class JobRunner {
   };
   Modal modal_;
   int tool_ = 0;
+  int load_ = 0;
   // What is to be set on the way.
   struct Trigger {
     bool waits = false;

@@ -9,7 +9,8 @@
 
 namespace indurop::robot {
 
-// "TOOL pen", "TOOL pen = POSE 0 0 120 RPY 0 0 0", "TOOL pen = POINTS A B C D"
+// "TOOL pen", "TOOL pen = POSE 0 0 120 RPY 0 0 0", "TOOL pen = POINTS A B C D", "TOOL grip = POSE ... MASS 2.5 kg
+// CENTRE 0 0 60"
 void JobParser::tool() {
   const JobToken name = take();
   if (name.kind != JobToken::Kind::Word) {
@@ -38,6 +39,9 @@ void JobParser::tool() {
     error(peek(), "expected POSE or POINTS, found " + shown(peek()) + "; TOOL " + tool.name +
                       " = POSE 0 0 120 RPY 0 0 0, or = POINTS A B C D");
   }
+  if (!failed_ && accept("MASS")) {
+    mass(tool.body);
+  }
   if (!failed_) {
     book_.tools.push_back(std::move(tool));
   }
@@ -48,7 +52,8 @@ void JobParser::taught_tool(Tool& tool) {
   tool.is_taught = true;
   const JobToken first = peek();
   std::size_t count = 0;
-  for (; peek().kind == JobToken::Kind::Word && !same_word(peek().text, "RPY"); ++count) {
+  for (; peek().kind == JobToken::Kind::Word && !same_word(peek().text, "RPY") && !same_word(peek().text, "MASS");
+       ++count) {
     const JobToken point = take();
     accept(",");
     tool_points_.push_back({book_.tools.size(), book_.jobs.size() - 1, std::string(point.text), line_, point.column});

@@ -40,7 +40,7 @@ void take(const std::vector<double>& values, const Arm& arm, Joints& to) {
 
 GroupParts parts_of(const Settings& settings, ReadFiles files) {
   const ArmModel& model = *files.model;
-  GroupParts parts{settings, model.arm, {}, {}, std::move(files.book), std::move(files.kind)};
+  GroupParts parts{settings, model.arm, {}, {}, std::move(files.book), std::move(files.kind), model.dynamics};
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
   take(settings.acceleration, parts.arm, parts.joints.acceleration);

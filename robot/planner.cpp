@@ -39,7 +39,8 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       tool_(tool),
       way_(places.box(), Vec3::Zero()),
       search_(places_, joints_),
-      rehearsal_(places_, joints_) {
+      rehearsal_(places_, joints_),
+      effort_(places_, all_joints_) {
   for (int i = 1; i <= 256; ++i) {
     usual_volume_ = std::max(usual_volume_, std::abs(volume(places.arm().spread(i))));
   }
@@ -98,7 +99,9 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   if (command.move == Move::Joint) {
     measure_joint_motion(command.speed);
     segment_.together = segment_.length > 0 && command.zone <= 0 && !command.straight;
-    return check_joint_way();
+    const Fault fault = check_joint_way();
+    fault.ok() ? end_look() : void();
+    return fault;
   }
   if (command.move == Move::Circle) {
     if (!finite(command.mid)) {
@@ -161,6 +164,7 @@ void Planner::measure_joint_motion(double speed) noexcept {
   if (segment_.length <= 0) {
     return;
   }
+  segment_.speed = speed;
   segment_.limits = {speed, HUGE_VAL, HUGE_VAL};
   for (int i = 0; i < kAxes; ++i) {
     const double rate = std::abs(change[i]) / segment_.length;
@@ -340,6 +344,7 @@ Fault Planner::looked() noexcept {
 
 Fault Planner::check(int places) noexcept {
   while (places > 0 && stage_ != Stage::Done) {
+    const bool looking = stage_ != Stage::Effort;
     switch (stage_) {
       case Stage::Look:
         if (const Fault fault = look(places); !fault.ok()) {
@@ -356,10 +361,19 @@ Fault Planner::check(int places) noexcept {
         --places;
         rehearse();
         break;
+      case Stage::Effort:
+        --places;
+        if (const Fault fault = effort_.look(segment_); !fault.ok()) {
+          stage_ = Stage::Done;
+          return fault;
+        }
+        stage_ = effort_.done() ? Stage::Done : stage_;
+        break;
       case Stage::Done:
         break;
     }
-    if (stage_ == Stage::Done && crawls()) {
+    if (looking && (stage_ == Stage::Done || stage_ == Stage::Effort) && crawls()) {
+      stage_ = Stage::Done;
       return {ErrorCode::Singular};
     }
   }

@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "robot/effort_look.h"
 #include "robot/errors.h"
 #include "robot/path_rates.h"
 #include "robot/rehearsal.h"
@@ -25,7 +26,7 @@ class Planner {
   // ended; its tool limits are those of `acceleration` already. Errors: Value.
   Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
-  // Singular, Workspace.
+  // Singular, Workspace, Torque.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
@@ -40,8 +41,9 @@ class Planner {
   static constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
   using Samples = std::array<Joints, kMost + 1>;
 
-  // Looking for reach, limits and singular positions; then for a timing; then going through what came out.
-  enum class Stage { Look, Search, RehearseTiming, RehearseProfile, Done };
+  // Looking for reach, limits and singular positions; then for a timing; then going through what came out; then for
+  // torques.
+  enum class Stage { Look, Search, RehearseTiming, RehearseProfile, Effort, Done };
 
   Fault look(int& places) noexcept;
   Fault looked() noexcept;
@@ -50,6 +52,7 @@ class Planner {
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
   void end_rehearsal() noexcept;
+  void end_look() noexcept;
   [[nodiscard]] bool crawls() const noexcept;
   [[nodiscard]] double rehearsal_step() const noexcept;
   Fault resolve(const MoveCommand& command, const Joints& near, Joints& joints, Pose& pose) const noexcept;
@@ -102,6 +105,7 @@ class Planner {
   PathBounds bounds_;
   TimingSearch search_;
   Rehearsal rehearsal_;
+  EffortLook effort_;
   Profile profile_;
   double usual_volume_ = 0;  // of this arm, at most
   double least_volume_ = 0;  // on the path

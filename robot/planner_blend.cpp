@@ -85,6 +85,10 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
   }
   const JointLimits joints = gentler(all_joints_, gentlest);
   result.limits = limits_along(places.data(), kBlendPlaces, spacing, joints, most);
+  if (places_.dynamics() != nullptr &&
+      !slow_down(*places_.dynamics(), places.data(), kBlendPlaces, spacing, result.limits)) {
+    return {};
+  }
   return faster(first, result, second) ? result : Blend{};
 }
 

@@ -39,10 +39,11 @@ void Planner::rehearse_timing() noexcept {
 // Where joint speeds change abruptly, not only the places but the motion itself is looked at, at one speed too.
 void Planner::rehearse_profile() noexcept {
   profile_ = Profile::to_position({}, segment_.length, 0, segment_.limits);
-  stage_ = Stage::Done;
   if (rehearsal_step() < kStep) {
     rehearsal_.begin(segment_.from, profile_.duration(), rehearsal_step(), false);
     stage_ = Stage::RehearseProfile;
+  } else {
+    end_look();
   }
 }
 
@@ -87,7 +88,7 @@ void Planner::end_rehearsal() noexcept {
         std::min((1 - Shares::kBending) * pace.acceleration, Shares::kMixedJerk / 3 * pace.mixed) * limits.velocity);
     limits.jerk = std::min(limits.jerk / (slower * slower * slower), kLeft * pace.jerk * limits.velocity);
     if (sure) {
-      stage_ = Stage::Done;
+      end_look();
     } else {
       rehearse_profile();
     }
@@ -96,7 +97,7 @@ void Planner::end_rehearsal() noexcept {
   segment_.timing.slow_down(slower);
   segment_.timing_tip_speed = rehearsal_.tip_speed() / slower;
   if (crawls()) {
-    stage_ = Stage::Done;  // what comes of it is refused; going through it once more may take long
+    end_look();  // what comes of it is refused; going through it once more may take long
     return;
   }
   segment_.pace_limits = rehearsal_.pace_limits();
@@ -106,8 +107,13 @@ void Planner::end_rehearsal() noexcept {
   } else if (!sure && rehearsal_step() < kStep) {
     rehearse_timing();
   } else {
-    stage_ = Stage::Done;
+    end_look();
   }
+}
+
+void Planner::end_look() noexcept {
+  effort_.begin(segment_);
+  stage_ = effort_.done() ? Stage::Done : Stage::Effort;
 }
 
 // Whether all of it takes so much longer than it would by the tool's speed that nobody waits for it: what is seen in

@@ -242,6 +242,27 @@ Diagnostics check_speeds(const JobBook& book, double most) {
   return warnings;
 }
 
+// What is held counts for torques only.
+Diagnostics check_loads(const JobBook& book, const Dynamics& dynamics) {
+  Diagnostics warnings;
+  const auto warn = [&](const std::string& file, base::SourcePlace place, const std::string& what) {
+    warnings.push_back(error(file, place, what + " counts for nothing: the URDF does not say what the arm weighs"));
+    warnings.back().severity = base::Diagnostic::Severity::Warning;
+  };
+  if (dynamics.known()) {
+    return warnings;
+  }
+  for (const Tool& tool : book.tools) {
+    tool.body.mass > 0 ? warn(tool.file, tool.place, "MASS") : void();
+  }
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      step.op == Op::Load&& step.index > 0 ? warn(job.file, {static_cast<int>(step.line), 1}, "LOAD") : void();
+    }
+  }
+  return warnings;
+}
+
 void sort_out(Diagnostics said, ReadFiles& read) {
   for (base::Diagnostic& one : said) {
     (one.severity == base::Diagnostic::Severity::Error ? read.errors : read.notes).push_back(std::move(one));
@@ -272,6 +293,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm), read);
+    sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
     take_over(check_workspace(names, read.book, read.model->arm), read.errors);
     if (read.book.tools.size() == 1) {

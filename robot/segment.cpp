@@ -17,9 +17,15 @@ Joints Segment::joints_at(double place) const noexcept {
 Segment Segment::together_to(const Joints& to, double speed) noexcept {
   Segment segment;
   segment.to = to;
-  segment.limits.velocity = speed;
+  segment.speed = segment.limits.velocity = speed;
   segment.together = true;
   return segment;
+}
+
+JointLimits Segment::slowed(const JointLimits& joints) const noexcept {
+  const JointLimits part = gentler(joints, acceleration);
+  const double square = slowness * slowness;
+  return {part.velocity / slowness, part.acceleration / square, part.jerk / (square * slowness)};
 }
 
 void Segment::take_timing() noexcept {
@@ -31,16 +37,16 @@ void Segment::take_timing() noexcept {
 
 void Segment::take_joint_timing(const JointState& state, const JointLimits& joints, double pace) noexcept {
   const JointShares shares = JointShares::at(pace);
-  const JointLimits part = gentler(joints, acceleration);
-  const JointLimits own = limits_for(part, limits.velocity, shares);
+  const JointLimits all = slowed(joints);
+  const JointLimits own = limits_for(all, speed, shares);
   joint_timing.plan(state, to, own);
   from = state.position;
   length = joint_timing.duration();
   timed = true;
   made_for = pace;
   fastest = pace < 1 ? shares.fastest() : 1;
-  pace_limits = joint_timing.pace_limits(part, shares);
-  settled = JointTiming::settling(state, own, joints.velocity);
+  pace_limits = joint_timing.pace_limits(all, shares);
+  settled = JointTiming::settling(state, own, all.velocity);
 }
 
 Pose Segment::pose_at(double place) const noexcept {

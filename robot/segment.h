@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "robot/dynamics.h"
 #include "robot/inverse.h"
 #include "robot/joint_timing.h"
 #include "robot/pace.h"
@@ -83,6 +84,9 @@ struct Segment {
   double fastest = 1;
   double settled = 0;
   bool moving = false;  // begins while the joints move
+  // Of joints that arrive together: part of full speed, and how many times as long torques make it.
+  double speed = 1;
+  double slowness = 1;
 
   // Of joint motions. `place` is from 0 to length. Real-time safe, as all here.
   [[nodiscard]] Joints joints_at(double place) const noexcept;
@@ -94,6 +98,8 @@ struct Segment {
   static Segment together_to(const Joints& to, double speed) noexcept;
   // What the tool and the command allow of the speed at a place, whether the timing is taken or not.
   [[nodiscard]] LineLimits most_at(double place) const noexcept { return chain ? chain->limits_at(place) : most; }
+  // Its part of the limits, of joint motions.
+  [[nodiscard]] JointLimits slowed(const JointLimits& joints) const noexcept;
   // From rest, at its beginning.
   void take_timing() noexcept;
   // Of joint motions, from any state. The limits are the joints'.
@@ -126,6 +132,10 @@ class Places {
  public:
   Places(const Arm& arm, const Inverse& inverse, const Workspace& box = {}) noexcept
       : arm_(&arm), inverse_(&inverse), box_(box) {}
+  // What its motions weigh; it stays where it is, and null is nothing. Nothing is planned.
+  void weigh(const Dynamics* dynamics) noexcept { dynamics_ = dynamics; }
+  // Null: torques have no limits.
+  [[nodiscard]] const Dynamics* dynamics() const noexcept { return dynamics_; }
   // The same arm with another tool. Nothing is planned or followed.
   void take(const Arm& arm, const Inverse& inverse) noexcept {
     arm_ = &arm;
@@ -148,6 +158,7 @@ class Places {
  private:
   const Arm* arm_;
   const Inverse* inverse_;
+  const Dynamics* dynamics_ = nullptr;
   Workspace box_;
 };
 

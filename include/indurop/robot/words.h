@@ -111,7 +111,8 @@ enum class ErrorCode : std::uint32_t {
   Full,          // more commands than there is room for
   Master,        // the axis to follow has no power, failed or looks for its place
   Enabling,      // manual mode, and the enabling switch is not held
-  Mode           // another operating mode was chosen
+  Mode,          // another operating mode was chosen
+  Torque         // an axis has not enough torque for it, however slow it is
 };
 
 // How the robot is run (ISO 10218-1), as a key switch says.

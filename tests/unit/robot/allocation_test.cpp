@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "heavy_arm.h"
 #include "robot/group.h"
 #include "robot_fixture.h"
 #include "tests/unit/allocations.h"
@@ -50,6 +51,18 @@ TEST(RobotAllocation, A_whole_job_allocates_nothing) {
   EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
   EXPECT_EQ(out.job.state, JobState::Failed);  // it came to its last line
   EXPECT_EQ(out.error, ErrorCode::Unreachable);
+}
+
+TEST(RobotAllocation, Neither_does_one_whose_torques_are_limited) {
+  Outputs out;
+  std::string message;
+  const std::string job =
+      "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
+      "POINT C = POSE 500 -100 500 RPY 180 0 180\nLOAD 3 kg CENTRE 0 0 50\n"
+      "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nZONE 0\nMOVJ A\nMOVL B\nLOAD 0\nEND\n";
+  const HeavyArm heavy = heavy_cell_arm(joints_of({250, 250, 130, 26, 22, 12}));
+  EXPECT_EQ(allocations_of(heavy.urdf, job, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Ended) << message;
 }
 
 TEST(RobotAllocation, Neither_does_an_arm_without_closed_form) {

@@ -177,7 +177,8 @@ INSTANTIATE_TEST_SUITE_P(
     Golden, JobErrorsTest,
     testing::Values(
         Bad{"MOVE A\n",
-            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, PARAM, VAR, SPEED, ZONE, MOVJ, "
+            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, PARAM, VAR, SPEED, ZONE, "
+            "MOVJ, "
             "MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, "
             "LOOP, TRY, RECOVER and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
