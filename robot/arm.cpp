@@ -73,6 +73,21 @@ Pose Arm::forward(const Joints& q) const noexcept {
   return {rotation * home_.position + shift, Quat(rotation) * home_.orientation};
 }
 
+void Arm::frames(const Joints& q, ChainFrames& frames) const noexcept {
+  frames[0] = {};
+  for (std::size_t i = 0; i < link_count_; ++i) {
+    const Link& link = links_[i];
+    const ChainFrame& before = frames[i];
+    const double moved = link.ratio * q[link.axis];
+    if (link.kind == AxisKind::Sliding) {
+      frames[i + 1] = {before.turn, before.shift + before.turn * (moved * link.direction)};
+      continue;
+    }
+    const Mat3 turn = turned(link.direction, moved);
+    frames[i + 1] = {before.turn * turn, before.shift + before.turn * (link.point - turn * link.point)};
+  }
+}
+
 Jacobian Arm::jacobian(const Joints& q) const noexcept {
   if (delta_) {
     Jacobian j = Jacobian::Zero();

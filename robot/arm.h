@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "robot/delta.h"
 
@@ -35,6 +36,12 @@ struct Link {
   double ratio = 1;  // of the axis' motion
 };
 
+// What a part of the chain has turned and moved to, seen from where it is with all joints at zero.
+struct ChainFrame {
+  Mat3 turn = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();
+};
+
 // What the axes can do at most.
 struct JointLimits {
   Joints velocity = Joints::Constant(1);      // rad/s
@@ -49,10 +56,12 @@ inline JointLimits gentler(JointLimits limits, double part) noexcept {
   return limits;
 }
 
+using ChainFrames = std::array<ChainFrame, 17>;
+
 class Arm {
  public:
   using Axes = std::array<Axis, kAxes>;
-  static constexpr std::size_t kMostLinks = 16;
+  static constexpr std::size_t kMostLinks = std::tuple_size_v<ChainFrames> - 1;
 
   // `home` is the tool's pose with all joints at zero.
   Arm(Axes axes, const Pose& home, int count = 6) noexcept;
@@ -75,6 +84,11 @@ class Arm {
   [[nodiscard]] Pose forward(const Joints& q) const noexcept;
   // Where the arm itself ends when the tool is there.
   [[nodiscard]] Vec3 end_of(const Pose& tool) const noexcept { return tool.position + tool.orientation * end_; }
+  // Of what is behind each joint of the chain; the first one is the base's.
+  void frames(const Joints& q, ChainFrames& frames) const noexcept;
+  // Joints of the chain; 0 of a delta, which is none.
+  [[nodiscard]] int chain_length() const noexcept { return static_cast<int>(link_count_); }
+  [[nodiscard]] const Link& link(int index) const noexcept { return links_[static_cast<std::size_t>(index)]; }
   // Of the tool's point, in the base's frame.
   [[nodiscard]] Jacobian jacobian(const Joints& q) const noexcept;
   // 0 in singular positions; of six axes with another sign on their other side.

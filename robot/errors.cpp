@@ -64,6 +64,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "another operating mode was chosen; ask again once the robot stands";
     case ErrorCode::Torque:
       return "an axis has not enough torque to hold the arm on the way there; hold less, nearer, or go another way";
+    case ErrorCode::Collision:
+      return "the arm would touch itself, what it holds or a zone";
   }
   return "unknown error";
 }

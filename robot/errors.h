@@ -7,10 +7,13 @@
 
 namespace indurop::robot {
 
-// An error and the axis it is about, from 1; 0: none in particular.
+// An error and the axis it is about, from 1; 0: none in particular. Of a collision: what touches (Clearance::name), and
+// at which part of the way.
 struct Fault {
   ErrorCode code = ErrorCode::Ok;
   int axis = 0;
+  int pair = -1;
+  double part = 0;
   [[nodiscard]] bool ok() const noexcept { return code == ErrorCode::Ok; }
 };
 

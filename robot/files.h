@@ -16,6 +16,8 @@ struct FileNames {
   std::vector<std::string> jobs;  // points too
   std::vector<double> workspace;  // as Settings has it; NaN: what is no number
   double tool_speed = 0;          // mm/s, likewise; 0: anything goes
+  double clearance = 5;           // mm
+  std::string ignored{};          // Settings::ignore_collisions
 };
 
 struct Findings {

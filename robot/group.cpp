@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace indurop::robot {
 
@@ -19,7 +20,7 @@ Group::Group(GroupParts parts)
     : parts_(std::move(parts)),
       tools_(parts_.arm, parts_.book.tips()),
       dynamics_(parts_.dynamics),
-      places_(tools_.arm(0), tools_.inverse(0), Workspace::of(parts_.settings.workspace)),
+      places_(tools_.arm(0), tools_.inverse(0), Workspace::of(parts_.settings.workspace), parts_.clearance),
       follower_(places_, parts_.joints),
       job_(parts_.book),
       ahead_(places_, parts_.tool),
@@ -151,18 +152,34 @@ void Group::leave_path(ErrorCode code, double hardness) noexcept {
   }
 }
 
+// In words; of a collision, what of the arm and where.
+void Group::describe(Fault fault, char (&to)[kWhy]) const noexcept {
+  if (fault.pair < 0) {
+    std::snprintf(to, sizeof to, "%s", to_string(fault.code));
+    return;
+  }
+  char pair[kWhy];
+  places_.clearance().name(fault.pair, pair, sizeof pair);
+  std::snprintf(to, sizeof to, "%.*s would touch, after %.0f %% of the way", kWhy - 40, pair, 100 * fault.part);
+}
+
 void Group::motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept {
   if (source < 0) {
     fail_motions(-source - 1, fault.code);
     return;
   }
   const bool job = job_.running();
-  if (source > 0 && job_.recover(fault, to_string(fault.code), source, ticket)) {
+  char why[kWhy];
+  describe(fault, why);
+  if (source > 0 && job_.recover(fault, why, source, ticket)) {
     ahead_.clear();  // it begins anew where the motion before ends
     passed_known_ = 0;
     return;
   }
-  job_.fail(fault, to_string(fault.code), source);
+  job_.fail(fault, why, source);
+  if (!job && fault.pair >= 0) {
+    job_.say(why);
+  }
   finish_service(fault.code, fault.axis);
   return_ = Return::None;
   if (jogging_) {

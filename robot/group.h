@@ -29,6 +29,7 @@ struct GroupParts {
   JobBook book;
   std::string kind;
   Dynamics dynamics{};
+  Clearance clearance;
 };
 
 class Group final : public Controller, private MotionPort {
@@ -147,6 +148,8 @@ class Group final : public Controller, private MotionPort {
   void forget_plans() noexcept;
   void follow_path() noexcept;
   void stop_for(Fault fault) noexcept;
+  static constexpr int kWhy = 120;
+  void describe(Fault fault, char (&to)[kWhy]) const noexcept;
   void motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept;
   void come_to_standby() noexcept;
   // Why it stopped stays known until a reset.

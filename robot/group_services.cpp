@@ -348,7 +348,7 @@ bool Group::take_tool(int tool) noexcept {
   }
   if (tool != tool_) {
     tool_ = tool;
-    places_.take(tools_.arm(tool), tools_.inverse(tool));
+    places_.take(tools_.arm(tool), tools_.inverse(tool), tool);
     weigh();
     last_pose_ = places_.arm().forward(last_command_);
   }

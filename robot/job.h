@@ -14,6 +14,7 @@
 #include "robot/body.h"
 #include "robot/job_formula.h"
 #include "robot/segment.h"
+#include "robot/solid.h"
 
 namespace indurop::robot {
 
@@ -97,6 +98,16 @@ struct Tool {
   Body body{};  // seen from the arm's end; a mass of 0: not known
 };
 
+// KEEPOUT: what the arm keeps out of. BODY: a part of a tool, in the frame of the arm's end.
+struct BodyLine {
+  std::string name;  // of the zone, or of the tool
+  std::string file;
+  base::SourcePlace place;
+  Solid solid;
+  int frame = -1;  // of the book, in which it was given; -1: the base
+  int tool = -1;   // of the book
+};
+
 struct Job {
   std::string name;  // of the file, without folder and ending
   std::string file;
@@ -114,6 +125,7 @@ struct JobBook {
   std::vector<WorkFrame> frames;
   std::vector<Tool> tools;  // the first one is none: the arm's end
   std::vector<Body> loads;  // seen from the arm's end; the first one is none
+  std::vector<BodyLine> keepouts{}, bodies{};
   std::vector<Job> jobs;
   std::vector<std::string> signals;
   std::vector<Formula> formulas;

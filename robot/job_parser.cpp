@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, TOOL, LOAD, PARAM, VAR, SPEED, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, "
-    "RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END";
+    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, "
+    "CALL, ON, OFF, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END";
 
 std::string name_of(const std::string& path) {
   const std::size_t slash = path.find_last_of('/');
@@ -97,6 +97,8 @@ void JobParser::statement() {
       {"FRAME", [](JobParser& p) { p.frame(); }},
       {"TOOL", [](JobParser& p) { p.tool(); }},
       {"LOAD", [](JobParser& p) { p.load(); }},
+      {"BODY", [](JobParser& p) { p.body(); }},
+      {"KEEPOUT", [](JobParser& p) { p.keepout(); }},
       {"SPEED", [](JobParser& p) { p.speed(); }},
       {"ZONE", [](JobParser& p) { p.zone(); }},
       {"ACC", [](JobParser& p) { p.acceleration(); }},

@@ -47,6 +47,12 @@ class JobParser {
   void taught_tool(Tool& tool);
   void load();
   void mass(Body& body);
+  void keepout();
+  void body();
+  bool begin_body(BodyLine& line, const char* example);
+  bool solid(Solid& solid);
+  double radius();
+  void resolve_bodies();
   void resolve_frames();
   void resolve_tools();
   [[nodiscard]] int tool_called(std::string_view name) const noexcept;
@@ -144,6 +150,7 @@ class JobParser {
   std::vector<Declared> point_frames_;
   std::vector<Declared> frame_points_;  // three for each taught frame
   std::vector<Declared> frame_tools_, tool_points_;
+  std::vector<Declared> body_names_;                                  // frames of zones
   std::vector<std::map<std::string, JobLabel, std::less<>>> labels_;  // of each job
   std::map<std::string, std::string, std::less<>> point_places_;
 };

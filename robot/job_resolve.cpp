@@ -63,6 +63,7 @@ std::string count_of(std::size_t count, const char* what) {
 void JobParser::resolve() {
   resolve_frames();
   resolve_tools();
+  resolve_bodies();
   const auto fail = [&](const JobReference& reference, const char* what, const std::vector<std::string>& known) {
     error_in(book_.jobs[reference.job].file, reference.line, reference.column,
              std::string("there is no ") + what + " '" + reference.name + "'" + meant(reference.name, known));

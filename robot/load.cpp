@@ -40,7 +40,14 @@ void take(const std::vector<double>& values, const Arm& arm, Joints& to) {
 
 GroupParts parts_of(const Settings& settings, ReadFiles files) {
   const ArmModel& model = *files.model;
-  GroupParts parts{settings, model.arm, {}, {}, std::move(files.book), std::move(files.kind), model.dynamics};
+  GroupParts parts{settings,
+                   model.arm,
+                   {},
+                   {},
+                   std::move(files.book),
+                   std::move(files.kind),
+                   model.dynamics,
+                   std::move(files.clearance)};
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
   take(settings.acceleration, parts.arm, parts.joints.acceleration);
@@ -71,7 +78,8 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   if (settings.period <= std::chrono::nanoseconds::zero()) {
     wrong.push_back(error("module", {}, "the robot task is periodic, give it a <period>"));
   }
-  ReadFiles files = read_files({settings.urdf, settings.jobs, settings.workspace, settings.tool_speed});
+  ReadFiles files = read_files({settings.urdf, settings.jobs, settings.workspace, settings.tool_speed,
+                                settings.clearance, settings.ignore_collisions});
   take_over(std::move(files.errors), wrong);
   if (files.model) {
     take_over(check_axes(settings, files.model->arm), wrong);

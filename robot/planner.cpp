@@ -38,6 +38,7 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       joints_(joints),
       tool_(tool),
       way_(places.box(), Vec3::Zero()),
+      clear_(places.clearance(), true),
       search_(places_, joints_),
       rehearsal_(places_, joints_),
       effort_(places_, all_joints_) {
@@ -99,9 +100,8 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   if (command.move == Move::Joint) {
     measure_joint_motion(command.speed);
     segment_.together = segment_.length > 0 && command.zone <= 0 && !command.straight;
-    const Fault fault = check_joint_way();
-    fault.ok() ? end_look() : void();
-    return fault;
+    begin_clear();
+    return check_joint_way();
   }
   if (command.move == Move::Circle) {
     if (!finite(command.mid)) {
@@ -314,10 +314,9 @@ Fault Planner::look(int& places) noexcept {
       return fault;
     }
   }
-  return next_ > count_ && windows_ == 0 ? looked() : Fault{};
-}
-
-Fault Planner::looked() noexcept {
+  if (next_ <= count_ || windows_ > 0) {
+    return {};
+  }
   segment_.to = samples_[static_cast<std::size_t>(count_)];
   measure_tip();
   // What few axes cannot do is told by where they come to.
@@ -326,6 +325,11 @@ Fault Planner::looked() noexcept {
   if (places_.arm().count() < 6 && rotation_between(turned_to, segment_.end.orientation).norm() > kTurned) {
     return {ErrorCode::Unreachable};
   }
+  begin_clear();
+  return {};
+}
+
+void Planner::time_it() noexcept {
   for (int i = 0; i < noted_; ++i) {
     leave_for_changes(rates_[static_cast<std::size_t>(i)], joints_, segment_.limits);
   }
@@ -339,7 +343,6 @@ Fault Planner::looked() noexcept {
   } else {
     rehearse_profile();
   }
-  return {};
 }
 
 Fault Planner::check(int places) noexcept {
@@ -348,6 +351,12 @@ Fault Planner::check(int places) noexcept {
     switch (stage_) {
       case Stage::Look:
         if (const Fault fault = look(places); !fault.ok()) {
+          stage_ = Stage::Done;
+          return fault;
+        }
+        break;
+      case Stage::Clear:
+        if (const Fault fault = clear(places); !fault.ok()) {
           stage_ = Stage::Done;
           return fault;
         }
@@ -372,7 +381,8 @@ Fault Planner::check(int places) noexcept {
       case Stage::Done:
         break;
     }
-    if (looking && (stage_ == Stage::Done || stage_ == Stage::Effort) && crawls()) {
+    const bool looked = stage_ == Stage::Done || stage_ == Stage::Effort;
+    if (looking && looked && segment_.move != Move::Joint && crawls()) {
       stage_ = Stage::Done;
       return {ErrorCode::Singular};
     }

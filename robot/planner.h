@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "robot/clear_way.h"
 #include "robot/effort_look.h"
 #include "robot/errors.h"
 #include "robot/path_rates.h"
@@ -19,14 +20,14 @@ class Planner {
  public:
   Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool);
 
-  // Begins with a motion that starts at `from`. Real-time safe, as all here. Errors: Value, Unreachable,
-  // JointLimit, Circle, Workspace.
+  // Begins with a motion that starts at `from`. Real-time safe, as all here, unless something could be touched. Errors:
+  // Value, Unreachable, JointLimit, Circle, Workspace.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
   // Begins with a way of many pieces that starts where the arm is at `from` and stays as it is until the motion has
   // ended; its tool limits are those of `acceleration` already. Errors: Value.
   Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1) noexcept;
   // Looks at up to `places` more places of it; done() then says whether that was all. Errors: Unreachable, JointLimit,
-  // Singular, Workspace, Torque.
+  // Singular, Workspace, Collision, Torque.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
@@ -34,19 +35,25 @@ class Planner {
 
   // How `first` goes over into `second` with first.zone; zone 0 in the result if it cannot, or if
   // stopping at the corner is faster.
-  [[nodiscard]] Blend blend(const Segment& first, const Segment& second) const noexcept;
+  [[nodiscard]] Blend blend(const Segment& first, const Segment& second) noexcept;
 
  private:
   static constexpr int kMost = 256;
   static constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
   using Samples = std::array<Joints, kMost + 1>;
 
-  // Looking for reach, limits and singular positions; then for a timing; then going through what came out; then for
-  // torques.
-  enum class Stage { Look, Search, RehearseTiming, RehearseProfile, Effort, Done };
+  // Looking for reach, limits and singular positions; for what would be touched; then for a timing; then going through
+  // what came out; then for torques.
+  enum class Stage { Look, Clear, Search, RehearseTiming, RehearseProfile, Effort, Done };
 
   Fault look(int& places) noexcept;
-  Fault looked() noexcept;
+  void time_it() noexcept;
+  // What would be touched (planner_clear.cpp).
+  void begin_clear() noexcept;
+  void begin_clear_joints() noexcept;
+  Fault clear(int& places) noexcept;
+  bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
+  [[nodiscard]] bool clear(const Segment& first, const Blend& blend, const Segment& second) noexcept;
   void search() noexcept;
   void rehearse() noexcept;
   void rehearse_timing() noexcept;
@@ -82,6 +89,10 @@ class Planner {
   Samples samples_{};
   std::array<double, kMost + 1> volumes_{};
   WayInside way_;
+  ClearWay clear_;
+  ClearWalk walk_;
+  Segment clear_way_;  // of joints, that is looked at
+  int clear_pace_ = 0;
   int count_ = 0;  // places after the first
   int next_ = 1;
   int windows_ = 0;

@@ -42,7 +42,7 @@ Heading heading(const Segment& s, bool at_end) noexcept {
 
 }  // namespace
 
-Blend Planner::blend(const Segment& first, const Segment& second) const noexcept {
+Blend Planner::blend(const Segment& first, const Segment& second) noexcept {
   Blend result;
   if (first.zone <= 0 || first.chain != nullptr || second.chain != nullptr || first.length <= 0 || second.length <= 0) {
     return result;
@@ -89,7 +89,7 @@ Blend Planner::blend(const Segment& first, const Segment& second) const noexcept
       !slow_down(*places_.dynamics(), places.data(), kBlendPlaces, spacing, result.limits)) {
     return {};
   }
-  return faster(first, result, second) ? result : Blend{};
+  return faster(first, result, second) && clear(first, result, second) ? result : Blend{};
 }
 
 }  // namespace indurop::robot

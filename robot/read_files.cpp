@@ -11,6 +11,7 @@
 #include "base/read_file.h"
 #include "robot/abilities.h"
 #include "robot/check_splines.h"
+#include "robot/read_bodies.h"
 #include "robot/tool_set.h"
 #include "robot/workspace.h"
 
@@ -295,6 +296,12 @@ ReadFiles read_files(const FileNames& names) {
     sort_out(solve_points(read.book, read.model->arm), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
+    if (read.errors.empty()) {
+      ReadBodies bodies = read_bodies(*read.model, read.book, names.urdf, names.ignored, names.clearance);
+      read.clearance = std::move(bodies.clearance);
+      sort_out(std::move(bodies.found), read);
+      sort_out(check_clear(read.book, read.model->arm, read.clearance), read);
+    }
     take_over(check_workspace(names, read.book, read.model->arm), read.errors);
     if (read.book.tools.size() == 1) {
       take_over(check_splines(read.book, inverse), read.errors);
@@ -314,6 +321,8 @@ Findings check_module(FileNames names, const PropertyText& property) {
   add(check_settings(settings));
   names.workspace = settings.workspace;
   names.tool_speed = settings.tool_speed;
+  names.clearance = settings.clearance;
+  names.ignored = settings.ignore_collisions;
   ReadFiles read = read_files(names);
   if (read.model) {
     add(check_axes(settings, read.model->arm));

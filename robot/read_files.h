@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "robot/clearance.h"
 #include "robot/files.h"
 #include "robot/job.h"
 #include "robot/urdf.h"
@@ -14,6 +15,7 @@ namespace indurop::robot {
 struct ReadFiles {
   std::optional<ArmModel> model;
   JobBook book;
+  Clearance clearance;
   std::vector<base::Diagnostic> errors;  // without any, the others count
   std::vector<base::Diagnostic> notes;
   std::string kind;  // what the arm can do

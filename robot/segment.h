@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "robot/clearance.h"
 #include "robot/dynamics.h"
 #include "robot/inverse.h"
 #include "robot/joint_timing.h"
@@ -130,17 +131,21 @@ struct Blend {
 // Joint angles on the paths, for which lines and circles need the inverse kinematics.
 class Places {
  public:
-  Places(const Arm& arm, const Inverse& inverse, const Workspace& box = {}) noexcept
-      : arm_(&arm), inverse_(&inverse), box_(box) {}
+  Places(const Arm& arm, const Inverse& inverse, const Workspace& box = {}, const Clearance& clearance = {})
+      : arm_(&arm), inverse_(&inverse), box_(box), clearance_(clearance) {}
   // What its motions weigh; it stays where it is, and null is nothing. Nothing is planned.
   void weigh(const Dynamics* dynamics) noexcept { dynamics_ = dynamics; }
   // Null: torques have no limits.
   [[nodiscard]] const Dynamics* dynamics() const noexcept { return dynamics_; }
   // The same arm with another tool. Nothing is planned or followed.
-  void take(const Arm& arm, const Inverse& inverse) noexcept {
+  void take(const Arm& arm, const Inverse& inverse, int tool) noexcept {
     arm_ = &arm;
     inverse_ = &inverse;
+    tool_ = tool;
   }
+  // What has to stay clear of what, and the number of the tool that is held.
+  [[nodiscard]] const Clearance& clearance() const noexcept { return clearance_; }
+  [[nodiscard]] int tool() const noexcept { return tool_; }
   [[nodiscard]] const Arm& arm() const noexcept { return *arm_; }
   [[nodiscard]] const Workspace& box() const noexcept { return box_; }
   // Whether a joint motion stays in it all the way, as far as `parts` places show.
@@ -160,6 +165,8 @@ class Places {
   const Inverse* inverse_;
   const Dynamics* dynamics_ = nullptr;
   Workspace box_;
+  Clearance clearance_;
+  int tool_ = 0;
 };
 
 }  // namespace indurop::robot

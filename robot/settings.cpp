@@ -29,6 +29,7 @@ constexpr Number kNumbers[] = {
     {"following_limit", &Settings::following_limit},
     {"regain_distance", &Settings::regain_distance},
     {"plan_time", &Settings::plan_time},
+    {"clearance", &Settings::clearance},
 };
 // These not.
 constexpr Number kOtherNumbers[] = {
@@ -47,6 +48,7 @@ struct List {
 constexpr List kLists[] = {
     {"acceleration", &Settings::acceleration}, {"jerk", &Settings::jerk}, {"workspace", &Settings::workspace}};
 constexpr const char* kCategory = "emergency_category";
+constexpr const char* kIgnored = "ignore_collisions";
 
 // This library stands alone: base/text.h is not in it.
 std::string trimmed(const std::string& text) {
@@ -110,6 +112,7 @@ std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& s
   for (const List& list : kLists) {
     take_list(property, list, settings, wrong);
   }
+  settings.ignore_collisions = property(kIgnored);
   if (const std::string text = property(kCategory); !text.empty()) {
     if (text == "0" || text == "1") {
       settings.emergency_category = text == "0" ? StopCategory::Category0 : StopCategory::Category1;
@@ -156,7 +159,7 @@ std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm) {
 
 const std::vector<std::string>& setting_names() {
   static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names{"urdf", "jobs", kCategory};
+    std::vector<std::string> names{"urdf", "jobs", kCategory, kIgnored};
     const auto add = [&](const auto& table) {
       for (const auto& one : table) {
         names.emplace_back(one.name);

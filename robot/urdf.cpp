@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "robot/urdf_bodies.h"
+#include "robot/urdf_shapes.h"
+#include "robot/urdf_text.h"
 
 namespace indurop::robot {
 
@@ -39,8 +41,8 @@ class Reader {
   Result<ArmModel, std::vector<base::Diagnostic>> read();
 
  private:
-  void error(std::size_t offset, const std::string& text);
-  [[nodiscard]] std::size_t place_of(const std::string& joint) const;
+  void error(std::size_t offset, const std::string& text) { errors_.push_back(wrong_urdf(file_, text_, offset, text)); }
+  [[nodiscard]] std::size_t place_of(const std::string& joint) const { return place_in_urdf(text_, "joint", joint); }
   [[nodiscard]] static std::vector<urdf::JointConstSharedPtr> chain_to(const urdf::LinkConstSharedPtr& tip);
   [[nodiscard]] static urdf::LinkConstSharedPtr tip_of(const urdf::ModelInterface& model);
   void limits_of(const urdf::Joint& joint, Axis& axis, double& velocity);
@@ -51,6 +53,7 @@ class Reader {
   void take_axis(const urdf::Joint& joint, const Link& link);
   void connect();
   [[nodiscard]] Dynamics masses();
+  [[nodiscard]] std::vector<LinkBody> shapes();
   void note(const std::string& text);
 
   const std::string& file_;
@@ -78,23 +81,6 @@ bool moves(const urdf::Joint& joint) noexcept {
 
 Pose after(const Pose& first, const Pose& second) noexcept {
   return {first.position + first.orientation * second.position, first.orientation * second.orientation};
-}
-
-void Reader::error(std::size_t offset, const std::string& text) {
-  errors_.push_back({base::Diagnostic::Severity::Error, file_, place_in(text_, offset), text});
-}
-
-std::size_t Reader::place_of(const std::string& joint) const {
-  for (const char* quote : {"\"", "'"}) {
-    for (std::size_t at = text_.find("<joint"); at != std::string::npos; at = text_.find("<joint", at + 1)) {
-      const std::size_t end = text_.find('>', at);
-      const std::size_t name = text_.find(std::string("name=") + quote + joint + quote, at);
-      if (name != std::string::npos && name < end) {
-        return at;
-      }
-    }
-  }
-  return 0;
 }
 
 std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSharedPtr& tip) {
@@ -166,11 +152,26 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
   }
   connect();
   Dynamics dynamics = masses();
+  std::vector<LinkBody> bodies = shapes();
   if (!errors_.empty()) {
     return std::move(errors_);
   }
-  return ArmModel{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_, dynamics,
-                  std::move(notes_)};
+  ArmModel read{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_, dynamics,
+                std::move(bodies)};
+  for (const auto& [name, link] : model->links_) {
+    read.links.push_back(name);
+  }
+  read.notes = std::move(notes_);
+  return read;
+}
+
+std::vector<LinkBody> Reader::shapes() {
+  std::vector<base::Diagnostic> found;
+  std::vector<LinkBody> bodies = shapes_of(*model_, chain_, file_, text_, found);
+  for (base::Diagnostic& one : found) {
+    (one.severity == base::Diagnostic::Severity::Error ? errors_ : notes_).push_back(std::move(one));
+  }
+  return bodies;
 }
 
 void Reader::note(const std::string& text) {
@@ -251,7 +252,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::M
     return std::move(errors_);
   }
   note("torques are not known and have no limit: the arm is a delta");
-  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, std::move(notes_)};
+  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, {}, {}, std::move(notes_)};
 }
 
 // Of the element at `at`; empty if it has none of that name.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm out of a URDF file. Read once, when the task is loaded; with urdf_bodies.h the only place that knows
-// urdfdom.
+// An arm out of a URDF file. Read once, when the task is loaded; with urdf_bodies.h and urdf_shapes.h the only place
+// that knows urdfdom.
 
 #pragma once
 
@@ -10,15 +10,19 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "robot/arm.h"
+#include "robot/bodies.h"
 #include "robot/dynamics.h"
 
 namespace indurop::robot {
 
 struct ArmModel {
   Arm arm;
-  Joints velocity;      // rad/s or m/s, the most of each axis
-  Dynamics dynamics{};  // known() if all links have their masses
-  std::vector<base::Diagnostic> notes{};
+  Joints velocity;                        // rad/s or m/s, the most of each axis
+  Dynamics dynamics{};                    // known() if all links have their masses
+  std::vector<LinkBody> bodies{};         // of <collision>
+  std::vector<std::string> links{};       // names of all
+  std::vector<base::Diagnostic> notes{};  // and warnings
 };
 
 // The moving joints between the root link and the tool: the link called tool0 or tcp if there is one, else the end of

@@ -5,21 +5,17 @@
 #include <cmath>
 #include <sstream>
 
+#include "robot/urdf_text.h"
+
 namespace indurop::robot {
 
 namespace {
 
 // The <inertial> of a link, or the link itself.
-std::size_t inertial_of(const std::string& text, const std::string& link) noexcept {
-  for (std::size_t at = text.find("<link"); at != std::string::npos; at = text.find("<link", at + 1)) {
-    const std::string element = text.substr(at, text.find('>', at) - at);
-    if (element.find("name=\"" + link + "\"") != std::string::npos ||
-        element.find("name='" + link + "'") != std::string::npos) {
-      const std::size_t inertial = text.find("<inertial", at);
-      return inertial < text.find("</link", at) ? inertial : at;
-    }
-  }
-  return 0;
+std::size_t inertial_of(const std::string& text, const std::string& link) {
+  const std::size_t at = place_in_urdf(text, "link", link);
+  const std::size_t inertial = text.find("<inertial", at);
+  return inertial < text.find("</link", at) ? inertial : at;
 }
 
 class Gatherer {
@@ -53,8 +49,8 @@ Body Gatherer::body_of(const urdf::Link& link) {
     wrong = wrong_inertia(body.inertia);
   }
   if (!wrong.empty()) {
-    found_.errors.push_back({base::Diagnostic::Severity::Error, file_, place_in(text_, inertial_of(text_, link.name)),
-                             "link '" + link.name + "': " + wrong});
+    found_.errors.push_back(
+        wrong_urdf(file_, text_, inertial_of(text_, link.name), "link '" + link.name + "': " + wrong));
     return {};
   }
   return seen_from(pose_of(given.origin), body);
@@ -82,15 +78,6 @@ void Gatherer::gather(const urdf::Link& link, const Pose& frame, int body, const
 Pose pose_of(const urdf::Pose& pose) noexcept {
   const auto& r = pose.rotation;
   return {{pose.position.x, pose.position.y, pose.position.z}, Quat(r.w, r.x, r.y, r.z).normalized()};
-}
-
-base::SourcePlace place_in(const std::string& text, std::size_t offset) noexcept {
-  offset = std::min(offset, text.size());
-  const auto here = text.begin() + static_cast<std::ptrdiff_t>(offset);
-  const auto line = std::count(text.begin(), here, '\n') + 1;
-  const std::size_t start = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
-  const std::size_t column = start == std::string::npos ? offset + 1 : offset - start;
-  return {static_cast<int>(line), static_cast<int>(column)};
 }
 
 UrdfBodies bodies_of(const std::vector<ChainLink>& chain, std::size_t count, const std::string& file,

@@ -13,9 +13,6 @@
 
 namespace indurop::robot {
 
-// A place in a text, as people count.
-base::SourcePlace place_in(const std::string& text, std::size_t offset) noexcept;
-
 Pose pose_of(const urdf::Pose& pose) noexcept;
 
 // A link between root and tool.

@@ -25,6 +25,7 @@ THIRD_PARTY = {
     "eigen": ("Eigen/",),
     "urdf": ("urdf_parser/", "urdf_model/", "console_bridge/"),
     "kdl": ("kdl/",),
+    "fcl": ("fcl/",),
     "gtest": ("gtest/", "gmock/"),
     "benchmark": ("benchmark/",),
     "ros": ("ros/", "std_msgs/"),

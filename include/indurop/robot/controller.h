@@ -240,6 +240,9 @@ struct Settings {
   // mm, x y z of two opposite corners of the box that the tool's point does not leave, in the base's frame; empty:
   // none.
   std::vector<double> workspace;
+  // mm; bodies of links, tools and zones that are nearer to each other touch.
+  double clearance = 5;
+  std::string ignore_collisions;  // links, tools and zones that may touch: "forearm gripper, shoulder table"
   double tool_speed = 1000;       // mm/s, full speed on lines and circles
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // of the accelerations, in an emergency stop

@@ -177,10 +177,10 @@ INSTANTIATE_TEST_SUITE_P(
     Golden, JobErrorsTest,
     testing::Values(
         Bad{"MOVE A\n",
-            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, PARAM, VAR, SPEED, ZONE, "
-            "MOVJ, "
-            "MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, "
-            "LOOP, TRY, RECOVER and END"},
+            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
+            "VAR, "
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SET, PULSE, WAIT, CALL, ON, OFF, RETURN, LABEL, GOTO, IF, "
+            "ELSEIF, ELSE, WHILE, FOR, LOOP, TRY, RECOVER and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
             "a.job:1:8: error: there is no point 'ABOV'; did you mean 'ABOVE'?"},
         Bad{"MOVS A\nPOINT A = JOINT 0 0 0 0 0 0\n",

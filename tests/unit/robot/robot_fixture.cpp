@@ -7,13 +7,18 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 
 namespace indurop::robot {
 
-std::string cell_urdf() {
+std::string solid_cell_urdf() {
   std::ifstream file(ROBOT_URDF);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string cell_urdf() {
+  return std::regex_replace(solid_cell_urdf(), std::regex("<collision>.*?</collision>"), "");
 }
 
 Arm cell_arm() {

@@ -15,7 +15,9 @@
 
 namespace indurop::robot {
 
+// Without what its links are made of, so that they can be anywhere.
 std::string cell_urdf();
+std::string solid_cell_urdf();
 Arm cell_arm();
 // Wrist axes that do not meet: no closed form.
 Arm odd_arm();

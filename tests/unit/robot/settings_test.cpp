@@ -44,7 +44,7 @@ TEST_F(Robot_settings, The_defaults_are_sane) {
 
 TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
   for (const std::string& name : setting_names()) {
-    if (name == "urdf" || name == "jobs") {
+    if (name == "urdf" || name == "jobs" || name == "ignore_collisions") {
       continue;
     }
     EXPECT_THAT(wrong(name, "abc"), ElementsAre(name));
@@ -79,7 +79,9 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
                                                     {"absolute", "off"},
                                                     {"acceleration", "1 2 3 4 5 6"},
                                                     {"jerk", "6 5 4 3 2 1"},
-                                                    {"workspace", "0 0 0 1 1 1"}};
+                                                    {"workspace", "0 0 0 1 1 1"},
+                                                    {"clearance", "7"},
+                                                    {"ignore_collisions", "wrist forearm"}};
   Settings settings;
   EXPECT_THAT(take_properties([&](const char* name) { return texts.at(name); }, settings), IsEmpty());
   EXPECT_EQ(settings.counts_per_turn, 10);
@@ -99,6 +101,8 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
   EXPECT_THAT(settings.acceleration, ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(settings.jerk, ElementsAre(6, 5, 4, 3, 2, 1));
   EXPECT_THAT(settings.workspace, ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_EQ(settings.clearance, 7);
+  EXPECT_EQ(settings.ignore_collisions, "wrist forearm");
 }
 
 TEST(Robot_files, Speeds_of_jobs_beyond_full_speed_are_warned_of) {

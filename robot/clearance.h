@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bodies of an arm must stay clear of which others, and how far they are apart at least when the axes stand
+// somewhere. Made once, when the task is loaded.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/arm.h"
+#include "robot/bodies.h"
+
+namespace indurop::robot {
+
+class Clearance {
+ public:
+  // One solid of the arm, of a tool or of a zone.
+  struct Part {
+    int body = 0;   // its name
+    int joint = 0;  // so many moving joints of the chain move it
+    int tool = 0;   // only while this one is held; 0: always
+    Solid solid;    // in the base's frame, joints at zero
+  };
+  struct Pair {
+    int a = 0, b = 0;  // parts; the joints between them are those of `b` behind `a`
+    int tool = 0;
+    // m that a point of one goes at most, seen from the other, when an axis moves by 1 rad (or m).
+    Joints lever = Joints::Zero();
+  };
+  using Places = std::vector<PlacedSolid>;
+
+  Clearance() = default;
+  Clearance(const Arm& arm, const Bodies& bodies);
+
+  // There is something that could touch.
+  [[nodiscard]] bool known() const noexcept { return !pairs_.empty(); }
+  [[nodiscard]] const std::vector<Part>& parts() const noexcept { return parts_; }
+  [[nodiscard]] const std::vector<Pair>& pairs() const noexcept { return pairs_; }
+  // m; nearer than that is touching.
+  [[nodiscard]] double margin() const noexcept { return margin_; }
+
+  // Where the parts are. `places` has one for each. Real-time safe, as all the rest.
+  void place(const Joints& q, Places& places) const noexcept;
+  // m between the two, less the margin, at least.
+  [[nodiscard]] double least(const Pair& pair, const Places& places) const noexcept {
+    return least_distance(places[index(pair.a)], places[index(pair.b)]) - margin_;
+  }
+  [[nodiscard]] bool counts(const Pair& pair, int tool) const noexcept { return pair.tool == 0 || pair.tool == tool; }
+  // Writes what a pair is called: "'forearm' and zone 'table'".
+  void name(int pair, char* to, std::size_t size) const noexcept;
+  // Which pairs are looked at and which are not, in words. Not real-time safe.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+  void add(const std::string& name, const Part& part);
+  void connect(const std::vector<std::pair<std::string, std::string>>& ignored);
+  void add_pair(int a, int b);
+  [[nodiscard]] bool is_zone(int part) const noexcept { return index(part) >= first_zone_; }
+
+  Arm arm_{Arm::Axes{}, Pose{}, 0};
+  double margin_ = 0;
+  std::vector<std::string> names_;
+  std::vector<Part> parts_;
+  std::vector<Pair> pairs_;
+  std::size_t first_zone_ = 0;
+  std::string looked_at_, touching_, let_touch_;
+};
+
+}  // namespace indurop::robot
