@@ -75,7 +75,13 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
   return errors;
 }
 
-Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm) {
+// Where taught tools and points in frames are is not known while other things are wrong: nothing is said of them then.
+bool is_known(const Point& point, const JobBook& book, bool placed) {
+  const auto taught = [](const Tool& tool) { return tool.is_taught; };
+  return placed || (point.frame < 0 && std::none_of(book.tools.begin(), book.tools.end(), taught));
+}
+
+Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm, bool placed) {
   const std::vector<double>& corners = names.workspace;
   bool sane = corners.empty() || corners.size() == 6;
   for (std::size_t i = 0; sane && i < corners.size(); ++i) {
@@ -88,7 +94,7 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
   const Workspace box = Workspace::of(corners);
   for (const Point& point : book.points) {
     const Target& target = point.target;
-    if (!target.is_pose && book.tools.size() > 1) {
+    if (!is_known(point, book, placed) || (!target.is_pose && book.tools.size() > 1)) {
       continue;  // where the tip is there depends on the tool
     }
     const Vec3 place = target.is_pose ? target.pose.position : arm.forward(target.joints).position;
@@ -178,12 +184,12 @@ std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& tar
 
 // Which tool is held at a point is known when the job runs; what no tool reaches is told here. How an arm without a
 // closed form is held at poses takes a search, which is made here, before anything moves: there it is an error.
-Diagnostics solve_points(JobBook& book, const Arm& arm) {
+Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
   Diagnostics errors;
   const ToolSet tools(arm, book.tips());
   for (Point& point : book.points) {
     const Target& target = point.target;
-    if (!target.is_pose) {
+    if (!target.is_pose || !is_known(point, book, placed)) {
       continue;
     }
     const bool closed = tools.inverse(0).closed_form() && target.held == 0;
@@ -291,9 +297,10 @@ ReadFiles read_files(const FileNames& names) {
       sort_out(place_tools(read.book, read.model->arm), read);
       take_over(place_frames(read.book, read.model->arm), read.errors);
     }
+    const bool placed = read.errors.empty();
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
-    sort_out(solve_points(read.book, read.model->arm), read);
+    sort_out(solve_points(read.book, read.model->arm, placed), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
     if (read.errors.empty()) {
@@ -302,7 +309,7 @@ ReadFiles read_files(const FileNames& names) {
       sort_out(std::move(bodies.found), read);
       sort_out(check_clear(read.book, read.model->arm, read.clearance), read);
     }
-    take_over(check_workspace(names, read.book, read.model->arm), read.errors);
+    take_over(check_workspace(names, read.book, read.model->arm, placed), read.errors);
     if (read.book.tools.size() == 1) {
       take_over(check_splines(read.book, inverse), read.errors);
     }

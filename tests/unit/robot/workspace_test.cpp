@@ -94,6 +94,15 @@ TEST(Workspace, Points_outside_are_errors_of_their_file) {
             std::string::npos);
 }
 
+// Where the frame is is not known while something else is wrong.
+TEST(Workspace, Points_in_frames_are_not_blamed_for_another_mistake) {
+  const std::string job = "FRAME f = POSE 500 0 300 RPY 0 0 0\nPOINT A = POSE 0 0 100 RPY 180 0 180 IN f\n";
+  EXPECT_EQ(wrong_with(job, with_box(kBox)), "");
+  const std::string wrong = wrong_with(job + "POINT B = JOINT 999 0 0 0 0 0\nSPEED 0%\n", with_box(kBox));
+  EXPECT_NE(wrong.find("a speed is above 0"), std::string::npos) << wrong;
+  EXPECT_EQ(wrong.find("'A'"), std::string::npos) << wrong;
+}
+
 // Its points are inside, but not what is between them.
 TEST_F(In_a_box, A_way_that_leaves_it_is_refused_before_it_begins) {
   for (const char* way : {"POINT M = POSE 698 100 400 RPY 180 0 180\nPOINT E = POSE 500 300 400 RPY 180 0 180\nMOVJ "
