@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -19,12 +21,17 @@ namespace {
 using base::Problem;
 
 constexpr double kMost = 100;  // %
+constexpr int kWorkFrame = 3;  // ROBOT_JOG.eFrame
 
+// ROBOT_JOG.eFrame. A word that is none of the first three is a work frame, which the robot knows or refuses.
 Result<int, Problem> number_of(const std::string& frame) {
-  const std::vector<std::string> words{"axes", "base", "tool"};
-  const auto found = std::find(words.begin(), words.end(), frame);
-  return found != words.end() ? Result<int, Problem>(static_cast<int>(found - words.begin()))
-                              : Problem{"frame is axes, base or tool"};
+  constexpr std::array<std::string_view, 3> kWords{"axes", "base", "tool"};
+  constexpr std::size_t kLongest = 31;  // of ROBOT_JOG.frame
+  const auto usual = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (frame.empty() || frame.size() > kLongest || !std::all_of(frame.begin(), frame.end(), usual)) {
+    return Problem{"frame is axes, base, tool or the name of a work frame"};
+  }
+  return static_cast<int>(std::find(kWords.begin(), kWords.end(), frame) - kWords.begin());
 }
 
 std::optional<Problem> wrong_with(const JogWish& wish, std::size_t axes) {
@@ -128,8 +135,9 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   (void)hand->store.read(*hand->place.entry, hand->place.beat_offset,
                          {reinterpret_cast<std::uint8_t*>(&hand->beat), sizeof hand->beat});
   hand->beat = std::max(hand->beat + 1, 1U);
-  if (!hand->write(fmt::format("{{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: {}}}", *frame, fmt::join(speed, ", "),
-                               hand->beat))) {
+  const std::string named = *frame == kWorkFrame ? fmt::format(", frame: \"{}\"", wish.frame) : "";
+  if (!hand->write(fmt::format("{{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: {}{}}}", *frame, fmt::join(speed, ", "),
+                               hand->beat, named))) {
     (void)hand->write("{bEnable: 0}");
     return Problem{"ROBOT_JOG cannot be written"};
   }

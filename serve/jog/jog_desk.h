@@ -22,7 +22,7 @@ namespace indurop::serve {
 
 // What a client wants moved.
 struct JogWish {
-  std::string frame;          // "axes", "base" or "tool"
+  std::string frame;          // "axes", "base", "tool" or a work frame
   std::vector<double> speed;  // %, of axes, or along and about x, y, z; one is not 0
 };
 

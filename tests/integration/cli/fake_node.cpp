@@ -61,7 +61,7 @@ schema::Variable switch_of_a_robot() {
   schema::Type jog;
   jog.base = schema::Base::Struct;
   jog.name = "arm::ROBOT_JOG_t";
-  jog.element_size = 64;
+  jog.element_size = 96;
   jog.align = 8;
   const auto add = [&jog](const char* name, schema::Base base, std::uint32_t offset) -> schema::Field& {
     schema::Field field;
@@ -75,6 +75,9 @@ schema::Variable switch_of_a_robot() {
   add("eFrame", schema::Base::Int16, 2);
   add("dSpeed", schema::Base::Double, 8).type.dims = {6};
   add("nBeat", schema::Base::UInt32, 56);
+  schema::Type& frame = add("frame", schema::Base::Text, 60).type;
+  frame.text_size = frame.element_size = 32;
+  frame.align = 1;
   return variable("arm::ROBOT_JOG", jog);
 }
 

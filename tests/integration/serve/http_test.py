@@ -330,7 +330,7 @@ def test_shows_the_arms_of_a_board(setting):
     setting.start_node("config", setting.folder / "module.xml")
     server = setting.start_server()
     answer = server.get(f"{API}/boards/{setting.node}/robots").json()
-    assert answer == {"board": setting.node, "robots": [{"module": "modify", "urdf": "<robot name='arm'/>"}]}, answer
+    assert answer == {"board": setting.node, "robots": [{"module": "modify", "urdf": "<robot name='arm'/>", "frames": []}]}, answer
     assert server.get(f"{API}/boards/nobody/robots").status == 404
 
 

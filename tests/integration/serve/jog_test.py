@@ -50,6 +50,14 @@ def test_a_hand_presses_the_switch_while_it_is_heard(setting):
     assert {one["who"] for one in audit} == {"ana"} and {"jog", "end of jog"} <= {one["action"] for one in audit}, audit
 
 
+def test_a_hand_moves_along_a_work_frame(setting):
+    server, base, switch = begun(setting)
+    said = server.post(base + "/jog", {**WISH, "frame": "pallet"})
+    assert said.status == 200, said.body
+    now = switch()
+    assert (now["eFrame"], now["frame"]) == (3, "pallet"), now
+
+
 def test_a_hand_that_is_not_heard_is_released(setting):
     server, base, switch = begun(setting)
     hand = held(server, base, switch)
@@ -76,7 +84,7 @@ def test_a_server_that_ends_releases_and_one_that_is_killed_beats_no_more(settin
 def test_refuses_what_is_no_motion(setting):
     server, base, switch = begun(setting)
     jog = base + "/jog"
-    for wrong, status in (({"robot": "leg"}, 409), ({"frame": "moon"}, 409), ({"speed": [0, 0, 0]}, 409), ({"speed": [1, 1]}, 409),
+    for wrong, status in (({"robot": "leg"}, 409), ({"frame": "the \"moon"}, 409), ({"frame": "m" * 32}, 409), ({"speed": [0, 0, 0]}, 409), ({"speed": [1, 1]}, 409),
                           ({"speed": [101]}, 409), ({"speed": [0] * 6 + [1]}, 409), ({"speed": []}, 400), ({"speed": "fast"}, 400),
                           ({"speed": [None]}, 400), ({"robot": 7}, 400)):
         said = server.post(jog, {**WISH, **wrong})

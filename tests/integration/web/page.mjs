@@ -250,6 +250,7 @@ await browser.run({
     const job = async () => (await value_of("PLC_ROBOT::ROBOT_JOB")).eState;
     const moves = async () => (await arm()).tool_speed > 1;
     await sees(page, "By hand");
+    await sees(page, "Tool along pallet");
     await until("the robot does not move", moves);
     const override = "::-p-xpath(//section[@aria-label='Moving by hand']//label[starts-with(., 'Override')]/input)";
     const before = await value_of(OVERRIDE);

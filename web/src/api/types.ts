@@ -375,6 +375,7 @@ export interface Histogram {
 export interface Robot {
   module: string;
   urdf: string;
+  frames: string[];
   name?: string;  // from the text, by the page
 }
 

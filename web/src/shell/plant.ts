@@ -5,7 +5,7 @@ import { get, words } from "../api/http";
 import { stream, type Link } from "../api/stream";
 import type { BoardSummary, ServerStatus } from "../api/types";
 import { place } from "../ui/address";
-import { Store, useStore } from "../ui/store";
+import { Store, turned, useStore } from "../ui/store";
 
 const LOOK_MS = 2000;
 
@@ -42,7 +42,9 @@ async function look(): Promise<void> {
 export function start_looking(): void {
   stream.on_link = (link) => {
     update({ link });
-    if (link === "open") void look();
+    if (link !== "open") return;
+    turned.set(turned.get() + 1);
+    void look();
   };
   stream.on_boards = (seen) => {
     const boards = plant.get().boards;

@@ -32,6 +32,9 @@ export interface Asked<T> {
   again: () => void;
 }
 
+// Set when whoever asks should not wait for the next turn: the server is back.
+export const turned = new Store(0);
+
 // Asks at once and then every `every_ms`, never while the question before is still open or nobody sees the page. `key`
 // names what is asked: another key forgets the value; an empty one asks nothing.
 export function useAsked<T>(key: string, every_ms: number, ask: () => Promise<T>, words: (error: unknown) => string): Asked<T> {
@@ -43,23 +46,35 @@ export function useAsked<T>(key: string, every_ms: number, ask: () => Promise<T>
     if (!key) return;
     let ended = false;
     let timer = 0;
+    let open = false;
+    let wanted = false;  // meanwhile
     const turn = async () => {
       clearTimeout(timer);
+      wanted = open;
+      if (open || ended) return;
       if (!document.hidden) {
+        open = true;
         try {
           const value = await latest.current();
           if (!ended) set({ key, value, error: "" });
         } catch (error) {
           if (!ended) set((before) => ({ key, value: before.key === key ? before.value : null, error: words(error) }));
         }
+        open = false;
       }
-      if (!ended && every_ms) timer = window.setTimeout(turn, every_ms);
+      if (wanted) void turn();
+      else if (!ended && every_ms) timer = window.setTimeout(turn, every_ms);
     };
     now.current = () => void turn();
     void turn();
+    const seen = () => { if (!document.hidden) void turn(); };
+    const deaf = turned.listen(seen);
+    document.addEventListener("visibilitychange", seen);
     return () => {
       ended = true;
       clearTimeout(timer);
+      deaf();
+      document.removeEventListener("visibilitychange", seen);
     };
   }, [key, every_ms]);
   const mine = state.key === key;

@@ -41,7 +41,7 @@ function List({ board, alarms, for_ns, order }: { board: string; alarms: Alarm[]
     <table class="figures alarms">
       <thead>
         <tr><th scope="col">Priority</th><th scope="col">Alarm</th><th scope="col">State</th><th scope="col">Since</th>
-          <th scope="col">Value</th><th scope="col">Raised</th>{order && <th scope="col">Orders</th>}</tr>
+          <th scope="col">Value</th><th scope="col" class="number">Raised</th>{order && <th scope="col">Orders</th>}</tr>
       </thead>
       <tbody>
         {alarms.map((alarm) => (
@@ -90,7 +90,7 @@ function Messages({ board }: { board: string }) {
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label="Messages">
       <table class="figures">
-        <thead><tr><th scope="col">After</th><th scope="col">Tick</th><th scope="col">Module</th><th scope="col">Message</th></tr></thead>
+        <thead><tr><th scope="col">After</th><th scope="col" class="number">Tick</th><th scope="col">Module</th><th scope="col">Message</th></tr></thead>
         <tbody>
           {[...value.messages].reverse().map((one, i) => (
             <tr key={`${one.time_ns} ${i}`}>

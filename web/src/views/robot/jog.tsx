@@ -6,11 +6,12 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { board_path, post, post_at_the_end, words } from "../../api/http";
 import type { RobotState } from "./state";
 
-const FRAMES: [string, string, string[]][] = [
-  ["axes", "Axes", []],
-  ["base", "Tool along the base", ["x", "y", "z", "roll", "pitch", "yaw"]],
-  ["tool", "Tool along itself", ["x", "y", "z", "roll", "pitch", "yaw"]],
+const FRAMES: [string, string][] = [
+  ["axes", "Axes"],
+  ["base", "Tool along the base"],
+  ["tool", "Tool along itself"],
 ];
+const DIRECTIONS = ["x", "y", "z", "roll", "pitch", "yaw"];
 const SVC_MV_STOP = 10;  // OPCODE_ROBOT_SERVICE
 const SVC_JB_STOP = 12;
 const KEEPS = 3;  // times within what the server waits
@@ -61,13 +62,15 @@ interface Props {
   scope: string;
   state: RobotState | null;
   names: string[];
+  work_frames: string[];
 }
 
-export function Jog({ board, scope, state, names }: Props) {
+export function Jog({ board, scope, state, names, work_frames }: Props) {
   const [frame, choose] = useState("axes");
   const [speed, set_speed] = useState(10);
   const [said, say] = useState("");
   const [held, hold] = useState("");
+  const [wanted, want] = useState<number | null>(null);  // override that was chosen and is not told yet
   const hand = useRef<Hand | null>(null);
   const let_go = () => {
     hand.current?.end();
@@ -94,15 +97,19 @@ export function Jog({ board, scope, state, names }: Props) {
     const directions = frame === "axes" ? state?.joint.length ?? 6 : 6;
     void one.begin(scope, frame, Array.from({ length: directions }, (_, i) => (i === index ? sign * speed : 0)));
   };
-  const order = async (values: Record<string, unknown>, what: string) => {
+  const order = async (values: Record<string, unknown>, what: string): Promise<void> => {
     try {
       await post(board_path(board, "/set"), { values: Object.fromEntries(Object.entries(values).map(([name, value]) => [`${scope ? `${scope}::` : ""}${name}`, value])), reason: what });
       say(what);
     } catch (error) {
+      want(null);
       say(words(error));
     }
   };
-  const axes = frame === "axes" ? (state?.joint ?? []).map((_, i) => names[i] ?? `axis ${i + 1}`) : FRAMES.find(([name]) => name === frame)![2];
+  const axes = frame === "axes" ? (state?.joint ?? []).map((_, i) => names[i] ?? `axis ${i + 1}`) : DIRECTIONS;
+  const frames = [...FRAMES, ...work_frames.map((name): [string, string] => [name, `Tool along ${name}`])];
+  const override = wanted ?? (Number.isFinite(state?.override_set) ? state!.override_set : 100);
+  useEffect(() => want((now) => (now === state?.override_set ? null : now)), [wanted, state?.override_set]);
   const button = (index: number, sign: number, name: string) => (
     <button type="button" class={`jog ${held === `${index} ${sign}` ? "main" : ""}`} aria-label={`${name} ${sign > 0 ? "forward" : "back"}, while held down`}
       onPointerDown={(event) => { if (event.button === 0) { event.currentTarget.releasePointerCapture?.(event.pointerId); press(index, sign); } }}
@@ -113,16 +120,17 @@ export function Jog({ board, scope, state, names }: Props) {
     <section class="panel" aria-label="Moving by hand">
       <h2>By hand</h2>
       <div class="bar">
-        <label>Override <input type="range" min={0} max={100} step={5} value={Number.isFinite(state?.override_set) ? state!.override_set : 100}
-          onChange={(event) => void order({ ROBOT_OVERRIDE: Number(event.currentTarget.value) }, `Override ${event.currentTarget.value} %.`)} /></label>
-        <button type="button" aria-pressed={state?.hold ?? false} onClick={() => void order({ ROBOT_HOLD: state?.hold ? 0 : 1 }, state?.hold ? "Goes on." : "Held.")}>
-          {state?.hold ? "Go on" : "Hold"}</button>
         <button type="button" class="stop" onClick={() => { let_go(); void order(
           { ROBOT_MODULE_SERVICE: `{eOpCode: ${state?.job_state === "runs" || state?.job_state === "waits" ? SVC_JB_STOP : SVC_MV_STOP}, nRequest: ${(state?.acknowledged ?? 0) + 1}}` }, "Stopped."); }}>Stop</button>
+        <button type="button" aria-pressed={state?.hold ?? false} onClick={() => void order({ ROBOT_HOLD: state?.hold ? 0 : 1 }, state?.hold ? "Goes on." : "Held.")}>
+          {state?.hold ? "Go on" : "Hold"}</button>
+        <label>Override {override} % <input type="range" aria-label="Override" min={0} max={100} step={5} value={override}
+          onInput={(event) => want(Number(event.currentTarget.value))}
+          onChange={(event) => void order({ ROBOT_OVERRIDE: Number(event.currentTarget.value) }, `Override ${event.currentTarget.value} %.`)} /></label>
       </div>
       <div class="bar">
         <label>Moves <select value={frame} onChange={(event) => choose(event.currentTarget.value)}>
-          {FRAMES.map(([name, title]) => <option key={name} value={name}>{title}</option>)}</select></label>
+          {frames.map(([name, title]) => <option key={name} value={name}>{title}</option>)}</select></label>
         <label>at {speed} % <input type="range" aria-label="Speed by hand" min={1} max={100} value={speed} onInput={(event) => set_speed(Number(event.currentTarget.value))} /></label>
       </div>
       <ul class="plain jogs">

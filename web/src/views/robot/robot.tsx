@@ -51,7 +51,7 @@ function Numbers({ state, names }: { state: RobotState; names: string[] }) {
         <Figure name="State" value={state.group} bad={state.group.includes("error")} warn={state.group === "no power"} />
         <Figure name="Job" value={state.job ? `${state.job}, line ${state.job_line}: ${state.job_state}` : "none yet"} bad={state.job_state === "failed"} />
         <Figure name="Tool speed" value={fixed(state.tool_speed, 0, "mm/s")} />
-        <Figure name="Override" value={fixed(state.override_now, 0, "%")} />
+        <Figure name="Pace on its path" value={fixed(state.override_now, 0, "%")} hint="What override, job and hold leave of the speed, at this moment" />
         <Figure name="To go" value={fixed(state.to_go, 1, "s")} />
         {["x", "y", "z"].map((name, i) => <Figure key={name} name={`Tool ${name}`} value={fixed(position[i], 1, "mm")} />)}
         {["roll", "pitch", "yaw"].map((name, i) => <Figure key={name} name={`Tool ${name}`} value={fixed(orientation[i], 1, "deg")} />)}
@@ -146,7 +146,7 @@ export function Robot() {
         ) : (
           <p class="panel warn">{value.told ? "The arm's description (property urdf of its module) cannot be read here, so only numbers are shown." : "This server does not tell the arm's description, so only numbers are shown."}</p>)}
         <div>
-        {status?.may_write && scope !== null && <Jog board={board.board} scope={scope} state={state} names={names} />}
+        {status?.may_write && scope !== null && <Jog board={board.board} scope={scope} state={state} names={names} work_frames={robot?.frames ?? []} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>Now</h2>
           {state ? <Numbers state={state} names={names} /> : <Waiting />}
