@@ -6,15 +6,13 @@
 #include <filesystem>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/read_file.h"
 #include "config/xml/plant_reader.h"
-#include "robot/teach.h"
 #include "serve/api/answers.h"
 #include "serve/boards/board.h"
 #include "tools/command/config_file.h"
-#include "tools/command/robot_files.h"
+#include "tools/robot/work_frames.h"
 
 namespace indurop::serve::answers {
 namespace {
@@ -30,22 +28,9 @@ bool runs_in(const tools::RunView& run, const std::string& name) {
   return false;
 }
 
-// Work frames of its jobs, by name.
-base::Json frames_of(const std::vector<tools::RobotFiles>& files, const std::string& module) {
-  base::Json names = base::Json::array();
-  for (const tools::RobotFiles& one : files) {
-    for (const std::string& frame :
-         one.module == module ? robot::list_points(one.names).frames : std::vector<std::string>()) {
-      names.push_back(frame);
-    }
-  }
-  return names;
-}
-
 // Files of a module are relative to the folder of its configuration.
 void add_robots(base::Json& robots, const config::Config& config, const tools::RunView& run,
                 const std::filesystem::path& folder) {
-  const std::vector<tools::RobotFiles> files = tools::robot_files_of(config);
   for (const config::Module& module : config.modules) {
     const auto property = std::find_if(module.properties.begin(), module.properties.end(),
                                        [](const config::Property& one) { return one.name == "urdf"; });
@@ -59,7 +44,10 @@ void add_robots(base::Json& robots, const config::Config& config, const tools::R
     base::Json one = base::Json::object();
     one["module"] = module.name;
     one["urdf"] = std::move(text).value();
-    one["frames"] = frames_of(files, module.name);
+    one["frames"] = base::Json::array();
+    for (const std::string& frame : tools::work_frames_of(config, module.name)) {
+      one["frames"].push_back(frame);
+    }
     robots.push_back(std::move(one));
   }
 }
