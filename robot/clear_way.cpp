@@ -8,9 +8,11 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kFinest = 2e-4;     // m that a step has to prove; nearer to touching than that is touching
-constexpr double kRounding = 1e-7;   // m
-constexpr double kComeApart = 2e-3;  // m, the longest step of what touches
+constexpr double kFinest = 2e-4;    // m that a step has to prove; nearer to touching than that is touching
+constexpr double kRounding = 1e-7;  // m
+// m, the longest step of what touches, where it is looked at exactly, and in the tick.
+constexpr double kComeApart = 2e-3;
+constexpr double kComeApartSoon = 2e-2;
 
 }  // namespace
 
@@ -20,6 +22,7 @@ ClearWay::ClearWay(const Clearance& clearance, bool exact)
       next_(clearance.pairs().size()),
       here_(clearance.parts().size()),
       there_(clearance.parts().size()) {
+  apart_ = exact ? kComeApart : kComeApartSoon;
   if (exact && clearance.known()) {
     std::vector<Solid> solids;
     std::transform(clearance.parts().begin(), clearance.parts().end(), std::back_inserter(solids),
@@ -36,6 +39,13 @@ double ClearWay::measure(std::size_t pair, const Clearance::Places& places) noex
   const auto a = static_cast<std::size_t>(one.a);
   const auto b = static_cast<std::size_t>(one.b);
   return nearest_->distance(one.a, one.b, places[a], places[b]) - clearance_.margin();
+}
+
+void ClearWay::take(const ClearWay& other) noexcept {
+  rooms_ = other.rooms_;
+  here_ = other.here_;
+  here_placed_ = other.here_placed_;
+  at_ = other.at_;
 }
 
 void ClearWay::begin(const Joints& from, int tool) noexcept {
@@ -116,7 +126,7 @@ ClearWay::Step ClearWay::look(std::size_t pair, double most, bool& placed, const
 }
 
 ClearWay::Step ClearWay::come_apart(std::size_t pair, double most) noexcept {
-  if (most > kComeApart) {
+  if (most > apart_) {
     return Step::Shorter;
   }
   Room& next = next_[pair];

@@ -25,6 +25,8 @@ class ClearWay {
   };
   // Where a way begins. Real-time safe as all the rest, if it is not exact.
   void begin(const Joints& from, int tool) noexcept;
+  // Goes on where `other` is, which looks at the same bodies.
+  void take(const ClearWay& other) noexcept;
   // On to `to`; the axes go `moved` on that step, there and back. What is too near already may not come nearer.
   Step next(const Joints& to, const Joints& moved) noexcept;
   // Where the last step led to.
@@ -52,6 +54,7 @@ class ClearWay {
   Joints at_ = Joints::Zero();
   bool here_placed_ = false;
   int pair_ = -1;
+  double apart_ = 0;  // m, the longest step of what touches
 };
 
 // How far axes go on a way of which three places are known, the second in its middle: twice what a smooth way takes.
@@ -66,7 +69,7 @@ class ClearWalk {
     width_ = widest_ = widest;
     place_ = 0;
   }
-  [[nodiscard]] bool done() const noexcept { return place_ >= length_; }
+  [[nodiscard]] bool done() const noexcept { return !(place_ < length_); }
   [[nodiscard]] double place() const noexcept { return place_; }
   // One step on, or none if it has to be shorter. `at(place, near, q)`: where the axes are; false if nowhere.
   template <class At>
@@ -91,6 +94,18 @@ class ClearWalk {
       width_ /= 2;
     }
     return step;
+  }
+
+  // All of it, if that is not too long to be shown in so many steps. Else pair() is what is in the way.
+  template <class At>
+  bool all(ClearWay& way, int steps, const At& at) noexcept {
+    for (; steps > 0 && !done(); --steps) {
+      const ClearWay::Step one = step(way, at);
+      if (one == ClearWay::Step::Touches || one == ClearWay::Step::Lost) {
+        return false;
+      }
+    }
+    return done();
   }
 
  private:

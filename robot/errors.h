@@ -8,7 +8,7 @@
 namespace indurop::robot {
 
 // An error and the axis it is about, from 1; 0: none in particular. Of a collision: what touches (Clearance::name), and
-// at which part of the way.
+// at which part of the way; below 0: at none in particular.
 struct Fault {
   ErrorCode code = ErrorCode::Ok;
   int axis = 0;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "robot/clear_way.h"
 #include "robot/errors.h"
 #include "robot/path_brake.h"
 #include "robot/segment.h"
@@ -27,7 +28,8 @@ class Follower final : private PathAhead {
     Joints q = Joints::Zero();
   };
 
-  Follower(const Places& places, const JointLimits& limits) noexcept : places_(places), most_(limits), brake_(limits) {}
+  Follower(const Places& places, const JointLimits& limits) noexcept
+      : places_(places), most_(limits), clear_(places.clearance(), false), brake_(limits) {}
 
   // At rest at these joint angles, with nothing to do.
   void reset(const Joints& q) noexcept;
@@ -38,7 +40,7 @@ class Follower final : private PathAhead {
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
   // A joint motion instead of all that is to do, from whatever the joints are doing; not while it is stopping. Errors:
-  // JointLimit, Singular, Workspace; then all is as before.
+  // JointLimit, Singular, Workspace, Collision; then all is as before.
   Fault redirect(const Segment& target) noexcept;
 
   // Whether what is added next may begin without a stop.
@@ -102,6 +104,8 @@ class Follower final : private PathAhead {
   Reach motion(JointState& now) const noexcept;
   [[nodiscard]] bool can_begin(const JointState& now, double pace, const JointLimits& most) const noexcept;
   bool leave_shares() noexcept;
+  [[nodiscard]] double made_for(double pace) const noexcept;
+  [[nodiscard]] Fault stays_clear(const Segment& way) noexcept;
   Profile pace_of_timing(double seconds) noexcept;
   void note_place(double seconds) noexcept;
   void note_joints(double seconds) noexcept;
@@ -130,6 +134,7 @@ class Follower final : private PathAhead {
 
   const Places& places_;
   JointLimits most_;
+  ClearWay clear_;  // of ways that are chosen in the tick
   Aside aside_;
   bool keep_ = false;
   std::array<Segment, kMost> segments_;

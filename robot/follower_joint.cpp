@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kThere = 1e-9;           // rad
 constexpr int kLooks = 24;                // at a new way, whether it stays in the workspace
+constexpr int kClearLooks = 64;           // likewise, whether it stays clear: more takes too long
+constexpr double kSameWay = 0.84;         // at a pace up to that axes that come together go the way of full pace
 constexpr double kRounding = 1e-9;        // rad/s
 constexpr double kNearlyFull = 1 - 1e-9;  // a pace that leaves something for changes of it
 
@@ -82,7 +84,8 @@ double Follower::measured_tip_speed(const Segment& segment) const noexcept {
 // For a pace, or a slower one at which the tip keeps its limit. What moves already keeps its pace.
 void Follower::make_joint_timing(Segment& segment, const JointState& from, const JointLimits& limits,
                                  double pace) noexcept {
-  segment.take_joint_timing(from, limits, pace);
+  const auto take = [&] { segment.take_joint_timing(from, limits, segment.moving ? pace : made_for(pace)); };
+  take();
   for (int again = 0; again < 3 && std::isfinite(tip_limit_); ++again) {
     segment.tip_speed = measured_tip_speed(segment);
     const double slower = pace_for(segment.tip_speed);
@@ -90,7 +93,7 @@ void Follower::make_joint_timing(Segment& segment, const JointState& from, const
       break;
     }
     pace = slower;
-    segment.take_joint_timing(from, limits, pace);
+    take();
   }
 }
 
@@ -107,7 +110,7 @@ Fault Follower::redirect(const Segment& target) noexcept {
   }
   const double least = std::max(now.velocity.cwiseAbs().cwiseQuotient(most_.velocity).maxCoeff(),
                                 std::sqrt(now.acceleration.cwiseAbs().cwiseQuotient(most_.acceleration).maxCoeff()));
-  double pace = wanted_pace();
+  double pace = places_.clearance().known() ? std::min(wanted_pace(), kNearlyFull) : wanted_pace();
   JointState seen = now;
   for (const double tried : {std::max(pace, least), kNearlyFull, 1.0}) {
     if (at_rest() || (pace >= 1 && tried < 1)) {
@@ -131,6 +134,9 @@ Fault Follower::redirect(const Segment& target) noexcept {
     return {ErrorCode::Speed};
   }
   pace = next.made_for;
+  if (const Fault fault = stays_clear(next); !fault.ok()) {
+    return fault;
+  }
   segments_[0] = next;
   count_ = 1;
   blend_ = {};
@@ -139,6 +145,29 @@ Fault Follower::redirect(const Segment& target) noexcept {
   past_.moved.fill(pace * period_);
   time_ = 0;
   return {};
+}
+
+// Where there is something to touch, a motion from rest goes the way that was looked at, that of full pace, and has
+// what a hold or another override needs to keep to it.
+double Follower::made_for(double pace) const noexcept {
+  return places_.clearance().known() ? std::min(pace, kSameWay) : pace;
+}
+
+// Of a joint motion that nobody planned.
+Fault Follower::stays_clear(const Segment& way) noexcept {
+  if (!places_.clearance().known()) {
+    return {};
+  }
+  constexpr double kParts = 8;  // the longest step
+  clear_.begin(way.joints_at(0), places_.tool());
+  ClearWalk walk;
+  walk.begin(way.length, way.length / kParts);
+  const auto at = [&](double place, const Joints&, Joints& q) {
+    q = way.joints_at(place);
+    return true;
+  };
+  const bool clear = walk.all(clear_, kClearLooks, at);
+  return clear ? Fault{} : Fault{ErrorCode::Collision, 0, clear_.pair(), walk.place() / way.length};
 }
 
 // From full limits to what leaves something for changes of the pace. Not where a joint could not come to rest before
@@ -157,10 +186,10 @@ bool Follower::leave_shares() noexcept {
   if (!can_begin(now, kNearlyFull, most)) {
     return false;
   }
-  if (places_.box().known()) {
+  if (places_.box().known() || places_.clearance().known()) {
     Segment other = s;
     other.take_joint_timing(now, most_, kNearlyFull);
-    if (!places_.inside(other, kLooks)) {
+    if (!places_.inside(other, kLooks) || !stays_clear(other).ok()) {
       return false;
     }
   }
@@ -221,10 +250,10 @@ Profile Follower::pace_of_timing(double seconds) noexcept {
   double wanted = wanted_pace();
   if (state_.position <= 0 && !s.moving) {
     // Where it has not begun there is nothing yet that a jump of the pace could change.
-    state_ = {0, wanted, 0};
-    if (s.move == Move::Joint && s.made_for != wanted) {
+    if (s.move == Move::Joint && s.made_for != made_for(wanted)) {
       make_joint_timing(s, {s.from, Joints::Zero(), Joints::Zero()}, most_, wanted);
     }
+    state_ = {0, s.move == Move::Joint ? std::min(wanted, s.fastest) : wanted, 0};
   }
   if (s.move == Move::Joint) {
     if (s.made_for >= 1 && (wanted >= 1 || !leave_shares())) {

@@ -24,7 +24,9 @@ Group::Group(GroupParts parts)
       follower_(places_, parts_.joints),
       job_(parts_.book),
       ahead_(places_, parts_.tool),
-      desk_(places_, parts_.joints, parts_.tool, parts_.settings) {
+      desk_(places_, parts_.joints, parts_.tool, parts_.settings),
+      clear_(places_.clearance(), false),
+      to_rest_(places_.clearance(), false) {
   if (!parts_.book.interrupts.empty()) {
     shelf_ = std::make_unique<Shelf>(places_, parts_.tool);
   }
@@ -160,7 +162,11 @@ void Group::describe(Fault fault, char (&to)[kWhy]) const noexcept {
   }
   char pair[kWhy];
   places_.clearance().name(fault.pair, pair, sizeof pair);
-  std::snprintf(to, sizeof to, "%.*s would touch, after %.0f %% of the way", kWhy - 40, pair, 100 * fault.part);
+  if (fault.part < 0) {
+    std::snprintf(to, sizeof to, "%.*s would touch", kWhy - 40, pair);
+  } else {
+    std::snprintf(to, sizeof to, "%.*s would touch, after %.0f %% of the way", kWhy - 40, pair, 100 * fault.part);
+  }
 }
 
 void Group::motion_failed(Fault fault, int source, std::uint32_t ticket) noexcept {

@@ -137,6 +137,8 @@ class Group final : public Controller, private MotionPort {
   void pass_gates() noexcept;  // group_gates.cpp
   [[nodiscard]] bool leaves_workspace() const noexcept;
   [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
+  void look_ahead() noexcept;  // group_clear.cpp
+  [[nodiscard]] Fault stays_clear() noexcept;
   void move_axes() noexcept;  // group_axes.cpp
   void run_state(Signals& signals) noexcept;
   void run_enabling() noexcept;
@@ -214,6 +216,10 @@ class Group final : public Controller, private MotionPort {
   OperatingMode mode_ = OperatingMode::Any;
   DeadMan enabling_switch_;
   ErrorCode permit_ = ErrorCode::Ok;  // to move at all, or why not
+
+  // Of axes that are moved by themselves: clear up to the last set point, and a way to rest.
+  ClearWay clear_, to_rest_;
+  bool looks_ahead_ = false;
 
   DeadMan dead_man_;
   bool jogging_ = false;

@@ -77,6 +77,9 @@ void Group::pass_gates() noexcept {
   if (!braking_ && tip_too_fast()) {
     trip(ErrorCode::Speed, 0, 1);
   }
+  if (!braking_) {
+    look_ahead();
+  }
   for (int i = 0; i < count(); ++i) {
     if (braking_) {
       gates_[at(i)].brake(hardness_);

@@ -50,7 +50,6 @@ class Planner {
   void time_it() noexcept;
   // What would be touched (planner_clear.cpp).
   void begin_clear() noexcept;
-  void begin_clear_joints() noexcept;
   Fault clear(int& places) noexcept;
   bool joints_on_way(double place, const Joints& near, Joints& q) const noexcept;
   [[nodiscard]] bool clear(const Segment& first, const Blend& blend, const Segment& second) noexcept;
@@ -92,8 +91,7 @@ class Planner {
   ClearWay clear_;
   ClearWalk walk_;
   Segment clear_way_;  // of joints, that is looked at
-  int clear_pace_ = 0;
-  int count_ = 0;  // places after the first
+  int count_ = 0;      // places after the first
   int next_ = 1;
   int windows_ = 0;
   int noted_ = 0;

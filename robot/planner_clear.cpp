@@ -11,8 +11,6 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kParts = 8;  // of a way of joints: the longest step
-// At other paces axes that come together go another way: up to the first of these and at full pace it is the same.
-constexpr double kPaces[] = {1, 0.84, 0.92};
 
 }  // namespace
 
@@ -25,19 +23,14 @@ void Planner::begin_clear() noexcept {
   stage_ = Stage::Clear;
   clear_.begin(segment_.from, places_.tool());
   if (joints) {
-    clear_pace_ = 0;
-    begin_clear_joints();
+    clear_way_ = segment_;
+    if (clear_way_.together) {  // the follower sees to it that it is the same way at any pace
+      clear_way_.take_joint_timing({segment_.from, Joints::Zero(), Joints::Zero()}, all_joints_, 1);
+    }
+    walk_.begin(clear_way_.length, clear_way_.length / kParts);
   } else {
     walk_.begin(segment_.length, 2 * segment_.length / count_);
   }
-}
-
-void Planner::begin_clear_joints() noexcept {
-  clear_way_ = segment_;
-  if (clear_way_.together) {
-    clear_way_.take_joint_timing({clear_way_.from, Joints::Zero(), Joints::Zero()}, all_joints_, kPaces[clear_pace_]);
-  }
-  walk_.begin(clear_way_.length, clear_way_.length / kParts);
 }
 
 // Places that were looked at before are known.
@@ -76,9 +69,6 @@ Fault Planner::clear(int& places) noexcept {
   }
   if (segment_.move != Move::Joint) {
     time_it();
-  } else if (segment_.together && ++clear_pace_ < static_cast<int>(std::size(kPaces))) {
-    clear_.begin(segment_.from, places_.tool());
-    begin_clear_joints();
   } else {
     end_look();
   }

@@ -43,6 +43,23 @@ void try_faces(const PlacedSolid& one, const Vec3& between, Greatest& greatest) 
   }
 }
 
+// From the line between the middles to the one between the nearest points: what lies farthest along it says where to
+// look next (Gilbert).
+void try_nearer(const PlacedSolid& a, const PlacedSolid& b, Greatest& greatest) noexcept {
+  constexpr int kTries = 16;
+  Vec3 line = b.middle - a.middle;
+  for (int i = 0; i < kTries && line.norm() > kNone; ++i) {
+    const Vec3 direction = line.normalized();
+    greatest.try_along(direction);
+    const Vec3 change = b.farthest(-direction) - a.farthest(direction) - line;
+    const double size = change.squaredNorm();
+    if (!(size > kNone * kNone)) {
+      return;
+    }
+    line += std::clamp(-line.dot(change) / size, 0.0, 1.0) * change;
+  }
+}
+
 }  // namespace
 
 double Solid::radius() const noexcept {
@@ -68,6 +85,21 @@ double PlacedSolid::reach(const Vec3& direction) const noexcept {
   return half.x() * std::hypot(local.x(), local.y()) + half.z() * std::abs(local.z());
 }
 
+Vec3 PlacedSolid::farthest(const Vec3& direction) const noexcept {
+  if (kind == SolidKind::Ball) {
+    return middle + half.x() * direction;
+  }
+  const Vec3 local = axes.transpose() * direction;
+  Vec3 point(std::copysign(half.x(), local.x()), std::copysign(half.y(), local.y()),
+             std::copysign(half.z(), local.z()));
+  if (kind == SolidKind::Cylinder) {
+    const double across = std::hypot(local.x(), local.y());
+    point.x() = across > kNone ? half.x() * local.x() / across : 0;
+    point.y() = across > kNone ? half.x() * local.y() / across : 0;
+  }
+  return middle + axes * point;
+}
+
 double gap(const PlacedSolid& a, const PlacedSolid& b, const Vec3& direction) noexcept {
   return std::abs((b.middle - a.middle).dot(direction)) - a.reach(direction) - b.reach(direction);
 }
@@ -86,6 +118,10 @@ double least_distance(const PlacedSolid& a, const PlacedSolid& b) noexcept {
         greatest.try_along(a.axes.col(i).cross(b.axes.col(k)));
       }
     }
+  }
+  constexpr double kNear = 0.1;  // m
+  if (greatest.gap_seen() < kNear) {
+    try_nearer(a, b, greatest);
   }
   return greatest.gap_seen();
 }

@@ -38,12 +38,15 @@ struct PlacedSolid {
 
   // m that it reaches from its middle to either side along a unit vector. Real-time safe, as all here.
   [[nodiscard]] double reach(const Vec3& direction) const noexcept;
+  // Its point that is farthest that way.
+  [[nodiscard]] Vec3 farthest(const Vec3& direction) const noexcept;
 };
 
 // m between the planes across a unit vector that hold the two apart: never more than their distance; below 0 how far
 // one has to move along it to come free.
 double gap(const PlacedSolid& a, const PlacedSolid& b, const Vec3& direction) noexcept;
-// The greatest of the gaps along the directions that the shapes suggest. Of two boxes it is below 0 only if they meet.
+// The greatest of the gaps along the directions that the shapes suggest, and of some that lead nearer to the best where
+// they are near to each other. Of two boxes it is below 0 only if they meet.
 double least_distance(const PlacedSolid& a, const PlacedSolid& b) noexcept;
 
 }  // namespace indurop::robot

@@ -23,6 +23,6 @@ constexpr std::array<TourStep, 7> kTour{{{1.0, 1.3, &Panel::start, "presses star
                                          {8.0, 8.8, &Panel::curtain, "walks through the light curtain"},
                                          {9.5, 9.8, &Panel::reset, "presses reset"},
                                          {10.5, 10.8, &Panel::start, "presses start"},
-                                         {14.0, 14.8, &Panel::emergency_stop, "hits the emergency stop"},
+                                         {14.4, 15.2, &Panel::emergency_stop, "hits the emergency stop"},
                                          {15.5, 15.8, &Panel::reset, "presses reset"},
                                          {16.5, 16.8, &Panel::start, "presses start"}}};

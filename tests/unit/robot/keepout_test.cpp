@@ -155,6 +155,124 @@ TEST_F(Keepout, From_inside_it_is_left_but_not_entered_deeper) {
   EXPECT_TRUE(cell->serve(Service::LinearAbsolute)) << cell->out.job.message << to_string(cell->out.error);
 }
 
+// Axes that are moved by themselves, and new targets in mid-move, as a second opinion sees them in every period.
+class Unplanned : public Keepout {
+ protected:
+  const ReferenceArm arm = ReferenceArm::usual();
+  const ReferenceSolid wall{ReferenceSolid::Kind::Box, {1.8, 0.1, 1.2}, {}, {}};
+  std::vector<ReferencePlace> zones{{&wall, Eigen::Isometry3d(Eigen::Translation3d(0, 0.45, 0.6))}};
+  double least = HUGE_VAL;
+
+  void start(double period_ms) {
+    cell = std::make_unique<Cell>(std::string(kPlaces) + "KEEPOUT wall = BOX -900 400 0 900 500 1200\n", period_ms, 0,
+                                  true, Settings(), arm.urdf());
+    ASSERT_TRUE(cell->serve(Service::GroupEnable));
+    cell->in.service.target = {0, -20, 10, 0, 100, 0};
+    ASSERT_TRUE(cell->serve(Service::DirectAbsolute)) << cell->out.job.message;
+    least = HUGE_VAL;
+  }
+  void look() {
+    Joints q = Joints::Zero();
+    for (int i = 0; i < 6; ++i) {
+      q[i] = radians(cell->out.command[static_cast<std::size_t>(i)]);
+    }
+    least = std::min(least, arm.clearance(q, zones));
+  }
+};
+
+TEST_F(Unplanned, Axes_that_are_moved_by_themselves_stop_before_anything_touches) {
+  std::mt19937 random{3};
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int stopped = 0;
+  for (int i = 0; i < poses(24); ++i) {
+    start(i % 3 == 0 ? 1 : i % 3 == 1 ? 4 : 10);
+    for (std::size_t axis = 0; axis < 5; ++axis) {
+      cell->ask_axis(axis, AxisService::MoveVelocity, 0, in(-200, 200));
+    }
+    const int begun = cell->periods;
+    ASSERT_TRUE(cell->until(
+        [&] {
+          look();
+          return cell->out.state == GroupState::ErrorStop || cell->periods - begun > 1500;
+        },
+        20000));
+    EXPECT_GT(least, 0.001) << i;
+    if (cell->out.state == GroupState::ErrorStop && cell->out.error == ErrorCode::Collision) {
+      ++stopped;
+      EXPECT_NE(std::string(cell->out.job.message).find("would touch"), std::string::npos) << cell->out.job.message;
+      ASSERT_TRUE(cell->serve(Service::GroupReset));
+      cell->in.service.target = {0, -20, 10, 0, 100, 0};
+      if (!cell->serve(Service::DirectAbsolute)) {  // the straight way back may lead nearer first
+        EXPECT_NE(std::string(cell->out.job.message).find("would touch"), std::string::npos) << cell->out.job.message;
+      }
+    }
+  }
+  EXPECT_GT(stopped, poses(24) / 3);
+}
+
+TEST_F(Unplanned, A_hold_keeps_to_the_way_that_was_looked_at) {
+  std::mt19937 random{5};
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int held = 0;
+  for (int i = 0; i < poses(24); ++i) {
+    start(4);
+    cell->in.service.target = {in(-60, 60), in(-40, 30), in(-30, 20), in(-90, 90), in(0, 100), 0};
+    cell->ask(Service::DirectAbsolute);
+    const int begun = cell->periods;
+    const int hold_at = begun + std::uniform_int_distribution<int>(1, 60)(random);
+    ASSERT_TRUE(cell->until([&] {
+      look();
+      return cell->periods == hold_at;
+    }));
+    cell->in.hold = true;
+    const int longest = 250;  // periods: 1 s, where motions take up to 2
+    for (int k = 0; k < longest; ++k) {
+      look();
+      cell->step();
+    }
+    const auto rest = cell->out.command;
+    cell->step();
+    EXPECT_EQ(rest, cell->out.command) << i;
+    held += cell->out.state == GroupState::Moving ? 1 : 0;
+    cell->in.hold = false;
+    ASSERT_TRUE(cell->until([&] {
+      look();
+      return cell->out.state == GroupState::Standby;
+    }));
+    EXPECT_GT(least, 0.004) << i;
+  }
+  EXPECT_GT(held, poses(24) / 2);
+}
+
+TEST_F(Unplanned, New_targets_in_mid_move_are_clear_or_change_nothing) {
+  std::mt19937 random{4};
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  int taken = 0;
+  int refused = 0;
+  for (int i = 0; i < poses(24); ++i) {
+    start(4);
+    cell->in.service.target = {in(-60, 10), in(-40, 30), in(-30, 20), in(-90, 90), in(0, 100), 0};
+    cell->ask(Service::DirectAbsolute);
+    const int begun = cell->periods;
+    ASSERT_TRUE(cell->until([&] {
+      look();
+      return cell->periods - begun > 40;
+    }));
+    cell->in.service.target = {in(-60, 120), in(-40, 50), in(-60, 40), in(-90, 90), in(-100, 100), 0};
+    cell->ask(Service::DirectAborting);
+    ASSERT_TRUE(cell->until([&] {
+      look();
+      cell->in.speed_override = cell->periods % 70 < 20 ? 60 : 100;
+      cell->in.hold = cell->periods % 90 < 10;
+      return cell->periods - begun > 60 && cell->out.state == GroupState::Standby;
+    }));
+    EXPECT_GT(least, 0.004) << i;
+    (cell->out.error == ErrorCode::Collision ? refused : taken)++;
+  }
+  EXPECT_GT(taken, poses(24) / 4);
+  EXPECT_GT(refused, poses(24) / 12);
+}
+
 TEST_F(Keepout, Zones_may_be_in_a_frame) {
   begin(
       "FRAME pallet = POSE 500 0 0 RPY 0 0 90\nKEEPOUT post = CYLINDER 0 0 0 0 0 500 RADIUS 60 IN pallet\nSPEED 300 "
