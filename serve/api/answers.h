@@ -37,6 +37,11 @@ Reply plant_rollback(Api& api, const Call& call);
 
 // The same of a board of another host.
 Reply far_messages(Api& api, const Call& call);
+Reply far_modules(Api& api, const Call& call);
+Reply far_histograms(Api& api, const Call& call);
+Reply far_schedule(Api& api, const Call& call);
+Reply far_runs(Api& api, const Call& call);
+Reply far_overruns(Api& api, const Call& call);
 Reply far_set(Api& api, const Call& call);
 Reply far_force(Api& api, const Call& call);
 Reply far_release(Api& api, const Call& call);

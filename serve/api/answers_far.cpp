@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "rt/clock.h"
 #include "serve/api/answers.h"
 #include "serve/api/wish.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
+#include "tools/plant/board_run.h"
 #include "tools/plant/plant_watch.h"
 #include "vars/custody.h"
 
@@ -82,7 +84,49 @@ Reply command(Api& api, const Call& call, FarOrder::What what, std::string word)
   return give(write, call, **found, FarOrder{what, {module}, 0, {}, {}}, std::move(body));
 }
 
+// How the node does comes from its agent; the answer is that of a board here.
+Reply shown(Api& api, const Call& call, Reply (*answer)(Api& api, const Call& call)) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  Board& board = **found;
+  if (!board.shown(rt::now_ns())) {
+    const auto texts = call.plant->texts("run", {board.name()});
+    const auto text = texts.find(board.name());
+    if (text == texts.end()) {
+      return refusal(status::kNoAnswer, fmt::format("board {} does not answer ({})", board.name(), board.state()));
+    }
+    auto run = tools::read_run("board " + board.name(), text->second);
+    if (!run) {
+      return refusal(status::kConflict, run.error().text);
+    }
+    board.show(std::move(run->run), rt::now_ns());
+  }
+  return answer(api, call);
+}
+
 }  // namespace
+
+Reply far_modules(Api& api, const Call& call) {
+  return shown(api, call, &modules);
+}
+
+Reply far_histograms(Api& api, const Call& call) {
+  return shown(api, call, &histograms);
+}
+
+Reply far_schedule(Api& api, const Call& call) {
+  return shown(api, call, &schedule);
+}
+
+Reply far_runs(Api& api, const Call& call) {
+  return shown(api, call, &runs);
+}
+
+Reply far_overruns(Api& api, const Call& call) {
+  return shown(api, call, &overruns);
+}
 
 Reply far_messages(Api& /*api*/, const Call& call) {
   const auto found = board_of(call);

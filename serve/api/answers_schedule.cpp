@@ -13,8 +13,21 @@ namespace {
 
 constexpr std::uint64_t kMostSamples = 8192;
 
-Reply no_run(const Board& board) {
-  return refusal(status::kConflict, fmt::format("board {} has not run since this host was started", board.name()));
+struct Ran {
+  const Board* board;
+  tools::RunView run;
+};
+// The board of a call, with what its node left of its run; or the refusal.
+Result<Ran, Reply> ran_of(const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  auto run = (*found)->run();
+  if (!run) {
+    return refusal(status::kConflict, fmt::format("board {} has not run since its host was started", (*found)->name()));
+  }
+  return Ran{*found, std::move(*run)};
 }
 Reply wrong_count() {
   return refusal(status::kBadRequest, fmt::format("count is a number of 1 to {}, after one of 0 on", kMostSamples));
@@ -88,17 +101,15 @@ Reply histograms(Api& /*api*/, const Call& call) {
 }
 
 Reply schedule(Api& /*api*/, const Call& call) {
-  const auto found = board_of(call);
+  const auto found = ran_of(call);
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
-  if (!run) {
-    return no_run(**found);
-  }
-  const auto& block = run->block();
-  auto [plan, message] = plan_of(tools::fixed_text(block.config_file));
-  base::Json body = about(**found);
+  const auto& [board, run] = *found;
+  const auto& block = run.block();
+  auto [plan, message] = board->far() == nullptr ? plan_of(tools::fixed_text(block.config_file))
+                                                 : std::pair(base::Json(), std::string("its files are on its host"));
+  base::Json body = about(*board);
   body["basic_period_ns"] = block.basic_period_ns;
   body["macro_period_ns"] = block.macro_period_ns;
   body["slots"] = block.slot_count;
@@ -110,21 +121,18 @@ Reply schedule(Api& /*api*/, const Call& call) {
 
 Reply runs(Api& /*api*/, const Call& call) {
   constexpr std::uint64_t kUsual = 1000;
-  const auto found = board_of(call);
+  const auto found = ran_of(call);
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
-  if (!run) {
-    return no_run(**found);
-  }
+  const auto& [board, run] = *found;
   const auto count = query_number(call, "count", kUsual, 1, kMostSamples);
   const auto after = query_number(call, "after", UINT64_MAX, 0, UINT64_MAX);
   if (!count || !after) {
     return wrong_count();
   }
   base::Json list = base::Json::array();
-  for (const tools::SlotSample& sample : run->slot_log(*count)) {
+  for (const tools::SlotSample& sample : run.slot_log(*count)) {
     if (*after != UINT64_MAX && sample.number <= *after) {
       continue;
     }
@@ -132,71 +140,65 @@ Reply runs(Api& /*api*/, const Call& call) {
     one["number"] = sample.number;
     one["tick"] = sample.tick;
     one["slot"] = sample.slot;
-    one["module"] = run->module_name(sample.module);
+    one["module"] = run.module_name(sample.module);
     one["release_ns"] = sample.release_ns;
     one["start_ns"] = sample.start_ns;
     one["end_ns"] = sample.end_ns;
     list.push_back(std::move(one));
   }
-  base::Json body = about(**found);
-  body["epoch_ns"] = run->block().epoch_ns;
-  body["now_ns"] = run->now_ns();
-  body["next"] = run->block().slot_log_next.load(std::memory_order_relaxed);
+  base::Json body = about(*board);
+  body["epoch_ns"] = run.block().epoch_ns;
+  body["now_ns"] = run.now_ns();
+  body["next"] = run.block().slot_log_next.load(std::memory_order_relaxed);
   body["runs"] = std::move(list);
   return json_reply(body);
 }
 
 Reply overruns(Api& /*api*/, const Call& call) {
   constexpr std::uint64_t kUsual = 100;
-  const auto found = board_of(call);
+  const auto found = ran_of(call);
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
-  if (!run) {
-    return no_run(**found);
-  }
+  const auto& [board, run] = *found;
   const auto count = query_number(call, "count", kUsual, 1, kMostSamples);
   if (!count) {
     return wrong_count();
   }
   base::Json list = base::Json::array();
-  for (const tools::OverrunSample& sample : run->overrun_log(*count)) {
+  for (const tools::OverrunSample& sample : run.overrun_log(*count)) {
     base::Json one = base::Json::object();
     one["number"] = sample.number;
     one["tick"] = sample.tick;
     one["slot"] = sample.slot;
-    one["module"] = run->module_name(sample.module);
+    one["module"] = run.module_name(sample.module);
     one["own_ns"] = sample.own_ns;
     one["latency_ns"] = sample.latency_ns;
-    one["previous"] = sample.previous >= 0 ? run->module_name(sample.previous) : std::string();
+    one["previous"] = sample.previous >= 0 ? run.module_name(sample.previous) : std::string();
     one["previous_ns"] = sample.previous_ns;
     one["started"] = sample.started;
     list.push_back(std::move(one));
   }
-  base::Json body = about(**found);
-  body["epoch_ns"] = run->block().epoch_ns;
+  base::Json body = about(*board);
+  body["epoch_ns"] = run.block().epoch_ns;
   body["overruns"] = std::move(list);
   return json_reply(body);
 }
 
 Reply messages(Api& /*api*/, const Call& call) {
   constexpr std::uint64_t kUsual = 100;
-  const auto found = board_of(call);
+  const auto found = ran_of(call);
   if (!found) {
     return found.error();
   }
-  const auto run = (*found)->run();
-  if (!run) {
-    return no_run(**found);
-  }
+  const auto& [board, run] = *found;
   const auto count = query_number(call, "count", kUsual, 1, kMostSamples);
   if (!count) {
     return wrong_count();
   }
-  const auto& block = run->block();
+  const auto& block = run.block();
   base::Json list = base::Json::array();
-  for (const tools::MessageSample& sample : run->messages(*count)) {
+  for (const tools::MessageSample& sample : run.messages(*count)) {
     base::Json one = base::Json::object();
     one["who"] = sample.who;
     one["tick"] =
@@ -205,7 +207,7 @@ Reply messages(Api& /*api*/, const Call& call) {
     one["text"] = sample.text;
     list.push_back(std::move(one));
   }
-  base::Json body = about(**found);
+  base::Json body = about(*board);
   body["epoch_ns"] = block.epoch_ns;
   body["messages"] = std::move(list);
   return json_reply(body);

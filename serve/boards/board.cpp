@@ -65,10 +65,16 @@ std::string Board::layout() const {
 
 std::optional<tools::RunView> Board::run() const {
   if (far_ != nullptr) {
-    return std::nullopt;
+    return shown_;
   }
   auto run = tools::RunView::open(name_);
   return run.ok() ? std::optional(std::move(run).value()) : std::nullopt;
+}
+
+void Board::show(tools::RunView run, std::int64_t now_ns) {
+  constexpr std::int64_t kKeepNs = 1'000'000'000;  // a few hundred kB each
+  shown_ = std::move(run);
+  shown_until_ns_ = now_ns + kKeepNs;
 }
 
 std::string Board::state() const {

@@ -41,7 +41,12 @@ class Board {
   [[nodiscard]] std::string layout() const;
   // "running", "starting", "not running, last seen 3.2 s ago".
   [[nodiscard]] std::string state() const;
+  // Of another host: what was shown last.
   [[nodiscard]] std::optional<tools::RunView> run() const;
+  // How its node does elsewhere, as its agent says now.
+  void show(tools::RunView run, std::int64_t now_ns);
+  // That was not so long ago that it has to be asked for again.
+  [[nodiscard]] bool shown(std::int64_t now_ns) const noexcept { return shown_ && now_ns < shown_until_ns_; }
 
  private:
   void refresh_far();
@@ -54,6 +59,8 @@ class Board {
   std::string absence_ = "not running";
   std::shared_ptr<tools::FarBoard> far_;
   std::size_t reader_ = 0;
+  std::optional<tools::RunView> shown_;
+  std::int64_t shown_until_ns_ = 0;
 };
 
 // All nodes of the host, or the one that is wanted, and boards of other hosts. Of one thread.

@@ -76,8 +76,9 @@ const BoardRoster::Entry* chosen(const BoardChoice& choice) {
   return !choice.board.empty() ? choice.roster.find(choice.board) : all.size() == 1 ? &all.begin()->second : nullptr;
 }
 
-// `text`: a line of JSON and the run block, as deploy/agent/run_image.h says; `who` said it.
-Result<BoardRun, Failure> run_in(const std::string& who, const std::string& text) {
+}  // namespace
+
+Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text) {
   const auto line = text.find('\n');
   const JsonValue head = JsonValue::parse(text.substr(0, line)).value_or(JsonValue());
   bool running = false;
@@ -98,12 +99,14 @@ Result<BoardRun, Failure> run_in(const std::string& who, const std::string& text
   return BoardRun{{node, std::move(run).value()}, forces_in(head), lock_in(head)};
 }
 
+namespace {
+
 Result<BoardRun, Failure> kept_in(const std::string& file) {
   const auto text = base::read_file(file);
   if (!text) {
     return Failure{kFailed, base::cannot_read(file, text.error())};
   }
-  auto run = run_in(file, *text);
+  auto run = read_run(file, *text);
   if (run) {
     run->kept = true;
   }
@@ -175,7 +178,7 @@ Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice) {
   const auto answer = answers.find(report.agent);
   return answer == answers.end()
              ? Failure{kUnreachable, fmt::format("the agent of board {} does not answer", report.board)}
-             : run_in("board " + report.board, answer->second);
+             : read_run("board " + report.board, answer->second);
 }
 
 }  // namespace indurop::tools

@@ -41,6 +41,8 @@ struct BoardRun : ChosenRun {
   vars::LockNote lock;                           // likewise
   bool kept = false;                             // of long ago
 };
+// In what a board's agent says of its node: a line of JSON and the run block (deploy/agent/run_image.h). `who` said it.
+Result<BoardRun, Failure> read_run(const std::string& who, const std::string& text);
 // The chosen board's run block as it is now, that of a node of this machine (--node), or the one in the file.
 Result<BoardRun, Failure> open_run(Context& context, BoardChoice& choice);
 

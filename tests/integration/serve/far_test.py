@@ -171,9 +171,41 @@ def test_says_what_was_printed_and_what_is_not_seen_from_here(setting):
     assert here["messages"] and here["messages"] == there["messages"], (here, there)
     assert any(one["who"] == "counter" and "starts with" in one["text"] for one in here["messages"]), here
     assert far.get(base + "/messages?count=1").json()["messages"] == here["messages"][-1:]
-    for path in ("/schedule", "/modules", "/alarms", "/recipes", "/scope?channel=looks"):
+    for path in ("/alarms", "/recipes", "/scope?channel=looks"):
         answer = far.get(base + path)
         assert answer.status == 409 and "on another host" in answer.json()["message"], answer.body
+    end_deployed(setting, agent)
+
+
+STEADY = ("name", "type", "operation", "period_ns", "priority", "core", "offset_ns", "deadline_ns", "budget_ns", "file", "state")
+
+
+def test_shows_modules_with_their_times_and_the_schedule(setting):
+    domain, agent, near, far = begin_deployed(setting)
+    base = board_of(setting)
+    ask = lambda server, path: server.get(base + path).json()
+    there, here = (ask(server, "/modules")["modules"] for server in (near, far))
+    assert [[one[what] for what in STEADY] for one in here] == [[one[what] for what in STEADY] for one in there], (here, there)
+    assert far.get(base + "/modules").json()["alive"] is True
+    plan = ask(far, "/schedule")
+    assert plan["plan"] is None and "on its host" in plan["message"], plan
+    assert {what: plan[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")} == {
+        what: ask(near, "/schedule")[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")}
+    seen = wait_for(lambda: ask(far, "/runs?count=50")["runs"], "runs")
+    beside = {one["number"]: one for one in ask(near, "/runs?count=8192")["runs"]}
+    assert all(beside[one["number"]] == one for one in seen), "runs are those of the board's memory"
+    last = seen[-1]["number"]
+    newer = wait_for(lambda: ask(far, f"/runs?after={last}")["runs"], "newer runs")
+    assert newer[0]["number"] > last
+    exec_of = lambda server: ask(server, "/modules/counter/histograms")["histograms"]["exec"]
+    few, many = exec_of(far), exec_of(near)
+    assert 0 < few["count"] <= many["count"] and few["min_ns"] >= many["min_ns"] and few["max_ns"] <= many["max_ns"], (few, many)
+    assert ask(far, "/overruns")["overruns"] == ask(near, "/overruns")["overruns"]
+    assert far.get(base + "/modules/nobody/histograms").status == 404
+    setting.end(agent, signal.SIGKILL)
+    assert wait_for(lambda: far.get(base + "/modules").status == 504, "the answer that nobody answers")
+    agent = start_agent(setting, setting.node, domain)
+    wait_for(lambda: far.get(base + "/modules").status == 200, "the board again")
     end_deployed(setting, agent)
 
 

@@ -148,6 +148,16 @@ function BoardCard({ summary }: { summary: BoardSummary }) {
     </Panel>);
 }
 
+// Of another host: asked only while somebody wants to see it.
+function FarCard({ summary }: { summary: BoardSummary }) {
+  const [open, toggle] = useState(false);
+  return (
+    <details class="panel" onToggle={(event) => toggle(event.currentTarget.open)}>
+      <summary>{summary.board}: its modules{summary.host ? `, on ${summary.host}` : ""}</summary>
+      {open && <BoardCard summary={summary} />}
+    </details>);
+}
+
 // One sentence for the whole plant.
 function Headline({ boards, far }: { boards: BoardSummary[]; far: string[] }) {
   const running = boards.filter(({ alive }) => alive);
@@ -179,6 +189,7 @@ export function Overview() {
       {(boards.length > 0 || silent.length > 0) && <Headline boards={sorted} far={silent} />}
       {status?.plant && <PlantPanel value={far.value} error={far.error} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
+      {all.filter(({ here, alive }) => !here && alive).map((summary) => <FarCard key={summary.board} summary={summary} />)}
       {shown.length < sorted.length && (
         <details class="panel">
           <summary>{plural(gone.length, "board")} that ended and left their last values</summary>
