@@ -203,5 +203,7 @@ Status check_range(const Range& range, const Type& type, std::span<const std::ui
 // Shell glob (*, ?, [a-z], [!a-z], a backslash quotes) over full names; '.' in a pattern means "::", and a pattern
 // without either also matches the last part alone.
 bool glob_match(std::string_view pattern, std::string_view name);
+// It is one, not a name: "[2]" is an index.
+bool is_glob(std::string_view text);
 
 }  // namespace indurop::schema

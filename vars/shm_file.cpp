@@ -113,6 +113,12 @@ std::string lock_file(const std::string& node) {
   return "indurop." + node + ".lock";
 }
 
+std::uint64_t store_number(const std::string& node) noexcept {
+  const std::string path = std::string(kShmDirectory) + "/" + block_file(node);
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 ? info.st_ino : 0;
+}
+
 Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
   const int flags = (mode == Mode::ReadWrite ? O_RDWR : O_RDONLY) | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
   const Descriptor file(::open(path_of(name).c_str(), flags));

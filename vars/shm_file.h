@@ -8,6 +8,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -67,6 +68,8 @@ class ShmFile {
   std::unique_ptr<Impl> impl_;
 };
 
+// Another one whenever another store of this node takes the place of the one before; 0: there is none.
+std::uint64_t store_number(const std::string& node) noexcept;
 // Removes what a killed creator of the file left. Errors: PermissionDenied, System.
 Status remove_unfinished(const std::string& name) noexcept;
 // Removes a file; fine if there is none. Errors: PermissionDenied, System.

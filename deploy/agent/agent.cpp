@@ -10,6 +10,7 @@
 #include "base/program_folder.h"
 #include "base/stop_signal.h"
 #include "deploy/agent/agent_state.h"
+#include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_commands.h"
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/board_link.h"
@@ -78,6 +79,7 @@ class Agent {
         fetcher_(state, self_, options.board),
         process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
+        alarms_(options.board, log),
         board_commands_(options.board, self_, keys_, process_, recorder_, log),
         values_(options.board),
         server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_, values_); }),
@@ -94,6 +96,7 @@ class Agent {
       service_manager_.alive(now);
       process_.step(now);
       recorder_.step(now);
+      alarms_.step(now);
       connect(now);
       if (link_ != nullptr) {
         listen(now);
@@ -358,6 +361,7 @@ class Agent {
   BoardProcess process_;
   std::string held_before_;  // the trial
   BoardRecorder recorder_;
+  BoardAlarms alarms_;
   BoardCommands board_commands_;
   BoardValues values_;
   BlobServer server_;

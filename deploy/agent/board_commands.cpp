@@ -7,6 +7,7 @@
 #include <cstring>
 #include <random>
 
+#include "deploy/agent/board_alarms.h"
 #include "deploy/transaction/write_words.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
@@ -46,6 +47,12 @@ const char* word_of(Action action) {
       return "lock";
     case Action::KeepBox:
       return "keep the black box:";
+    case Action::AckAlarms:
+      return "acknowledge alarms";
+    case Action::ShelveAlarms:
+      return "shelve alarms";
+    case Action::UnshelveAlarms:
+      return "unshelve alarms";
     case Action::RestartModule:
     case Action::RestartNode:
     case Action::Record:
@@ -58,6 +65,10 @@ const char* word_of(Action action) {
 
 bool is_write(Action action) noexcept {
   return action == Action::Force || action == Action::Unforce || action == Action::Set || action == Action::SetLock;
+}
+
+bool is_about_alarms(Action action) noexcept {
+  return action == Action::AckAlarms || action == Action::ShelveAlarms || action == Action::UnshelveAlarms;
 }
 
 bool is_recording(Action action) noexcept {
@@ -177,6 +188,7 @@ CommandReply BoardCommands::begin(const Command& command, const std::string& pla
   deadline_ = now + kPatience;
   CommandReply answer = is_write(command.action)            ? write(command)
                         : command.action == Action::KeepBox ? keep_box(command)
+                        : is_about_alarms(command.action)   ? about_alarms(command)
                         : is_recording(command.action)      ? begin_recording(command, now)
                         : command.target.empty()            ? begin_node(command)
                                                             : begin_module(command);
@@ -234,6 +246,13 @@ CommandReply BoardCommands::keep_box(const Command& command) const {
   log_.info("command from {}: {} {}: {}", command.host, word_of(command.action), why,
             wished ? "done" : wished.error().where);
   return wished ? reply(command, Outcome::Done) : reply(command, Outcome::Failed, wished.error().where);
+}
+
+CommandReply BoardCommands::about_alarms(const Command& command) const {
+  const auto done = order_alarms(board_, command);
+  log_.info("command from {}: {}: {}", command.host, word_of(command.action),
+            done ? one_line(*done) : done.error().text);
+  return done ? reply(command, Outcome::Done, *done) : reply(command, Outcome::Refused, done.error().text);
 }
 
 CommandReply BoardCommands::begin_recording(const Command& command, rt::MonoTime now) {

@@ -43,6 +43,7 @@ class BoardCommands {
   void tell(const CommandReply& done) const;
   CommandReply write(const Command& command);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
+  [[nodiscard]] CommandReply about_alarms(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);
   // Empty while it goes on.
   std::optional<deploy::CommandReply> look(rt::MonoTime now);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "alarms/alarm_list.h"
 #include "base/json.h"
 #include "deploy/agent/run_image.h"
 #include "scheduler/printed_messages.h"
@@ -98,6 +99,7 @@ const std::string& BoardValues::values(rt::MonoTime now) {
   if (!store) {
     return kept_;
   }
+  journal_.refresh();
   const std::int64_t now_ns = store->now().time_since_epoch().count();
   const std::string bytes = bytes_of(*store, now_ns);
   if (bytes.empty() && !store->schema().variables.empty()) {
@@ -107,7 +109,8 @@ const std::string& BoardValues::values(rt::MonoTime now) {
                   {"running", vars::running_node(board_) > 0},
                   {"now_ns", now_ns},
                   {"forces", told_forces(board_)},
-                  {"lock", told_lock(board_)}};
+                  {"lock", told_lock(board_)},
+                  {"alarms", json_of(journal_.book().counts())}};
   kept_ = head.dump() + "\n" + bytes;
   return kept_;
 }

@@ -3,7 +3,8 @@
 // every observer of the store does: no tick notices. Not real-time safe.
 //   variables: {"layout": 16 hexadecimal digits} in a line, then the schema as JSON (schema/schema.h)
 //   values:    {"layout", "running", "now_ns": CLOCK_MONOTONIC or virtual time of the board,
-//               "forces" and "lock" as run_image.h has them} in a line, then of each variable, in the order of the
+//               "forces" and "lock" as run_image.h has them, "alarms": how many} in a line, then of each variable, in
+//               the order of the
 //              schema, its freshness (i64, little endian: see below) and the bytes of its value
 //   messages:  {"epoch_ns", "basic_period_ns", "messages": [{"who", "time_ns", "text"}]}, oldest first
 
@@ -14,6 +15,7 @@
 #include <limits>
 #include <string>
 
+#include "alarms/alarm_journal.h"
 #include "rt/clock.h"
 
 namespace indurop::deploy {
@@ -28,7 +30,7 @@ class BoardValues {
   static constexpr std::size_t kMostBytes = 4U << 20U;
   static constexpr std::chrono::milliseconds kKeep{100};
 
-  explicit BoardValues(std::string board) : board_(std::move(board)) {}
+  explicit BoardValues(std::string board) : board_(std::move(board)), journal_(board_) {}
 
   // Empty: no node of this board has left any, or they are more than kMostBytes.
   [[nodiscard]] std::string variables() const;
@@ -38,6 +40,7 @@ class BoardValues {
 
  private:
   std::string board_;
+  alarms::AlarmJournal journal_;
   std::string kept_;
   rt::MonoTime kept_until_;
 };

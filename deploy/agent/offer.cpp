@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/offer.h"
 
+#include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_recorder.h"
 #include "deploy/agent/boxes_text.h"
 #include "deploy/agent/mirror_text.h"
@@ -27,6 +28,9 @@ std::optional<BlobServer::Blob> offer(const std::string& name, const std::string
   }
   if (name == kMessagesBlob) {
     return text(messages_text(board));
+  }
+  if (name == kAlarmsBlob) {
+    return text(alarms_text(board));
   }
   if (name == kBoxesBlob) {
     return text(boxes_text(board));

@@ -214,7 +214,7 @@ constexpr NodeCondition last_of(NodeCondition /*any*/) noexcept {
   return NodeCondition::Stopped;
 }
 constexpr Action last_of(Action /*any*/) noexcept {
-  return Action::Set;
+  return Action::UnshelveAlarms;
 }
 constexpr Outcome last_of(Outcome /*any*/) noexcept {
   return Outcome::Refused;

@@ -29,6 +29,11 @@ enum class Action : std::uint8_t {
   DropRecord,  // target: its name; its file was fetched
   SetLock,     // target: transaction/write_words.h
   Set,         // likewise
+  // What people do about alarms. Target: transaction/write_words.h with names of alarms as lines, none: all. The answer
+  // is a JSON array of those that it was done to.
+  AckAlarms,
+  ShelveAlarms,  // for so long
+  UnshelveAlarms,
 };
 
 struct Command {

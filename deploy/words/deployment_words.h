@@ -145,6 +145,8 @@ inline constexpr const char* kRunBlob = "run";
 inline constexpr const char* kVariablesBlob = "variables";
 inline constexpr const char* kValuesBlob = "values";
 inline constexpr const char* kMessagesBlob = "messages";
+// Likewise: its alarms (deploy/agent/board_alarms.h).
+inline constexpr const char* kAlarmsBlob = "alarms";
 // Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
 inline constexpr const char* kBoxesBlob = "boxes";
 inline constexpr std::string_view kBoxBlob = "box/";

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "tools/alarms/alarm_list.h"
+#include "alarms/alarm_list.h"
 
 namespace indurop::serve {
 
@@ -20,7 +20,7 @@ void AlarmDesk::look_now(const std::vector<std::string>& boards) {
   for (const std::string& board : boards) {
     auto& watch = watches_[board];
     if (watch == nullptr) {
-      watch = std::make_unique<tools::AlarmWatch>(board);
+      watch = std::make_unique<alarms::AlarmWatch>(board);
     } else if (watch->idle() && round_ % kIdleRounds != 0) {
       continue;
     }
@@ -30,7 +30,7 @@ void AlarmDesk::look_now(const std::vector<std::string>& boards) {
         fmt::print(stderr, "indurop-serve: error: alarms cannot be kept: {}\n", problem_);
       }
     }
-    const tools::AlarmBook& book = watch->journal().book();
+    const alarms::AlarmBook& book = watch->journal().book();
     const std::lock_guard hold(lock_);
     Figures& figures = figures_[board];
     figures.counts = book.counts();
@@ -38,10 +38,10 @@ void AlarmDesk::look_now(const std::vector<std::string>& boards) {
   }
 }
 
-tools::AlarmCounts AlarmDesk::counts(const std::string& board) const {
+alarms::AlarmCounts AlarmDesk::counts(const std::string& board) const {
   const std::lock_guard hold(lock_);
   const auto found = figures_.find(board);
-  return found == figures_.end() ? tools::AlarmCounts{} : found->second.counts;
+  return found == figures_.end() ? alarms::AlarmCounts{} : found->second.counts;
 }
 
 std::vector<std::string> AlarmDesk::news() {
@@ -53,7 +53,7 @@ std::vector<std::string> AlarmDesk::news() {
     }
     figures.told = figures.revision;
     base::Json word{{"type", "alarms"}, {"board", board}};
-    word.update(tools::json_of(figures.counts));
+    word.update(json_of(figures.counts));
     words.push_back(word.dump());
   }
   return words;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "alarms/alarm_watch.h"
 #include "serve/api/worker.h"
-#include "tools/alarms/alarm_watch.h"
 
 namespace indurop::serve {
 
@@ -20,13 +20,13 @@ class AlarmDesk {
   // Looks at these boards, unless the look before has not ended. The door's thread.
   void look(std::vector<std::string> boards);
   // Any thread.
-  [[nodiscard]] tools::AlarmCounts counts(const std::string& board) const;
+  [[nodiscard]] alarms::AlarmCounts counts(const std::string& board) const;
   // A word of the stream for each board whose alarms changed since the last call; the door's thread.
   std::vector<std::string> news();
 
  private:
   struct Figures {
-    tools::AlarmCounts counts;
+    alarms::AlarmCounts counts;
     std::uint64_t revision = 0;
     std::uint64_t told = 0;
   };
@@ -35,7 +35,7 @@ class AlarmDesk {
   mutable std::mutex lock_;
   std::map<std::string, Figures, std::less<>> figures_;
   // Of the worker's thread.
-  std::map<std::string, std::unique_ptr<tools::AlarmWatch>, std::less<>> watches_;
+  std::map<std::string, std::unique_ptr<alarms::AlarmWatch>, std::less<>> watches_;
   std::uint64_t round_ = 0;
   std::string problem_;
   Worker worker_;  // ends first

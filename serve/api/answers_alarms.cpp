@@ -3,28 +3,31 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
+#include "alarms/alarm_list.h"
+#include "alarms/alarm_orders.h"
 #include "serve/api/answers.h"
 #include "serve/api/write.h"
 #include "serve/boards/board.h"
-#include "tools/alarms/alarm_list.h"
-#include "tools/alarms/alarm_orders.h"
+#include "tools/plant/plant_watch.h"
 
 namespace indurop::serve::answers {
 namespace {
 
 constexpr std::uint64_t kMostEvents = 10'000;
 
-std::vector<tools::DeclaredAlarm> declared_of(const Board& board) {
-  return board.store() != nullptr ? tools::declared_alarms(*board.store()) : std::vector<tools::DeclaredAlarm>();
+std::vector<alarms::DeclaredAlarm> declared_of(const Board& board) {
+  return board.store() != nullptr ? alarms::declared_alarms(*board.store()) : std::vector<alarms::DeclaredAlarm>();
 }
 
 // What a body asks for, or what is wrong with it.
-Result<tools::AlarmOrder, std::string> read_order(const Call& call, tools::AlarmEvent what) {
+Result<alarms::AlarmOrder, std::string> read_order(const Call& call, alarms::AlarmEvent what) {
   const auto json = base::Json::parse(call.request->body);
   if (!json || !json->is_object()) {
     return std::string("the body is no JSON object");
   }
-  tools::AlarmOrder order;
+  alarms::AlarmOrder order;
   order.what = what;
   order.who = call.who;
   order.from = call.request->from;
@@ -35,13 +38,13 @@ Result<tools::AlarmOrder, std::string> read_order(const Call& call, tools::Alarm
   if (order.names.empty() != order.all) {
     return std::string("name the alarms: alarms, or all");
   }
-  if (what == tools::AlarmEvent::Shelved && order.for_ns <= 0) {
+  if (what == alarms::AlarmEvent::Shelved && order.for_ns <= 0) {
     return std::string("for_ns is a number of nanoseconds greater than 0");
   }
   return order;
 }
 
-Reply carry_out(Api& api, const Call& call, tools::AlarmEvent what, const char* word) {
+Reply carry_out(Api& api, const Call& call, alarms::AlarmEvent what, const char* word) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
@@ -55,14 +58,79 @@ Reply carry_out(Api& api, const Call& call, tools::AlarmEvent what, const char* 
   if (auto refused = write.begin()) {
     return *refused;
   }
-  tools::AlarmJournal journal((*found)->name());
-  const auto done = tools::carry_out(journal, declared_of(**found), *order);
+  alarms::AlarmJournal journal((*found)->name());
+  const auto done = alarms::carry_out(journal, declared_of(**found), *order);
   if (!done) {
     return write.failed(done.error().failed ? status::kFailed : status::kWrongValue, done.error().texts);
   }
   base::Json body = about(**found);
   body["alarms"] = *done;
   return write.done(body);
+}
+
+using FarOrder = tools::PlantWatch::FarOrder;
+
+FarOrder::What far_word_of(alarms::AlarmEvent what) {
+  return what == alarms::AlarmEvent::Acknowledged ? FarOrder::What::AckAlarms
+         : what == alarms::AlarmEvent::Shelved    ? FarOrder::What::ShelveAlarms
+                                                  : FarOrder::What::UnshelveAlarms;
+}
+
+// The agent of a board elsewhere keeps its alarms.
+Reply order_far(Api& api, const Call& call, alarms::AlarmEvent what, const char* word) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const auto order = read_order(call, what);
+  if (!order) {
+    return refusal(status::kBadRequest, order.error());
+  }
+  Write write(api, call, word);
+  write.about(order->all ? "all alarms" : fmt::format("{}", fmt::join(order->names, " ")), order->reason);
+  const bool lines = std::any_of(order->names.begin(), order->names.end(), [](const std::string& name) {
+    return name.empty() || name.find_first_of("\r\n") != std::string::npos;
+  });
+  if (lines) {
+    return write.failed(status::kWrongValue, "names of alarms are one line each");
+  }
+  if (auto refused = write.begin()) {
+    return *refused;
+  }
+  const auto done = call.plant->order((*found)->name(), {far_word_of(what), order->names, order->for_ns,
+                                                         order->who + " at " + order->from, order->reason});
+  if (!done) {
+    return write.failed(done.error().code == kUnreachable ? status::kNoAnswer : status::kWrongValue, done.error().text);
+  }
+  base::Json body = about(**found);
+  body["alarms"] = base::Json::parse(*done).value_or(base::Json::array());
+  return write.done(body);
+}
+
+// What its agent says, or why it says nothing.
+Result<base::Json, Reply> told_by(const Call& call, const Board& board) {
+  const auto texts = call.plant->texts("alarms", {board.name()});
+  const auto text = texts.find(board.name());
+  auto told = text != texts.end() ? base::Json::parse(text->second) : std::nullopt;
+  if (!told || !told->is_object()) {
+    return refusal(status::kNoAnswer, fmt::format("board {} does not say how its alarms stand ({}; agents of before "
+                                                  "cannot)",
+                                                  board.name(), board.state()));
+  }
+  return std::move(*told);
+}
+
+Result<std::uint64_t, Reply> wanted_events(const Call& call) {
+  constexpr std::uint64_t kUsual = 200;
+  const auto count = query_number(call, "count", kUsual, 1, kMostEvents);
+  if (!count) {
+    return refusal(status::kBadRequest, fmt::format("count is a number from 1 to {}", kMostEvents));
+  }
+  return *count;
+}
+
+bool wants_all(const Call& call) {
+  return query_value(*call.request, "all").value_or("") == "true";
 }
 
 }  // namespace
@@ -72,18 +140,17 @@ Reply alarms(Api& /*api*/, const Call& call) {
   if (!found) {
     return found.error();
   }
-  tools::AlarmJournal journal((*found)->name());
+  alarms::AlarmJournal journal((*found)->name());
   journal.refresh();
   const auto declared = declared_of(**found);
   base::Json list = base::Json::array();
-  for (const auto& one :
-       tools::list_alarms(declared, journal.book(), query_value(*call.request, "all").value_or("") == "true")) {
-    list.push_back(tools::json_of(one));
+  for (const auto& one : alarms::list_alarms(declared, journal.book(), wants_all(call))) {
+    list.push_back(json_of(one));
   }
   base::Json body = about(**found);
   body["watched"] = journal.watched();
   body["declared"] = declared.size();
-  body["counts"] = tools::json_of(journal.book().counts());
+  body["counts"] = json_of(journal.book().counts());
   body["alarms"] = std::move(list);
   return json_reply(body);
 }
@@ -93,14 +160,13 @@ Reply alarm_history(Api& /*api*/, const Call& call) {
   if (!found) {
     return found.error();
   }
-  constexpr std::uint64_t kUsual = 200;
-  const auto count = query_number(call, "count", kUsual, 1, kMostEvents);
+  const auto count = wanted_events(call);
   if (!count) {
-    return refusal(status::kBadRequest, fmt::format("count is a number from 1 to {}", kMostEvents));
+    return count.error();
   }
   base::Json list = base::Json::array();
-  for (const tools::AlarmEntry& one : tools::AlarmJournal((*found)->name()).history(*count)) {
-    list.push_back(tools::json_of(one));
+  for (const alarms::AlarmEntry& one : alarms::AlarmJournal((*found)->name()).history(*count)) {
+    list.push_back(json_of(one));
   }
   base::Json body = about(**found);
   body["events"] = std::move(list);
@@ -108,15 +174,73 @@ Reply alarm_history(Api& /*api*/, const Call& call) {
 }
 
 Reply acknowledge_alarms(Api& api, const Call& call) {
-  return carry_out(api, call, tools::AlarmEvent::Acknowledged, "acknowledge");
+  return carry_out(api, call, alarms::AlarmEvent::Acknowledged, "acknowledge");
 }
 
 Reply shelve_alarms(Api& api, const Call& call) {
-  return carry_out(api, call, tools::AlarmEvent::Shelved, "shelve");
+  return carry_out(api, call, alarms::AlarmEvent::Shelved, "shelve");
 }
 
 Reply unshelve_alarms(Api& api, const Call& call) {
-  return carry_out(api, call, tools::AlarmEvent::Unshelved, "unshelve");
+  return carry_out(api, call, alarms::AlarmEvent::Unshelved, "unshelve");
+}
+
+Reply far_alarms(Api& /*api*/, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const auto told = told_by(call, **found);
+  if (!told) {
+    return told.error();
+  }
+  base::Json list = base::Json::array();
+  for (const base::Json& one : (*told)["alarms"].values()) {
+    if (wants_all(call) || one["state"].text() != "normal") {
+      list.push_back(one);
+    }
+  }
+  base::Json body = about(**found);
+  body["watched"] = (*told)["watched"].boolean().value_or(false);
+  body["declared"] = (*told)["declared"].natural().value_or(0);
+  body["counts"] = json_of(alarms::counts_in((*told)["counts"]));
+  body["alarms"] = std::move(list);
+  return json_reply(body);
+}
+
+Reply far_alarm_history(Api& /*api*/, const Call& call) {
+  const auto found = board_of(call);
+  if (!found) {
+    return found.error();
+  }
+  const auto count = wanted_events(call);
+  if (!count) {
+    return count.error();
+  }
+  const auto told = told_by(call, **found);
+  if (!told) {
+    return told.error();
+  }
+  const auto all = (*told)["events"].values();
+  base::Json list = base::Json::array();
+  for (std::size_t i = all.size() - std::min<std::size_t>(all.size(), *count); i < all.size(); ++i) {
+    list.push_back(all[i]);
+  }
+  base::Json body = about(**found);
+  body["events"] = std::move(list);
+  return json_reply(body);
+}
+
+Reply far_acknowledge_alarms(Api& api, const Call& call) {
+  return order_far(api, call, alarms::AlarmEvent::Acknowledged, "acknowledge");
+}
+
+Reply far_shelve_alarms(Api& api, const Call& call) {
+  return order_far(api, call, alarms::AlarmEvent::Shelved, "shelve");
+}
+
+Reply far_unshelve_alarms(Api& api, const Call& call) {
+  return order_far(api, call, alarms::AlarmEvent::Unshelved, "unshelve");
 }
 
 }  // namespace indurop::serve::answers

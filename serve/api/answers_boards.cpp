@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers about boards and their modules.
+#include "alarms/alarm_list.h"
 #include "serve/api/answers.h"
 #include "serve/boards/board.h"
 #include "serve/boards/trouble.h"
-#include "tools/alarms/alarm_list.h"
 #include "tools/values/external_view.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
@@ -21,6 +21,10 @@ base::Json texts_of(const std::vector<Trouble>& troubles) {
     }
   }
   return out;
+}
+
+alarms::AlarmCounts alarms_of(const Api& api, const Board& board) {
+  return board.far() != nullptr ? board.far_alarms() : api.facts().alarms(board.name());
 }
 
 std::uint64_t number_of(const base::Json& row, const char* what) {
@@ -54,8 +58,8 @@ base::Json summary_of(const Api& api, const Board& board) {
   out["overruns"] = report.overruns;
   out["faults"] = report.faults;
   out["forces"] = board.store() != nullptr ? board.store()->forces().size() : 0;
-  const tools::AlarmCounts alarms = api.facts().alarms(board.name());
-  out["alarms"] = tools::json_of(alarms);
+  const alarms::AlarmCounts alarms = alarms_of(api, board);
+  out["alarms"] = json_of(alarms);
   out["trouble"] = texts_of(troubles_of(board, run, alarms));
   out["layout"] = board.layout();
   add_far(out, board);
@@ -112,8 +116,8 @@ Reply board(Api& api, const Call& call) {
   body["alive"] = one.alive();
   body["state"] = one.state();
   body["layout"] = one.layout();
-  const tools::AlarmCounts alarms = api.facts().alarms(one.name());
-  body["alarms"] = tools::json_of(alarms);
+  const alarms::AlarmCounts alarms = alarms_of(api, one);
+  body["alarms"] = json_of(alarms);
   body["trouble"] = texts_of(troubles_of(one, run, alarms));
   add_forces(body, one);
   body["mirror"] = mirror ? tools::json_of(*mirror) : base::Json();
@@ -147,7 +151,7 @@ Reply faults(Api& api, const Call& call) {
     return found.error();
   }
   base::Json list = base::Json::array();
-  for (const Trouble& trouble : troubles_of(**found, (*found)->run(), api.facts().alarms((*found)->name()))) {
+  for (const Trouble& trouble : troubles_of(**found, (*found)->run(), alarms_of(api, **found))) {
     base::Json one = base::Json::object();
     one["severity"] = word_of(trouble.severity);
     one["module"] = trouble.module;

@@ -107,8 +107,9 @@ Reply schedule(Api& /*api*/, const Call& call) {
   }
   const auto& [board, run] = *found;
   const auto& block = run.block();
-  auto [plan, message] = board->far() == nullptr ? plan_of(tools::fixed_text(block.config_file))
-                                                 : std::pair(base::Json(), std::string("its files are on its host"));
+  auto [plan, message] = board->far() == nullptr
+                             ? plan_of(tools::fixed_text(block.config_file))
+                             : std::pair(base::Json(), std::string("The plan is in files on the board's host."));
   base::Json body = about(*board);
   body["basic_period_ns"] = block.basic_period_ns;
   body["macro_period_ns"] = block.macro_period_ns;

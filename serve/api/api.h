@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "alarms/alarm_book.h"
 #include "base/json.h"
 #include "serve/api/audit.h"
 #include "serve/door/gate.h"
-#include "tools/alarms/alarm_book.h"
 #include "tools/values/known_uses.h"
 
 namespace indurop::serve {
@@ -42,7 +42,7 @@ struct ServerFacts {
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;
-  std::function<tools::AlarmCounts(const std::string& board)> alarms;
+  std::function<alarms::AlarmCounts(const std::string& board)> alarms;
 };
 
 class Board;

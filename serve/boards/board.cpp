@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "alarms/alarm_list.h"
 #include "rt/clock.h"
 #include "scheduler/words.h"
 
@@ -24,6 +25,10 @@ void Board::want() const {
   if (far_ != nullptr) {
     far_->want(rt::now_ns());
   }
+}
+
+alarms::AlarmCounts Board::far_alarms() const {
+  return far_ != nullptr ? alarms::counts_in(far_->said().alarms) : alarms::AlarmCounts();
 }
 
 void Board::refresh_far() {

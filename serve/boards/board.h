@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "alarms/alarm_book.h"
 #include "serve/boards/far_boards.h"
 #include "tools/values/here_source.h"
 #include "tools/values/run_view.h"
@@ -33,6 +34,8 @@ class Board {
   [[nodiscard]] bool alive() const noexcept { return store_ && absence_.empty(); }
   // Null: it is on this host.
   [[nodiscard]] const tools::FarBoard* far() const noexcept { return far_.get(); }
+  // Of another host, by its agent: how many alarms there are.
+  [[nodiscard]] alarms::AlarmCounts far_alarms() const;
   // Somebody wants to see its values: those of another host come as long as that is so.
   void want() const;
   // Changes whenever another store was attached: what points into the one before is void.

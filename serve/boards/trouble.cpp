@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "tools/alarms/alarm_list.h"
+#include "alarms/alarm_list.h"
 #include "tools/command/units.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
@@ -69,14 +69,14 @@ const char* word_of(Severity severity) noexcept {
 }
 
 std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::RunView>& run,
-                                 const tools::AlarmCounts& alarms) {
+                                 const alarms::AlarmCounts& alarms) {
   std::vector<Trouble> all;
   if (!board.alive()) {
     all.push_back({Severity::Error, "", fmt::format("board {} is {}", board.name(), board.state()), {}});
   }
   if (alarms.active + alarms.unacknowledged > 0) {
     const bool bad = alarms.worst <= schema::Priority::High;
-    all.push_back({bad ? Severity::Error : Severity::Warning, "", tools::sentence_of(alarms), {}});
+    all.push_back({bad ? Severity::Error : Severity::Warning, "", alarms::sentence_of(alarms), {}});
   }
   if (run) {
     add_node(all, board, *run);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "alarms/alarm_book.h"
 #include "serve/boards/board.h"
-#include "tools/alarms/alarm_book.h"
 
 namespace indurop::serve {
 
@@ -24,6 +24,6 @@ struct Trouble {
 };
 
 std::vector<Trouble> troubles_of(const Board& board, const std::optional<tools::RunView>& run,
-                                 const tools::AlarmCounts& alarms);
+                                 const alarms::AlarmCounts& alarms);
 
 }  // namespace indurop::serve

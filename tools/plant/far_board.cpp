@@ -153,6 +153,7 @@ FarBoard::Taken FarBoard::take_values(std::string_view text, std::int64_t now_ns
   }
   said_.forces = shown_forces(told);
   said_.lock = parts->first["lock"];
+  said_.alarms = parts->first["alarms"];
   said_.values = true;
   node_runs_ = parts->first["running"].boolean().value_or(false);
   next_ns_ = now_ns +

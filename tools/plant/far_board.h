@@ -51,6 +51,7 @@ class FarBoard {
     base::Json row;
     base::Json forces = base::Json::array();  // as json_of(ForceView) has them
     base::Json lock;
+    base::Json alarms;  // how many, as json_of(AlarmCounts) has them; none: it does not say
     std::string state;  // "running", "not heard, last 3.2 s ago"
     std::string layout;
     bool heard = false;

@@ -31,6 +31,12 @@ deploy::Action action_of(PlantWatch::FarOrder::What what) {
       return deploy::Action::StopModule;
     case What::StartModule:
       return deploy::Action::StartModule;
+    case What::AckAlarms:
+      return deploy::Action::AckAlarms;
+    case What::ShelveAlarms:
+      return deploy::Action::ShelveAlarms;
+    case What::UnshelveAlarms:
+      return deploy::Action::UnshelveAlarms;
     case What::RestartModule:
       break;
   }
@@ -39,7 +45,9 @@ deploy::Action action_of(PlantWatch::FarOrder::What what) {
 
 std::string target_of(const PlantWatch::FarOrder& order) {
   using What = PlantWatch::FarOrder::What;
-  if (order.what == What::Set || order.what == What::Force || order.what == What::Lock) {
+  const bool bare = order.what == What::Unforce || order.what == What::StopModule || order.what == What::StartModule ||
+                    order.what == What::RestartModule;
+  if (!bare) {
     deploy::WriteOrder words;
     words.for_ns = order.for_ns;
     words.who = order.who;

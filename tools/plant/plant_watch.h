@@ -41,11 +41,22 @@ class PlantWatch {
   [[nodiscard]] std::map<std::string, std::string> texts(const char* name, const std::vector<std::string>& boards);
 
   struct FarOrder {
-    enum class What : std::uint8_t { Set, Force, Unforce, Lock, StopModule, StartModule, RestartModule };
+    enum class What : std::uint8_t {
+      Set,
+      Force,
+      Unforce,
+      Lock,
+      StopModule,
+      StartModule,
+      RestartModule,
+      AckAlarms,
+      ShelveAlarms,
+      UnshelveAlarms
+    };
     What what = What::Set;
-    std::vector<std::string>
-        lines;                // NAME=VALUE; of Unforce names, none: all; else the word of the lock, or the module
-    std::int64_t for_ns = 0;  // of Force, 0: until it is let go
+    // NAME=VALUE; of Unforce and of alarms names, none: all; else the word of the lock, or the module
+    std::vector<std::string> lines;
+    std::int64_t for_ns = 0;  // of Force, 0: until it is let go; of ShelveAlarms
     std::string who;
     std::string reason;
   };

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "alarms/alarm_journal.h"
+#include "alarms/alarm_list.h"
 #include "explain/orders.h"
 #include "rt/clock.h"
-#include "tools/alarms/alarm_journal.h"
-#include "tools/alarms/alarm_list.h"
 #include "tools/command/screen.h"
 #include "tools/command/units.h"
 #include "vars/store.h"
@@ -197,11 +197,11 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   if (const auto store = vars::Store::attach(node, vars::Mode::ReadOnly)) {
     sample.forces = store->forces().size();
   }
-  AlarmJournal alarms(node);
+  alarms::AlarmJournal alarms(node);
   alarms.refresh();
   sample.alarms = alarms.book().counts();
-  for (const ListedAlarm& one : list_alarms({}, alarms.book(), false)) {
-    if (one.record.state != AlarmState::Shelved) {
+  for (const alarms::ListedAlarm& one : alarms::list_alarms({}, alarms.book(), false)) {
+    if (one.record.state != alarms::AlarmState::Shelved) {
       sample.troubles.push_back(printable(
           fmt::format("{} alarm, {}: {}", schema::word_of(one.priority), word_of(one.record.state), one.text)));
     }

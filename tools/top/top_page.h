@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/alarms/alarm_book.h"
+#include "alarms/alarm_book.h"
 #include "tools/command/output.h"
 #include "tools/values/force_view.h"
 #include "tools/values/mirror_view.h"
@@ -51,7 +51,7 @@ struct TopSample {
   std::vector<Module> modules;
   std::vector<TopEvent> events;  // overruns, orders, what modules printed, newest last
   std::vector<std::string> troubles;
-  AlarmCounts alarms;
+  alarms::AlarmCounts alarms;
   std::size_t forces = 0;
   std::size_t stale = 0;  // variables of other boards that are not valid
   std::int64_t at_ns = 0;

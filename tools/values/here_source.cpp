@@ -2,7 +2,6 @@
 #include "tools/values/here_source.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include "rt/clock.h"
 #include "tools/command/units.h"
@@ -24,9 +23,7 @@ Result<vars::Store> HereSource::attach() {
 }
 
 std::uint64_t HereSource::generation() const {
-  const std::string path = std::string(vars::kShmDirectory) + "/" + vars::block_file(node_);
-  struct stat info {};
-  return stat(path.c_str(), &info) == 0 ? info.st_ino : 0;
+  return vars::store_number(node_);
 }
 
 std::string HereSource::absence(const vars::Store* store) {

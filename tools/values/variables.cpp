@@ -96,24 +96,6 @@ bool drop_forbidden(Context& context, std::vector<Item>& items) {
 
 }  // namespace
 
-bool is_glob(std::string_view text) {
-  if (text.find_first_of("*?") != std::string_view::npos) {
-    return true;
-  }
-  // "[...]" is a set of letters unless it is an index.
-  for (auto open = text.find('['); open != std::string_view::npos; open = text.find('[', open + 1)) {
-    const auto close = text.find(']', open);
-    if (close == std::string_view::npos) {
-      return false;
-    }
-    const auto inner = text.substr(open + 1, close - open - 1);
-    if (inner.empty() || inner.find_first_not_of("0123456789 ") != std::string_view::npos) {
-      return true;
-    }
-  }
-  return false;
-}
-
 int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values) {
   int code = kOk;

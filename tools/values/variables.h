@@ -30,7 +30,7 @@ struct Item {
 enum class Values { Needed, NotNeeded };
 int select_items(Context& context, const vars::Store& store, const std::vector<std::string>& names,
                  std::vector<Item>& items, Values values = Values::Needed);
-bool is_glob(std::string_view text);
+using schema::is_glob;
 
 // One consistent version of the item's bytes, or why there is none.
 Result<std::vector<std::uint8_t>, base::Problem> read_item(const vars::Store& store, const Item& item);

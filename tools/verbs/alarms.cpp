@@ -2,11 +2,11 @@
 // indurop alarms: how the alarms of a node stand, what happened to them, and what people do about them.
 #include <fmt/format.h>
 
+#include "alarms/alarm_list.h"
+#include "alarms/alarm_orders.h"
+#include "alarms/alarm_watch.h"
 #include "base/user_name.h"
 #include "rt/clock.h"
-#include "tools/alarms/alarm_list.h"
-#include "tools/alarms/alarm_orders.h"
-#include "tools/alarms/alarm_watch.h"
 #include "tools/command/gentle.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/units.h"
@@ -25,23 +25,23 @@ struct Options {
   bool all = false;
 };
 
-Style style_of(const ListedAlarm& alarm) {
+Style style_of(const alarms::ListedAlarm& alarm) {
   switch (alarm.record.state) {
-    case AlarmState::Unacknowledged:
+    case alarms::AlarmState::Unacknowledged:
       return alarm.priority <= schema::Priority::High ? Style::Bad : Style::Warn;
-    case AlarmState::Returned:
-    case AlarmState::Acknowledged:
+    case alarms::AlarmState::Returned:
+    case alarms::AlarmState::Acknowledged:
       return Style::Warn;
-    case AlarmState::Shelved:
-    case AlarmState::Normal:
+    case alarms::AlarmState::Shelved:
+    case alarms::AlarmState::Normal:
       break;
   }
   return Style::None;
 }
 
-std::string more_of(const ListedAlarm& alarm) {
-  const AlarmEntry& last = alarm.record.last;
-  if (alarm.record.state == AlarmState::Shelved) {
+std::string more_of(const alarms::ListedAlarm& alarm) {
+  const alarms::AlarmEntry& last = alarm.record.last;
+  if (alarm.record.state == alarms::AlarmState::Shelved) {
     return fmt::format("until {}{}{}", local_time(last.until_ns), last.who.empty() ? "" : " by " + last.who,
                        last.reason.empty() ? "" : ": " + last.reason);
   }
@@ -49,8 +49,8 @@ std::string more_of(const ListedAlarm& alarm) {
                           : fmt::format("by {}{}", last.who, last.reason.empty() ? "" : ": " + last.reason);
 }
 
-int show_list(Context& context, const std::string& node, const std::vector<DeclaredAlarm>& declared, bool all) {
-  AlarmJournal journal(node);
+int show_list(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared, bool all) {
+  alarms::AlarmJournal journal(node);
   journal.refresh();
   Table table({{"PRIORITY", "priority"},
                {"STATE", "state"},
@@ -59,7 +59,7 @@ int show_list(Context& context, const std::string& node, const std::vector<Decla
                {"VALUE", "value"},
                {"TEXT", "text"},
                {"MORE", "more"}});
-  for (const ListedAlarm& one : list_alarms(declared, journal.book(), all)) {
+  for (const alarms::ListedAlarm& one : alarms::list_alarms(declared, journal.book(), all)) {
     const std::int64_t since = one.record.since_ns;
     table.add({Cell(schema::word_of(one.priority)), Cell(word_of(one.record.state), style_of(one)),
                Cell(since != 0 ? local_time(since) : "-", since != 0 ? JsonValue(since) : JsonValue(), Style::None),
@@ -71,8 +71,8 @@ int show_list(Context& context, const std::string& node, const std::vector<Decla
       context.out.note(declared.empty() ? "no variable of this node has an @alarm" : "all alarms are normal");
     }
     if (!watched && !declared.empty()) {
-      context.out.note(
-          fmt::format("nobody looks at the alarms of node {}: run indurop serve, or indurop alarms watch", node));
+      context.out.note(fmt::format(
+          "nobody looks at the alarms of node {}: run indurop-agent, indurop serve, or indurop alarms watch", node));
     }
   }
   print_table(context, table, {{"node", node}, {"watched", watched}, {"counts", json_of(journal.book().counts())}},
@@ -81,7 +81,7 @@ int show_list(Context& context, const std::string& node, const std::vector<Decla
 }
 
 int show_history(Context& context, const std::string& node, const Options& options) {
-  const AlarmJournal journal(node);
+  const alarms::AlarmJournal journal(node);
   Table table({{"TIME", "wall_ns"},
                {"EVENT", "event"},
                {"PRIORITY", "priority"},
@@ -90,7 +90,7 @@ int show_history(Context& context, const std::string& node, const Options& optio
                {"TEXT", "text"},
                {"WHO", "who"},
                {"REASON", "reason"}});
-  for (const AlarmEntry& one : journal.history(options.count)) {
+  for (const alarms::AlarmEntry& one : journal.history(options.count)) {
     table.add({Cell(local_time(one.wall_ns), JsonValue(one.wall_ns), Style::None), Cell(word_of(*one.event)),
                Cell(schema::word_of(one.priority)), Cell(one.alarm), Cell(printable(one.value)), Cell(one.text),
                Cell(printable(one.who)), Cell(printable(one.reason))});
@@ -102,7 +102,7 @@ int show_history(Context& context, const std::string& node, const Options& optio
 int watch(Context& context, const std::string& node) {
   constexpr std::int64_t kEveryNs = 100'000'000;
   be_gentle(node);
-  AlarmWatch watched(node);
+  alarms::AlarmWatch watched(node);
   context.out.note(fmt::format("looking at the alarms of node {}; Ctrl-C ends it", node));
   static_cast<void>(context.out.flush());
   std::string before;
@@ -118,14 +118,14 @@ int watch(Context& context, const std::string& node) {
   return interrupt_code();
 }
 
-int order(Context& context, const std::string& node, const std::vector<DeclaredAlarm>& declared, AlarmEvent what,
-          const Options& options) {
+int order(Context& context, const std::string& node, const std::vector<alarms::DeclaredAlarm>& declared,
+          alarms::AlarmEvent what, const Options& options) {
   if (options.names.empty() != options.all) {
     context.out.error(fmt::format("name the alarms to {}, or --all", options.action));
     return kUsage;
   }
-  AlarmJournal journal(node);
-  const auto done = carry_out(
+  alarms::AlarmJournal journal(node);
+  const auto done = alarms::carry_out(
       journal, declared, {what, options.names, options.all, options.for_ns, base::user_name(), "here", options.reason});
   if (!done) {
     for (const std::string& text : done.error().texts) {
@@ -148,7 +148,7 @@ int alarms(Context& context, const Options& options) {
     return report(context.out, store.error());
   }
   const std::string node = context.node.empty() ? context.values->title() : context.node;
-  const auto declared = declared_alarms(*store);
+  const auto declared = alarms::declared_alarms(*store);
   if (options.action.empty() || options.action == "list") {
     return show_list(context, node, declared, options.all);
   }
@@ -158,9 +158,9 @@ int alarms(Context& context, const Options& options) {
   if (options.action == "watch") {
     return watch(context, node);
   }
-  const AlarmEvent what = options.action == "ack"      ? AlarmEvent::Acknowledged
-                          : options.action == "shelve" ? AlarmEvent::Shelved
-                                                       : AlarmEvent::Unshelved;
+  const alarms::AlarmEvent what = options.action == "ack"      ? alarms::AlarmEvent::Acknowledged
+                                  : options.action == "shelve" ? alarms::AlarmEvent::Shelved
+                                                               : alarms::AlarmEvent::Unshelved;
   return order(context, node, declared, what, options);
 }
 
@@ -183,7 +183,8 @@ Action declare(base::Options& app, Context& context) {
 const Verb kAlarmsVerb{
     "alarms", "A running node", "Show alarms, acknowledge and shelve them, and tell what happened",
     "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). One process on the\n"
-    "node's machine looks at their conditions: indurop serve, or indurop alarms watch. What happened is kept in the\n"
+    "node's machine looks at their conditions: its agent, indurop serve, or indurop alarms watch. What happened is "
+    "kept in the\n"
     "state folder of the node, over restarts. An alarm that ended before it was acknowledged stays in the list as\n"
     "'returned'. A shelved one is not raised until its time is over or it is unshelved.\n"
     "Examples:\n"

@@ -2,9 +2,9 @@
 // indurop status: is the node well, what real-time rights did it get, how do its modules do.
 #include <fmt/format.h>
 
+#include "alarms/alarm_journal.h"
+#include "alarms/alarm_list.h"
 #include "rt/clock.h"
-#include "tools/alarms/alarm_journal.h"
-#include "tools/alarms/alarm_list.h"
 #include "tools/command/interrupt.h"
 #include "tools/command/repeat.h"
 #include "tools/command/units.h"
@@ -25,8 +25,8 @@ std::vector<ForceView> forces_here(const std::string& node) {
   return store ? view_forces(node, *store) : std::vector<ForceView>();
 }
 
-AlarmCounts alarms_here(const std::string& node) {
-  AlarmJournal journal(node);
+alarms::AlarmCounts alarms_here(const std::string& node) {
+  alarms::AlarmJournal journal(node);
   journal.refresh();
   return journal.book().counts();
 }
@@ -37,7 +37,7 @@ int show_once(Context& context, const BoardRun& chosen) {
   const NodeReport report = report_of(node, run);
   const auto mirror = run.here() ? view_mirror(node) : std::nullopt;
   const auto external = run.here() ? view_external(node) : std::nullopt;
-  const AlarmCounts alarms = run.here() ? alarms_here(node) : AlarmCounts{};
+  const alarms::AlarmCounts alarms = run.here() ? alarms_here(node) : alarms::AlarmCounts{};
   const auto forces = chosen.forces ? *chosen.forces : forces_here(node);
   const vars::LockNote lock = chosen.forces ? chosen.lock : vars::lock_of(node);
   if (context.format == Format::Table) {
@@ -50,7 +50,7 @@ int show_once(Context& context, const BoardRun& chosen) {
     if (const std::string text = lock_line(lock); !text.empty()) {
       context.out.line(context.out.paint(Style::Warn, "  locked    " + text));
     }
-    if (const std::string text = sentence_of(alarms); !text.empty()) {
+    if (const std::string text = alarms::sentence_of(alarms); !text.empty()) {
       context.out.line(context.out.paint(Style::Warn, fmt::format("  alarms    {} (indurop alarms)", text)));
     }
     if (mirror) {

@@ -171,7 +171,7 @@ def test_says_what_was_printed_and_what_is_not_seen_from_here(setting):
     assert here["messages"] and here["messages"] == there["messages"], (here, there)
     assert any(one["who"] == "counter" and "starts with" in one["text"] for one in here["messages"]), here
     assert far.get(base + "/messages?count=1").json()["messages"] == here["messages"][-1:]
-    for path in ("/alarms", "/recipes", "/scope?channel=looks"):
+    for path in ("/recipes", "/scope?channel=looks"):
         answer = far.get(base + path)
         assert answer.status == 409 and "on another host" in answer.json()["message"], answer.body
     end_deployed(setting, agent)
@@ -188,7 +188,7 @@ def test_shows_modules_with_their_times_and_the_schedule(setting):
     assert [[one[what] for what in STEADY] for one in here] == [[one[what] for what in STEADY] for one in there], (here, there)
     assert far.get(base + "/modules").json()["alive"] is True
     plan = ask(far, "/schedule")
-    assert plan["plan"] is None and "on its host" in plan["message"], plan
+    assert plan["plan"] is None and "board's host" in plan["message"], plan
     assert {what: plan[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")} == {
         what: ask(near, "/schedule")[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")}
     seen = wait_for(lambda: ask(far, "/runs?count=50")["runs"], "runs")
@@ -206,6 +206,48 @@ def test_shows_modules_with_their_times_and_the_schedule(setting):
     assert wait_for(lambda: far.get(base + "/modules").status == 504, "the answer that nobody answers")
     agent = start_agent(setting, setting.node, domain)
     wait_for(lambda: far.get(base + "/modules").status == 200, "the board again")
+    end_deployed(setting, agent)
+
+
+def test_alarms_are_looked_at_by_the_agent_and_acknowledged_from_elsewhere(setting):
+    domain = take_domain(setting)
+    agent = start_agent(setting, setting.node, domain)
+    far = start_far_server(setting, domain)
+    deploy(setting, domain, "counter")
+    wait_for(lambda: variables(far, setting), "variables of what was deployed")
+    base = board_of(setting)
+    ask = lambda server, path="": server.get(f"{base}/alarms{path}").json()
+    of = lambda server: [(one["alarm"], one["state"]) for one in ask(server)["alarms"]]
+    alarm = "nt::torn > 1000"
+    assert [one["alarm"] for one in ask(far, "?all=true")["alarms"]] == [alarm] and of(far) == [], ask(far)
+    assert far.post(base + "/set", {"values": {"torn": 1001}}).status == 200
+    wait_for(lambda: of(far) == [(alarm, "unacknowledged")], "the alarm, which nobody but the agent can have seen")
+    assert ask(far)["watched"] is True
+    summary = wait_for(lambda: [one for one in far.get(API + "/boards").json()["boards"] if one["alarms"]["unacknowledged"] == 1], "its count")
+    assert summary[0]["alarms"]["worst"] == "high" and any("alarm" in text for text in summary[0]["trouble"]), summary
+    near = setting.start_server()
+    assert of(near) == of(far) and ask(near)["counts"] == ask(far)["counts"]
+    order = lambda what, body, **more: far.post(f"{base}/alarms/{what}", body, **more)
+    assert order("ack", {"all": True}, token=None).status in (401, 403)
+    said = order("ack", {"alarms": ["tron"]})
+    assert said.status == 422 and "no alarm" in said.json()["message"], said.body
+    said = order("ack", {"alarms": ["torn\nx"]})
+    assert said.status == 422, said.body
+    assert order("shelve", {"alarms": ["torn"]}).status == 400, "for how long?"
+    assert of(near) == [(alarm, "unacknowledged")], "nothing was done"
+    done = order("ack", {"alarms": ["torn"], "reason": "seen"})
+    assert done.status == 200 and done.json()["alarms"] == [alarm], done.body
+    told = ask(near)["alarms"][0]
+    assert told["state"] == "acknowledged" and told["reason"] == "seen" and "ana" in told["who"], told
+    assert order("ack", {"all": True}).json()["alarms"] == [], "there was nothing to do"
+    assert order("shelve", {"all": True, "for_ns": 3600 * 10**9}).status == 200
+    assert of(near) == of(far) == [(alarm, "shelved")]
+    assert order("unshelve", {"alarms": [alarm]}).json()["alarms"] == [alarm]
+    wait_for(lambda: of(far) == [(alarm, "unacknowledged")], "it is raised again")
+    events = lambda server: [(one["event"], one["alarm"]) for one in ask(server, "/history?count=5")["events"]]
+    assert events(far) == events(near) and [one[0] for one in events(far)[:4]] == ["raised", "acknowledged", "shelved", "unshelved"], events(far)
+    notes = far.get(API + "/audit", Authorization="Bearer " + harness.TOKEN).json()["audit"]
+    assert {"acknowledge", "shelve", "unshelve"} <= {one["action"] for one in notes if one["outcome"] == "done"}, notes
     end_deployed(setting, agent)
 
 

@@ -70,7 +70,7 @@ TEST(WireNumbers, Beyond_those_known_here_stand_for_the_last) {
   EXPECT_EQ(sut.phase, Phase::Failed);
   EXPECT_EQ(sut.node, NodeCondition::Stopped);
   EXPECT_FALSE(wire::known<Action>(200));
-  EXPECT_TRUE(wire::known<Action>(static_cast<std::uint8_t>(Action::SetLock)));
+  EXPECT_TRUE(wire::known<Action>(static_cast<std::uint8_t>(Action::UnshelveAlarms)));
 }
 
 }  // namespace

@@ -180,13 +180,14 @@ export function Overview() {
   const boards = all.filter(({ here }) => here);  // the others are the plant's
   // Boards of this host say themselves what is wrong with them.
   const silent = far.value?.trouble.filter((text) => !boards.some(({ board, alive }) => alive && text.startsWith(`board ${board}:`))) ?? [];
+  const elsewhere = [...silent, ...all.filter(({ here, alive, trouble }) => !here && alive && trouble.length > 0).map(({ board, trouble }) => `${board}: ${trouble[0]}`)];
   const rank = ({ alive, faults, trouble }: BoardSummary) => (!alive ? 3 : faults > 0 ? 0 : trouble.length > 0 ? 1 : 2);
   const sorted = [...boards].sort((a, b) => rank(a) - rank(b) || a.board.localeCompare(b.board));
   const gone = sorted.filter(({ alive }) => !alive);
   const shown = gone.length > 3 ? sorted.filter(({ alive }) => alive) : sorted;
   return (
     <>
-      {(boards.length > 0 || silent.length > 0) && <Headline boards={sorted} far={silent} />}
+      {(boards.length > 0 || elsewhere.length > 0) && <Headline boards={sorted} far={elsewhere} />}
       {status?.plant && <PlantPanel value={far.value} error={far.error} />}
       <div class="cards">{shown.map((summary) => <BoardCard key={summary.board} summary={summary} />)}</div>
       {all.filter(({ here, alive }) => !here && alive).map((summary) => <FarCard key={summary.board} summary={summary} />)}

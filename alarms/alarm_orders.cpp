@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_orders.h"
+#include "alarms/alarm_orders.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 #include "base/text.h"
 #include "rt/clock.h"
-#include "tools/values/variables.h"
+#include "schema/schema.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 struct Known {
@@ -36,7 +36,8 @@ bool fits(const std::string& wanted, const std::string& name, const Known& alarm
     return whole == wanted || (whole.size() > wanted.size() + 2 && whole.ends_with(wanted) &&
                                whole.compare(whole.size() - wanted.size() - 2, 2, "::") == 0);
   };
-  return is_end_of(name) || is_end_of(alarm.part) || (is_glob(wanted) && schema::glob_match(wanted, alarm.part));
+  return is_end_of(name) || is_end_of(alarm.part) ||
+         (schema::is_glob(wanted) && schema::glob_match(wanted, alarm.part));
 }
 
 std::vector<std::string> chosen_of(const std::map<std::string, Known>& all, const AlarmOrder& order,
@@ -110,4 +111,4 @@ Result<std::vector<std::string>, AlarmProblem> carry_out(AlarmJournal& journal,
   return done;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

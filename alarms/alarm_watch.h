@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/alarms/alarm_journal.h"
-#include "tools/alarms/declared_alarms.h"
-#include "tools/values/here_source.h"
+#include "alarms/alarm_journal.h"
+#include "alarms/declared_alarms.h"
 #include "vars/store.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 // A condition has to be over for so long, so that one that flickers does not fill the history.
 inline constexpr std::int64_t kBackForNs = 1'000'000'000;
@@ -34,8 +33,7 @@ class AlarmCondition {
 
 class AlarmWatch {
  public:
-  explicit AlarmWatch(std::string node)
-      : node_(std::move(node)), journal_(node_), source_(node_, vars::Mode::ReadOnly) {}
+  explicit AlarmWatch(std::string node) : node_(std::move(node)), journal_(node_) {}
 
   // Looks once, about ten times a second; writes nothing if another process watches already. Returns why what happened
   // could not be kept, else nothing.
@@ -50,13 +48,12 @@ class AlarmWatch {
 
   std::string node_;
   AlarmJournal journal_;
-  HereSource source_;
   std::optional<vars::Store> store_;
-  std::uint64_t generation_ = 0;
+  std::uint64_t number_ = 0;  // of the store
   std::vector<DeclaredAlarm> alarms_;
   std::vector<AlarmCondition> conditions_;  // beside alarms_
   std::vector<char> standing_;              // beside alarms_: by the last look
   std::vector<std::string> values_;         // beside alarms_: of those that stand
 };
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

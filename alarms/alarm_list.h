@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/alarms/alarm_book.h"
-#include "tools/alarms/declared_alarms.h"
+#include "alarms/alarm_book.h"
+#include "alarms/declared_alarms.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 struct ListedAlarm {
   std::string name;
@@ -28,7 +28,9 @@ std::vector<ListedAlarm> list_alarms(const std::vector<DeclaredAlarm>& declared,
 base::Json json_of(const ListedAlarm& alarm);
 // {"active", "unacknowledged", "shelved", "worst"}
 base::Json json_of(const AlarmCounts& counts);
+// What is not there counts as none.
+AlarmCounts counts_in(const base::Json& json);
 // "2 alarms want to be acknowledged, 1 is shelved"; empty if all is normal.
 std::string sentence_of(const AlarmCounts& counts);
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
+#include "alarms/alarm_book.h"
 #include "base/descriptor.h"
-#include "tools/alarms/alarm_book.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 class AlarmJournal {
  public:
@@ -52,4 +52,4 @@ class AlarmJournal {
   base::Descriptor watching_;
 };
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -10,11 +10,11 @@
 #include <string>
 #include <string_view>
 
+#include "alarms/alarm_state.h"
 #include "base/json.h"
 #include "schema/schema.h"
-#include "tools/alarms/alarm_state.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 // A line of the history. `state` instead of `event`: how an alarm stood when the history was cut.
 struct AlarmEntry {
@@ -68,4 +68,4 @@ class AlarmBook {
   std::uint64_t revision_ = 0;
 };
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_journal.h"
+#include "alarms/alarm_journal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include "rt/file_lock.h"
 #include "vars/retain.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{8} << 20U;
@@ -170,4 +170,4 @@ bool AlarmJournal::watched() const {
   return !free && free.error().code == Errc::Busy;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

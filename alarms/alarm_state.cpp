@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_state.h"
+#include "alarms/alarm_state.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 constexpr std::array<const char*, 5> kStates{"normal", "unacknowledged", "acknowledged", "returned", "shelved"};
@@ -68,4 +68,4 @@ bool is_active(AlarmState state) noexcept {
   return state == AlarmState::Unacknowledged || state == AlarmState::Acknowledged;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_list.h"
+#include "alarms/alarm_list.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 ListedAlarm listed(const DeclaredAlarm& one, AlarmRecord record) {
@@ -86,6 +86,16 @@ base::Json json_of(const AlarmCounts& counts) {
           {"worst", counts.worst ? base::Json(schema::word_of(*counts.worst)) : base::Json()}};
 }
 
+AlarmCounts counts_in(const base::Json& json) {
+  AlarmCounts counts;
+  const auto number = [&json](const char* what) { return json[what].natural().value_or(0); };
+  counts.active = number("active");
+  counts.unacknowledged = number("unacknowledged");
+  counts.shelved = number("shelved");
+  counts.worst = schema::priority_of(json["worst"].text().value_or(""));
+  return counts;
+}
+
 std::string sentence_of(const AlarmCounts& counts) {
   std::vector<std::string> parts;
   const auto add = [&parts](std::size_t count, const char* one, const char* several) {
@@ -99,4 +109,4 @@ std::string sentence_of(const AlarmCounts& counts) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

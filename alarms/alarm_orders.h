@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/alarms/alarm_journal.h"
-#include "tools/alarms/declared_alarms.h"
+#include "alarms/alarm_journal.h"
+#include "alarms/declared_alarms.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 struct AlarmOrder {
   AlarmEvent what = AlarmEvent::Acknowledged;  // or Shelved, Unshelved
@@ -35,4 +35,4 @@ Result<std::vector<std::string>, AlarmProblem> carry_out(AlarmJournal& journal,
                                                          const std::vector<DeclaredAlarm>& declared,
                                                          const AlarmOrder& order);
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

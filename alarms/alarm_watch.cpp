@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_watch.h"
+#include "alarms/alarm_watch.h"
 
 #include <fmt/format.h>
 #include <indurop/detail/freshness.h>
@@ -11,8 +11,10 @@
 
 #include "rt/clock.h"
 #include "schema/leaf.h"
+#include "vars/process.h"
+#include "vars/shm_file.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 // The longest value of one element.
@@ -44,15 +46,15 @@ bool AlarmCondition::look(const schema::Alarm& alarm, double value, std::int64_t
 }
 
 bool AlarmWatch::attach() {
-  if (!store_ || store_->retired() || source_.generation() != generation_) {
-    const std::uint64_t generation = source_.generation();
-    auto fresh = source_.attach();
+  if (!store_ || store_->retired() || vars::store_number(node_) != number_) {
+    const std::uint64_t number = vars::store_number(node_);
+    auto fresh = vars::Store::attach(node_, vars::Mode::ReadOnly);
     if (!fresh.ok()) {
       store_.reset();
       return false;
     }
     store_ = std::move(fresh).value();
-    generation_ = generation;
+    number_ = number;
     alarms_ = declared_alarms(*store_);
     conditions_.assign(alarms_.size(), {});
     standing_.clear();
@@ -61,7 +63,9 @@ bool AlarmWatch::attach() {
     }
     values_.assign(alarms_.size(), {});
   }
-  return source_.absence(&*store_).empty();
+  const vars::BlockHeader& header = store_->header();
+  return vars::process_alive(header.node_pid.load(std::memory_order_relaxed),
+                             header.node_start_time.load(std::memory_order_relaxed));
 }
 
 std::string AlarmWatch::look() {
@@ -125,4 +129,4 @@ std::vector<AlarmEntry> AlarmWatch::decide(const AlarmBook& book) const {
   return all;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/declared_alarms.h"
+#include "alarms/declared_alarms.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "schema/leaf.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 bool has_alarms(const schema::Type& type) {
@@ -62,4 +62,4 @@ std::vector<DeclaredAlarm> declared_alarms(const vars::Store& store) {
   return all;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

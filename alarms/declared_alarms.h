@@ -9,7 +9,7 @@
 #include "schema/schema.h"
 #include "vars/store.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 struct DeclaredAlarm {
   std::string name;  // unique: "press::oil[2] > 80"
@@ -26,4 +26,4 @@ struct DeclaredAlarm {
 inline constexpr std::size_t kMostAlarms = 4096;
 std::vector<DeclaredAlarm> declared_alarms(const vars::Store& store);
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

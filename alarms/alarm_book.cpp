@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/alarms/alarm_book.h"
+#include "alarms/alarm_book.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 base::Json json_of(const AlarmEntry& entry) {
   base::Json out{{"wall_ns", entry.wall_ns}, {"alarm", entry.alarm}};
@@ -92,4 +92,4 @@ AlarmCounts AlarmBook::counts() const {
   return counts;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

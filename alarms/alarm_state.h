@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace indurop::tools {
+namespace indurop::alarms {
 
 enum class AlarmState { Normal, Unacknowledged, Acknowledged, Returned, Shelved };
 // Returned: the condition is over, and nobody has acknowledged that it was there.
@@ -27,4 +27,4 @@ bool wants_attention(AlarmState state) noexcept;
 // The condition is there, as far as this tells.
 bool is_active(AlarmState state) noexcept;
 
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -9,12 +9,12 @@
 #include <fstream>
 #include <limits>
 
+#include "alarms/alarm_list.h"
+#include "alarms/alarm_orders.h"
+#include "alarms/alarm_watch.h"
 #include "rt/clock.h"
-#include "tools/alarms/alarm_list.h"
-#include "tools/alarms/alarm_orders.h"
-#include "tools/alarms/alarm_watch.h"
 
-namespace indurop::tools {
+namespace indurop::alarms {
 namespace {
 
 using State = AlarmState;
@@ -254,4 +254,4 @@ TEST(AlarmCondition_, Goes_on_where_another_watcher_ended) {
 }
 
 }  // namespace
-}  // namespace indurop::tools
+}  // namespace indurop::alarms

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/board_alarms.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <utility>
+
+#include "alarms/alarm_list.h"
+#include "alarms/alarm_orders.h"
+#include "deploy/transaction/write_words.h"
+#include "vars/store.h"
+
+namespace indurop::deploy {
+namespace {
+
+using alarms::AlarmEvent;
+using base::Json;
+
+constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::seconds kLookIdle{1};
+constexpr std::size_t kMostEvents = 200;
+
+// What they point to is in `store`.
+std::vector<alarms::DeclaredAlarm> declared_in(const Result<vars::Store>& store) {
+  return store ? alarms::declared_alarms(*store) : std::vector<alarms::DeclaredAlarm>();
+}
+
+AlarmEvent event_of(Action action) {
+  return action == Action::AckAlarms      ? AlarmEvent::Acknowledged
+         : action == Action::ShelveAlarms ? AlarmEvent::Shelved
+                                          : AlarmEvent::Unshelved;
+}
+
+}  // namespace
+
+void BoardAlarms::step(rt::MonoTime now) {
+  if (now < look_at_) {
+    return;
+  }
+  std::string problem = watch_.look();
+  look_at_ = now + (watch_.idle() ? rt::MonoTime::duration(kLookIdle) : rt::MonoTime::duration(kLook));
+  if (problem != problem_ && !problem.empty()) {
+    log_.error("alarms cannot be kept: {}", problem);
+  }
+  problem_ = std::move(problem);
+}
+
+std::string alarms_text(const std::string& board) {
+  alarms::AlarmJournal journal(board);
+  journal.refresh();
+  const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
+  const auto declared = declared_in(store);
+  Json list = Json::array();
+  for (const alarms::ListedAlarm& one : alarms::list_alarms(declared, journal.book(), true)) {
+    list.push_back(json_of(one));
+  }
+  Json events = Json::array();
+  for (const alarms::AlarmEntry& one : journal.history(kMostEvents)) {
+    events.push_back(json_of(one));
+  }
+  return Json{{"watched", journal.watched()},
+              {"declared", declared.size()},
+              {"counts", json_of(journal.book().counts())},
+              {"alarms", std::move(list)},
+              {"events", std::move(events)}}
+      .dump();
+}
+
+Result<std::string, base::Problem> order_alarms(const std::string& board, const Command& command) {
+  const auto words = parse_write_order(command.target);
+  if (!words || (command.action == Action::ShelveAlarms && words->for_ns <= 0)) {
+    return base::Problem{"the command cannot be understood"};
+  }
+  alarms::AlarmOrder order;
+  order.what = event_of(command.action);
+  order.names = words->lines;
+  order.all = words->lines.empty();
+  order.for_ns = words->for_ns;
+  order.who = words->who.empty() ? "somebody" : words->who;
+  order.from = command.host;
+  order.reason = words->reason;
+  alarms::AlarmJournal journal(board);
+  const auto store = vars::Store::attach(board, vars::Mode::ReadOnly);
+  const auto done = alarms::carry_out(journal, declared_in(store), order);
+  if (!done) {
+    return base::Problem{fmt::format("{}", fmt::join(done.error().texts, "; "))};
+  }
+  return Json(*done).dump();
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The alarms of this board: its agent looks at their conditions, says how they stand, and does what people elsewhere
+// want done about them. Only reads the node's memory; not real-time safe.
+//   alarms: {"watched", "declared", "counts", "alarms": [all that are declared or stand], "events": [oldest first]},
+//           as /api/v1/boards/BOARD/alarms has them
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <string>
+#include <vector>
+
+#include "alarms/alarm_watch.h"
+#include "base/log.h"
+#include "base/problem.h"
+#include "deploy/words/command_words.h"
+#include "rt/clock.h"
+
+namespace indurop::deploy {
+
+class BoardAlarms {
+ public:
+  BoardAlarms(std::string board, const base::Log& log) : board_(std::move(board)), watch_(board_), log_(log) {}
+
+  // Looks at conditions when it is time to.
+  void step(rt::MonoTime now);
+
+ private:
+  std::string board_;
+  alarms::AlarmWatch watch_;
+  const base::Log& log_;
+  rt::MonoTime look_at_;
+  std::string problem_;
+};
+
+std::string alarms_text(const std::string& board);
+
+// Action::AckAlarms, ShelveAlarms and UnshelveAlarms: the alarms that it was done to, as JSON. All or none.
+Result<std::string, base::Problem> order_alarms(const std::string& board, const Command& command);
+
+}  // namespace indurop::deploy
