@@ -44,30 +44,6 @@ Result<alarms::AlarmOrder, std::string> read_order(const Call& call, alarms::Ala
   return order;
 }
 
-Reply carry_out(Api& api, const Call& call, alarms::AlarmEvent what, const char* word) {
-  const auto found = board_of(call);
-  if (!found) {
-    return found.error();
-  }
-  const auto order = read_order(call, what);
-  if (!order) {
-    return refusal(status::kBadRequest, order.error());
-  }
-  Write write(api, call, word);
-  write.about(order->all ? "all alarms" : fmt::format("{}", fmt::join(order->names, " ")), order->reason);
-  if (auto refused = write.begin()) {
-    return *refused;
-  }
-  alarms::AlarmJournal journal((*found)->name());
-  const auto done = alarms::carry_out(journal, declared_of(**found), *order);
-  if (!done) {
-    return write.failed(done.error().failed ? status::kFailed : status::kWrongValue, done.error().texts);
-  }
-  base::Json body = about(**found);
-  body["alarms"] = *done;
-  return write.done(body);
-}
-
 using FarOrder = tools::PlantWatch::FarOrder;
 
 FarOrder::What far_word_of(alarms::AlarmEvent what) {
@@ -76,34 +52,54 @@ FarOrder::What far_word_of(alarms::AlarmEvent what) {
                                                   : FarOrder::What::UnshelveAlarms;
 }
 
-// The agent of a board elsewhere keeps its alarms.
-Reply order_far(Api& api, const Call& call, alarms::AlarmEvent what, const char* word) {
+// The alarms that it was done to, or the reply that says why not.
+Result<base::Json, Reply> done_far(Write& write, const Call& call, const Board& board,
+                                   const alarms::AlarmOrder& order) {
+  const auto done = call.plant->order(board.name(), {far_word_of(order.what), order.names, order.for_ns,
+                                                     order.who + " at " + order.from, order.reason});
+  if (!done) {
+    return write.failed(done.error().code == kUnreachable ? status::kNoAnswer : status::kWrongValue, done.error().text);
+  }
+  return base::Json::parse(*done).value_or(base::Json::array());
+}
+
+Result<base::Json, Reply> done_here(Write& write, const Board& board, const alarms::AlarmOrder& order) {
+  alarms::AlarmJournal journal(board.name());
+  const auto done = alarms::carry_out(journal, declared_of(board), order);
+  if (!done) {
+    return write.failed(done.error().failed ? status::kFailed : status::kWrongValue, done.error().texts);
+  }
+  return base::Json(*done);
+}
+
+bool is_line(const std::string& name) {
+  return !name.empty() && name.find_first_of("\r\n") == std::string::npos;
+}
+
+Reply carry_out(Api& api, const Call& call, alarms::AlarmEvent what, const char* word) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
   }
+  const Board& board = **found;
   const auto order = read_order(call, what);
   if (!order) {
     return refusal(status::kBadRequest, order.error());
   }
   Write write(api, call, word);
   write.about(order->all ? "all alarms" : fmt::format("{}", fmt::join(order->names, " ")), order->reason);
-  const bool lines = std::any_of(order->names.begin(), order->names.end(), [](const std::string& name) {
-    return name.empty() || name.find_first_of("\r\n") != std::string::npos;
-  });
-  if (lines) {
+  if (!std::all_of(order->names.begin(), order->names.end(), is_line)) {
     return write.failed(status::kWrongValue, "names of alarms are one line each");
   }
   if (auto refused = write.begin()) {
     return *refused;
   }
-  const auto done = call.plant->order((*found)->name(), {far_word_of(what), order->names, order->for_ns,
-                                                         order->who + " at " + order->from, order->reason});
+  auto done = board.far() != nullptr ? done_far(write, call, board, *order) : done_here(write, board, *order);
   if (!done) {
-    return write.failed(done.error().code == kUnreachable ? status::kNoAnswer : status::kWrongValue, done.error().text);
+    return done.error();
   }
-  base::Json body = about(**found);
-  body["alarms"] = base::Json::parse(*done).value_or(base::Json::array());
+  base::Json body = about(board);
+  body["alarms"] = std::move(*done);
   return write.done(body);
 }
 
@@ -229,18 +225,6 @@ Reply far_alarm_history(Api& /*api*/, const Call& call) {
   base::Json body = about(**found);
   body["events"] = std::move(list);
   return json_reply(body);
-}
-
-Reply far_acknowledge_alarms(Api& api, const Call& call) {
-  return order_far(api, call, alarms::AlarmEvent::Acknowledged, "acknowledge");
-}
-
-Reply far_shelve_alarms(Api& api, const Call& call) {
-  return order_far(api, call, alarms::AlarmEvent::Shelved, "shelve");
-}
-
-Reply far_unshelve_alarms(Api& api, const Call& call) {
-  return order_far(api, call, alarms::AlarmEvent::Unshelved, "unshelve");
 }
 
 }  // namespace indurop::serve::answers
