@@ -2,6 +2,7 @@
 // The order of execution (chapter, Table 3), offsets, cores, and sporadic modules behind the periodic ones.
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -16,6 +17,8 @@ namespace indurop::test {
 namespace {
 
 using Schedule = NodeTest;
+
+constexpr std::array kModules{"cntr1", "cntr2", "cntr3", "cntr4"};
 
 std::set<std::uint64_t> slots_of(const scheduler::RunBlock& run, const std::string& name) {
   std::set<std::uint64_t> slots;
@@ -35,14 +38,29 @@ TEST_F(Schedule, Of_the_chapter_runs_in_the_order_of_table_3) {
   if (!std::filesystem::exists(file)) {
     GTEST_SKIP() << "the examples are not built";
   }
-  Program& sut = start_file(file, {"--report", folder() / "r.json"});
-  ASSERT_TRUE(wait_until_running(sut));
-  for (const char* name : {"cntr1", "cntr2", "cntr3", "cntr4"}) {
-    ASSERT_TRUE(runs_reach(name, 200)) << name;
+  // A machine that stands still for some milliseconds makes a module exceed its budget, and what it would have caused
+  // does not happen: then it is tried again.
+  const auto stood_still = [&] {
+    return std::any_of(kModules.begin(), kModules.end(), [&](const char* name) {
+      return static_cast<scheduler::FaultKind>(module(name).fault_kind.load()) == scheduler::FaultKind::Budget;
+    });
+  };
+  bool whole = false;
+  for (int attempt = 0; attempt < 3 && !whole; ++attempt) {
+    Program& sut = start_file(file, {"--report", folder() / "r.json"});
+    ASSERT_TRUE(wait_until_running(sut));
+    ASSERT_TRUE(wait_until([&] {
+      return stood_still() ||
+             (module("event1").runs.load() > 0 && std::all_of(kModules.begin(), kModules.end(), [&](const char* name) {
+                return module(name).runs.load() >= 200;
+              }));
+    }));
+    sut.signal(SIGTERM);
+    const int code = sut.wait();
+    whole = !stood_still();
+    ASSERT_TRUE(code == 0 || !whole);
   }
-  EXPECT_TRUE(wait_until([&] { return module("event1").runs.load() > 0; }));
-  sut.signal(SIGTERM);
-  ASSERT_EQ(sut.wait(), 0);
+  ASSERT_TRUE(whole) << "the machine stood still in each of three attempts";
   const auto& block = *run();
   EXPECT_EQ(block.basic_period_ns, 100'000);
   EXPECT_EQ(block.macro_period_ns, 500'000);
