@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "robot/job.h"
 #include "robot/settings.h"
 
 namespace indurop::robot {
@@ -23,6 +24,7 @@ struct FileNames {
 struct Findings {
   std::vector<base::Diagnostic> files;  // with a note of what the arm can do
   std::vector<WrongSetting> properties;
+  std::vector<NamedVariable> variables;  // shared ones that jobs name: numbers or bools
 };
 // All of both. Workspace and tool speed are taken from the properties.
 Findings check_module(FileNames names, const PropertyText& property);

@@ -120,6 +120,13 @@ struct Job {
 inline constexpr std::size_t kMostVariables = 32;  // of one job
 inline constexpr std::size_t kMostInterrupts = 8;  // of all jobs
 
+// A shared variable that jobs name, and where they do first.
+struct NamedVariable {
+  std::string name;
+  std::string file;
+  base::SourcePlace place;
+};
+
 struct JobBook {
   std::vector<Point> points;
   std::vector<WorkFrame> frames;
@@ -128,6 +135,7 @@ struct JobBook {
   std::vector<BodyLine> keepouts{}, bodies{};
   std::vector<Job> jobs;
   std::vector<std::string> signals;
+  std::vector<NamedVariable> named{};  // likewise, with their places
   std::vector<Formula> formulas;
   // What ON watches: the job it calls once its condition becomes true.
   struct Interrupt {

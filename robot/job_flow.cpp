@@ -26,6 +26,8 @@ int JobParser::signal(const char* what) {
   const auto found = std::find(book_.signals.begin(), book_.signals.end(), name.text);
   if (found == book_.signals.end()) {
     book_.signals.emplace_back(name.text);
+    book_.named.push_back(
+        {std::string(name.text), job().file, {static_cast<int>(line_), static_cast<int>(name.column)}});
     return static_cast<int>(book_.signals.size()) - 1;
   }
   return static_cast<int>(found - book_.signals.begin());

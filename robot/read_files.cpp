@@ -339,6 +339,7 @@ Findings check_module(FileNames names, const PropertyText& property) {
     read.errors.push_back({base::Diagnostic::Severity::Note, names.urdf, {1, 1}, "the arm: " + read.kind});
   }
   found.files = std::move(read.errors);
+  found.variables = std::move(read.book.named);
   return found;
 }
 

@@ -19,6 +19,7 @@ class JobSignals final : public indurop::robot::Signals {
  public:
   // The first access by a name looks it up, the others are real-time safe.
   explicit JobSignals(const std::vector<std::string>& names) {
+    std::string unknown;
     for (const std::string& name : names) {
       Signal signal{name, nullptr, nullptr};
       const bool found = is<short>(signal) || is<bool>(signal) || is<std::int32_t>(signal) || is<double>(signal) ||
@@ -26,9 +27,13 @@ class JobSignals final : public indurop::robot::Signals {
                          is<std::uint32_t>(signal) || is<std::int64_t>(signal) || is<std::uint64_t>(signal) ||
                          is<float>(signal);
       if (!found) {
-        throw std::runtime_error("a job names the variable " + name + ", which is no number or bool of this node");
+        unknown += (unknown.empty() ? "" : ", ") + name;
       }
       signals_.push_back(signal);
+    }
+    if (!unknown.empty()) {
+      throw std::runtime_error("jobs name variables that are no numbers or bools of this node: " + unknown +
+                               "; indurop check says where");
     }
   }
   double read(std::size_t index) noexcept override { return signals_[index].read(handle_, signals_[index].name); }

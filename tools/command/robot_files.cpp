@@ -53,6 +53,25 @@ void warn_of_names(const config::Config& config, const config::Module& module, s
   }
 }
 
+bool is_number(const schema::Type& type) {
+  using schema::Base;
+  return type.dims.empty() && type.base != Base::Struct && type.base != Base::Text && type.base != Base::Char &&
+         type.base != Base::Enum;
+}
+
+// Shared variables that jobs name and no module of the board declares; the node would not start.
+void check_variables(const robot::Findings& found, const schema::Schema& schema, std::vector<base::Diagnostic>& all) {
+  for (const robot::NamedVariable& one : found.variables) {
+    std::string message;
+    const auto place = schema::find_place(schema, one.name, message);
+    if (!place || !is_number(place->type)) {
+      all.push_back({base::Diagnostic::Severity::Error, one.file, one.place,
+                     place ? fmt::format("'{}' is no number or bool; name a part that is one", one.name)
+                           : fmt::format("{} (jobs name variables of this board's modules)", message)});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check) {
@@ -77,6 +96,9 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     }
     warn_of_names(config, module, all);
     all.insert(all.end(), found.files.begin(), found.files.end());
+    if (!check.schema.variables.empty() && !base::has_error(found.files)) {
+      check_variables(found, check.schema, all);
+    }
   }
   return all;
 }

@@ -313,7 +313,8 @@ TEST_F(RobotNode, What_is_wrong_with_robot_and_jobs_is_said_before_the_start) {
   EXPECT_CONTAINS(said, "other.urdf:1:1: error: this robot description (property urdf) cannot be read");
   const Outcome unknown = run_to_end(modules("SET O77 ON\n"));
   EXPECT_EQ(unknown.code, 1);
-  EXPECT_CONTAINS(unknown.out + unknown.err, "a job names the variable O77");
+  EXPECT_CONTAINS(unknown.out + unknown.err,
+                  "jobs name variables that are no numbers or bools of this node: O77; indurop check says where");
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+constexpr const char* kArm = R"(<robot name="arm"><link name="base"/><link name="tool"/>
+<joint name="j1" type="revolute"><parent link="base"/><child link="tool"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" velocity="1" effort="0"/></joint></robot>)";
+
 class Robot_files : public testing::Test {
  protected:
   void SetUp() override {
@@ -50,6 +54,26 @@ TEST_F(Robot_files, All_of_them_are_read_and_all_errors_told_at_once) {
   EXPECT_THAT(found, testing::Contains(HasSubstr("points.job:1:")));
   EXPECT_THAT(found, testing::Contains(HasSubstr("pick.job:2:1: error: unknown statement 'MOVE'")));
   EXPECT_THAT(found, testing::Contains(HasSubstr("gone.job:1:1: error: this job cannot be read")));
+}
+
+TEST_F(Robot_files, Jobs_name_variables_that_there_are) {
+  const auto add = [&](const char* name, schema::Base base) {
+    schema::Variable one;
+    one.name = name;
+    one.type.base = base;
+    one.type.element_size = 2;
+    check_.schema.variables.push_back(one);
+  };
+  add("PLC_ROBOT::I4", schema::Base::Int16);
+  add("PLC_ROBOT::name", schema::Base::Text);
+  write("arm.urdf", kArm);
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "pick.job"}};
+  write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\nSET I5 OFF\nIF I4 ON AND  name = 1\n SET I5 ON\nEND\n");
+  EXPECT_THAT(errors(),
+              testing::IsSupersetOf({HasSubstr("pick.job:3:5: error: no variable 'I5'; did you mean 'PLC_ROBOT::I4'?"),
+                                     HasSubstr("pick.job:4:15: error: 'name' is no number")}));
+  write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\n");
+  EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("pick.job"))));
 }
 
 TEST_F(Robot_files, Only_robot_modules_have_them) {
