@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace indurop::io {
 namespace {
@@ -29,8 +30,16 @@ AxisModel::AxisModel(const config::IoAxis& axis) noexcept
 void AxisModel::accelerate(double torque) noexcept {
   torque_ = std::clamp(torque, -most_torque_, most_torque_);
   limited_ = limited_ || torque_ != torque;
-  velocity_ += (torque_ - damping_ * velocity_) / inertia_ * kStep;
+  velocity_ += (torque_ - load_ - damping_ * velocity_) / inertia_ * kStep;
   position_ += velocity_ * kStep;
+  torques_ += torque_;
+  ++steps_;
+}
+
+double AxisModel::take_mean_torque() noexcept {
+  const double sum = std::exchange(torques_, 0);
+  const int steps = std::exchange(steps_, 0);
+  return steps > 0 ? sum / steps : torque_;
 }
 
 void AxisModel::drive(const AxisReference& reference) noexcept {
@@ -54,7 +63,11 @@ void AxisModel::brake() noexcept {
   limited_ = false;
   // Not more than what just stops it within the step.
   const double stopping = damping_ * velocity_ - velocity_ * inertia_ / kStep;
+  const double load = std::exchange(load_, 0);
+  const double torques = torques_;  // the motor has no part in it
   accelerate(std::clamp(stopping, -most_torque_, most_torque_));
+  torques_ = torques;
+  load_ = load;
   torque_ = 0;
 }
 

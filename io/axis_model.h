@@ -26,11 +26,15 @@ class AxisModel {
 
   explicit AxisModel(const config::IoAxis& axis) noexcept;
 
+  // The mean of its torque since the last call, N m; without a step since, the last one.
+  [[nodiscard]] double take_mean_torque() noexcept;
+  // What the axis carries from now on, beside its own inertia and damping: torque against the motor.
+  void carry(double load) noexcept { load_ = load; }
   // One step with the loops closed.
   void drive(const AxisReference& reference) noexcept;
   // One step with a torque alone; at the axis' largest velocity no more than keeps it.
   void push(double torque) noexcept;
-  // One step without power: the brake holds with the motor's largest torque.
+  // One step without power: the brake holds what it carries, and stops it with the motor's largest torque.
   void brake() noexcept;
 
   [[nodiscard]] double position() const noexcept { return position_; }
@@ -61,6 +65,9 @@ class AxisModel {
   double position_;
   double velocity_ = 0;
   double torque_ = 0;
+  double load_ = 0;
+  double torques_ = 0;  // sum of the steps since take_mean_torque()
+  int steps_ = 0;
   bool limited_ = false;
 };
 

@@ -267,7 +267,7 @@ void Cia402Drive::advance(const DriveCommand& command, double dt) noexcept {
     case DriveState::QuickStopActive:
     case DriveState::FaultReaction:
       profile_.change_velocity(0, kQuickStopShare * model_.most_deceleration(), dt);
-      model_.drive({profile_.position, profile_.velocity, false, 0});
+      model_.drive({profile_.position, profile_.velocity, true, 0});
       break;
     case DriveState::NotReady:
     case DriveState::SwitchOnDisabled:
@@ -324,7 +324,7 @@ DriveFeedback Cia402Drive::feedback(const DriveCommand& command) noexcept {
   result.mode = static_cast<std::int8_t>(mode_);
   result.position = wrapped(last_counts_ - zero_counts_);
   result.velocity = saturated<std::int32_t>(model_.velocity() * model_.counts_per_radian());
-  result.torque = saturated<std::int16_t>(model_.torque() / axis_.torque * kPerMille);
+  result.torque = saturated<std::int16_t>(model_.take_mean_torque() / axis_.torque * kPerMille);
   result.following = follows_position_
                          ? saturated<std::int32_t>((profile_.position - model_.position()) * model_.counts_per_radian())
                          : 0;
@@ -381,6 +381,7 @@ DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanose
   if ((mode_ == DriveMode::CyclicPosition || mode_ == DriveMode::InterpolatedPosition) && period > 0) {
     cyclic_velocity_ = enabled ? (cyclic_target(command) - profile_.position) / period : 0;
   }
+  model_.carry(command.load);
   // A period need not be a multiple of the step; what is left comes with the next one.
   for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
     advance(command, AxisModel::kStep);

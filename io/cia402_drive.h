@@ -52,6 +52,7 @@ struct DriveCommand {
   std::int32_t velocity_offset = 0;
   std::int16_t torque_offset = 0;
   std::uint16_t probe = 0;  // function of the touch probes (0x60B8)
+  double load = 0;          // no object of a drive: what the axis carries, N m
 };
 
 struct DriveFeedback {
@@ -60,7 +61,7 @@ struct DriveFeedback {
   std::int8_t mode = 0;
   std::int32_t position = 0;    // counts, wraps around like the register of a real drive
   std::int32_t velocity = 0;    // counts / s
-  std::int16_t torque = 0;      // of what the motor can give, 1/1000
+  std::int16_t torque = 0;      // of what the motor can give, mean of the period, 1/1000
   std::int32_t following = 0;   // how far behind its set point it is, counts
   std::uint32_t inputs = 0;     // digital inputs (0x60FD): limit switches, home switch, probes
   std::uint16_t probe = 0;      // status of the touch probes (0x60B9)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/cia402_driver.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -9,8 +11,14 @@
 
 namespace indurop::io {
 
+namespace {
+
+constexpr Number kMostLoad = 1e6;  // N m
+
+}  // namespace
+
 Cia402Driver::Object Cia402Driver::object_of(const config::IoPoint& point) {
-  constexpr std::array<std::pair<std::string_view, Object>, 17> kNames{{{"error", Object::Error},
+  constexpr std::array<std::pair<std::string_view, Object>, 18> kNames{{{"error", Object::Error},
                                                                         {"status", Object::Status},
                                                                         {"control", Object::Control},
                                                                         {"mode", Object::Mode},
@@ -20,6 +28,7 @@ Cia402Driver::Object Cia402Driver::object_of(const config::IoPoint& point) {
                                                                         {"position_offset", Object::PositionOffset},
                                                                         {"velocity_offset", Object::VelocityOffset},
                                                                         {"torque_offset", Object::TorqueOffset},
+                                                                        {"load", Object::Load},
                                                                         {"following", Object::Following},
                                                                         {"inputs", Object::Inputs},
                                                                         {"probe", Object::Probe},
@@ -67,6 +76,12 @@ void Cia402Driver::take(Object object, Sample& from) noexcept {
       return into(command_.velocity_offset);
     case Object::TorqueOffset:
       return into(command_.torque_offset);
+    case Object::Load:
+      from.quality = std::fabs(from.value) <= kMostLoad ? Quality::Good : Quality::OutOfRange;
+      if (!std::isnan(from.value)) {
+        command_.load = static_cast<double>(std::clamp(from.value, -kMostLoad, kMostLoad));
+      }
+      return;
     case Object::Probe:
       return into(command_.probe);
     case Object::Error:
@@ -113,6 +128,7 @@ Number Cia402Driver::value_of(Object object, const DriveFeedback& feedback) noex
     case Object::PositionOffset:
     case Object::VelocityOffset:
     case Object::TorqueOffset:
+    case Object::Load:
       break;
   }
   return 0;

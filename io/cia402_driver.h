@@ -33,6 +33,7 @@ class Cia402Driver final : public Driver {
     PositionOffset,
     VelocityOffset,
     TorqueOffset,
+    Load,
     Following,
     Inputs,
     Probe,

@@ -39,7 +39,7 @@ LineLimits AxisControl::limits(double hardness) const noexcept {
 void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
   sense_probe(in);
   const double before = measured_;
-  measured_ = in.position / scale_.counts;
+  measured_ = in.position / scale_.counts + scale_.zero;
   measured_speed_ = sensed_ ? (measured_ - before) / seconds : 0;
   sensed_ = true;
   placed_anew_ = state_ == AxisState::Homing;
@@ -260,7 +260,7 @@ DriveOut AxisControl::command(const DriveIn& in, bool quick_stop) noexcept {
   DriveOut out;
   out.control = drive_.control();
   out.mode = drive_.mode();
-  out.position = counts(commanded().position * scale_.counts * scale_.gear);
+  out.position = counts((commanded().position - scale_.zero) * scale_.counts * scale_.gear);
   out.probe = probe_.function();
   return out;
 }

@@ -26,9 +26,10 @@ class AxisControl {
     int own = 0;  // which one this is, from 0
   };
   struct Scale {
-    double counts = 1;  // per radian or metre
+    double counts = 1;  // per radian or metre; below 0: the drive turns the other way
     double gear = 1;
     double unit = kPi / 180;  // what its users count in: degrees or millimetres
+    double zero = 0;          // radians or metres, where it is while the drive is at count 0
   };
   AxisControl() = default;
   void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute, CommandTable* table,
@@ -89,6 +90,9 @@ class AxisControl {
   [[nodiscard]] bool busy() const noexcept;
   [[nodiscard]] bool at_rest() const noexcept { return !over_ && motion_.at_rest(); }
   [[nodiscard]] double unit() const noexcept { return scale_.unit; }
+  // 1 or -1: which way the drive's torque turns the axis, as it is measured and as it is told.
+  [[nodiscard]] double drive_way() const noexcept { return std::copysign(1, scale_.counts); }
+  [[nodiscard]] double command_way() const noexcept { return std::copysign(1, scale_.counts * scale_.gear); }
   [[nodiscard]] double measured() const noexcept { return measured_; }
   [[nodiscard]] const LineState& commanded() const noexcept { return over_ ? coupling_.state() : motion_.state(); }
   [[nodiscard]] AxisReport report() const noexcept;

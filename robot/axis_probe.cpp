@@ -77,7 +77,7 @@ void AxisControl::sense_probe(const DriveIn& in) noexcept {
   if (!probe_.sense(in)) {
     return;
   }
-  const double place = (probe_.counts() / scale_.counts - origin_) / scale_.unit;
+  const double place = (probe_.counts() / scale_.counts + scale_.zero - origin_) / scale_.unit;
   if (probe_windowed_ && !(place >= probe_first_ && place <= probe_last_)) {
     probe_.again();
     return;

@@ -79,7 +79,7 @@ Joints Dynamics::torques(const Joints& q, const Joints& velocity, const Joints& 
     };
     m.moment = times_inertia(turning_faster) + turning.cross(times_inertia(turning));
   }
-  Joints result = Joints::Zero();
+  Joints result = rotors_.cwiseProduct(acceleration);
   Vec3 force = Vec3::Zero();
   Vec3 moment = Vec3::Zero();  // about the base's origin
   for (std::size_t i = count_; i-- > 0;) {

@@ -32,6 +32,9 @@ class Dynamics {
   [[nodiscard]] const Joints& effort() const noexcept { return effort_; }
   // Whether the torque of an axis has a limit.
   [[nodiscard]] bool limited() const noexcept { return (effort_.array() > 0).any(); }
+  // Inertia of the motors' rotors, gears included, as their axes feel it: kg m2, kg of sliding axes. What they do to
+  // each other by turning is left out, as is usual for gears of high ratio.
+  void turn_rotors(const Joints& inertia) noexcept { rotors_ = inertia; }
   // What the arm holds, seen from its end; a mass of 0: nothing.
   void hold(const Body& payload) noexcept;
 
@@ -61,6 +64,7 @@ class Dynamics {
   Pose end_;
   Friction friction_;
   Joints effort_ = Joints::Zero();
+  Joints rotors_ = Joints::Zero();
 };
 
 }  // namespace indurop::robot

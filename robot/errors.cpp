@@ -66,6 +66,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "an axis has not enough torque to hold the arm on the way there; hold less, nearer, or go another way";
     case ErrorCode::Collision:
       return "the arm would touch itself, what it holds or a zone";
+    case ErrorCode::Contact:
+      return "something pushes against the arm, or it does not hold what TOOL and LOAD say";
   }
   return "unknown error";
 }

@@ -14,6 +14,13 @@ constexpr std::size_t at(int axis) noexcept {
   return static_cast<std::size_t>(axis);
 }
 
+AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::size_t i) noexcept {
+  const auto own = [i](const std::vector<double>& values) { return values.size() > 1 ? values[i] : values[0]; };
+  const double unit = axis.slides() ? 0.001 : kPi / 180;
+  const double counts = axis.slides() ? own(settings.counts_per_mm) * 1000 : own(settings.counts_per_turn) / (2 * kPi);
+  return {counts, own(settings.gear), unit, own(settings.zero) * unit};
+}
+
 }  // namespace
 
 Group::Group(GroupParts parts)
@@ -30,16 +37,13 @@ Group::Group(GroupParts parts)
   if (!parts_.book.interrupts.empty()) {
     shelf_ = std::make_unique<Shelf>(places_, parts_.tool);
   }
-  weigh();
-  places_.weigh(dynamics_.limited() ? &dynamics_ : nullptr);
+  set_up_torques();
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
-  const AxisControl::Scale turning{settings.counts_per_turn / (2 * kPi), settings.gear, kPi / 180};
-  const AxisControl::Scale sliding{settings.counts_per_mm * 1000, settings.gear, 0.001};
   for (int i = 0; i < count(); ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
-    axes_[at(i)].set_up(axis, limits, axis.slides() ? sliding : turning, settings.absolute, &table_,
+    axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(i)), settings.absolute, &table_,
                         {axes(), {gates_.data(), axis_count()}, cams_, i});
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
@@ -64,6 +68,7 @@ Joints Group::commanded() const noexcept {
 void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   sense(in);
   watch(in);
+  watch_contact(in);
   serve_mode(in.mode);
   serve_commands(in);
   if (in.requests_known) {
@@ -81,6 +86,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   for (int i = 0; i < count(); ++i) {
     out.drives[at(i)] = axes_[at(i)].command(in.drives[at(i)], quick_stop_);
   }
+  feed_torques(out);
   report(out);
 }
 
@@ -116,7 +122,8 @@ void Group::watch(const Inputs& in) noexcept {
 // Everything stops: along the path if there is one and it can still be followed, else each axis by itself.
 void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   set_job_aside();
-  job_.fail({code, axis}, to_string(code), std::max(follower_.source(), 0));
+  job_.fail({code, axis}, code == ErrorCode::Contact ? contact_text_ : to_string(code),
+            std::max(follower_.source(), 0));
   finish_service(code, axis);
   error_ = code;
   error_axis_ = axis;
@@ -131,7 +138,7 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   for (AxisControl& a : axes()) {
     a.power(a.wants_power() && !cut);
   }
-  if (!follower_.idle() && on_path_ && code == ErrorCode::Emergency && !cut) {
+  if (!follower_.idle() && on_path_ && (code == ErrorCode::Emergency || code == ErrorCode::Contact) && !cut) {
     follower_.stop_hard(hardness);
     for (AxisControl& a : axes()) {
       if (!a.in_group()) {

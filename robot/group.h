@@ -10,6 +10,7 @@
 
 #include "robot/axis_control.h"
 #include "robot/command_table.h"
+#include "robot/contact_watch.h"
 #include "robot/dead_man.h"
 #include "robot/follower.h"
 #include "robot/job_runner.h"
@@ -17,6 +18,7 @@
 #include "robot/read_ahead.h"
 #include "robot/set_point_gate.h"
 #include "robot/tool_set.h"
+#include "robot/torque_feed.h"
 
 namespace indurop::robot {
 
@@ -171,6 +173,9 @@ class Group final : public Controller, private MotionPort {
   bool take_tool(int tool) noexcept override;
   bool take_load(int load) noexcept override;  // group_load.cpp
   void weigh() noexcept;
+  void set_up_torques() noexcept;
+  void watch_contact(const Inputs& in) noexcept;
+  void feed_torques(Outputs& out) noexcept;
   [[nodiscard]] PathPlace place() const noexcept override { return follower_.path_place(); }
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
@@ -188,7 +193,12 @@ class Group final : public Controller, private MotionPort {
   GroupParts parts_;
   ToolSet tools_;
   CommandTable table_;
-  Dynamics dynamics_;  // with what is held
+  Dynamics dynamics_;               // with what is held
+  Joints rated_ = Joints::Zero();   // torque of the drives; 0: not known
+  Joints torque_ = Joints::Zero();  // measured
+  TorqueFeed feed_;
+  ContactWatch contact_;
+  char contact_text_[kWhy] = "";
   Places places_;
   int tool_ = 0;
   int load_ = 0;

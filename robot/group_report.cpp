@@ -25,6 +25,8 @@ void Group::report(Outputs& out) noexcept {
   out.job.can_resume = aside_ && state_ != GroupState::Moving;
   for (std::size_t i = 0; i < kJoints; ++i) {
     out.axes[i] = axes_[i].report();
+    out.axes[i].torque = torque_[static_cast<int>(i)];
+    out.axes[i].push = contact_.residual()[static_cast<int>(i)];
   }
   out.commands = table_.answers();
   report_motion(out);

@@ -202,6 +202,7 @@ ErrorCode Group::reset() noexcept {
   // A drive that is stopped in an emergency is about to lose its power, whatever it says now.
   const bool has_power = error_ != ErrorCode::Emergency && all_enabled();
   quick_stop_ = false;
+  contact_.release();
   for (AxisControl& a : axes()) {
     a.reset();
   }

@@ -48,6 +48,7 @@ GroupParts parts_of(const Settings& settings, ReadFiles files) {
                    std::move(files.kind),
                    model.dynamics,
                    std::move(files.clearance)};
+  parts.dynamics.turn_rotors(of_axes(settings.rotor_inertia));
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
   take(settings.acceleration, parts.arm, parts.joints.acceleration);
@@ -82,7 +83,7 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
                                 settings.clearance, settings.ignore_collisions});
   take_over(std::move(files.errors), wrong);
   if (files.model) {
-    take_over(check_axes(settings, files.model->arm), wrong);
+    take_over(check_axes(settings, files.model->arm, files.model->dynamics.known()), wrong);
   }
   if (wrong.empty()) {
     return std::make_unique<Group>(parts_of(settings, std::move(files)));

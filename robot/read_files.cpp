@@ -332,7 +332,7 @@ Findings check_module(FileNames names, const PropertyText& property) {
   names.ignored = settings.ignore_collisions;
   ReadFiles read = read_files(names);
   if (read.model) {
-    add(check_axes(settings, read.model->arm));
+    add(check_axes(settings, read.model->arm, read.model->dynamics.known()));
   }
   take_over(std::move(read.notes), read.errors);
   if (!read.kind.empty()) {

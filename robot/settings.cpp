@@ -20,8 +20,6 @@ struct Number {
 };
 // All of them have to be above 0.
 constexpr Number kNumbers[] = {
-    {"counts_per_turn", &Settings::counts_per_turn},
-    {"counts_per_mm", &Settings::counts_per_mm},
     {"time_to_speed", &Settings::time_to_speed},
     {"time_to_acceleration", &Settings::time_to_acceleration},
     {"tool_speed", &Settings::tool_speed},
@@ -33,7 +31,6 @@ constexpr Number kNumbers[] = {
 };
 // These not.
 constexpr Number kOtherNumbers[] = {
-    {"gear", &Settings::gear},
     {"emergency_factor", &Settings::emergency_factor},
 };
 struct Flag {
@@ -45,8 +42,16 @@ struct List {
   const char* name;
   std::vector<double> Settings::*member;
 };
-constexpr List kLists[] = {
-    {"acceleration", &Settings::acceleration}, {"jerk", &Settings::jerk}, {"workspace", &Settings::workspace}};
+constexpr List kLists[] = {{"acceleration", &Settings::acceleration},
+                           {"jerk", &Settings::jerk},
+                           {"workspace", &Settings::workspace},
+                           {"counts_per_turn", &Settings::counts_per_turn},
+                           {"counts_per_mm", &Settings::counts_per_mm},
+                           {"gear", &Settings::gear},
+                           {"zero", &Settings::zero},
+                           {"rotor_inertia", &Settings::rotor_inertia},
+                           {"rated_torque", &Settings::rated_torque},
+                           {"collision_limit", &Settings::collision_limit}};
 constexpr const char* kCategory = "emergency_category";
 constexpr const char* kIgnored = "ignore_collisions";
 
@@ -131,9 +136,6 @@ std::vector<WrongSetting> check_settings(const Settings& settings) {
       wrong.push_back({number.name, "it has to be above 0"});
     }
   }
-  if (!(std::isfinite(settings.gear) && settings.gear != 0)) {
-    wrong.push_back({"gear", "it cannot be 0"});
-  }
   if (!(std::isfinite(settings.emergency_factor) && settings.emergency_factor >= 1)) {
     wrong.push_back({"emergency_factor", "it has to be 1 or more: an emergency stop brakes at least like any other"});
   }
@@ -144,17 +146,48 @@ std::vector<WrongSetting> check_settings(const Settings& settings) {
   return wrong;
 }
 
-std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm) {
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed) {
   Wrong wrong;
   const auto count = static_cast<std::size_t>(arm.count());
-  for (const char* name : {"acceleration", "jerk"}) {
-    const std::vector<double>& values = name == std::string_view("jerk") ? settings.jerk : settings.acceleration;
-    const bool sane = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && v > 0; });
-    if (!values.empty() && (values.size() != count || !sane)) {
-      wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers above 0, one of each axis"});
+  const auto check = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
+    const auto is_sane = [&](double v) { return std::isfinite(v) && (v > 0 || (or_none && v == 0)); };
+    if (!values.empty() && (values.size() != count || !std::all_of(values.begin(), values.end(), is_sane))) {
+      wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers " + (or_none ? "from" : "above") +
+                                 " 0, one of each axis"});
+    }
+  };
+  const auto check_shared = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
+    const auto is_sane = [&](double v) { return std::isfinite(v) && (or_none || v != 0); };
+    if ((values.size() != 1 && values.size() != count) || !std::all_of(values.begin(), values.end(), is_sane)) {
+      wrong.push_back({name, "it has to be one number for all axes, or " + std::to_string(count) + ", one of each" +
+                                 (or_none ? "" : "; none may be 0")});
+    }
+  };
+  check_shared("counts_per_turn", settings.counts_per_turn);
+  check_shared("counts_per_mm", settings.counts_per_mm);
+  check_shared("gear", settings.gear);
+  check_shared("zero", settings.zero, true);
+  check("acceleration", settings.acceleration);
+  check("jerk", settings.jerk);
+  check("rated_torque", settings.rated_torque);
+  check("collision_limit", settings.collision_limit);
+  check("rotor_inertia", settings.rotor_inertia, true);
+  for (const char* name : {"collision_limit", "rotor_inertia"}) {
+    const bool rotors = name == std::string_view("rotor_inertia");
+    if (!(rotors ? settings.rotor_inertia : settings.collision_limit).empty() && !weighed) {
+      wrong.push_back({name, "the URDF does not say what the arm weighs; give its links <inertial>"});
     }
   }
+  if (!settings.collision_limit.empty() && settings.rated_torque.empty()) {
+    wrong.push_back({"collision_limit", "what drives measure counts in parts of rated_torque; give that too"});
+  }
   return wrong;
+}
+
+Joints of_axes(const std::vector<double>& values) noexcept {
+  Joints joints = Joints::Zero();
+  std::copy_n(values.begin(), std::min(values.size(), static_cast<std::size_t>(kAxes)), joints.data());
+  return joints;
 }
 
 const std::vector<std::string>& setting_names() {

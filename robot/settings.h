@@ -27,8 +27,10 @@ using PropertyText = std::function<std::string(const char* name)>;
 std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& settings);
 // Values that make no sense.
 std::vector<WrongSetting> check_settings(const Settings& settings);
-// Those of which each axis has one.
-std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm);
+// Those of which each axis has one; `weighed`: the torques of the arm are known.
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed = true);
+// A property of that kind; none: zeros.
+Joints of_axes(const std::vector<double>& values) noexcept;
 // The names that take_properties() knows, urdf and jobs.
 const std::vector<std::string>& setting_names();
 

@@ -145,7 +145,7 @@ struct AxisObject {
   const char* name;
   bool output;
 };
-inline constexpr std::array<AxisObject, 22> kAxisObjects{{{"error", false},
+inline constexpr std::array<AxisObject, 23> kAxisObjects{{{"error", false},
                                                           {"status", false},
                                                           {"mode", false},
                                                           {"position", false},
@@ -166,6 +166,7 @@ inline constexpr std::array<AxisObject, 22> kAxisObjects{{{"error", false},
                                                           {"position_offset", true},
                                                           {"velocity_offset", true},
                                                           {"torque_offset", true},
+                                                          {"load", true},
                                                           {"probe", true}}};
 
 // A module file that exports this function takes the path of an ioconfig.xml from its property "config"; so the checks

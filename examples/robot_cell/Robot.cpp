@@ -46,10 +46,10 @@ std::vector<std::string> files(const std::string& names) {
 }
 
 robot::DriveIn from(const AXIS1_IN_t& axis) {
-  return {axis.error, axis.status, axis.mode, axis.position, axis.probe, axis.probe_rise, axis.probe_fall};
+  return {axis.error, axis.status, axis.mode, axis.position, axis.probe, axis.probe_rise, axis.probe_fall, axis.torque};
 }
 AXIS1_OUT_t to(const robot::DriveOut& drive) {
-  return {drive.control, drive.mode, drive.position, drive.probe};
+  return {drive.control, drive.mode, drive.position, drive.probe, drive.torque_offset};
 }
 
 // A .glb of an arm with more axes has variables of these names, which are found before these.
@@ -240,7 +240,9 @@ void write_axis_states() {
                a.most_acceleration,
                a.most_jerk,
                a.probe,
-               a.phase};
+               a.phase,
+               a.torque,
+               a.push};
   }
 }
 

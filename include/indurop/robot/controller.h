@@ -51,12 +51,14 @@ struct DriveIn {
   std::uint16_t probe = 0;
   std::int32_t probe_rise = 0;
   std::int32_t probe_fall = 0;
+  std::int16_t torque = 0;  // actual torque (6077h), 1/1000 of the rated one
 };
 struct DriveOut {
   std::uint16_t control = 0;
   std::int8_t mode = 0;
   std::int32_t position = 0;
-  std::uint16_t probe = 0;  // function of the touch probe (60B8h)
+  std::uint16_t probe = 0;         // function of the touch probe (60B8h)
+  std::int16_t torque_offset = 0;  // what the motion needs (60B2h), 1/1000 of the rated torque
 };
 
 // What a service is asked for with, as ROBOT_MODULE_SERVICE.
@@ -165,8 +167,10 @@ struct AxisReport {
   // What it can do at most.
   double lower = 0, upper = 0;
   double most_velocity = 0, most_acceleration = 0, most_jerk = 0;
-  double probe = 0;  // deg, what its touch probe recorded last
-  double phase = 0;  // deg or mm of the axis that it follows, which it sees so much further on
+  double probe = 0;   // deg, what its touch probe recorded last
+  double phase = 0;   // deg or mm of the axis that it follows, which it sees so much further on
+  double torque = 0;  // N m (N), measured; 0: rated_torque is not known
+  double push = 0;    // N m (N) of it that the arm does not need for how it moves; 0 without collision_limit
 };
 
 // The tool in the coordinates of the machine or of the product: x y z in mm, roll pitch yaw in degrees. Velocity and
@@ -228,15 +232,24 @@ struct Settings {
   std::string urdf;               // file
   std::vector<std::string> jobs;  // files; a job's number is its place here, from 1
   std::chrono::nanoseconds period{10'000'000};
-  double counts_per_turn = 1'320'000;  // of a joint, in DriveIn and DriveOut
-  double counts_per_mm = 1000;         // of one that slides
-  double gear = 1;                     // DriveOut counts this many times more
-  bool absolute = true;                // the drives know where they are without homing
-  double time_to_speed = 0.25;         // s, from rest to full speed of an axis with full acceleration
-  double time_to_acceleration = 0.1;   // s, from none to full acceleration
+  // Each of these: one number for all axes, or one of each.
+  std::vector<double> counts_per_turn{1'320'000};  // of a joint, in DriveIn and DriveOut; below 0: the other way round
+  std::vector<double> counts_per_mm{1000};         // of one that slides
+  std::vector<double> gear{1};                     // DriveOut counts this many times more
+  std::vector<double> zero{0};                     // deg or mm, where the joint is while its drive is at count 0
+  bool absolute = true;                            // the drives know where they are without homing
+  double time_to_speed = 0.25;                     // s, from rest to full speed of an axis with full acceleration
+  double time_to_acceleration = 0.1;               // s, from none to full acceleration
   // deg/s^2 and deg/s^3 of each axis, mm of sliding ones; empty: by time_to_speed and time_to_acceleration.
   std::vector<double> acceleration;
   std::vector<double> jerk;
+  // kg m2 of each axis, kg of sliding ones: what the motors' rotors are beside the arm's masses, gears included; empty:
+  // none.
+  std::vector<double> rotor_inertia;
+  // N m of each axis, N of sliding ones: what 1000 thousandths of torque are in DriveIn and DriveOut; empty: not known.
+  // And what may push against them beside what the arm needs; empty: anything.
+  std::vector<double> rated_torque;
+  std::vector<double> collision_limit;
   // mm, x y z of two opposite corners of the box that the tool's point does not leave, in the base's frame; empty:
   // none.
   std::vector<double> workspace;

@@ -113,7 +113,8 @@ enum class ErrorCode : std::uint32_t {
   Enabling,      // manual mode, and the enabling switch is not held
   Mode,          // another operating mode was chosen
   Torque,        // an axis has not enough torque for it, however slow it is
-  Collision      // the target or the way there is too near to a zone, or to the arm itself
+  Collision,     // the target or the way there is too near to a zone, or to the arm itself
+  Contact        // something pushes against the arm
 };
 
 // How the robot is run (ISO 10218-1), as a key switch says.

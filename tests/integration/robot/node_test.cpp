@@ -38,7 +38,10 @@ class RobotNode : public NodeTest {
          .name = "robot",
          .period = "5ms",
          .priority = 2,
-         .properties = {{"urdf", "robot.urdf"}, {"jobs", "test.job"}, {"following_limit", "30"}}},
+         .properties = {{"urdf", "robot.urdf"},
+                        {"jobs", "test.job"},
+                        {"following_limit", "30"},
+                        {"rated_torque", "200 200 200 200 200 200"}}},
         {.file = cell + "/estop.so",
          .name = "estop",
          .operation = "sporadic",
@@ -298,6 +301,7 @@ TEST_F(RobotNode, Two_robots_in_a_simulation_are_the_same_on_every_run) {
 TEST_F(RobotNode, More_axes_than_variables_are_said_before_the_start) {
   auto wrong = modules("POINT A = JOINT 0 0 0 0 0 0 0\n");
   copy(SEVEN_AXES, "robot.urdf");
+  wrong[1].properties = {{"urdf", "robot.urdf"}, {"jobs", "test.job"}};
   const Outcome outcome = run_to_end(wrong, {});
   EXPECT_NE(outcome.code, 0);
   EXPECT_NE(outcome.err.find("the arm has 7 axes, the .glb has variables of 6"), std::string::npos) << outcome.err;

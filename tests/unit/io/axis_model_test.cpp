@@ -56,6 +56,36 @@ TEST(AxisModel, Damping_costs_no_position) {
   EXPECT_NEAR(sut.position(), 0.01, 1e-6);
 }
 
+// The loops are a spring: the position loop asks for pi f of velocity, the velocity loop gives 4 pi f of torque for it,
+// and what damping will take.
+TEST(AxisModel, What_it_carries_makes_it_sag_as_a_spring_does_unless_it_is_told) {
+  config::IoAxis axis;
+  AxisModel sut(axis);
+  constexpr double kLoad = 40;
+  const double omega = std::numbers::pi * axis.bandwidth;
+  sut.carry(kLoad);
+  for (int i = 0; i < 8000; ++i) {
+    sut.drive({0, 0, true, 0});
+  }
+  EXPECT_NEAR(sut.position(), -kLoad / ((axis.inertia * 4 * omega + axis.damping) * omega), 1e-9);
+  EXPECT_NEAR(sut.torque(), kLoad, 1e-6);
+  for (int i = 0; i < 8000; ++i) {
+    sut.drive({0, 0, true, kLoad});
+  }
+  EXPECT_NEAR(sut.position(), 0, 1e-9);
+}
+
+TEST(AxisModel, Its_brake_holds_what_it_carries) {
+  config::IoAxis axis;
+  AxisModel sut(axis);
+  sut.carry(10 * axis.torque);
+  for (int i = 0; i < 1000; ++i) {
+    sut.brake();
+  }
+  EXPECT_EQ(sut.position(), 0);
+  EXPECT_EQ(sut.velocity(), 0);
+}
+
 TEST(AxisModel, A_large_step_keeps_to_torque_and_speed) {
   config::IoAxis axis;
   axis.damping = 0;

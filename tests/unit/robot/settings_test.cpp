@@ -15,6 +15,8 @@
 namespace indurop::robot {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -49,8 +51,9 @@ TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
     }
     EXPECT_THAT(wrong(name, "abc"), ElementsAre(name));
     EXPECT_THAT(wrong(name, "nan"), ElementsAre(name));
-    if (name != "absolute" && name != "plan_in_tick" && name != "workspace" && name != "gear") {
-      EXPECT_THAT(wrong(name, "-5"), ElementsAre(name));
+    const bool any_sign = name == "workspace" || name == "gear" || name == "zero" || name.starts_with("counts_");
+    if (name != "absolute" && name != "plan_in_tick" && !any_sign) {
+      EXPECT_THAT(wrong(name, "-5"), AllOf(Not(IsEmpty()), Each(name)));
     }
   }
   for (const char* name : {"time_to_speed", "tool_speed", "gear", "counts_per_mm", "plan_time", "emergency_factor"}) {
@@ -60,12 +63,19 @@ TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
   EXPECT_THAT(wrong("emergency_category", "2"), ElementsAre("emergency_category"));
   EXPECT_THAT(wrong("acceleration", "1 2 3"), ElementsAre("acceleration"));
   EXPECT_THAT(wrong("jerk", "1 2 3 4 5 -1"), ElementsAre("jerk"));
+  EXPECT_THAT(wrong("counts_per_turn", "1000 2000"), ElementsAre("counts_per_turn"));
+  EXPECT_THAT(wrong("gear", "1 1 1 0 1 1"), ElementsAre("gear"));
+  EXPECT_THAT(wrong("zero", "0 0 0 0 0 inf"), ElementsAre("zero"));
 }
 
 TEST_F(Robot_settings, All_of_them_are_taken) {
-  const std::map<std::string, std::string> texts = {{"counts_per_turn", "10"},
+  const std::map<std::string, std::string> texts = {{"counts_per_turn", "10 -20 30 40 50 60"},
                                                     {"counts_per_mm", "11"},
                                                     {"gear", "-2"},
+                                                    {"zero", "0 -90 90 0 0 1.5"},
+                                                    {"rotor_inertia", "1 2 0 4 5 6"},
+                                                    {"rated_torque", "1 1 1 1 1 2"},
+                                                    {"collision_limit", "1 1 1 1 1 3"},
                                                     {"time_to_speed", " 0.5\n"},
                                                     {"time_to_acceleration", "+1"},
                                                     {"tool_speed", "1e3"},
@@ -84,9 +94,13 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
                                                     {"ignore_collisions", "wrist forearm"}};
   Settings settings;
   EXPECT_THAT(take_properties([&](const char* name) { return texts.at(name); }, settings), IsEmpty());
-  EXPECT_EQ(settings.counts_per_turn, 10);
-  EXPECT_EQ(settings.counts_per_mm, 11);
-  EXPECT_EQ(settings.gear, -2);
+  EXPECT_THAT(settings.counts_per_turn, ElementsAre(10, -20, 30, 40, 50, 60));
+  EXPECT_THAT(settings.counts_per_mm, ElementsAre(11));
+  EXPECT_THAT(settings.gear, ElementsAre(-2));
+  EXPECT_THAT(settings.zero, ElementsAre(0, -90, 90, 0, 0, 1.5));
+  EXPECT_THAT(settings.rotor_inertia, ElementsAre(1, 2, 0, 4, 5, 6));
+  EXPECT_THAT(settings.rated_torque, ElementsAre(1, 1, 1, 1, 1, 2));
+  EXPECT_THAT(settings.collision_limit, ElementsAre(1, 1, 1, 1, 1, 3));
   EXPECT_EQ(settings.time_to_speed, 0.5);
   EXPECT_EQ(settings.time_to_acceleration, 1);
   EXPECT_EQ(settings.tool_speed, 1000);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets the arm swing. When something has pushed against it, waits until nobody pushes any more, and lets it go on.
+#include <indurop/indurop.h>
+
+#include <indurop/generated.h>
+
+using namespace PLC_ROBOT;
+
+namespace {
+
+constexpr int kCalmRuns = 125;  // half a second
+
+std::uint32_t asked = 0;
+int calm = 0;
+std::int64_t push_began = 0;
+bool noted = false;
+
+bool answered() {
+  return asked == 0 || ROBOT_MODULE_STATE.nDone == asked;
+}
+
+void ask(OPCODE_ROBOT_SERVICE code) {
+  asked = ROBOT_MODULE_STATE.nAcknowledge + 1;
+  auto service = lock(ROBOT_MODULE_SERVICE);
+  service->eOpCode = code;
+  service->nJob = 1;
+  service->nRequest = asked;
+}
+
+bool somebody_pushes() {
+  for (const double push : CONTACT::pushed) {
+    if (push != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void note_contact() {
+  auto seen = lock(CONTACT::seen);
+  ++seen->nStops;
+  seen->nAxis = ROBOT_MODULE_STATE.nErrorAxis;
+  seen->tNoticed = irp::release_ns() - push_began;
+  seen->message = ROBOT_JOB.cMessage;
+}
+
+}  // namespace
+
+void run() {
+  const bool pushes = somebody_pushes();
+  if (!pushes || push_began == 0) {
+    push_began = pushes ? irp::release_ns() : 0;
+  }
+  calm = pushes ? 0 : calm + 1;
+  const bool contact = ROBOT_MODULE_STATE.nError == ROBOT_ERR_CONTACT;
+  if (contact && !noted) {
+    note_contact();
+  }
+  noted = contact;
+  if (!answered()) {
+    return;
+  }
+  if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_ERRORSTOP && calm > kCalmRuns) {
+    ask(SVC_AD_GROUP_RESET);
+  } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_DISABLED) {
+    ask(SVC_AD_GROUP_ENABLE);
+  } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_STANDBY) {
+    ask(ROBOT_JOB.bResume != 0 ? SVC_JB_RESUME : SVC_JB_START);
+  }
+}
+
+INDUROP_MODULE(run = &::run, name = "swing", description = "lets the arm swing")

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The arm with masses (examples/robot_contact) in virtual time: it stops for each push of its visitor, on the right axis and
+soon, goes on, and stops for nothing else, also with other loads of its loops; and it is nearer to its set points if its drives
+are told what a motion needs."""
+
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+SWING = "PLC_ROBOT::ROBOT_MODULE_STATE"
+
+
+class Cell:
+    def __init__(self, options):
+        self.options = options
+        options.work.mkdir(parents=True, exist_ok=True)
+
+    def run(self, name, seconds, change=()):
+        """The rows of a run: values of variables by name, and `t`, s since the start."""
+        folder = self.options.work / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        for file in ("module.xml", "ioconfig.xml", "arm.urdf", "swing.job"):
+            text = (self.options.example / file).read_text()
+            text = text.replace("./libiodispat.so", self.options.io_module)
+            text = text.replace("<filename>./", f"<filename>{self.options.example}/")
+            for old, new in change:
+                text = text.replace(old, new)
+            (folder / file).write_text(text)
+        indurop = self.options.bin / "indurop"
+        subprocess.run([indurop, "run", "module.xml", "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q",
+                        "--node", f"contact-{os.getpid()}"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+        subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
+                       stdout=subprocess.DEVNULL)
+        with open(folder / "run.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        first = int(rows[0]["time_ns"])
+        for row in rows:
+            row["t"] = (int(row["time_ns"]) - first) / 1e9
+        return rows
+
+
+def stops(rows):
+    """When the robot said that something pushes, and against which axis."""
+    found = []
+    before = "0"
+    for row in rows:
+        error = row[f"{SWING}.nError"]
+        if error == "30" and before != "30":
+            found.append((row["t"], int(row[f"{SWING}.nErrorAxis"])))
+        before = error
+    return found
+
+
+def farthest_behind(rows):
+    """deg, the most that axes 2 and 3 were away from their set points, not counting the periods these take to the drives."""
+    def behind(periods):
+        return max(abs(float(later[f"PLC_ROBOT::ROBOT_ARM.joint[{axis}]"]) -
+                       float(row[f"PLC_ROBOT::ROBOT_ARM.command[{axis}]"]))
+                   for row, later in zip(rows, rows[periods:]) if row["t"] > 1 for axis in (1, 2))
+    return min(behind(periods) for periods in range(6))
+
+
+def still_moves(rows, since):
+    places = [float(row["PLC_ROBOT::ROBOT_ARM.joint[0]"]) for row in rows if row["t"] > since]
+    return max(places) - min(places) > 50
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--bin", type=pathlib.Path, required=True)
+    parser.add_argument("--example", type=pathlib.Path, required=True)
+    parser.add_argument("--io-module", required=True)
+    parser.add_argument("--work", type=pathlib.Path, required=True)
+    cell = Cell(parser.parse_args())
+    failed = []
+
+    def expect(what, is_so, seen):
+        print(f"{'ok  ' if is_so else 'FAIL'} {what}: {seen}")
+        if not is_so:
+            failed.append(what)
+
+    pushes = ((5.0, 2), (10.0, 1), (15.0, 4))
+    rows = cell.run("visited", 25)
+    seen = stops(rows)
+    expect("each push stops it, soon, on its axis",
+           len(seen) == len(pushes) and all(axis == pushed and 0 < at - begun < 0.06
+                                            for (at, axis), (begun, pushed) in zip(seen, pushes)), seen)
+    expect("it goes on", still_moves(rows, 17), "joint 1 moves")
+    quiet = (("5 5.4 2 -60   10 10.4 1 60   15 15.4 4 18", ""),)
+    rows = cell.run("alone", 40, quiet)
+    expect("nobody pushes, nothing stops it", not stops(rows) and still_moves(rows, 1), stops(rows))
+    push = max(abs(float(row[f"PLC_ROBOT::AXIS_STATE[{axis}].dPush"])) / limit
+               for row in rows if row["t"] > 1 for axis, limit in enumerate((25, 25, 20, 8, 8, 6)))
+    expect("without a push half of the limits is enough", push < 0.5, f"{push:.2f} of them")
+    other = quiet + (('inertia="8"', 'inertia="4"'), ('inertia="10"', 'inertia="6"'), ("8 10 4 0.6", "4 6 4 0.6"))
+    rows = cell.run("softer", 20, other)
+    expect("nor with softer loops", not stops(rows) and still_moves(rows, 1), stops(rows))
+    rows = cell.run("loaded", 5, quiet + (('name="held">1.2', 'name="held">7'),))
+    expect("a tool that weighs more than the job says does", len(stops(rows)) > 0, stops(rows))
+    told = farthest_behind(cell.run("told", 10, quiet))
+    untold = farthest_behind(cell.run("untold", 10, quiet + ((
+        '<value name="rated_torque">400 400 250 60 50 30</value>\n'
+        '      <value name="collision_limit">25 25 20 8 8 6</value>', ""),)))
+    expect("drives that are told the torque follow better", told < 0.5 * untold, f"{told:.3f} deg, else {untold:.3f}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
