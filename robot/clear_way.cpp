@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -39,6 +40,16 @@ double ClearWay::measure(std::size_t pair, const Clearance::Places& places) noex
   const auto a = static_cast<std::size_t>(one.a);
   const auto b = static_cast<std::size_t>(one.b);
   return nearest_->distance(one.a, one.b, places[a], places[b]) - clearance_.margin();
+}
+
+void ClearWay::swap(ClearWay& other) noexcept {
+  std::swap(nearest_, other.nearest_);
+  std::swap(rooms_, other.rooms_);
+  std::swap(next_, other.next_);
+  std::swap(here_, other.here_);
+  std::swap(there_, other.there_);
+  here_placed_ = false;
+  pair_ = -1;
 }
 
 void ClearWay::take(const ClearWay& other) noexcept {

@@ -25,6 +25,8 @@ class ClearWay {
   };
   // Where a way begins. Real-time safe as all the rest, if it is not exact.
   void begin(const Joints& from, int tool) noexcept;
+  // Another one's bodies, and that one has these. clearance() has to follow.
+  void swap(ClearWay& other) noexcept;
   // Goes on where `other` is, which looks at the same bodies.
   void take(const ClearWay& other) noexcept;
   // On to `to`; the axes go `moved` on that step, there and back. What is too near already may not come nearer.

@@ -39,6 +39,8 @@ class Follower final : private PathAhead {
   // `blend`: from the one before into this one, if it may be passed without a stop.
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
 
+  // For other bodies. It has nothing to do.
+  [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
   // A joint motion instead of all that is to do, from whatever the joints are doing; not while it is stopping. Errors:
   // JointLimit, Singular, Workspace, Collision; then all is as before.
   Fault redirect(const Segment& target) noexcept;

@@ -32,11 +32,10 @@ Group::Group(GroupParts parts)
       job_(parts_.book),
       ahead_(places_, parts_.tool),
       desk_(places_, parts_.joints, parts_.tool, parts_.settings),
+      loader_(parts_.settings, parts_.urdf),
       clear_(places_.clearance(), false),
-      to_rest_(places_.clearance(), false) {
-  if (!parts_.book.interrupts.empty()) {
-    shelf_ = std::make_unique<Shelf>(places_, parts_.tool);
-  }
+      to_rest_(places_.clearance(), false),
+      shelf_(std::make_unique<Shelf>(places_, parts_.tool)) {
   set_up_torques();
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
@@ -216,6 +215,7 @@ void Group::stop_for(Fault fault) noexcept {
 
 void Group::run_state(Signals& signals) noexcept {
   job_.end_pulses(period_, signals);
+  run_reload(signals);
   move_axes();
   switch (state_) {
     case GroupState::Disabled:

@@ -15,6 +15,7 @@
 #include "robot/follower.h"
 #include "robot/job_runner.h"
 #include "robot/planning_desk.h"
+#include "robot/program_loader.h"
 #include "robot/read_ahead.h"
 #include "robot/set_point_gate.h"
 #include "robot/tool_set.h"
@@ -32,6 +33,7 @@ struct GroupParts {
   std::string kind;
   Dynamics dynamics{};
   Clearance clearance;
+  std::string urdf{};  // the text of its file
 };
 
 class Group final : public Controller, private MotionPort {
@@ -88,6 +90,11 @@ class Group final : public Controller, private MotionPort {
   void finish_service(ErrorCode code, int axis = 0) noexcept;
   [[nodiscard]] bool is_near(const Joints& place) const noexcept;
   void ask_for_way_back(const Joints& to) noexcept;
+
+  // Jobs taken anew from their files (group_reload.cpp).
+  [[nodiscard]] bool may_reload() const noexcept;
+  void run_reload(Signals& signals) noexcept;
+  ErrorCode take_program(Program& program, Signals& signals) noexcept;
 
   // Interrupts of jobs (group_interrupt.cpp).
   bool step_aside() noexcept override;
@@ -201,11 +208,13 @@ class Group final : public Controller, private MotionPort {
   char contact_text_[kWhy] = "";
   Places places_;
   int tool_ = 0;
-  int load_ = 0;
+  Body load_;  // of a job, beside the tool
   Follower follower_;
   JobRunner job_;
   ReadAhead ahead_;
   PlanningDesk desk_;
+  ProgramLoader loader_;
+  bool reloading_ = false;
   std::array<AxisControl, kAxes> axes_;
   std::array<SetPointGate, kAxes> gates_;
   std::array<Cam, kCams> cams_;
@@ -259,7 +268,7 @@ class Group final : public Controller, private MotionPort {
     bool request_aside = false;
     int tool = 0;
   };
-  std::unique_ptr<Shelf> shelf_;  // null if no job has interrupts
+  std::unique_ptr<Shelf> shelf_;
   struct Passed {
     MoveCommand command;
     Joints from = Joints::Zero();

@@ -36,7 +36,7 @@ bool Group::step_aside() noexcept {
 }
 
 const Joints* Group::left_at() const noexcept {
-  return shelf_ != nullptr && shelf_->used ? &shelf_->path.q : nullptr;
+  return shelf_->used ? &shelf_->path.q : nullptr;
 }
 
 bool Group::come_back(Fault& fault) noexcept {
@@ -83,7 +83,7 @@ bool Group::set_shelf_aside() noexcept {
   if (return_ == Return::FromInterrupt) {
     aside_tool_ = shelf_->tool;
     take_from_shelf();
-  } else if (shelf_ != nullptr && shelf_->leaving) {
+  } else if (shelf_->leaving) {
     shelf_->leaving = false;
     aside_tool_ = tool_;
     request_ = shelf_->request;

@@ -23,7 +23,7 @@ constexpr std::size_t at(int axis) noexcept {
 // Nothing is planned.
 void Group::weigh() noexcept {
   const JobBook& book = parts_.book;
-  dynamics_.hold(joined(book.tools[static_cast<std::size_t>(tool_)].body, book.loads[static_cast<std::size_t>(load_)]));
+  dynamics_.hold(joined(book.tools[static_cast<std::size_t>(tool_)].body, load_));
   feed_.reweigh();
 }
 
@@ -31,7 +31,7 @@ bool Group::take_load(int load) noexcept {
   if (!settled() || desk_.holds_forgotten()) {
     return false;
   }
-  load_ = load;
+  load_ = parts_.book.loads[at(load)];
   weigh();
   return true;
 }

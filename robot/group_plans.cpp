@@ -27,7 +27,7 @@ void Group::ask_for_plan(const PlanRequest& request) noexcept {
 
 void Group::begin_next(bool more) noexcept {
   // Chains are few and used again, so none is begun while a forgotten one is still looked at.
-  const bool leaving = shelf_ != nullptr && shelf_->leaving;
+  const bool leaving = shelf_->leaving;
   if (state_ != GroupState::Moving || leaving || !can_plan() || desk_.holds_forgotten()) {
     return;
   }

@@ -33,10 +33,8 @@ void Group::drop_aside() noexcept {
   aside_ = false;
   passed_known_ = 0;
   ahead_.clear();
-  if (shelf_ != nullptr) {
-    shelf_->used = shelf_->leaving = false;
-    shelf_->ahead.clear();
-  }
+  shelf_->used = shelf_->leaving = false;
+  shelf_->ahead.clear();
 }
 
 // The robot stands, and nothing of the job is on its way.

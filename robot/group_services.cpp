@@ -50,7 +50,7 @@ void Group::serve(const ServiceRequest& request, bool edit) noexcept {
   if (active_ && ticket_ != CommandTable::kNone) {
     finish_service(ErrorCode::Aborted);
   }
-  begin_service(asked > Service::JobBack ? static_cast<Service>(-1) : asked, request);
+  begin_service(asked > Service::JobBack && asked != Service::JobReload ? static_cast<Service>(-1) : asked, request);
 }
 
 void Group::begin_service(Service service, const ServiceRequest& request) noexcept {
@@ -120,6 +120,8 @@ ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept 
       return back_job();
     case Service::SelectTool:
       return select_tool(request.tool);
+    case Service::JobReload:
+      return ErrorCode::Ok;  // run_reload() goes on with it
     default:
       break;
   }

@@ -71,6 +71,21 @@ void JobRunner::go_back(int source) noexcept {
   last_step_ = -1;
 }
 
+void JobRunner::forget() noexcept {
+  state_ = JobState::Idle;
+  depth_ = 0;
+  frames_[0] = {};
+  job_ = -1;
+  waited_ = 0;
+  triggers_ = {};
+  watched_ = {};
+  serving_ = Serving::None;
+  served_ = -1;
+  last_step_ = last_job_ = -1;
+  line_ = 0;
+  message_[0] = '\0';
+}
+
 void JobRunner::say(const char* text) noexcept {
   std::snprintf(message_, sizeof message_, "%s", text);
 }

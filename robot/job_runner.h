@@ -73,6 +73,11 @@ class JobRunner {
   // Once a period, whether a job runs or not.
   void end_pulses(double seconds, Signals& signals) noexcept { pulses_.step(seconds, signals); }
 
+  // Outputs are on for a time.
+  [[nodiscard]] bool pulses() const noexcept { return pulses_.any(); }
+  // Nothing of the jobs that it knew counts any more: the book is another one.
+  void forget() noexcept;
+
   [[nodiscard]] bool running() const noexcept { return state_ == JobState::Runs || state_ == JobState::Waits; }
   // With the line of the motion called `source` while the job runs ahead of it.
   [[nodiscard]] JobReport report(int source) const noexcept;

@@ -33,6 +33,9 @@ class Planner {
   // Complete when done().
   [[nodiscard]] const Segment& segment() const noexcept { return segment_; }
 
+  // For other bodies. Nothing is being planned.
+  [[nodiscard]] ClearWay& clear_way() noexcept { return clear_; }
+
   // How `first` goes over into `second` with first.zone; zone 0 in the result if it cannot, or if
   // stopping at the corner is faster.
   [[nodiscard]] Blend blend(const Segment& first, const Segment& second) noexcept;

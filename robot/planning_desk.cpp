@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/planning_desk.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <cmath>
 #include <thread>
+
+#include "robot/ordinary_thread.h"
 
 namespace indurop::robot {
 
@@ -27,7 +27,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       in_tick_(settings.plan_in_tick),
       learned_(settings.learned),
       planner_(places, joints, tool) {
-  in_tick_ = in_tick_ || !begin_thread();
+  in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
 }
 
 PlanningDesk::~PlanningDesk() {
@@ -36,25 +36,6 @@ PlanningDesk::~PlanningDesk() {
     dropped_.store(true, std::memory_order_relaxed);
     ::pthread_join(thread_, nullptr);
   }
-}
-
-// An ordinary thread, whatever the one that loads the task is: below every tick, on any processor, and with a small
-// stack, since all of it may be locked in memory. Where there can be none the tick plans.
-bool PlanningDesk::begin_thread() noexcept {
-  pthread_attr_t attributes;
-  ::pthread_attr_init(&attributes);
-  ::pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
-  ::pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
-  ::pthread_attr_setstacksize(&attributes, kStack);
-  cpu_set_t all;
-  std::fill_n(reinterpret_cast<unsigned char*>(&all), sizeof all, static_cast<unsigned char>(0xFF));
-  ::pthread_attr_setaffinity_np(&attributes, sizeof all, &all);
-  const int code = ::pthread_create(&thread_, &attributes, enter, this);
-  ::pthread_attr_destroy(&attributes);
-  if (code == 0) {
-    ::pthread_setname_np(thread_, "robot-plan");
-  }
-  return code == 0;
 }
 
 void* PlanningDesk::enter(void* desk) noexcept {

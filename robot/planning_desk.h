@@ -45,6 +45,8 @@ class PlanningDesk {
   void forget() noexcept;
   // Once per period. The plan, if it is due and made; it stays until the next one is asked for.
   const Plan* take() noexcept;
+  // For other bodies. It is free and holds nothing that was forgotten.
+  [[nodiscard]] Planner& planner() noexcept { return planner_; }
   // Plans are soon to be asked for.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
 
@@ -57,7 +59,6 @@ class PlanningDesk {
   void post() noexcept;
   void work() noexcept;
   void run() noexcept;
-  bool begin_thread() noexcept;
   static void* enter(void* desk) noexcept;
 
   const Places& places_;

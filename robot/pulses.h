@@ -37,6 +37,9 @@ class Pulses {
       }
     }
   }
+  [[nodiscard]] bool any() const noexcept {
+    return std::any_of(all_.begin(), all_.end(), [](const Pulse& one) { return one.on; });
+  }
   // Whoever sets the output otherwise takes it over.
   void forget(std::size_t signal) noexcept {
     for (Pulse& one : all_) {

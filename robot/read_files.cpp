@@ -285,6 +285,7 @@ ReadFiles read_files(const FileNames& names) {
   } else if (auto arm = arm_from_urdf(names.urdf, *text)) {
     read.model = std::move(arm).value();
     read.notes = read.model->notes;
+    read.urdf = std::move(*text);
   } else {
     take_over(std::move(arm).error(), read.errors);
   }

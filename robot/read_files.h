@@ -13,6 +13,7 @@
 namespace indurop::robot {
 
 struct ReadFiles {
+  std::string urdf;  // the text of its file
   std::optional<ArmModel> model;
   JobBook book;
   Clearance clearance;

@@ -143,6 +143,8 @@ class Places {
     inverse_ = &inverse;
     tool_ = tool;
   }
+  // Other bodies, and those before for them. Nothing is planned or followed.
+  void swap(Clearance& clearance) noexcept { std::swap(clearance_, clearance); }
   // What has to stay clear of what, and the number of the tool that is held.
   [[nodiscard]] const Clearance& clearance() const noexcept { return clearance_; }
   [[nodiscard]] int tool() const noexcept { return tool_; }

@@ -10,15 +10,33 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 class JobSignals final : public indurop::robot::Signals {
  public:
-  // The first access by a name looks it up, the others are real-time safe.
   explicit JobSignals(const std::vector<std::string>& names) {
+    if (std::string why; !prepare(names, why)) {
+      throw std::runtime_error(why);
+    }
+    adopt();
+  }
+  double read(std::size_t index) noexcept override {
+    const Signal& signal = present_->signals[index];
+    return signal.read(present_->handle, signal.name);
+  }
+  // A value that the variable cannot hold becomes the nearest one.
+  void write(std::size_t index, double value) noexcept override {
+    const Signal& signal = present_->signals[index];
+    signal.write(present_->handle, signal.name, value);
+  }
+  // The first access by a name looks it up, the others are real-time safe.
+  bool prepare(const std::vector<std::string>& names, std::string& why) override {
+    next_ = std::make_unique<Known>();
     std::string unknown;
     for (const std::string& name : names) {
       Signal signal{name, nullptr, nullptr};
@@ -29,18 +47,13 @@ class JobSignals final : public indurop::robot::Signals {
       if (!found) {
         unknown += (unknown.empty() ? "" : ", ") + name;
       }
-      signals_.push_back(signal);
+      next_->signals.push_back(signal);
     }
-    if (!unknown.empty()) {
-      throw std::runtime_error("jobs name variables that are no numbers or bools of this node: " + unknown +
-                               "; indurop check says where");
-    }
+    why = "jobs name variables that are no numbers or bools of this node: " + unknown + "; indurop check says where";
+    return unknown.empty();
   }
-  double read(std::size_t index) noexcept override { return signals_[index].read(handle_, signals_[index].name); }
-  // A value that the variable cannot hold becomes the nearest one.
-  void write(std::size_t index, double value) noexcept override {
-    signals_[index].write(handle_, signals_[index].name, value);
-  }
+  // Those before are destroyed when others are prepared.
+  void adopt() noexcept override { std::swap(present_, next_); }
 
  private:
   struct Signal {
@@ -48,10 +61,14 @@ class JobSignals final : public indurop::robot::Signals {
     double (*read)(channel::Handle&, const std::string&) noexcept;
     void (*write)(channel::Handle&, const std::string&, double) noexcept;
   };
+  struct Known {
+    channel::Handle handle;
+    std::vector<Signal> signals;
+  };
 
   template <class T>
   bool is(Signal& signal) {
-    if (!channel::read<T>(handle_, signal.name).ok()) {
+    if (!channel::read<T>(next_->handle, signal.name).ok()) {
       return false;
     }
     signal.read = [](channel::Handle& handle, const std::string& name) noexcept {
@@ -82,6 +99,5 @@ class JobSignals final : public indurop::robot::Signals {
     }
   }
 
-  channel::Handle handle_;
-  std::vector<Signal> signals_;
+  std::unique_ptr<Known> present_, next_;
 };

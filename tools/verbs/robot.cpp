@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop robot: points shown and taught, and the robot moved by hand.
 #include "tools/robot/hand.h"
+#include "tools/robot/reload.h"
 #include "tools/robot/teaching.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
@@ -51,6 +52,13 @@ void declare_teach(base::Options& app, Context& context, Options& options) {
   add_files(teach, options);
 }
 
+void declare_reload(base::Options& app, Context& context, Options& options) {
+  base::Options& command = app.command("reload", "Have it read its jobs and points anew, while it stands", [&options] {
+    options.chosen = [&options](Context& c) { return reload_jobs(c, options.choice); };
+  });
+  add_choice(command, context, options);
+}
+
 void declare_jog(base::Options& app, Context& context, Options& options) {
   base::Options& command = app.command("jog", "Move it by hand, as long as the command runs", [&options] {
     options.chosen = [&options](Context& c) { return jog(c, options.choice, options.hand); };
@@ -69,6 +77,7 @@ Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
   declare_points(app, context, *options);
   declare_teach(app, context, *options);
+  declare_reload(app, context, *options);
   declare_jog(app, context, *options);
   return [options](Context& c) { return options->chosen(c); };
 }
@@ -76,15 +85,16 @@ Action declare(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kRobotVerb{
-    "robot", "Variables", "Show and teach the points of a robot, move it by hand",
+    "robot", "Variables", "Show, teach and reload the points of a robot, move it by hand",
     "teach keeps a point as the file has it, joint angles or a pose in its frame, and the comment behind it; the file\n"
-    "is replaced whole or not at all. The robot knows the point when its module starts again.\n"
+    "is replaced whole or not at all. The robot knows the point after reload, or when its module starts again.\n"
     "jog is no safety function: that takes an enabling switch wired to the drives.\n"
     "Examples:\n"
     "  indurop robot jog z+ --speed 20\n"
     "  indurop robot jog J1- --for 2s\n"
     "  indurop robot teach PICK\n"
     "  indurop robot teach CORNER --in pallet --file points.job\n"
+    "  indurop robot reload\n"
     "  indurop robot points\n",
     &declare};
 

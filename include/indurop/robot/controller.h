@@ -96,6 +96,14 @@ class Signals {
   // `index` counts in Controller::signals().
   virtual double read(std::size_t index) noexcept = 0;
   virtual void write(std::size_t index, double value) noexcept = 0;
+  // Jobs that were read anew name other variables: makes ready for them, while read() and write() go on as before.
+  // False, and why, if it cannot. By a thread of the controller, or in the tick of a simulation; not real-time safe.
+  virtual bool prepare(const std::vector<std::string>& /*names*/, std::string& why) {
+    why = "the jobs name other variables than before; start the node anew";
+    return false;
+  }
+  // From now on what was made ready counts. Real-time safe.
+  virtual void adopt() noexcept {}
 };
 
 // Moving by hand while the group stands by: one axis, or the tip along or about one direction.

@@ -51,7 +51,9 @@ enum class Service : std::int32_t {
   Interrupt,
   Continue,
   SetTransform,
-  SelectCam  // takes table `option` as a cam; `job` 1: periodic
+  SelectCam,  // takes table `option` as a cam; `job` 1: periodic
+  // By requests only: the job files are read anew.
+  JobReload
 };
 
 // Services of one axis.

@@ -142,6 +142,39 @@ TEST_F(RobotNode, Where_it_stands_is_written_into_its_files) {
   }
 }
 
+TEST_F(RobotNode, Jobs_are_read_anew_while_it_stands) {
+  begin("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\nSET O8 ON\n");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  ASSERT_EQ(serve("eOpCode: 11, nJob: 1"), 0);
+  const std::string other =
+      "POINT A = JOINT -20 10 -10 0 40 15\nPOINT P1 = JOINT 5 0 0 0 90 0\nMOVJ A\nSET O9 ON\nSET O8 OFF\n";
+  write("test.job", other);
+  const Outcome read = indurop({"robot", "reload"});
+  EXPECT_EQ(read.code, 0) << read.err;
+  EXPECT_EQ(state(), 1);  // its drives have power
+  ASSERT_EQ(serve("eOpCode: 11, nJob: 1"), 0);
+  EXPECT_NEAR(joint(1), -20, 0.01);
+  EXPECT_EQ(number("PLC_ROBOT::O9"), 1);
+  EXPECT_EQ(number("PLC_ROBOT::O8"), 0);
+
+  const std::pair<std::string, const char*> wrong[] = {{"MOVJ NOWHERE\n", "test.job:1:6: error: "},
+                                                       {other + "SET O99 ON\n", "O99"}};
+  for (const auto& [job, said] : wrong) {
+    write("test.job", job);
+    const Outcome refused = indurop({"robot", "reload"});
+    EXPECT_NE(refused.code, 0);
+    EXPECT_THAT(refused.err, testing::HasSubstr(said));
+    ASSERT_EQ(serve("eOpCode: 5, p_Target: 1"), 0);
+    EXPECT_NEAR(joint(1), 5, 0.01);
+    ASSERT_EQ(serve("eOpCode: 11, nJob: 1"), 0);
+    EXPECT_NEAR(joint(1), -20, 0.01);
+  }
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE",
+      "{eOpCode: 5, p_Target: 1, t_speed: 1, nRequest: " + std::to_string(next_request()) + "}");
+  ASSERT_TRUE(wait_until([&] { return state() == 2; }));
+  EXPECT_THAT(indurop({"robot", "reload"}).err, testing::HasSubstr("only while it stands"));
+}
+
 TEST_F(RobotNode, A_hand_at_a_terminal_moves_it_and_is_missed_when_it_is_killed) {
   begin("");
   ASSERT_EQ(serve("eOpCode: 1"), 0);
