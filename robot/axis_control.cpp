@@ -119,7 +119,10 @@ void AxisControl::home() noexcept {
 
 void AxisControl::wait_for_power(double seconds) noexcept {
   waited_ += seconds;
-  if (drive_.enabled()) {
+  if (letting_go_ && waited_ <= kPowerTime) {
+    letting_go_ = drive_.enabled();
+    want_power_ = !letting_go_;
+  } else if (drive_.enabled()) {
     finish(admin_, ErrorCode::Ok);
   } else if (waited_ > kPowerTime) {
     want_power_ = false;
@@ -185,7 +188,9 @@ void AxisControl::move(double seconds) noexcept {
   advance(seconds);
   if (admin_.service == AxisService::PowerOff && motion_.at_rest()) {
     want_power_ = false;
-    finish(admin_, ErrorCode::Ok);
+    if (!drive_.enabled()) {
+      finish(admin_, ErrorCode::Ok);
+    }
   }
   if (admin_.service == AxisService::Reset) {
     wait_for_reset(seconds);

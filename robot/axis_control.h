@@ -190,6 +190,7 @@ class AxisControl {
   double measured_speed_ = 0;
   bool sensed_ = false;
   bool want_power_ = false;
+  bool letting_go_ = false;  // the drive, of what was before PowerOn: first it has to
   bool homed_ = true;
   bool placed_anew_ = true;
   bool first_ = true;  // before the first request was looked at

@@ -120,11 +120,8 @@ void AxisControl::administer(int ticket, AxisService service) noexcept {
   }
   switch (service) {
     case AxisService::PowerOn:
-      if (state_ == AxisState::ErrorStop) {
-        finish(admin_, ErrorCode::State);
-      } else {
-        want_power_ = true;
-      }
+      letting_go_ = drive_.enabled() && !want_power_;
+      state_ == AxisState::ErrorStop ? finish(admin_, ErrorCode::State) : void(want_power_ = !letting_go_);
       break;
     case AxisService::PowerOff:
       release_stop();

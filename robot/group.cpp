@@ -257,12 +257,26 @@ void Group::come_to_standby() noexcept {
   }
 }
 
+bool Group::lets_go() const noexcept {
+  return std::any_of(axes().begin(), axes().end(),
+                     [](const AxisControl& a) { return a.drive().enabled() && !a.wants_power(); });
+}
+
+void Group::take_power() noexcept {
+  for (AxisControl& a : axes()) {
+    a.power(true);
+  }
+}
+
 void Group::run_enabling() noexcept {
   if (!enabling_) {
     return;
   }
   waited_ += period_;
-  if (all_enabled()) {
+  if (letting_go_) {
+    letting_go_ = lets_go() && waited_ <= kPowerTime;
+    letting_go_ ? void() : take_power();
+  } else if (all_enabled()) {
     enabling_ = false;
     come_to_standby();
     finish_service(ErrorCode::Ok);

@@ -150,6 +150,8 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] Fault stays_clear() noexcept;
   void move_axes() noexcept;  // group_axes.cpp
   void run_state(Signals& signals) noexcept;
+  [[nodiscard]] bool lets_go() const noexcept;
+  void take_power() noexcept;
   void run_enabling() noexcept;
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
@@ -229,6 +231,7 @@ class Group final : public Controller, private MotionPort {
   bool braking_ = false;      // the gates bring the axes to rest
   double hardness_ = 1;       // of the stop in progress
   bool enabling_ = false;
+  bool letting_go_ = false;  // drives of what was before: first they have to
   bool quick_stop_ = false;
   bool job_moves_ = false;
 

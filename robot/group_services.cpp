@@ -142,8 +142,10 @@ ErrorCode Group::enable() noexcept {
   enabling_ = true;
   quick_stop_ = false;
   waited_ = 0;
-  for (AxisControl& a : axes()) {
-    a.power(true);
+  // A drive that was told to let go says so later: what it says now counts for nothing.
+  letting_go_ = lets_go();
+  if (!letting_go_) {
+    take_power();
   }
   return ErrorCode::Ok;
 }
