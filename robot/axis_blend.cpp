@@ -21,7 +21,7 @@ void AxisControl::choose_passing() noexcept {
     const bool works = resolve(next, end, order) == ErrorCode::Ok;
     const double own = motion_.speed();
     const double other = order.limits.velocity;
-    const bool to_a_place = is_move(service_of(next));
+    const bool to_a_place = is_move(service_of(next)) || goes_on_from(service_of(next));
     const double way = to_a_place ? order.target - end : order.target;
     const bool ahead = way * (end - began_at_) > 0;
     if (works && ahead && (to_a_place || service_of(next) == AxisService::MoveVelocity)) {

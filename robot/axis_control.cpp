@@ -163,11 +163,10 @@ void AxisControl::move_home(double seconds) noexcept {
 // A motion without target must not run into the end of the axis: from where it would be next it still has to come to
 // rest before.
 void AxisControl::guard_limits(double seconds) noexcept {
-  constexpr double kMargin = radians(0.1);
   const LineState next = motion_.after(seconds);
   const double rest = next.position + ramp(next, 0, limits(1)).distance;
-  const bool ends =
-      !endless_ && ((next.velocity > 0 && rest > upper_ - kMargin) || (next.velocity < 0 && rest < lower_ + kMargin));
+  const bool ends = !endless_ && ((next.velocity > 0 && rest > upper_ - kEndMargin) ||
+                                  (next.velocity < 0 && rest < lower_ + kEndMargin));
   if (ends) {
     abort_queue();
     finish(motion_owner_, ErrorCode::JointLimit);

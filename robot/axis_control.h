@@ -108,18 +108,27 @@ class AxisControl {
   // A motion as it was asked for, in radians or metres.
   struct Order {
     double target = 0;  // position or velocity
+    double end = 0;     // velocity it goes on with
     LineLimits limits, braking;
   };
+  static constexpr auto kServices = static_cast<std::size_t>(AxisService::AccelerationProfile) + 1;
+  // So far before its ends a motion without a target rests.
+  static constexpr double kEndMargin = radians(0.1);
 
   static AxisService service_of(const Command& command) noexcept;
-  static bool is_move(AxisService service) noexcept;  // to a place
+  static bool is_move(AxisService service) noexcept;       // to a place
+  static bool goes_on_from(AxisService service) noexcept;  // through a place
+  static bool follows(AxisService service) noexcept;       // another axis
   void order(int ticket, const Command& command) noexcept;
-  void administer(int ticket, AxisService service) noexcept;
+  void ignore(int ticket, const Command& command) noexcept;
+  void administer(int ticket, const Command& command) noexcept;
   void stop_for(int ticket, const Command& command) noexcept;
   void set_position(int ticket, const Command& command) noexcept;
   void queue(int ticket, const Command& command) noexcept;
   [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
+  // As a motion (axis_resolve.cpp).
   [[nodiscard]] ErrorCode resolve(const Command& command, double from, Order& order) const noexcept;
+  [[nodiscard]] ErrorCode check_way(const Command& command, const Order& order) const noexcept;
   [[nodiscard]] double turned(double target, double from, Direction direction) const noexcept;
   void begin(int ticket, const Command& command) noexcept;
   void begin_motion(const Command& command, const Order& order) noexcept;
@@ -144,7 +153,7 @@ class AxisControl {
                                       CouplingLaw& law) const noexcept;
   [[nodiscard]] bool inside(double one, double other) const noexcept;
   void couple(const Command& command, const Order& order) noexcept;
-  void decouple(int ticket) noexcept;
+  void decouple(int ticket, const Command& command) noexcept;
   void let_go() noexcept;
   void fail_coupling(ErrorCode code) noexcept;
   void advance(double seconds) noexcept;
@@ -161,7 +170,7 @@ class AxisControl {
 
   // Its touch probe (axis_probe.cpp).
   void begin_probe(int ticket, const Command& command) noexcept;
-  void abort_probe(int ticket) noexcept;
+  void abort_probe(int ticket, const Command& command) noexcept;
   void sense_probe(const DriveIn& in) noexcept;
 
   void finish(Owner& owner, ErrorCode code) noexcept;

@@ -164,7 +164,7 @@ void AxisControl::couple(const Command& command, const Order& order) noexcept {
 }
 
 // Goes on with the speed that it has.
-void AxisControl::decouple(int ticket) noexcept {
+void AxisControl::decouple(int ticket, const Command& /*command*/) noexcept {
   Owner owner{ticket, AxisService::Decouple};
   if (!coupled_) {
     finish(owner, ErrorCode::State);

@@ -24,6 +24,7 @@ void AxisMotion::reset(const LineState& state) noexcept {
   profile_ = Profile::coast(state);
   goal_ = Goal::Rest;
   passing_ = passed_ = harder_ = lent_ = false;
+  went_through_.reset();
   time_ = 0;
 }
 
@@ -44,6 +45,7 @@ void AxisMotion::move_to(double position, const LineLimits& limits, const LineLi
   limits_ = limits;
   braking_ = braking;
   arrival_ = 0;
+  went_through_.reset();
   plan();
 }
 
@@ -58,11 +60,13 @@ void AxisMotion::move_with(double velocity, const LineLimits& limits) noexcept {
   goal_ = Goal::Velocity;
   target_ = velocity;
   limits_ = limits;
+  went_through_.reset();
   plan();
 }
 
 void AxisMotion::stop(const LineLimits& limits) noexcept {
   goal_ = Goal::Rest;
+  went_through_.reset();
   limits_ = limits;
   plan();
 }
@@ -93,6 +97,7 @@ void AxisMotion::plan() noexcept {
     passing_ = false;
     profile_ = Profile::to_velocity(state_, 0, hardest());
   }
+  on_last_way_ = on_last_way_ || (goal_ == Goal::Through && passing_);
 }
 
 LineLimits AxisMotion::hardest() const noexcept {
@@ -146,7 +151,9 @@ void AxisMotion::plan_wanted() noexcept {
     profile_ = Profile::to_velocity(state_, 0, limits_);
   } else if (goal_ == Goal::Velocity) {
     profile_ = Profile::to_velocity(state_, override_ * target_, limits_);
-  } else if (!plan_pass()) {
+  } else if (goal_ == Goal::Through) {
+    plan_through();
+  } else if (!plan_pass(target_ < state_.position ? -1 : 1, override_ * arrival_)) {
     profile_ =
         Profile::to_rest(state_, target_, {override_ * limits_.velocity, limits_.acceleration, limits_.jerk}, braking_);
   }
@@ -154,10 +161,8 @@ void AxisMotion::plan_wanted() noexcept {
 
 // Where it is to be faster than on its way, it gets so just before the end. False: that way does not lead through the
 // position, so it ends there.
-bool AxisMotion::plan_pass() noexcept {
+bool AxisMotion::plan_pass(double sign, double arrival) noexcept {
   const double length = std::abs(target_ - state_.position);
-  const double sign = target_ < state_.position ? -1 : 1;
-  const double arrival = override_ * arrival_;
   if (arrival <= 0 || sign * state_.velocity < 0) {
     return false;
   }
@@ -167,7 +172,7 @@ bool AxisMotion::plan_pass() noexcept {
   const LineState cruising{0, limits.velocity, 0};
   const LineLimits most{std::max(arrival, limits.velocity), limits.acceleration, limits.jerk};
   const double gaining = arrival > limits.velocity ? ramp(cruising, arrival, most).distance : 0;
-  const bool room = ramp(from, limits.velocity, limits).distance + gaining <= length;
+  const bool room = ramp(from, limits.velocity, limits, braking_).distance + gaining <= length;
   profile_ = room ? Profile::to_position(from, length - gaining, std::min(arrival, limits.velocity), limits, braking_)
                   : Profile::to_position(from, length, arrival, most, braking_);
   if (profile_.overshoots()) {
@@ -190,6 +195,10 @@ LineState AxisMotion::on_profile(double time) const noexcept {
 
 void AxisMotion::step(double seconds) noexcept {
   time_ += seconds;
+  if (goal_ == Goal::Through && !held() && !harder_) {
+    step_through();
+    return;
+  }
   const double end = profile_.duration() + faster_.duration();
   if (passing_ && time_ >= end) {
     state_ = on_profile(end);

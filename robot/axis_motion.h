@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "robot/profile.h"
 
@@ -27,6 +28,16 @@ class AxisMotion {
   // On the way to a position: passes it with a velocity in the direction it has there, not above the axis' own. 0:
   // comes to rest there.
   void pass_with(double velocity) noexcept;
+  // Passes a position with a velocity, whose sign says in which direction, and goes on with it (axis_through.cpp). It
+  // takes a run-up first where it has to. Once it is on its last way to the position an override may make it pass that
+  // with another velocity, but never turns it back.
+  void move_through(double position, double velocity, const LineLimits& limits, const LineLimits& braking) noexcept;
+  // It has passed this position, and goes on.
+  [[nodiscard]] bool went_through(double position) const noexcept;
+  void go_on_with(double velocity, const LineLimits& limits, const LineLimits& braking) noexcept;
+  // Where it has to come to rest first to do that: before its run-up, or as it turns. None: it goes straight there.
+  [[nodiscard]] static std::optional<double> rests_first(const LineState& from, double position, double velocity,
+                                                         const LineLimits& limits, const LineLimits& braking) noexcept;
   void move_with(double velocity, const LineLimits& limits) noexcept;
   void stop(const LineLimits& limits) noexcept;
   // Part of the speed of motions, from 0 to 1; stops are not slowed down.
@@ -41,19 +52,24 @@ class AxisMotion {
   [[nodiscard]] double speed() const noexcept { return limits_.velocity; }
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
-  [[nodiscard]] bool done() const noexcept { return !lent_ && !held() && !harder_ && time_ >= profile_.duration(); }
+  [[nodiscard]] bool done() const noexcept {
+    return !lent_ && !held() && !harder_ && goal_ != Goal::Through && time_ >= profile_.duration();
+  }
   [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0 && !passed_; }
   // It is exactly at the position that it passes; `rest_of_step()` seconds of the last step are left.
   [[nodiscard]] bool passed() const noexcept { return passed_; }
   [[nodiscard]] double rest_of_step() const noexcept { return left_over_; }
 
  private:
-  enum class Goal { Rest, Position, Velocity };
+  enum class Goal { Rest, Position, Velocity, Through };
 
   [[nodiscard]] bool held() const noexcept;
   void plan() noexcept;
   void plan_wanted() noexcept;
-  bool plan_pass() noexcept;
+  bool plan_pass(double sign, double arrival) noexcept;
+  void plan_through() noexcept;
+  void step_through() noexcept;
+  void go_behind() noexcept;
   [[nodiscard]] LineLimits hardest() const noexcept;
   [[nodiscard]] bool keeps_bounds() const noexcept;
   [[nodiscard]] bool turns_in_time(double side) const noexcept;
@@ -66,7 +82,10 @@ class AxisMotion {
   Goal goal_ = Goal::Rest;
   double target_ = 0;  // position or velocity
   LineLimits limits_, braking_;
-  double arrival_ = 0;  // what the position is passed with, in the direction of the way there
+  double arrival_ = 0;       // what the position is passed with, in the direction of the way there
+  double end_velocity_ = 0;  // of a motion through a position
+  bool on_last_way_ = false;
+  std::optional<double> went_through_;
   bool passing_ = false;
   bool passed_ = false;
   double left_over_ = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "robot/axis_control.h"
 
@@ -11,32 +12,14 @@ namespace indurop::robot {
 
 namespace {
 
-bool follows(AxisService service) noexcept {
-  return service == AxisService::GearIn || service == AxisService::CamIn || service == AxisService::GearInPos ||
-         service == AxisService::Combine;
-}
-
-// deg/s, deg/s^2, deg/s^3 or mm: what is asked for, if it is neither 0 (as much as there is) nor something.
-bool nothing(double value) noexcept {
-  return value != 0 && std::abs(value) < 1e-6;
-}
-
 bool sane(double part) noexcept {
   return part > 0 && part <= 1;
-}
-
-bool is_relative(AxisService service) noexcept {
-  return service == AxisService::MoveRelative || service == AxisService::MoveAdditive;
 }
 
 }  // namespace
 
 AxisService AxisControl::service_of(const Command& command) noexcept {
   return static_cast<AxisService>(command.code);
-}
-
-bool AxisControl::is_move(AxisService service) noexcept {
-  return service == AxisService::MoveAbsolute || is_relative(service);
 }
 
 void AxisControl::set_factors(double acceleration, double jerk) noexcept {
@@ -59,59 +42,45 @@ void AxisControl::take(int ticket, ErrorCode permit) noexcept {
 }
 
 void AxisControl::order(int ticket, const Command& command) noexcept {
-  const AxisService service = service_of(command);
-  Owner owner{ticket, service};
-  switch (service) {
-    case AxisService::None:
-      finish(owner, ErrorCode::Ok);
-      break;
-    case AxisService::PowerOn:
-    case AxisService::PowerOff:
-    case AxisService::Reset:
-      administer(ticket, service);
-      break;
-    case AxisService::SetPosition:
-      set_position(ticket, command);
-      break;
-    case AxisService::Stop:
-      stop_for(ticket, command);
-      break;
-    case AxisService::Home:
-    case AxisService::Halt:
-    case AxisService::MoveAbsolute:
-    case AxisService::MoveRelative:
-    case AxisService::MoveAdditive:
-    case AxisService::MoveVelocity:
-    case AxisService::GearIn:
-    case AxisService::CamIn:
-    case AxisService::GearInPos:
-    case AxisService::Combine:
-      queue(ticket, command);
-      break;
-    case AxisService::ShiftMaster:
-      shift_master(ticket, command);
-      break;
-    case AxisService::Decouple:
-      decouple(ticket);
-      break;
-    case AxisService::MoveSuperimposed:
-      superimpose(ticket, command);
-      break;
-    case AxisService::HaltSuperimposed:
-      halt_superimposed(ticket, command);
-      break;
-    case AxisService::TouchProbe:
-      begin_probe(ticket, command);
-      break;
-    case AxisService::AbortTrigger:
-      abort_probe(ticket);
-      break;
-    default:
-      finish(owner, ErrorCode::Opcode);
+  // By whom each service is carried out.
+  static constexpr auto kBy = [] {
+    using enum AxisService;
+    std::array<void (AxisControl::*)(int, const Command&) noexcept, kServices> by{};
+    const auto set = [&by](auto handler, std::initializer_list<AxisService> services) {
+      for (const AxisService service : services) {
+        by[static_cast<std::size_t>(service)] = handler;
+      }
+    };
+    set(&AxisControl::ignore, {None});
+    set(&AxisControl::administer, {PowerOn, PowerOff, Reset});
+    set(&AxisControl::queue, {Home, Halt, MoveAbsolute, MoveRelative, MoveAdditive, MoveVelocity});
+    set(&AxisControl::queue, {MoveContinuousAbsolute, MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine});
+    set(&AxisControl::stop_for, {Stop});
+    set(&AxisControl::set_position, {SetPosition});
+    set(&AxisControl::shift_master, {ShiftMaster});
+    set(&AxisControl::decouple, {Decouple});
+    set(&AxisControl::superimpose, {MoveSuperimposed});
+    set(&AxisControl::halt_superimposed, {HaltSuperimposed});
+    set(&AxisControl::begin_probe, {TouchProbe});
+    set(&AxisControl::abort_probe, {AbortTrigger});
+    return by;
+  }();
+  const auto code = static_cast<std::size_t>(command.code);
+  if (code < kBy.size() && kBy[code] != nullptr) {
+    (this->*kBy[code])(ticket, command);
+  } else {
+    Owner owner{ticket, AxisService::None};
+    finish(owner, ErrorCode::Opcode);
   }
 }
 
-void AxisControl::administer(int ticket, AxisService service) noexcept {
+void AxisControl::ignore(int ticket, const Command& /*command*/) noexcept {
+  Owner owner{ticket, AxisService::None};
+  finish(owner, ErrorCode::Ok);
+}
+
+void AxisControl::administer(int ticket, const Command& command) noexcept {
+  const AxisService service = service_of(command);
   finish(admin_, ErrorCode::Aborted);
   admin_ = {ticket, service};
   waited_ = 0;
@@ -202,7 +171,8 @@ ErrorCode AxisControl::check(const Command& command) const noexcept {
   }
   Order order;
   const bool adds = service == AxisService::MoveAdditive && is_move(motion_owner_.service);
-  const ErrorCode code = resolve(command, adds ? motion_.target() : commanded().position, order);
+  ErrorCode code = resolve(command, adds ? motion_.target() : commanded().position, order);
+  code = code == ErrorCode::Ok ? check_way(command, order) : code;
   return waits && code != ErrorCode::Value ? ErrorCode::Ok : code;  // where it begins is not known yet
 }
 
@@ -235,63 +205,6 @@ void AxisControl::abort_queue() noexcept {
   queued_ = 0;
 }
 
-// The target in the turn that the direction says.
-double AxisControl::turned(double target, double from, Direction direction) const noexcept {
-  if (!endless_ || direction == Direction::None) {
-    return target;
-  }
-  double ahead = std::fmod(target - from, 2 * kPi);
-  ahead += ahead < 0 ? 2 * kPi : 0;
-  const double speed = motion_.state().velocity;
-  const bool shortest = direction == Direction::Shortest || (direction == Direction::Current && speed == 0);
-  const bool back = direction == Direction::Negative || (direction == Direction::Current && speed < 0);
-  const bool turn_back = ahead > 0 && (shortest ? ahead > kPi : back);
-  return from + (turn_back ? ahead - 2 * kPi : ahead);
-}
-
-ErrorCode AxisControl::resolve(const Command& command, double from, Order& order) const noexcept {
-  const AxisService service = service_of(command);
-  const bool to_velocity = service == AxisService::MoveVelocity;
-  const double speed = to_velocity ? std::abs(command.velocity) : command.velocity;
-  const double slowing = command.deceleration == 0 ? command.acceleration : command.deceleration;
-  if (!std::isfinite(command.to[0]) || !std::isfinite(command.velocity) ||
-      !(speed >= 0 && command.acceleration >= 0 && command.deceleration >= 0 && command.jerk >= 0) || nothing(speed) ||
-      nothing(command.acceleration) || nothing(command.deceleration) || nothing(command.jerk) ||
-      command.direction < Direction::None || command.direction > Direction::Current) {
-    return ErrorCode::Value;
-  }
-  const auto chosen = [this](double wanted, double most) {
-    return wanted == 0 ? most : std::min(wanted * scale_.unit, most);
-  };
-  const double harder = acceleration_factor_;
-  order.limits = {chosen(speed, most_.velocity), harder * chosen(command.acceleration, most_.acceleration),
-                  jerk_factor_ * chosen(command.jerk, most_.jerk)};
-  order.braking = {order.limits.velocity, harder * chosen(slowing, most_.acceleration), order.limits.jerk};
-  if (service == AxisService::Stop) {
-    order.braking = {most_.velocity, chosen(slowing, most_.acceleration), chosen(command.jerk, most_.jerk)};
-  }
-  if (to_velocity) {
-    const bool back = command.direction == Direction::Negative ||
-                      (command.direction == Direction::Current && motion_.state().velocity < 0);
-    const bool negative = (command.velocity < 0) != back;
-    order.target = negative ? -order.limits.velocity : order.limits.velocity;
-  }
-  if (follows(service)) {
-    Coupled way;
-    return resolve(command, order, way);
-  }
-  if (!is_move(service)) {
-    return ErrorCode::Ok;
-  }
-  if (service == AxisService::MoveAbsolute && !homed_) {
-    return ErrorCode::NotHomed;
-  }
-  const double asked = command.to[0] * scale_.unit;
-  order.target = is_relative(service) ? from + asked : turned(asked + origin_, from, command.direction);
-  const bool inside = endless_ || (order.target >= lower_ - 1e-9 && order.target <= upper_ + 1e-9);
-  return inside ? ErrorCode::Ok : ErrorCode::JointLimit;
-}
-
 void AxisControl::begin(int ticket, const Command& command) noexcept {
   const AxisService service = service_of(command);
   Owner owner{ticket, service};
@@ -301,6 +214,7 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
   }
   began_at_ = service == AxisService::MoveAdditive ? added_to_ : motion_.state().position;
   ErrorCode code = resolve(command, began_at_, order);
+  code = code == ErrorCode::Ok ? check_way(command, order) : code;
   if (service == AxisService::Home && (state_ == AxisState::ContinuousMotion || !motion_.at_rest())) {
     code = ErrorCode::State;
   }
@@ -342,6 +256,11 @@ void AxisControl::begin_motion(const Command& command, const Order& order) noexc
       state_ = AxisState::ContinuousMotion;
       break;
     }
+    case AxisService::MoveContinuousAbsolute:
+    case AxisService::MoveContinuousRelative:
+      motion_.move_through(order.target, order.end, order.limits, order.braking);
+      state_ = AxisState::ContinuousMotion;
+      break;
     default:
       motion_.move_to(order.target, order.limits, order.braking);
       state_ = AxisState::DiscreteMotion;
@@ -371,19 +290,25 @@ void AxisControl::begin_next() noexcept {
 // What blocks change of commands that they have given.
 void AxisControl::look_at_commands() noexcept {
   const int ticket = motion_owner_.ticket;
-  if (ticket != kNobody && ticket != kRequest && table_->updated(ticket)) {
-    const Command& command = table_->command(ticket);
-    Order order;
-    if (const ErrorCode code = resolve(command, began_at_, order); code != ErrorCode::Ok) {
-      abort_queue();
-      finish(motion_owner_, code);
-      let_go();
-      motion_.stop(limits(1));
-      state_ = AxisState::Stopping;
-    } else if (motion_owner_.service != AxisService::Home) {
-      begin_motion(command, order);
-      choose_passing();
-    }
+  if (ticket == kNobody || ticket == kRequest || !table_->updated(ticket)) {
+    return;
+  }
+  const Command& command = table_->command(ticket);
+  Order order;
+  ErrorCode code = resolve(command, began_at_, order);
+  const bool gone = goes_on_from(motion_owner_.service) && motion_.went_through(order.target);
+  code = code == ErrorCode::Ok && !gone ? check_way(command, order) : code;
+  if (code != ErrorCode::Ok) {
+    abort_queue();
+    finish(motion_owner_, code);
+    let_go();
+    motion_.stop(limits(1));
+    state_ = AxisState::Stopping;
+  } else if (gone) {
+    motion_.go_on_with(order.end, order.limits, order.braking);
+  } else if (motion_owner_.service != AxisService::Home) {
+    begin_motion(command, order);
+    choose_passing();
   }
 }
 

@@ -65,7 +65,7 @@ void AxisControl::begin_probe(int ticket, const Command& command) noexcept {
   probe_.begin((command.option & kFalling) == 0, (command.option & kAtMark) != 0);
 }
 
-void AxisControl::abort_probe(int ticket) noexcept {
+void AxisControl::abort_probe(int ticket, const Command& /*command*/) noexcept {
   Owner owner{ticket, AxisService::AbortTrigger};
   const bool was = probing_.ticket != kNobody;
   finish(probing_, ErrorCode::Aborted);

@@ -102,6 +102,11 @@ Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noex
   return result;
 }
 
+Ramp ramp(const LineState& from, double velocity, const LineLimits& limits, const LineLimits& braking) noexcept {
+  const bool faster = velocity > 0 && unloaded(from, limits) < velocity;
+  return ramp(from, velocity, faster ? limits : braking);
+}
+
 Profile Profile::coast(const LineState& state) noexcept {
   Profile profile;
   profile.start_ = profile.end_ = state;
@@ -138,7 +143,7 @@ void Profile::append_way(double length, double last, const LineLimits& limits, c
   const Ramp up = ramp(from, limits.velocity, limits);
   const auto way = [&](double time) {
     const LineState there = after(up, from, time);
-    return there.position + ramp(there, last, braking).distance;
+    return there.position + ramp(there, last, limits, braking).distance;
   };
   double time = up.duration();
   double cruise = 0;
@@ -159,14 +164,14 @@ void Profile::append_way(double length, double last, const LineLimits& limits, c
     end_.velocity = limits.velocity;
     append(cruise, 0);
   }
-  append(ramp(end_, last, braking));
+  append(ramp(end_, last, limits, braking));
 }
 
 Profile Profile::to_position(const LineState& from, double position, double arrival, const LineLimits& limits,
                              const LineLimits& braking) noexcept {
   const double length = position - from.position;
   double last = std::min(arrival, limits.velocity);
-  const auto straight = [&](double velocity) { return ramp(from, velocity, braking).distance; };
+  const auto straight = [&](double velocity) { return ramp(from, velocity, limits, braking).distance; };
   Profile profile = coast(from);
   if (straight(last) <= length) {
     profile.append_way(length, last, limits, braking);
@@ -177,7 +182,7 @@ Profile Profile::to_position(const LineState& from, double position, double arri
     nearest = straight(nearest) <= length ? nearest : 0;
     profile.overshoots_ = straight(nearest) > length * (1 + 1e-9) + 1e-12;
     last = straight(nearest) > length ? 0 : just_fitting(nearest, last, length, straight);
-    profile.append(ramp(from, last, braking));
+    profile.append(ramp(from, last, limits, braking));
   }
   if (!profile.overshoots_) {
     profile.end_.position = position;

@@ -38,6 +38,8 @@ double unloaded(const LineState& from, const LineLimits& limits) noexcept;
 // The fastest ramp. `from.position` does not count. Only acceleration and jerk of the limits do. Real-time safe, as
 // everything here.
 Ramp ramp(const LineState& from, double velocity, const LineLimits& limits) noexcept;
+// The same to `velocity` >= 0: `braking` counts where it has to become slower.
+Ramp ramp(const LineState& from, double velocity, const LineLimits& limits, const LineLimits& braking) noexcept;
 
 class Profile {
  public:
@@ -51,7 +53,7 @@ class Profile {
   // limit, if that is lower) or, where the way is too short for that, as near to it as possible but never above
   // `arrival`. `from.velocity` is not negative. If the way is too short even for that, it comes to rest as soon as
   // possible behind `position`, and overshoots() says so.
-  // `braking`: of its last ramp.
+  // `braking`: of its last ramp, where that is one down.
   static Profile to_position(const LineState& from, double position, double arrival, const LineLimits& limits,
                              const LineLimits& braking) noexcept;
   static Profile to_position(const LineState& from, double position, double arrival,

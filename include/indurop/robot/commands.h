@@ -14,6 +14,8 @@ namespace indurop::robot {
 inline constexpr std::size_t kCommands = 32;  // places
 inline constexpr std::size_t kCams = 4;
 inline constexpr std::size_t kCamPoints = 64;
+inline constexpr std::size_t kProfiles = 4;
+inline constexpr std::size_t kProfilePoints = 64;
 
 // What a command does with those before it.
 enum class BufferMode : std::int16_t {
@@ -74,6 +76,14 @@ struct CamTable {
   std::array<double, kCamPoints> slave{};
 };
 
+// Of a profile: where, how fast or how hard an axis is to be at times after its beginning, which rise from above 0.
+struct ProfileTable {
+  std::uint32_t command = 0;  // number of the command that it is for
+  std::int16_t points = 0;
+  std::array<double, kProfilePoints> time{};  // s
+  std::array<double, kProfilePoints> value{};
+};
+
 struct CommandAnswer {
   std::uint32_t number = 0;
   CommandState state = CommandState::None;
@@ -82,6 +92,7 @@ struct CommandAnswer {
 };
 
 using CamTables = std::array<CamTable, kCams>;
+using ProfileTables = std::array<ProfileTable, kProfiles>;
 using Commands = std::array<Command, kCommands>;
 using CommandAnswers = std::array<CommandAnswer, kCommands>;
 

@@ -139,6 +139,7 @@ struct Inputs {
   std::array<AxisRequest, kJoints> axes{};
   Commands commands{};
   CamTables cams{};
+  ProfileTables profiles{};
   // Parts of speed, acceleration and jerk of single axes; of the speed of the group.
   struct Factors {
     AxisNumbers velocity{1, 1, 1, 1, 1, 1, 1, 1};
@@ -179,6 +180,10 @@ struct AxisReport {
   double phase = 0;   // deg or mm of the axis that it follows, which it sees so much further on
   double torque = 0;  // N m (N), measured; 0: rated_torque is not known
   double push = 0;    // N m (N) of it that the arm does not need for how it moves; 0 without collision_limit
+  // What it keeps to in motions by itself, by parameters that were written.
+  double own_lower = 0, own_upper = 0;
+  bool lower_counts = true, upper_counts = true;
+  double own_velocity = 0, own_acceleration = 0, own_deceleration = 0, own_jerk = 0;
 };
 
 // The tool in the coordinates of the machine or of the product: x y z in mm, roll pitch yaw in degrees. Velocity and

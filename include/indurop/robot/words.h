@@ -81,8 +81,14 @@ enum class AxisService : std::int32_t {
   // As GearIn, from where it is at to[3] and its master at to[2] on; on the last to[4] of the master's way it gets
   // there.
   GearInPos,
-  Combine,     // follows axes `option` and `job` with to[0] / to[1] and to[2] / to[3] of their speeds
-  ShiftMaster  // of a follower of axis `option`: sees its master to[0] further on; `job` 1: so much more than it does
+  Combine,      // follows axes `option` and `job` with to[0] / to[1] and to[2] / to[3] of their speeds
+  ShiftMaster,  // of a follower of axis `option`: sees its master to[0] further on; `job` 1: so much more than it does
+  MoveContinuousAbsolute,  // passes to[0] with the velocity to[1], which may have a sign, and goes on with it
+  MoveContinuousRelative,
+  WriteParameter,   // parameter `option` of the standard becomes to[0]
+  PositionProfile,  // table `job` of times: to[0] is the scale of time, to[1] that of values, to[2] is added to them
+  VelocityProfile,
+  AccelerationProfile
 };
 
 enum class ErrorCode : std::uint32_t {

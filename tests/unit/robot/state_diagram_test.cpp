@@ -81,6 +81,8 @@ bool accepts(AxisState state, AxisService service) {
     case AxisService::MoveRelative:
     case AxisService::MoveAdditive:
     case AxisService::MoveVelocity:
+    case AxisService::MoveContinuousAbsolute:
+    case AxisService::MoveContinuousRelative:
     case AxisService::Halt:
     case AxisService::GearIn:
     case AxisService::GearInPos:
@@ -214,10 +216,34 @@ class AxisDiagram : public Diagram {
   long followed_ = 0;  // so many periods
   void give_one() {
     using enum AxisService;
-    static constexpr AxisService kAll[] = {
-        PowerOn, PowerOn, PowerOn,  MoveAbsolute, MoveAbsolute, MoveRelative, MoveAdditive, Halt,        MoveVelocity,
-        Stop,    Reset,   Home,     GearIn,       GearIn,       GearInPos,    CamIn,        Combine,     ShiftMaster,
-        Reset,   Stop,    Decouple, Decouple,     TouchProbe,   AbortTrigger, ShiftMaster,  MoveRelative};
+    static constexpr AxisService kAll[] = {PowerOn,
+                                           PowerOn,
+                                           PowerOn,
+                                           MoveAbsolute,
+                                           MoveAbsolute,
+                                           MoveRelative,
+                                           MoveAdditive,
+                                           Halt,
+                                           MoveVelocity,
+                                           Stop,
+                                           Reset,
+                                           Home,
+                                           GearIn,
+                                           GearIn,
+                                           GearInPos,
+                                           CamIn,
+                                           Combine,
+                                           ShiftMaster,
+                                           Reset,
+                                           Stop,
+                                           Decouple,
+                                           Decouple,
+                                           TouchProbe,
+                                           AbortTrigger,
+                                           ShiftMaster,
+                                           MoveRelative,
+                                           MoveContinuousAbsolute,
+                                           MoveContinuousRelative};
     constexpr int kMany = std::size(kAll);
     if (one_of(4) == 0) {
       move_masters();
@@ -264,6 +290,11 @@ class AxisDiagram : public Diagram {
       case AxisService::GearInPos:
         c.to = {in(-1, 1), 1, in(-50, 20), in(-60, 60), one_of(2) * in(5, 40)};
         c.velocity = 0;
+        break;
+      case AxisService::MoveContinuousAbsolute:
+      case AxisService::MoveContinuousRelative:
+        c.option = 0;
+        c.to[1] = one_of(5) == 0 ? 0 : in(-60, 60);
         break;
       case AxisService::CamIn:
         c.to = {0, 0, 1, 1};
