@@ -68,6 +68,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the arm would touch itself, what it holds or a zone";
     case ErrorCode::Contact:
       return "something pushes against the arm, or it does not hold what TOOL and LOAD say";
+    case ErrorCode::Belt:
+      return "the belt's place is not told, jumps or goes too quickly; see to its encoder, then track it anew";
   }
   return "unknown error";
 }

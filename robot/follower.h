@@ -17,6 +17,7 @@ namespace indurop::robot {
 class Follower final : private PathAhead {
  public:
   static constexpr int kMost = 3;
+  static constexpr double kStill = 1e-3;  // an override below is a hold
   // A path that was left, and where.
   struct Aside {
     std::array<Segment, kMost> segments;
@@ -91,7 +92,6 @@ class Follower final : private PathAhead {
   [[nodiscard]] int source() const noexcept;
 
  private:
-  static constexpr double kStill = 1e-3;  // an override below is a hold
   enum class Mode { Run, Hold, Stop, HardStop };
 
   [[nodiscard]] const Segment& segment(int i) const noexcept { return segments_[static_cast<std::size_t>(i)]; }

@@ -39,6 +39,8 @@ Group::Group(GroupParts parts)
   set_up_torques();
   const Settings& settings = parts_.settings;
   period_ = std::chrono::duration<double>(settings.period).count();
+  belts_.fill(BeltWatch(period_));
+  tracking_ = Tracking(period_);
   for (int i = 0; i < count(); ++i) {
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
@@ -94,6 +96,7 @@ void Group::sense(const Inputs& in) noexcept {
     axes_[at(i)].sense(in.drives[at(i)], period_);
   }
   emergency_ = in.emergency;
+  sense_belts(in);
 }
 
 // What may end a motion from outside: the emergency stop, drives, axes that do not follow.
@@ -137,7 +140,8 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
   for (AxisControl& a : axes()) {
     a.power(a.wants_power() && !cut);
   }
-  if (!follower_.idle() && on_path_ && (code == ErrorCode::Emergency || code == ErrorCode::Contact) && !cut) {
+  const bool on_it = !follower_.idle() && !tracking_.on() && on_path_;
+  if (on_it && (code == ErrorCode::Emergency || code == ErrorCode::Contact) && !cut) {
     follower_.stop_hard(hardness);
     for (AxisControl& a : axes()) {
       if (!a.in_group()) {
@@ -151,6 +155,7 @@ void Group::trip(ErrorCode code, int axis, double hardness) noexcept {
 
 // The gates know speed and acceleration of the axes as their drives do, so they can brake whatever went wrong before.
 void Group::leave_path(ErrorCode code, double hardness) noexcept {
+  drop_ride(code);
   follower_.reset(commanded());
   on_path_ = false;
   braking_ = true;
@@ -308,14 +313,16 @@ void Group::run_homing() noexcept {
 }
 
 void Group::follow_path() noexcept {
-  const Fault fault = follower_.step(period_);
+  Fault fault = follower_.step(period_);
+  Joints q = follower_.joints();
+  fault = fault.ok() ? ride(q) : fault;
   if (!fault.ok()) {
     trip(fault.code, fault.axis, 1);
     return;
   }
-  const Joints speed = (follower_.joints() - last_command_) / period_;
+  const Joints speed = (q - last_command_) / period_;
   for (int i = 0; i < count(); ++i) {
-    axes_[at(i)].follow({follower_.joints()[i], speed[i], (speed[i] - last_speed_[i]) / period_});
+    axes_[at(i)].follow({q[i], speed[i], (speed[i] - last_speed_[i]) / period_});
   }
 }
 
@@ -343,7 +350,7 @@ void Group::run_motion(Signals& signals) noexcept {
   }
   if (state_ == GroupState::Moving && settled() && return_ != Return::None) {
     end_return();
-  } else if (state_ == GroupState::Moving && settled() && !job_.running() && motion_count_ == 0) {
+  } else if (state_ == GroupState::Moving && settled() && !job_.running() && motion_count_ == 0 && !tracking_.on()) {
     come_to_standby();
     finish_service(error_);
   }
@@ -354,7 +361,7 @@ void Group::run_stopping() noexcept {
     follow_path();
   }
   const bool rest = std::all_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.at_rest(); });
-  if (on_path_ ? !follower_.idle() : !rest) {
+  if (on_path_ ? !follower_.idle() || tracking_.on() : !rest) {
     return;
   }
   if (to_error_) {

@@ -20,6 +20,7 @@
 #include "robot/set_point_gate.h"
 #include "robot/tool_set.h"
 #include "robot/torque_feed.h"
+#include "robot/tracking.h"
 
 namespace indurop::robot {
 
@@ -117,6 +118,31 @@ class Group final : public Controller, private MotionPort {
   void end_interrupt(ErrorCode code) noexcept;
   ErrorCode set_transform(const Command& command) noexcept;
 
+  // Products that move (group_tracking.cpp).
+  ErrorCode track(const Command& command, bool turns) noexcept;
+  void sense_belts(const Inputs& in) noexcept;
+  [[nodiscard]] const BeltWatch& belt_watch() const noexcept {
+    return belts_[static_cast<std::size_t>(tracking_.carrier().belt)];
+  }
+  // What is possible of a carrier's motion; `tip`: m that the tip or the arm's end goes, of each m or rad.
+  struct RideRoom {
+    LineLimits limits;
+    double tip = 0;
+  };
+  void lose_product(const char* why) noexcept;
+  void get_off() noexcept;
+  bool room_to_ride(const Tracking::Carrier& carrier, RideRoom& room) const noexcept;
+  [[nodiscard]] LineLimits most_of(const Tracking::Carrier& carrier) const noexcept;
+  ErrorCode get_on() noexcept;
+  void leave_belt(bool stays) noexcept;
+  [[nodiscard]] bool is_on_product(int ticket) noexcept;
+  void keep_to_product() noexcept;
+  [[nodiscard]] Fault ride(Joints& q) noexcept;
+  void steer_ride() noexcept;
+  [[nodiscard]] Pose product_ahead() const noexcept;
+  void report_product() noexcept;
+  void drop_ride(ErrorCode code) noexcept;
+
   // Motions by commands (group_motions.cpp).
   static Pose pose_of(const std::array<double, 8>& numbers) noexcept;
   [[nodiscard]] Pose pose_of(const std::array<double, 8>& numbers, const Command& command,
@@ -188,7 +214,9 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] PathPlace place() const noexcept override { return follower_.path_place(); }
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }
-  [[nodiscard]] Joints planned_end() const noexcept { return follower_.idle() ? commanded() : follower_.end(); }
+  [[nodiscard]] Joints planned_end() const noexcept {
+    return follower_.idle() && !tracking_.on() ? commanded() : follower_.end();
+  }
   void ask_for_plan(const PlanRequest& request) noexcept;  // group_plans.cpp
 
   [[nodiscard]] int count() const noexcept { return parts_.arm.count(); }
@@ -294,6 +322,15 @@ class Group final : public Controller, private MotionPort {
   Pose ahead_of_;                          // where the next motion begins
   Pose product_;                           // the product's coordinates
   std::array<double, 6> product_given_{};  // as they were set
+
+  // The product may move: what is planned is seen from where the carrier was when the tool stood still on it last.
+  std::array<BeltWatch, kBelts> belts_;
+  Tracking tracking_;
+  bool product_lost_ = false;  // it was to move, and nobody knows where it is
+  bool ride_held_ = false;     // somebody holds all motions
+  bool paused_ = false;        // likewise, also what does not ride
+  double ride_pace_ = 1;       // part of full speed that is left beside the ride
+  double ride_speed_ = 0;      // m/s of the tip or of the arm's end, by the ride
 
   // The request that is being served.
   bool first_ = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axes that are moved by themselves, or follow others: nobody planned their way, so in each period they must be able to
-// come to rest before anything touches.
+// Axes that are moved by themselves, or follow others, and arms that ride on a belt: nobody planned their way, so in
+// each period they must be able to come to rest before anything touches.
 
 #include <algorithm>
 
@@ -17,7 +17,8 @@ constexpr std::size_t at(int axis) noexcept {
 }  // namespace
 
 void Group::look_ahead() noexcept {
-  const bool alone = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
+  const bool alone =
+      tracking_.on() || std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
   const bool placed = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.placed_anew(); });
   if (!alone || placed || !places_.clearance().known() || state_ == GroupState::Homing) {
     looks_ahead_ = false;

@@ -77,6 +77,10 @@ void Group::take(int ticket, const CamTables& cams) noexcept {
     case Service::SetTransform:
       table_.end(ticket, set_transform(command));
       break;
+    case Service::TrackBelt:
+    case Service::TrackTable:
+      table_.end(ticket, track(command, service == Service::TrackTable));
+      break;
     case Service::SelectCam:
       table_.end(ticket, select_cam(command, cams));
       break;
@@ -178,9 +182,10 @@ void Group::set_pace(const Inputs& in) noexcept {
   const bool sane = in.speed_override >= 0 && in.speed_override <= 100;
   const double part = sane ? in.speed_override / 100 : 0;
   const auto factor = [](double given) { return given >= 0 && given <= 1 ? given : 0; };
-  follower_.set_override(part * factor(in.factors.group));
-  follower_.set_tip_limit(tip_limit());
-  follower_.set_hold(in.hold || interrupted_);
+  follower_.set_override(part * factor(in.factors.group) * ride_pace_);
+  follower_.set_tip_limit(std::max(0.1 * tip_limit(), tip_limit() - ride_speed_));
+  paused_ = in.hold || interrupted_ || part * factor(in.factors.group) < Follower::kStill;
+  follower_.set_hold(in.hold || interrupted_ || (tracking_.on() && !tracking_.rides()));
   const double slow = axes_pace();
   for (std::size_t i = 0; i < axis_count(); ++i) {
     axes_[i].set_override(in.hold ? 0 : std::min(part * factor(in.factors.velocity[i]), slow));
@@ -193,6 +198,9 @@ ErrorCode Group::set_transform(const Command& command) noexcept {
   if (!std::all_of(command.to.begin(), command.to.begin() + 6, [](double x) { return std::isfinite(x); })) {
     return ErrorCode::Value;
   }
+  get_off();
+  tracking_.forget();
+  product_lost_ = false;
   product_ = pose_of(command.to);
   std::copy_n(command.to.begin(), product_given_.size(), product_given_.begin());
   return ErrorCode::Ok;

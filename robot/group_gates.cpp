@@ -29,7 +29,7 @@ bool Group::leaves_workspace() const noexcept {
   }
   const Vec3 next = places_.arm().forward(commanded()).position;
   const bool alone = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.busy(); });
-  return box.left(places_.arm().forward(last).position, next) || (alone && !rests_inside(next));
+  return box.left(places_.arm().forward(last).position, next) || ((alone || tracking_.on()) && !rests_inside(next));
 }
 
 // If all axes brake at once.

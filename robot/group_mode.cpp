@@ -48,7 +48,13 @@ void Group::rest_for(ErrorCode code) noexcept {
   drop_motions(code);
   forget_plans();
   if (state_ == GroupState::Moving || (state_ == GroupState::Stopping && on_path_)) {
-    if (code == ErrorCode::Enabling) {
+    if (code == ErrorCode::Enabling && tracking_.on()) {
+      drop_ride(code);
+      follower_.reset(commanded());
+      on_path_ = false;
+      braking_ = true;
+      hardness_ = parts_.settings.emergency_factor;
+    } else if (code == ErrorCode::Enabling) {
       hardness_ = parts_.settings.emergency_factor;
       follower_.stop_hard(hardness_);
     } else {

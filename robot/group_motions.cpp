@@ -15,6 +15,8 @@ constexpr std::size_t at(int i) noexcept {
   return static_cast<std::size_t>(i);
 }
 
+constexpr double kOnProduct = 0.4;  // part of the accelerations that a ride leaves for motions on it
+
 Service service_of(const Command& command) noexcept {
   return static_cast<Service>(command.code);
 }
@@ -91,13 +93,13 @@ Joints Group::joints_of_axes(const std::array<double, 8>& numbers) const noexcep
 Pose Group::pose_of(const std::array<double, 8>& numbers, const Command& command, const Pose& from) const noexcept {
   const bool product = command.coords == CoordSystem::Product;
   const Pose given = pose_of(numbers);
+  const Pose frame = product_ahead();
   if (is_relative(service_of(command))) {
-    const Quat turn = product ? product_.orientation : Quat::Identity();
+    const Quat turn = product ? frame.orientation : Quat::Identity();
     return {from.position + turn * given.position, turn * given.orientation * turn.conjugate() * from.orientation};
   }
-  return product
-             ? Pose{product_.position + product_.orientation * given.position, product_.orientation * given.orientation}
-             : given;
+  return product ? Pose{frame.position + frame.orientation * given.position, frame.orientation * given.orientation}
+                 : given;
 }
 
 ErrorCode Group::make_target(const Command& command, const std::array<double, 8>& numbers,
@@ -128,7 +130,7 @@ ErrorCode Group::make_circle(const Command& command, MoveCommand& move) const no
   const auto mode = static_cast<CircleMode>(command.option & (kClockwise - 1));
   const Vec3& start = ahead_of_.position;
   const Vec3& end = move.target.pose.position;
-  const Quat turn = command.coords == CoordSystem::Product ? product_.orientation : Quat::Identity();
+  const Quat turn = command.coords == CoordSystem::Product ? product_ahead().orientation : Quat::Identity();
   move.mid.is_pose = true;
   move.mid.pose = pose_of(command.aux, command, ahead_of_);
   if (mode == CircleMode::Border) {
@@ -156,6 +158,7 @@ ErrorCode Group::make_motion(int ticket, MoveCommand& move) const noexcept {
   const Command& command = table_.command(ticket);
   const Service service = service_of(command);
   move.source = source_of(ticket);
+  move.acceleration = tracking_.rides() ? kOnProduct : 1;
   move.move = is_direct(service) ? Move::Joint : is_circle(service) ? Move::Circle : Move::Line;
   if (is_direct(service)) {
     move.speed = command.velocity == 0 ? 1 : command.velocity / 100;
@@ -176,6 +179,9 @@ void Group::queue_motion(int ticket) noexcept {
   }
   if (code == ErrorCode::Ok && !sane(command)) {
     code = ErrorCode::Value;
+  }
+  if (code == ErrorCode::Ok && product_lost_ && command.coords == CoordSystem::Product) {
+    code = ErrorCode::Belt;
   }
   if (code != ErrorCode::Ok) {
     table_.end(ticket, code);
@@ -202,7 +208,7 @@ void Group::begin_moving() noexcept {
 void Group::replace_motions(int ticket) noexcept {
   const Command& command = table_.command(ticket);
   const bool joints = is_direct(service_of(command)) && command.coords == CoordSystem::Axes && !follower_.stopping();
-  if (joints && !follower_.idle()) {
+  if (joints && !follower_.idle() && !tracking_.on()) {
     ahead_of_ = {};
     MoveCommand move;
     const Joints given = joints_of_axes(command.to);
@@ -234,6 +240,10 @@ double Group::zone_of(int i) const noexcept {
     return 0;
   }
   const Command& next = table_.command(motions_[at(i + 1)]);
+  const auto on_product = [](const Command& c) { return c.coords == CoordSystem::Product; };
+  if (tracking_.known() && on_product(next) != on_product(table_.command(motions_[at(i)]))) {
+    return 0;  // the tool gets onto the product in between, or off it
+  }
   return next.buffer >= BufferMode::BlendingLow && service_of(next) != Service::Halt ? next.transition / 1000 : 0;
 }
 
@@ -246,6 +256,9 @@ void Group::feed_motions() noexcept {
     const int ticket = motions_[at(fed_)];
     if (service_of(table_.command(ticket)) == Service::Halt) {
       halt(ticket);
+      return;
+    }
+    if (!goes_on && !is_on_product(ticket)) {
       return;
     }
     if (!goes_on) {
@@ -271,13 +284,14 @@ void Group::halt(int ticket) noexcept {
   }
   table_.active(ticket);
   follower_.stop();
-  if (follower_.idle()) {
+  leave_belt(false);
+  if (follower_.idle() && !tracking_.on()) {
     end_first(1, ErrorCode::Ok);
   }
 }
 
 void Group::note_progress() noexcept {
-  if (interrupt_ != CommandTable::kNone && follower_.at_rest()) {
+  if (interrupt_ != CommandTable::kNone && follower_.at_rest() && tracking_.at_rest()) {
     end_interrupt(ErrorCode::Ok);
   }
   if (fed_ == 0) {
@@ -294,6 +308,9 @@ void Group::note_progress() noexcept {
   }
   if (present != 0 && done == fed_) {
     return;
+  }
+  if (tracking_.on() && !tracking_.rides()) {
+    done = 0;  // it is not there as long as the tool is beside the belt
   }
   end_first(done, ErrorCode::Ok);
   if (fed_ > 0 && !waiting) {

@@ -88,6 +88,10 @@ void Group::finish_service(ErrorCode code, int axis) noexcept {
 }
 
 ErrorCode Group::begin(Service service, const ServiceRequest& request) noexcept {
+  const bool ends_it = service == Service::Stop || service == Service::JobStop || service == Service::GroupDisable;
+  if (tracking_.on() && !ends_it && service != Service::None && service != Service::GroupReset) {
+    return ErrorCode::State;
+  }
   switch (service) {
     case Service::None:
       finish_service(ErrorCode::Ok);

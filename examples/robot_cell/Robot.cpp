@@ -108,6 +108,10 @@ void read_commands() {
   for (std::size_t k = 0; k < cams.size(); ++k) {
     in.cams[k] = {cams[k].nPoints, cams[k].dMaster, cams[k].dSlave};
   }
+  const auto belts = MC_BELT.get();
+  for (std::size_t k = 0; k < belts.size(); ++k) {
+    in.belts[k] = {belts[k].dPlace, belts[k].nBeat};
+  }
   const MC_FACTORS_t factors = MC_FACTORS;
   if (factors.bSet != 0) {
     in.factors = {factors.dVelocity, factors.dAcceleration, factors.dJerk, factors.dGroup};

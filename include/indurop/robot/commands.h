@@ -16,6 +16,7 @@ inline constexpr std::size_t kCams = 4;
 inline constexpr std::size_t kCamPoints = 64;
 inline constexpr std::size_t kProfiles = 4;
 inline constexpr std::size_t kProfilePoints = 64;
+inline constexpr std::size_t kBelts = 2;
 
 // What a command does with those before it.
 enum class BufferMode : std::int16_t {
@@ -56,16 +57,17 @@ struct Command {
   BufferMode buffer = BufferMode::Aborting;
   Direction direction = Direction::None;
   CoordSystem coords = CoordSystem::Axes;
-  std::int16_t option = 0;      // of a circle: CircleMode, + 16: clockwise; of a position that is set: 1 is relative
-  std::int16_t execute = 0;     // of stops: 1 as long as they hold
-  std::int16_t job = 0;         // of JobStart
-  std::array<double, 8> to{};   // deg; a pose: mm and deg; a single axis has the first
-  std::array<double, 8> aux{};  // of circles: the point between, the centre or the radius as a vector
-  double velocity = 0;          // deg/s, mm/s; joint motions of the group: %
-  double acceleration = 0;      // deg/s^2
-  double deceleration = 0;      // deg/s^2; 0: as acceleration
-  double jerk = 0;              // deg/s^3
-  double transition = 0;        // mm, with blending: how far before the end of the motion before it the path may turn
+  std::int16_t option = 0;     // of a circle: CircleMode, + 16: clockwise; of a position that is set: 1 is relative
+  std::int16_t execute = 0;    // of stops: 1 as long as they hold
+  std::int16_t job = 0;        // of JobStart
+  std::array<double, 8> to{};  // deg; a pose: mm and deg; a single axis has the first
+  // Of circles: the point between, the centre or the radius as a vector. Of what is tracked: the product on it.
+  std::array<double, 8> aux{};
+  double velocity = 0;      // deg/s, mm/s; joint motions of the group: %
+  double acceleration = 0;  // deg/s^2
+  double deceleration = 0;  // deg/s^2; 0: as acceleration
+  double jerk = 0;          // deg/s^3
+  double transition = 0;    // mm, with blending: how far before the end of the motion before it the path may turn
 };
 
 // Of a cam: the master's place rises from point to point. Numbers of both are as their users count, or what they scale

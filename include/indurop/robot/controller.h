@@ -124,6 +124,12 @@ struct ModeRequest {
   std::uint32_t beat = 0;                   // of the switch, as JogRequest::beat
 };
 
+// A conveyor or a rotary table, as whoever reads its encoder tells it.
+struct BeltIn {
+  double place = 0;        // mm or degrees; it counts on and on
+  std::uint32_t beat = 0;  // another one each time that `place` is told
+};
+
 // A job that is to pause before a line of its file.
 struct Breakpoint {
   std::uint32_t job = 0;   // from 1; 0: none
@@ -140,6 +146,7 @@ struct Inputs {
   Commands commands{};
   CamTables cams{};
   ProfileTables profiles{};
+  std::array<BeltIn, kBelts> belts{};
   // Parts of speed, acceleration and jerk of single axes; of the speed of the group.
   struct Factors {
     AxisNumbers velocity{1, 1, 1, 1, 1, 1, 1, 1};

@@ -53,7 +53,10 @@ enum class Service : std::int32_t {
   SetTransform,
   SelectCam,  // takes table `option` as a cam; `job` 1: periodic
   // By requests only: the job files are read anew.
-  JobReload
+  JobReload,
+  // By commands.
+  TrackBelt,  // the product moves with belt `option`, along x of `to`, from `aux` in it on
+  TrackTable  // likewise about z of `to`
 };
 
 // Services of one axis.
@@ -122,7 +125,8 @@ enum class ErrorCode : std::uint32_t {
   Mode,          // another operating mode was chosen
   Torque,        // an axis has not enough torque for it, however slow it is
   Collision,     // the target or the way there is too near to a zone, or to the arm itself
-  Contact        // something pushes against the arm
+  Contact,       // something pushes against the arm
+  Belt           // the place of a belt is not told, jumps or goes too quickly
 };
 
 // How the robot is run (ISO 10218-1), as a key switch says.

@@ -292,6 +292,10 @@ TEST_F(RobotNode, Every_block_of_the_group) {
   run_blocks("group_blocks");
 }
 
+TEST_F(RobotNode, Every_block_of_products_that_move) {
+  run_blocks("track_blocks");
+}
+
 TEST_F(RobotNode, Two_robots_in_one_node_move_by_themselves) {
   start_and_wait(two_robots());
   set("PLC_ROBOT::I14", "1");
