@@ -21,11 +21,12 @@ std::int32_t counts(double value) noexcept {
 
 void AxisControl::set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute,
                          CommandTable* table, const Row& row) noexcept {
-  lower_ = axis.lower;
-  upper_ = axis.upper;
+  least_ = axis.lower;
+  greatest_ = axis.upper;
   endless_ = axis.endless;
   most_ = limits;
-  motion_.set_bounds(limits, endless_ ? -HUGE_VAL : lower_, endless_ ? HUGE_VAL : upper_);
+  own_ = {axis.lower, axis.upper, true, true, limits.velocity, limits.acceleration, limits.acceleration, limits.jerk};
+  keep_ends();
   scale_ = scale;
   homed_ = absolute;
   table_ = table;
@@ -278,8 +279,9 @@ AxisReport AxisControl::report() const noexcept {
   report.command = (commanded().position - origin_) / scale_.unit;
   report.acceleration = commanded().acceleration / scale_.unit;
   report.measured_velocity = measured_speed_ / scale_.unit;
-  report.lower = (lower_ - origin_) / scale_.unit;
-  report.upper = (upper_ - origin_) / scale_.unit;
+  report.lower = (least_ - origin_) / scale_.unit;
+  report.upper = (greatest_ - origin_) / scale_.unit;
+  report_own(report);
   report.most_velocity = most_.velocity / scale_.unit;
   report.most_acceleration = most_.acceleration / scale_.unit;
   report.most_jerk = most_.jerk / scale_.unit;

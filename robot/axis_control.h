@@ -125,6 +125,18 @@ class AxisControl {
   void stop_for(int ticket, const Command& command) noexcept;
   void set_position(int ticket, const Command& command) noexcept;
   void queue(int ticket, const Command& command) noexcept;
+  // Its parameters (axis_parameters.cpp).
+  // Of motions by itself; the ends only if they count.
+  struct Own {
+    double lower = 0, upper = 0;
+    bool lower_counts = true, upper_counts = true;
+    double velocity = 0, acceleration = 0, deceleration = 0, jerk = 0;
+  };
+  void write_parameter(int ticket, const Command& command) noexcept;
+  ErrorCode change(int parameter, double value) noexcept;
+  ErrorCode change_ends(const Own& own) noexcept;
+  void keep_ends() noexcept;
+  void report_own(AxisReport& report) const noexcept;
   [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
   // As a motion (axis_resolve.cpp).
   [[nodiscard]] ErrorCode resolve(const Command& command, double from, Order& order) const noexcept;
@@ -181,7 +193,9 @@ class AxisControl {
   void note_velocity() noexcept;
   [[nodiscard]] LineLimits limits(double hardness) const noexcept;
 
-  double lower_ = 0, upper_ = 0;
+  Own own_;
+  double least_ = 0, greatest_ = 0;  // its ends
+  double lower_ = 0, upper_ = 0;     // those of its own that count, else its ends
   bool endless_ = false;
   LineLimits most_;
   Scale scale_;

@@ -32,7 +32,7 @@ void AxisControl::take(int ticket, ErrorCode permit) noexcept {
   const AxisService service = service_of(command);
   const bool always = service == AxisService::Reset || service == AxisService::PowerOn ||
                       service == AxisService::SetPosition || service == AxisService::TouchProbe ||
-                      service == AxisService::AbortTrigger;
+                      service == AxisService::AbortTrigger || service == AxisService::WriteParameter;
   if (permit != ErrorCode::Ok && !always) {
     table_->end(ticket, permit);
     return;
@@ -57,6 +57,7 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     set(&AxisControl::queue, {MoveContinuousAbsolute, MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine});
     set(&AxisControl::stop_for, {Stop});
     set(&AxisControl::set_position, {SetPosition});
+    set(&AxisControl::write_parameter, {WriteParameter});
     set(&AxisControl::shift_master, {ShiftMaster});
     set(&AxisControl::decouple, {Decouple});
     set(&AxisControl::superimpose, {MoveSuperimposed});

@@ -60,9 +60,9 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
     return wanted == 0 ? most : std::min(wanted * scale_.unit, most);
   };
   const double harder = acceleration_factor_;
-  order.limits = {chosen(speed, most_.velocity), harder * chosen(command.acceleration, most_.acceleration),
-                  jerk_factor_ * chosen(command.jerk, most_.jerk)};
-  order.braking = {order.limits.velocity, harder * chosen(slowing, most_.acceleration), order.limits.jerk};
+  order.limits = {chosen(speed, own_.velocity), harder * chosen(command.acceleration, own_.acceleration),
+                  jerk_factor_ * chosen(command.jerk, own_.jerk)};
+  order.braking = {order.limits.velocity, harder * chosen(slowing, own_.deceleration), order.limits.jerk};
   if (service == AxisService::Stop) {
     order.braking = {most_.velocity, chosen(slowing, most_.acceleration), chosen(command.jerk, most_.jerk)};
   }
@@ -83,7 +83,7 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
   if (!std::isfinite(end) || nothing(end)) {
     return ErrorCode::Value;
   }
-  order.end = std::clamp(end * scale_.unit, -most_.velocity, most_.velocity);
+  order.end = std::clamp(end * scale_.unit, -own_.velocity, own_.velocity);
   const bool absolute = service == AxisService::MoveAbsolute || service == AxisService::MoveContinuousAbsolute;
   if (absolute && !homed_) {
     return ErrorCode::NotHomed;

@@ -246,7 +246,15 @@ void write_axis_states() {
                a.probe,
                a.phase,
                a.torque,
-               a.push};
+               a.push,
+               a.own_lower,
+               a.own_upper,
+               a.own_velocity,
+               a.own_acceleration,
+               a.own_deceleration,
+               a.own_jerk,
+               static_cast<short>(a.lower_counts),
+               static_cast<short>(a.upper_counts)};
   }
 }
 

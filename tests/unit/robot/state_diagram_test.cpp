@@ -243,7 +243,8 @@ class AxisDiagram : public Diagram {
                                            ShiftMaster,
                                            MoveRelative,
                                            MoveContinuousAbsolute,
-                                           MoveContinuousRelative};
+                                           MoveContinuousRelative,
+                                           WriteParameter};
     constexpr int kMany = std::size(kAll);
     if (one_of(4) == 0) {
       move_masters();
@@ -295,6 +296,9 @@ class AxisDiagram : public Diagram {
       case AxisService::MoveContinuousRelative:
         c.option = 0;
         c.to[1] = one_of(5) == 0 ? 0 : in(-60, 60);
+        break;
+      case AxisService::WriteParameter:
+        c.option = static_cast<std::int16_t>(2 + one_of(16));
         break;
       case AxisService::CamIn:
         c.to = {0, 0, 1, 1};
