@@ -23,6 +23,7 @@ class AxisControl {
     std::span<const AxisControl> axes;
     std::span<const SetPointGate> gates;
     std::span<const Cam> cams;
+    const ProfileTables* profiles = nullptr;
     int own = 0;  // which one this is, from 0
   };
   struct Scale {
@@ -119,6 +120,7 @@ class AxisControl {
   static bool is_move(AxisService service) noexcept;       // to a place
   static bool goes_on_from(AxisService service) noexcept;  // through a place
   static bool follows(AxisService service) noexcept;       // another axis
+  static bool is_profile(AxisService service) noexcept;    // by a table of times
   void order(int ticket, const Command& command) noexcept;
   void ignore(int ticket, const Command& command) noexcept;
   void administer(int ticket, const Command& command) noexcept;
@@ -179,6 +181,12 @@ class AxisControl {
   void note_superimposed() noexcept;
   void shift_master(int ticket, const Command& command) noexcept;
   [[nodiscard]] ErrorCode check_shift(const Command& command) const noexcept;
+
+  // By a table of times (axis_along.cpp).
+  ErrorCode read_table(const Command& command, TimeProfile& table) const noexcept;
+  [[nodiscard]] ErrorCode check_profile(const Command& command) const noexcept;
+  void begin_profile(const Command& command) noexcept;
+  void guard_table() noexcept;
 
   // Its touch probe (axis_probe.cpp).
   void begin_probe(int ticket, const Command& command) noexcept;

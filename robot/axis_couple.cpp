@@ -239,6 +239,7 @@ void AxisControl::advance(double seconds) noexcept {
 }
 
 void AxisControl::advance_own(double seconds) noexcept {
+  guard_table();
   if (state_ == AxisState::ContinuousMotion) {
     guard_limits(seconds);
   }

@@ -75,14 +75,14 @@ void AxisMotion::set_override(double part) noexcept {
   part = part < kStill ? 0 : std::min(part, 1.0);
   if (part != override_) {
     override_ = part;
-    if (goal_ != Goal::Rest) {
+    if (goal_ != Goal::Rest && !along()) {
       plan();
     }
   }
 }
 
 bool AxisMotion::held() const noexcept {
-  return goal_ != Goal::Rest && override_ == 0;
+  return goal_ != Goal::Rest && !along() && override_ == 0;
 }
 
 void AxisMotion::plan() noexcept {
@@ -186,6 +186,9 @@ bool AxisMotion::plan_pass(double sign, double arrival) noexcept {
 }
 
 LineState AxisMotion::on_profile(double time) const noexcept {
+  if (along()) {
+    return table_.at(time);
+  }
   if (!passing_) {
     return profile_.at(time);
   }
@@ -195,6 +198,10 @@ LineState AxisMotion::on_profile(double time) const noexcept {
 
 void AxisMotion::step(double seconds) noexcept {
   time_ += seconds;
+  if (along()) {
+    step_along();
+    return;
+  }
   if (goal_ == Goal::Through && !held() && !harder_) {
     step_through();
     return;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "robot/profile.h"
+#include "robot/time_profile.h"
 
 namespace indurop::robot {
 
@@ -39,6 +40,11 @@ class AxisMotion {
   [[nodiscard]] static std::optional<double> rests_first(const LineState& from, double position, double velocity,
                                                          const LineLimits& limits, const LineLimits& braking) noexcept;
   void move_with(double velocity, const LineLimits& limits) noexcept;
+  // As a table says, which begins as the axis is (axis_along.cpp). Then it rests, or goes on with its velocity, once it
+  // has no acceleration. No override counts on the way: whoever has one stops it.
+  void move_along(const TimeProfile& table, const LineLimits& limits, bool to_rest) noexcept;
+  [[nodiscard]] bool along() const noexcept { return goal_ == Goal::Table; }
+  [[nodiscard]] bool full_speed() const noexcept { return override_ == 1; }
   void stop(const LineLimits& limits) noexcept;
   // Part of the speed of motions, from 0 to 1; stops are not slowed down.
   void set_override(double part) noexcept;
@@ -53,7 +59,7 @@ class AxisMotion {
   [[nodiscard]] const LineState& state() const noexcept { return state_; }
   // Has come to the position, to the velocity, or to rest; not while an override of 0 holds it.
   [[nodiscard]] bool done() const noexcept {
-    return !lent_ && !held() && !harder_ && goal_ != Goal::Through && time_ >= profile_.duration();
+    return !lent_ && !held() && !harder_ && goal_ != Goal::Through && !along() && time_ >= profile_.duration();
   }
   [[nodiscard]] bool at_rest() const noexcept { return done() && state_.velocity == 0 && !passed_; }
   // It is exactly at the position that it passes; `rest_of_step()` seconds of the last step are left.
@@ -61,7 +67,7 @@ class AxisMotion {
   [[nodiscard]] double rest_of_step() const noexcept { return left_over_; }
 
  private:
-  enum class Goal { Rest, Position, Velocity, Through };
+  enum class Goal { Rest, Position, Velocity, Through, Table };
 
   [[nodiscard]] bool held() const noexcept;
   void plan() noexcept;
@@ -69,6 +75,7 @@ class AxisMotion {
   bool plan_pass(double sign, double arrival) noexcept;
   void plan_through() noexcept;
   void step_through() noexcept;
+  void step_along() noexcept;
   void go_behind() noexcept;
   [[nodiscard]] LineLimits hardest() const noexcept;
   [[nodiscard]] bool keeps_bounds() const noexcept;
@@ -85,6 +92,8 @@ class AxisMotion {
   double arrival_ = 0;       // what the position is passed with, in the direction of the way there
   double end_velocity_ = 0;  // of a motion through a position
   bool on_last_way_ = false;
+  TimeProfile table_;
+  bool rests_ = false;  // at the end of the table
   std::optional<double> went_through_;
   bool passing_ = false;
   bool passed_ = false;

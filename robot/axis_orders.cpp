@@ -55,6 +55,7 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     set(&AxisControl::administer, {PowerOn, PowerOff, Reset});
     set(&AxisControl::queue, {Home, Halt, MoveAbsolute, MoveRelative, MoveAdditive, MoveVelocity});
     set(&AxisControl::queue, {MoveContinuousAbsolute, MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine});
+    set(&AxisControl::queue, {PositionProfile, VelocityProfile, AccelerationProfile});
     set(&AxisControl::stop_for, {Stop});
     set(&AxisControl::set_position, {SetPosition});
     set(&AxisControl::write_parameter, {WriteParameter});
@@ -262,6 +263,11 @@ void AxisControl::begin_motion(const Command& command, const Order& order) noexc
       motion_.move_through(order.target, order.end, order.limits, order.braking);
       state_ = AxisState::ContinuousMotion;
       break;
+    case AxisService::PositionProfile:
+    case AxisService::VelocityProfile:
+    case AxisService::AccelerationProfile:
+      begin_profile(command);
+      break;
     default:
       motion_.move_to(order.target, order.limits, order.braking);
       state_ = AxisState::DiscreteMotion;
@@ -291,7 +297,7 @@ void AxisControl::begin_next() noexcept {
 // What blocks change of commands that they have given.
 void AxisControl::look_at_commands() noexcept {
   const int ticket = motion_owner_.ticket;
-  if (ticket == kNobody || ticket == kRequest || !table_->updated(ticket)) {
+  if (ticket == kNobody || ticket == kRequest || !table_->updated(ticket) || is_profile(motion_owner_.service)) {
     return;
   }
   const Command& command = table_->command(ticket);

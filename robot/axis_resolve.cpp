@@ -96,6 +96,9 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
 // A motion that goes on behind a place has to be able to rest there before the end of the axis, and where it takes its
 // run-up.
 ErrorCode AxisControl::check_way(const Command& command, const Order& order) const noexcept {
+  if (is_profile(service_of(command))) {
+    return check_profile(command);
+  }
   if (!goes_on_from(service_of(command)) || endless_) {
     return ErrorCode::Ok;
   }

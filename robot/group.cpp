@@ -45,7 +45,7 @@ Group::Group(GroupParts parts)
     const LineLimits limits{parts_.joints.velocity[i], parts_.joints.acceleration[i], parts_.joints.jerk[i]};
     const Axis& axis = parts_.arm.axis(i);
     axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(i)), settings.absolute, &table_,
-                        {axes(), {gates_.data(), axis_count()}, cams_, i});
+                        {axes(), {gates_.data(), axis_count()}, cams_, &profiles_, i});
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }

@@ -248,6 +248,7 @@ class Group final : public Controller, private MotionPort {
   std::array<AxisControl, kAxes> axes_;
   std::array<SetPointGate, kAxes> gates_;
   std::array<Cam, kCams> cams_;
+  ProfileTables profiles_{};
   double period_ = 0.01;  // s
 
   GroupState state_ = GroupState::Disabled;

@@ -30,6 +30,7 @@ bool is_motion(Service service) noexcept {
 
 void Group::serve_commands(const Inputs& in) noexcept {
   table_.read(in.commands, in.requests_known);
+  profiles_ = in.profiles;  // those of commands that wait are still there
   if (later_ != CommandTable::kNone && !desk_.holds_forgotten()) {
     const int ticket = std::exchange(later_, CommandTable::kNone);
     administer(ticket, static_cast<Service>(table_.command(ticket).code));

@@ -112,6 +112,10 @@ void read_commands() {
   for (std::size_t k = 0; k < belts.size(); ++k) {
     in.belts[k] = {belts[k].dPlace, belts[k].nBeat};
   }
+  const auto profiles = MC_PROFILE.get();
+  for (std::size_t k = 0; k < profiles.size(); ++k) {
+    in.profiles[k] = {profiles[k].nCommand, profiles[k].nPoints, profiles[k].dTime, profiles[k].dValue};
+  }
   const MC_FACTORS_t factors = MC_FACTORS;
   if (factors.bSet != 0) {
     in.factors = {factors.dVelocity, factors.dAcceleration, factors.dJerk, factors.dGroup};

@@ -14,9 +14,9 @@ namespace indurop::robot {
 inline constexpr std::size_t kCommands = 32;  // places
 inline constexpr std::size_t kCams = 4;
 inline constexpr std::size_t kCamPoints = 64;
+inline constexpr std::size_t kBelts = 2;
 inline constexpr std::size_t kProfiles = 4;
 inline constexpr std::size_t kProfilePoints = 64;
-inline constexpr std::size_t kBelts = 2;
 
 // What a command does with those before it.
 enum class BufferMode : std::int16_t {

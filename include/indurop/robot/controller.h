@@ -145,8 +145,8 @@ struct Inputs {
   std::array<AxisRequest, kJoints> axes{};
   Commands commands{};
   CamTables cams{};
-  ProfileTables profiles{};
   std::array<BeltIn, kBelts> belts{};
+  ProfileTables profiles{};
   // Parts of speed, acceleration and jerk of single axes; of the speed of the group.
   struct Factors {
     AxisNumbers velocity{1, 1, 1, 1, 1, 1, 1, 1};

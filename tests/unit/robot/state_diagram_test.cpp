@@ -83,6 +83,9 @@ bool accepts(AxisState state, AxisService service) {
     case AxisService::MoveVelocity:
     case AxisService::MoveContinuousAbsolute:
     case AxisService::MoveContinuousRelative:
+    case AxisService::PositionProfile:
+    case AxisService::VelocityProfile:
+    case AxisService::AccelerationProfile:
     case AxisService::Halt:
     case AxisService::GearIn:
     case AxisService::GearInPos:
@@ -216,42 +219,20 @@ class AxisDiagram : public Diagram {
   long followed_ = 0;  // so many periods
   void give_one() {
     using enum AxisService;
-    static constexpr AxisService kAll[] = {PowerOn,
-                                           PowerOn,
-                                           PowerOn,
-                                           MoveAbsolute,
-                                           MoveAbsolute,
-                                           MoveRelative,
-                                           MoveAdditive,
-                                           Halt,
-                                           MoveVelocity,
-                                           Stop,
-                                           Reset,
-                                           Home,
-                                           GearIn,
-                                           GearIn,
-                                           GearInPos,
-                                           CamIn,
-                                           Combine,
-                                           ShiftMaster,
-                                           Reset,
-                                           Stop,
-                                           Decouple,
-                                           Decouple,
-                                           TouchProbe,
-                                           AbortTrigger,
-                                           ShiftMaster,
-                                           MoveRelative,
-                                           MoveContinuousAbsolute,
-                                           MoveContinuousRelative,
-                                           WriteParameter};
+    static constexpr AxisService kAll[] = {
+        PowerOn, PowerOn, PowerOn,  MoveAbsolute, MoveAbsolute, MoveRelative, MoveAdditive, Halt,        MoveVelocity,
+        Stop,    Reset,   Home,     GearIn,       GearIn,       GearInPos,    CamIn,        Combine,     ShiftMaster,
+        Reset,   Stop,    Decouple, Decouple,     TouchProbe,   AbortTrigger, ShiftMaster,  MoveRelative};
+    static constexpr AxisService kMore[] = {MoveContinuousAbsolute, MoveContinuousRelative, PositionProfile,
+                                            VelocityProfile,        AccelerationProfile,    WriteParameter};
     constexpr int kMany = std::size(kAll);
     if (one_of(4) == 0) {
       move_masters();
       return;
     }
     const int pick = one_of(5 * kMany + 10);
-    const AxisService service = pick < 5 * kMany ? kAll[pick % kMany] : pick % 2 == 0 ? PowerOff : MoveSuperimposed;
+    const AxisService other = pick < 5 * kMany ? kAll[pick % kMany] : pick % 2 == 0 ? PowerOff : MoveSuperimposed;
+    const AxisService service = one_of(5) == 0 ? kMore[one_of(6)] : other;
     const bool at_once = service == ShiftMaster || service == MoveSuperimposed;
     const BufferMode mode = at_once ? BufferMode::Aborting : any_mode();
     const Given given = give(1, service, in(-100, 100), in(5, 150), mode);
@@ -304,12 +285,25 @@ class AxisDiagram : public Diagram {
         c.to = {0, 0, 1, 1};
         c.aux = {1, 1};
         break;
+      case AxisService::PositionProfile:
+      case AxisService::VelocityProfile:
+      case AxisService::AccelerationProfile:
+        c.to = {1, 1, 0};
+        c.option = 1;
+        write_table(cell.in.profiles[0], service == AxisService::PositionProfile ? 20 : 60);
+        cell.in.profiles[0].command = c.number;
+        break;
       case AxisService::TouchProbe:
         c.option = c.job = 0;
         break;
       default:
         c.option = service == AxisService::ShiftMaster ? c.option : 0;
     }
+  }
+  void write_table(ProfileTable& table, double most) {
+    table.points = 2;
+    table.time = {in(0.3, 1), in(1.2, 2)};
+    table.value = {in(-most, most), in(-most, most)};
   }
   // What the drive says next is not known to whoever gives the command.
   [[nodiscard]] bool faulty_now() const { return axis(0) == AxisState::Disabled && cell.in.drives[0].status == 0x27; }
