@@ -9,8 +9,9 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 3;   // s a drive may take to get power or to leave a fault
-constexpr double kHomeTime = 120;  // s
+constexpr double kPowerTime = 3;    // s a drive may take to get power or to leave a fault
+constexpr double kLetGoTime = 0.5;  // s it is waited for to give it up; one that keeps it has it
+constexpr double kHomeTime = 120;   // s
 
 std::int32_t counts(double value) noexcept {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
@@ -120,8 +121,8 @@ void AxisControl::home() noexcept {
 
 void AxisControl::wait_for_power(double seconds) noexcept {
   waited_ += seconds;
-  if (letting_go_ && waited_ <= kPowerTime) {
-    letting_go_ = drive_.enabled();
+  if (letting_go_) {
+    letting_go_ = drive_.enabled() && waited_ <= kLetGoTime;
     want_power_ = !letting_go_;
   } else if (drive_.enabled()) {
     finish(admin_, ErrorCode::Ok);

@@ -9,7 +9,8 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kPowerTime = 4;  // s all drives may take to get power or to leave a fault
+constexpr double kPowerTime = 4;    // s all drives may take to get power or to leave a fault
+constexpr double kLetGoTime = 0.5;  // s they are waited for to give it up; one that keeps it has it
 constexpr std::size_t at(int axis) noexcept {
   return static_cast<std::size_t>(axis);
 }
@@ -279,7 +280,7 @@ void Group::run_enabling() noexcept {
   }
   waited_ += period_;
   if (letting_go_) {
-    letting_go_ = lets_go() && waited_ <= kPowerTime;
+    letting_go_ = lets_go() && waited_ <= kLetGoTime;
     letting_go_ ? void() : take_power();
   } else if (all_enabled()) {
     enabling_ = false;

@@ -30,7 +30,7 @@ std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Ou
     for (std::size_t k = 0; k < kJoints; ++k) {
       in.drives[k] = {0, 0x27, out.drives[k].mode, out.drives[k].position};
     }
-    if (i == 2 || i == 10) {
+    if (i == 2 || i == 100) {  // power is taken once drives that had it were given time to let go
       in.service.code = static_cast<std::int32_t>(i == 2 ? Service::GroupEnable : Service::JobStart);
       in.service.job = 1;
       ++in.service.number;

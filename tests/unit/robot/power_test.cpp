@@ -132,5 +132,45 @@ TEST(Power, Nor_are_those_of_single_axes) {
   EXPECT_GT(enabled, 500);
 }
 
+// As simple simulators do: half a second, then it has what it asks for.
+TEST(Power, A_drive_that_never_lets_go_has_power) {
+  const auto sut = controller_of(cell_urdf(), "POINT A = JOINT 0 0 0 0 60 0\nMOVJ A\n");
+  NoSignals signals;
+  Inputs in;
+  Outputs out;
+  in.requests_known = true;
+  for (DriveIn& drive : in.drives) {
+    drive = {0, 0x27, 8};
+  }
+  sut->step(in, signals, out);
+  in.service.code = static_cast<std::int32_t>(Service::GroupEnable);
+  in.service.number = out.acknowledged + 1;
+  int periods = 0;
+  for (; periods < 1000 && out.done != in.service.number; ++periods) {
+    sut->step(in, signals, out);
+  }
+  EXPECT_EQ(out.state, GroupState::Standby) << to_string(out.error);
+  EXPECT_LE(periods, 60);
+}
+
+TEST(Power, Nor_does_one_of_a_single_axis) {
+  const auto sut = controller_of(cell_urdf(), "POINT A = JOINT 0 0 0 0 60 0\nMOVJ A\n");
+  NoSignals signals;
+  Inputs in;
+  Outputs out;
+  in.requests_known = true;
+  for (DriveIn& drive : in.drives) {
+    drive = {0, 0x27, 8};
+  }
+  sut->step(in, signals, out);
+  in.axes[2] = {out.axes[2].acknowledged + 1, static_cast<std::int32_t>(AxisService::PowerOn), 0, 0, 0, 0};
+  for (int i = 0; i < 1000 && out.axes[2].done != in.axes[2].number; ++i) {
+    sut->step(in, signals, out);
+  }
+  EXPECT_EQ(out.axes[2].done, in.axes[2].number);
+  EXPECT_EQ(out.drives[2].control, 0x0F);
+  EXPECT_TRUE(out.axes[2].power);
+}
+
 }  // namespace
 }  // namespace indurop::robot
