@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "robot/job_parser.h"
+#include "robot/near_name.h"
 
 namespace indurop::robot {
 
@@ -115,7 +116,7 @@ void JobParser::resolve_bodies() {
                                     [&](const WorkFrame& each) { return each.name == use.name; });
     if (frame == book_.frames.end()) {
       error_in(book_.jobs[use.job].file, use.line, use.column,
-               "there is no frame '" + use.name + "'; declare it, FRAME " + use.name + " = POSE 500 0 100 RPY 0 0 45");
+               no_such("frame", use.name, book_.frames, "FRAME", "POSE 500 0 100 RPY 0 0 45"));
     } else if (use.owner < book_.keepouts.size()) {
       book_.keepouts[use.owner].frame = static_cast<int>(frame - book_.frames.begin());
     }
@@ -124,7 +125,7 @@ void JobParser::resolve_bodies() {
     body.tool = tool_called(body.name);
     if (body.tool < 1) {
       error_in(body.file, static_cast<std::size_t>(body.place.line), static_cast<std::size_t>(body.place.column),
-               "there is no tool '" + body.name + "'; declare it, TOOL " + body.name + " = POSE 0 0 120 RPY 0 0 0");
+               no_such("tool", body.name, book_.tools, "TOOL", "POSE 0 0 120 RPY 0 0 0"));
     }
   }
 }

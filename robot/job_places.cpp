@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "robot/job_parser.h"
+#include "robot/near_name.h"
 
 namespace indurop::robot {
 
@@ -82,7 +83,7 @@ void JobParser::resolve_frames() {
                                     [&](const WorkFrame& each) { return each.name == use.name; });
     if (found == book_.frames.end()) {
       error_in(book_.jobs[use.job].file, use.line, use.column,
-               "there is no frame '" + use.name + "'; declare it, FRAME " + use.name + " = POSE 500 0 100 RPY 0 0 45");
+               no_such("frame", use.name, book_.frames, "FRAME", "POSE 500 0 100 RPY 0 0 45"));
       continue;
     }
     book_.points[use.owner].frame = static_cast<int>(found - book_.frames.begin());
@@ -93,7 +94,7 @@ void JobParser::resolve_frames() {
     if (point < 0 || book_.points[static_cast<std::size_t>(point)].frame >= 0) {
       error_in(book_.jobs[use.job].file, use.line, use.column,
                point < 0
-                   ? "there is no point '" + use.name + "'"
+                   ? "there is no point '" + use.name + "'" + meant(use.name, names_of(book_.points))
                    : "point '" + use.name + "' is given in a frame itself; a frame is taught by points of the base");
       continue;
     }

@@ -4,54 +4,18 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
-#include <numeric>
 
 #include "robot/job_parser.h"
+#include "robot/near_name.h"
 
 namespace indurop::robot {
 
 namespace {
 
-std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t corner = row[0]++;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      const std::size_t replaced = corner + (same_word(a.substr(i, 1), b.substr(k, 1)) ? 0 : 1);
-      corner = row[k + 1];
-      row[k + 1] = std::min({replaced, row[k] + 1, row[k + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string meant(std::string_view name, const std::vector<std::string>& known) {
-  const std::string* best = nullptr;
-  std::size_t fewest = name.size() / 3 + 2;
-  for (const std::string& one : known) {
-    if (const std::size_t n = edits(name, one); n < fewest) {
-      fewest = n;
-      best = &one;
-    }
-  }
-  return best == nullptr ? "" : "; did you mean '" + *best + "'?";
-}
-
 template <class List>
 int index_of(const List& list, std::string_view name) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
   return found == list.end() ? -1 : static_cast<int>(found - list.begin());
-}
-
-template <class List>
-std::vector<std::string> names_of(const List& list) {
-  std::vector<std::string> names;
-  names.reserve(list.size());
-  for (const auto& one : list) {
-    names.push_back(one.name);
-  }
-  return names;
 }
 
 std::string count_of(std::size_t count, const char* what) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "robot/job_parser.h"
+#include "robot/near_name.h"
 
 namespace indurop::robot {
 
@@ -89,7 +90,7 @@ void JobParser::resolve_tools() {
     if (found == book_.points.end() || found->target.is_pose) {
       error_in(book_.jobs[use.job].file, use.line, use.column,
                found == book_.points.end()
-                   ? "there is no point '" + use.name + "'"
+                   ? "there is no point '" + use.name + "'" + meant(use.name, names_of(book_.points))
                    : "point '" + use.name + "' is given as POSE; a tool is taught by points given as JOINT");
       continue;
     }
@@ -99,7 +100,7 @@ void JobParser::resolve_tools() {
     const int tool = tool_called(use.name);
     if (tool < 0) {
       error_in(book_.jobs[use.job].file, use.line, use.column,
-               "there is no tool '" + use.name + "'; declare it, TOOL " + use.name + " = POSE 0 0 120 RPY 0 0 0");
+               no_such("tool", use.name, book_.tools, "TOOL", "POSE 0 0 120 RPY 0 0 0"));
     } else if (use.owner < book_.frames.size()) {
       book_.frames[use.owner].tool = tool;
     }

@@ -10,6 +10,7 @@
 
 #include "base/read_file.h"
 #include "robot/abilities.h"
+#include "robot/check_calls.h"
 #include "robot/check_splines.h"
 #include "robot/read_bodies.h"
 #include "robot/tool_set.h"
@@ -302,6 +303,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_offsets(read.book, inverse), read.errors);
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm, placed), read);
+    sort_out(check_calls(read.book), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
     if (read.errors.empty()) {

@@ -8,6 +8,7 @@
 
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "robot/near_name.h"
 #include "robot/point_lines.h"
 #include "robot/read_files.h"
 
@@ -140,7 +141,8 @@ TaughtPoint teach_point(const FileNames& names, const TeachOrder& order, const S
   out.now = {order.point, place_for(order, read.book, arm, stand, before),
              before != nullptr ? before->file : file_for(order, read.book, names.jobs), 0};
   if (out.now.place.empty()) {
-    out.problem = "there is no frame '" + order.frame + "' in the files of the robot";
+    out.problem = "there is no frame '" + order.frame + "' in the files of the robot" +
+                  meant(order.frame, names_of(read.book.frames));
   } else if (out.now.file.empty()) {
     out.problem = order.file.empty() ? "the robot reads no files of jobs or points: name one in the property jobs"
                                      : "the robot does not read " + order.file + ": name it in the property jobs";

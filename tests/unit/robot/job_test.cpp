@@ -214,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"END\n", "a.job:1:1: error: END without LOOP, IF, WHILE, FOR or TRY"},
         Bad{"LOOP 0\nEND\n",
             "a.job:1:6: error: a LOOP runs a whole number of times, from 1; without a number it runs for ever"},
-        Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'; did you mean 'a'?"},
+        Bad{"CALL b\n", "a.job:1:6: error: there is no job 'b'"},
         Bad{"SET 5 ON\n", "a.job:1:5: error: expected the name of a variable, found '5'"},
         Bad{"IF I0 = 3 GO on\n", "a.job:1:11: error: unexpected 'GO'; one statement per line"},
         Bad{"SET O1 $\n", "a.job:1:8: error: expected ON, OFF or the value, found '$'"}));
