@@ -123,20 +123,22 @@ constexpr const char* kHome = "POINT HOME = JOINT 0 -20 10 0 100 0\n";
 constexpr const char* kFirst =
     "TOOL grip = POSE 0 0 120 RPY 0 0 0\nPOINT HOME = JOINT 0 -20 10 0 100 0\nPOINT A = JOINT 20 10 -20 0 60 0\n"
     "TOOL grip\nSET one ON\nMOVJ A\nMOVJ HOME\n";
-// Another tool before it, a zone, other variables, an interrupt, a load, a frame.
-const char* const kOthers[] = {
+// Another tool before it, and other variables.
+constexpr const char* kTools =
     "TOOL wide = POSE 0 30 150 RPY 0 0 20\nTOOL grip = POSE 0 0 90 RPY 0 0 0\n"
     "POINT HOME = JOINT 0 -20 10 0 100 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
-    "TOOL wide\nSET two ON\nMOVJ B\nMOVL B OFFSET 0, 0, 50\nTOOL grip\nMOVJ HOME\nSET three 5\n",
+    "TOOL wide\nSET two ON\nMOVJ B\nMOVL B OFFSET 0, 0, 50\nTOOL grip\nMOVJ HOME\nSET three 5\n";
+// A frame, a zone and a load.
+constexpr const char* kZone =
     "TOOL grip = POSE 0 0 120 RPY 0 0 0\nPOINT HOME = JOINT 0 -20 10 0 100 0\n"
     "FRAME table = POSE 400 0 200 RPY 0 0 30\nKEEPOUT post = BOX 570 370 0 630 430 300\n"
-    "POINT C = POSE 50 60 100 RPY 180 0 180 IN table\nLOAD 2 kg CENTRE 0 0 40\nMOVJ HOME\nZONE 20\nMOVL C\nMOVJ HOME\n",
-    "TOOL grip = POSE 0 0 120 RPY 0 0 0\nPOINT HOME = JOINT 0 -20 10 0 100 0\nPOINT A = JOINT 30 0 0 0 60 0\nSPEED "
-    "30%\nMOVJ A\nWAIT 0.1s\n",
-};
+    "POINT C = POSE 50 60 100 RPY 180 0 180 IN table\nLOAD 2 kg CENTRE 0 0 40\nMOVJ HOME\nZONE 20\nMOVL C\nMOVJ HOME\n";
+constexpr const char* kSlow =
+    "TOOL grip = POSE 0 0 120 RPY 0 0 0\nPOINT HOME = JOINT 0 -20 10 0 100 0\nPOINT A = JOINT 30 0 0 0 60 0\n"
+    "SPEED 30%\nMOVJ A\nWAIT 0.1s\n";
 
 TEST(Reload, From_then_on_all_is_as_if_it_had_been_started_so) {
-  for (const char* other : kOthers) {
+  for (const char* other : {kTools, kZone, kSlow}) {
     Robot fresh(other);
     Robot sut(kFirst);
     sut.run_job();
@@ -230,7 +232,7 @@ bool note_made(bool what) noexcept {
 TEST(Reload, The_tick_allocates_nothing_and_goes_on_meanwhile) {
   Robot sut(kFirst, false, note_made);
   for (int run = 0; run < 3; ++run) {
-    sut.write("main.job", kOthers[1]);
+    sut.write("main.job", kZone);
     g_made = false;
     sut.ask(Service::JobReload);
     int periods = 0;
