@@ -51,11 +51,13 @@ Six six(const char* name) {
 
 void read_held() {
   std::istringstream text(irp::property("held", "0 0 0 0 0"));
-  double mass = 0, x = 0, y = 0, z = 0, radius = 0;
-  if (!(text >> mass >> x >> y >> z >> radius) || mass < 0) {
+  double mass = 0;
+  double radius = 0;
+  std::array<double, 3> centre{};
+  if (!(text >> mass >> centre[0] >> centre[1] >> centre[2] >> radius) || mass < 0) {
     throw std::runtime_error("property held: it has to be five numbers: kg, x y z of its middle and its radius in m");
   }
-  arm->hold(mass, x, y, z, radius);
+  arm->hold(mass, centre[0], centre[1], centre[2], radius);
 }
 
 void read_visits() {

@@ -4,6 +4,8 @@
 
 #include <indurop/generated.h>
 
+#include <algorithm>
+
 using namespace PLC_ROBOT;
 
 namespace {
@@ -28,12 +30,8 @@ void ask(OPCODE_ROBOT_SERVICE code) {
 }
 
 bool somebody_pushes() {
-  for (const double push : CONTACT::pushed) {
-    if (push != 0) {
-      return true;
-    }
-  }
-  return false;
+  const auto pushed = CONTACT::pushed.get();
+  return std::any_of(pushed.begin(), pushed.end(), [](double push) { return push != 0; });
 }
 
 void note_contact() {

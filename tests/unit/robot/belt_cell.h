@@ -7,6 +7,7 @@
 #include <functional>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <string>
+#include <utility>
 
 #include "command_cell.h"
 #include "limit_judge.h"
@@ -58,7 +59,7 @@ inline KDL::Frame frame_of(const Eight& numbers) {
 
 class Belts : public testing::Test, public CommandCell {
  protected:
-  explicit Belts(Settings settings = in_tick()) : CommandCell(10, settings) {}
+  explicit Belts(Settings settings = in_tick()) : CommandCell(10, std::move(settings)) {}
   static Settings in_tick() {
     Settings settings;
     settings.plan_in_tick = true;

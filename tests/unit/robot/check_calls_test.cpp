@@ -65,9 +65,9 @@ TEST(Check_calls, Random_jobs_that_never_end_are_found) {
       files.push_back({"j" + std::to_string(i) + ".job", text});
     }
     for (int via = 0; via < kJobs; ++via) {
-      for (int i = 0; i < kJobs; ++i) {
+      for (auto& called : calls) {
         for (int k = 0; k < kJobs; ++k) {
-          calls[i][k] = calls[i][k] || (calls[i][via] && calls[via][k]);
+          called[k] = called[k] || (called[via] && calls[via][k]);
         }
       }
     }
@@ -78,7 +78,7 @@ TEST(Check_calls, Random_jobs_that_never_end_are_found) {
       found.insert(one.file);
     }
     for (int i = 0; i < kJobs; ++i) {
-      ASSERT_EQ(found.count(files[static_cast<std::size_t>(i)].path) > 0, calls[i][i]) << "job " << i;
+      ASSERT_EQ(found.contains(files[static_cast<std::size_t>(i)].path), calls[i][i]) << "job " << i;
       if (calls[i][i]) {
         Nothing world;
         JobRunner runner(read.book);

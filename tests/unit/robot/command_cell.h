@@ -4,6 +4,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <utility>
 
 #include "group_cell.h"
 
@@ -11,7 +12,8 @@ namespace indurop::robot {
 
 class CommandCell {
  public:
-  explicit CommandCell(double period_ms = 10, Settings settings = {}) : cell("", period_ms, 0, true, settings) {}
+  explicit CommandCell(double period_ms = 10, Settings settings = {})
+      : cell("", period_ms, 0, true, std::move(settings)) {}
 
   // What a block sees of a command it has given.
   struct Given {
