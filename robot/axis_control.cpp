@@ -40,6 +40,8 @@ LineLimits AxisControl::limits(double hardness) const noexcept {
 
 void AxisControl::sense(const DriveIn& in, double seconds) noexcept {
   sense_probe(in);
+  watch_mode(in, seconds);
+  led_by_drive_ = false;
   const double before = measured_;
   measured_ = in.position / scale_.counts + scale_.zero;
   measured_speed_ = sensed_ ? (measured_ - before) / seconds : 0;
@@ -197,7 +199,7 @@ void AxisControl::move(double seconds) noexcept {
     wait_for_reset(seconds);
   }
   const bool goes_on = state_ == AxisState::ContinuousMotion;
-  report_.in_velocity = goes_on && motion_.done();
+  report_.in_velocity = goes_on && !push_.on() && motion_.done();
   note_superimposed();
   if (goes_on || coupled_) {
     note_velocity();
@@ -219,8 +221,8 @@ void AxisControl::move(double seconds) noexcept {
 
 // A motion without an end: its request ends here, its command when another one takes over.
 void AxisControl::note_velocity() noexcept {
-  const bool reached = coupled_ ? coupling_.synced() : report_.in_velocity;
-  if (motion_owner_.ticket == kRequest && report_.in_velocity) {
+  const bool reached = coupled_ ? coupling_.synced() : push_.on() ? push_.reached() : report_.in_velocity;
+  if (motion_owner_.ticket == kRequest && reached && !coupled_) {
     finish(motion_owner_, ErrorCode::Ok);
   } else if (motion_owner_.ticket != kNobody && motion_owner_.ticket != kRequest) {
     table_->reached(motion_owner_.ticket, reached);

@@ -13,6 +13,7 @@
 #include "robot/command_table.h"
 #include "robot/drive.h"
 #include "robot/errors.h"
+#include "robot/torque_control.h"
 
 namespace indurop::robot {
 
@@ -35,6 +36,8 @@ class AxisControl {
   AxisControl() = default;
   void set_up(const Axis& axis, const LineLimits& limits, const Scale& scale, bool absolute, CommandTable* table,
               const Row& row) noexcept;
+  // It may push with so much, N m or N; 0: nobody could tell its drive how much that is (axis_torque.cpp).
+  void allow_torque(double most) noexcept { most_torque_ = most; }
 
   // What the drive says, at the start of a period. Real-time safe, as all the rest.
   void sense(const DriveIn& in, double seconds) noexcept;
@@ -61,6 +64,12 @@ class AxisControl {
   void braked(const LineState& state) noexcept { motion_.lend(state); }
   // The drive has not followed since the last period: the commanded position may be anywhere.
   [[nodiscard]] bool placed_anew() const noexcept { return placed_anew_; }
+  // It pushes with a torque: the set point is where the drive is.
+  [[nodiscard]] bool pushes() const noexcept { return push_.pushes(); }
+  [[nodiscard]] bool led_by_drive() const noexcept { return led_by_drive_; }
+  void carry(const TorqueControl::Load& load) noexcept { push_.carry(load); }
+  // N m or N for its drive, beside what the arm needs.
+  [[nodiscard]] double torque() const noexcept { return push_.torque(); }
   // Stands still where it is commanded to be: the group's motion has ended.
   void rest() noexcept { motion_.reset({motion_.state().position, 0, 0}); }
   // What the drive is told.
@@ -68,6 +77,7 @@ class AxisControl {
 
   // Part of the speed of its own motions, from 0 (it holds) to 1; of the accelerations and jerks of those that begin.
   void set_override(double part) noexcept {
+    override_ = part;
     motion_.set_override(part);
     coupling_.hold(!(part > 0));
   }
@@ -109,10 +119,10 @@ class AxisControl {
   // A motion as it was asked for, in radians or metres.
   struct Order {
     double target = 0;  // position or velocity
-    double end = 0;     // velocity it goes on with
+    double end = 0;     // velocity it goes on with; of a torque, how fast it grows
     LineLimits limits, braking;
   };
-  static constexpr auto kServices = static_cast<std::size_t>(AxisService::AccelerationProfile) + 1;
+  static constexpr auto kServices = static_cast<std::size_t>(AxisService::TorqueControl) + 1;
   // So far before its ends a motion without a target rests.
   static constexpr double kEndMargin = radians(0.1);
 
@@ -188,6 +198,17 @@ class AxisControl {
   void begin_profile(const Command& command) noexcept;
   void guard_table() noexcept;
 
+  // By its drive's torque (axis_torque.cpp).
+  [[nodiscard]] ErrorCode resolve_torque(const Command& command, Order& order) const noexcept;
+  void begin_torque(const Order& order) noexcept;
+  void leave_torque() noexcept;
+  void fail_torque(ErrorCode code) noexcept;
+  void watch_mode(const DriveIn& in, double seconds) noexcept;
+  bool prepare_torque(double seconds) noexcept;
+  void advance_torque(double seconds) noexcept;
+  bool too_fast(double seconds) noexcept;
+  [[nodiscard]] bool rests_in_time(double ahead) const noexcept;
+
   // Its touch probe (axis_probe.cpp).
   void begin_probe(int ticket, const Command& command) noexcept;
   void abort_probe(int ticket, const Command& command) noexcept;
@@ -216,6 +237,16 @@ class AxisControl {
   bool leaving_ = false;  // what is asked for begins once it has no acceleration
   std::array<Leader, 2> leaders_;
   std::size_t leading_ = 1;  // so many of them
+  TorqueControl push_;
+  double most_torque_ = 0;
+  double override_ = 1;
+  bool led_by_drive_ = false;    // its set point is where the drive is
+  bool in_torque_mode_ = false;  // the drive
+  double mode_waited_ = 0;       // s, for a change of its mode
+  int mode_late_ = 0;            // periods, likewise
+  double slowing_from_ = 0;      // rad/s or m/s: what it had as it got another velocity
+  double slowing_ = 0;           // s since then
+  int too_fast_ = 0;             // so many periods
   AxisState state_ = AxisState::Disabled;
   double measured_ = 0;
   double measured_speed_ = 0;

@@ -21,7 +21,7 @@ constexpr std::size_t at(int axis) noexcept {
 }  // namespace
 
 bool AxisControl::leads() const noexcept {
-  return !placed_anew_ && state_ != AxisState::Disabled && state_ != AxisState::ErrorStop &&
+  return !placed_anew_ && !push_.pushes() && state_ != AxisState::Disabled && state_ != AxisState::ErrorStop &&
          state_ != AxisState::Homing;
 }
 
@@ -179,6 +179,7 @@ void AxisControl::decouple(int ticket, const Command& /*command*/) noexcept {
 }
 
 void AxisControl::let_go() noexcept {
+  leave_torque();
   finish(super_, ErrorCode::Aborted);
   if (over_) {
     motion_.lend(coupling_.state());
@@ -196,6 +197,7 @@ void AxisControl::fail_coupling(ErrorCode code) noexcept {
 }
 
 void AxisControl::put(const LineState& state) noexcept {
+  leave_torque();
   coupled_ = over_ = leaving_ = false;
   motion_.reset(state);
 }
@@ -222,6 +224,10 @@ void AxisControl::advance_coupled(double seconds) noexcept {
 
 // One period on, whoever says where to.
 void AxisControl::advance(double seconds) noexcept {
+  if (!prepare_torque(seconds)) {
+    advance_torque(seconds);
+    return;
+  }
   if (coupled_) {
     advance_coupled(seconds);
   } else if (!leaving_) {

@@ -55,7 +55,7 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     set(&AxisControl::administer, {PowerOn, PowerOff, Reset});
     set(&AxisControl::queue, {Home, Halt, MoveAbsolute, MoveRelative, MoveAdditive, MoveVelocity});
     set(&AxisControl::queue, {MoveContinuousAbsolute, MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine});
-    set(&AxisControl::queue, {PositionProfile, VelocityProfile, AccelerationProfile});
+    set(&AxisControl::queue, {PositionProfile, VelocityProfile, AccelerationProfile, AxisService::TorqueControl});
     set(&AxisControl::stop_for, {Stop});
     set(&AxisControl::set_position, {SetPosition});
     set(&AxisControl::write_parameter, {WriteParameter});
@@ -239,7 +239,12 @@ void AxisControl::begin(int ticket, const Command& command) noexcept {
 
 void AxisControl::begin_motion(const Command& command, const Order& order) noexcept {
   const AxisService service = service_of(command);
+  if (service == AxisService::TorqueControl) {
+    begin_torque(order);
+    return;
+  }
   if (follows(service)) {
+    leave_torque();
     couple(command, order);
     return;
   }

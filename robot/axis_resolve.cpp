@@ -72,6 +72,9 @@ ErrorCode AxisControl::resolve(const Command& command, double from, Order& order
     const bool negative = (command.velocity < 0) != back;
     order.target = negative ? -order.limits.velocity : order.limits.velocity;
   }
+  if (service == AxisService::TorqueControl) {
+    return resolve_torque(command, order);
+  }
   if (follows(service)) {
     Coupled way;
     return resolve(command, order, way);

@@ -20,7 +20,7 @@ ErrorCode AxisControl::check_superimposed(const Command& command) const noexcept
                      state_ == AxisState::ContinuousMotion || coupled_;
   const bool catches_up = coupled_ && super_.ticket == kNobody && !coupling_.synced();
   const bool shifts = super_.service == AxisService::ShiftMaster;
-  if (!drive_.enabled() || !moves || leaving_ || catches_up || shifts || queued_ > 0) {
+  if (!drive_.enabled() || !moves || push_.on() || leaving_ || catches_up || shifts || queued_ > 0) {
     return ErrorCode::State;
   }
   if (coupled_ || state_ == AxisState::ContinuousMotion || endless_) {

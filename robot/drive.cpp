@@ -73,7 +73,7 @@ void Drive::step(const DriveIn& in, Want want) noexcept {
   const bool started = (control_ & kStartHoming) != 0;
   home_found_ = in_homing && started && (in.status & kHomingAttained) != 0;
   home_failed_ = in_homing && started && (in.status & kHomingError) != 0;
-  mode_ = homing_ ? kHomingMode : kCyclicPosition;
+  mode_ = homing_ ? kHomingMode : torque_ ? kCyclicTorque : kCyclicPosition;
 
   resetting_ = resetting_ && faulty();
   if (resetting_) {

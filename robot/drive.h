@@ -22,6 +22,8 @@ class Drive {
   };
   enum class Want { Off, On, QuickStop };
 
+  static constexpr std::int8_t kCyclicTorque = 10;  // mode of operation
+
   static State state_of(std::uint16_t status) noexcept;
 
   // Takes what the drive says and decides on what it is told. Real-time safe.
@@ -30,6 +32,8 @@ class Drive {
   void reset() noexcept { resetting_ = true; }
   // Looks for its reference with the drive's own method, while `on`.
   void home(bool on) noexcept { homing_ = on; }
+  // Gets torques instead of positions, while `on`.
+  void torque(bool on) noexcept { torque_ = on; }
 
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] bool enabled() const noexcept { return state_ == State::OperationEnabled; }
@@ -43,6 +47,7 @@ class Drive {
   State state_ = State::NotReady;
   bool resetting_ = false;
   bool homing_ = false;
+  bool torque_ = false;
   bool home_found_ = false;
   bool home_failed_ = false;
   std::uint16_t control_ = 0;

@@ -70,6 +70,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "something pushes against the arm, or it does not hold what TOOL and LOAD say";
     case ErrorCode::Belt:
       return "the belt's place is not told, jumps or goes too quickly; see to its encoder, then track it anew";
+    case ErrorCode::NoTorque:
+      return "the axis cannot push with a torque: rated_torque, masses in the URDF, or the drive's mode 10 is missing";
   }
   return "unknown error";
 }

@@ -47,6 +47,7 @@ Group::Group(GroupParts parts)
     const Axis& axis = parts_.arm.axis(i);
     axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(i)), settings.absolute, &table_,
                         {axes(), {gates_.data(), axis_count()}, cams_, &profiles_, i});
+    axes_[at(i)].allow_torque(most_torque(i));
     gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
 }
@@ -222,6 +223,7 @@ void Group::stop_for(Fault fault) noexcept {
 void Group::run_state(Signals& signals) noexcept {
   job_.end_pulses(period_, signals);
   run_reload(signals);
+  weigh_pushing();
   move_axes();
   switch (state_) {
     case GroupState::Disabled:

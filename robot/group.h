@@ -209,8 +209,11 @@ class Group final : public Controller, private MotionPort {
   bool take_load(int load) noexcept override;  // group_load.cpp
   void weigh() noexcept;
   void set_up_torques() noexcept;
+  [[nodiscard]] double most_torque(int axis) const noexcept;
   void watch_contact(const Inputs& in) noexcept;
   void feed_torques(Outputs& out) noexcept;
+  [[nodiscard]] Joints needed_torques() const noexcept;
+  void weigh_pushing() noexcept;
   [[nodiscard]] PathPlace place() const noexcept override { return follower_.path_place(); }
 
   [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && follower_.has_room(); }

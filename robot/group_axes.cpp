@@ -40,7 +40,7 @@ int Group::axis_behind() const noexcept {
   for (int i = 0; i < count(); ++i) {
     const AxisControl& a = axes_[at(i)];
     const double behind = std::abs(a.commanded().position - a.measured());
-    if (a.state() != AxisState::Homing && behind > a.unit() * parts_.settings.following_limit) {
+    if (a.state() != AxisState::Homing && !a.pushes() && behind > a.unit() * parts_.settings.following_limit) {
       return i;
     }
   }

@@ -63,8 +63,9 @@ void Group::pass_gates() noexcept {
     }
   }
   for (int i = 0; i < count() && !braking_; ++i) {
-    const ErrorCode code =
-        axes_[at(i)].brakes() ? ErrorCode::Ok : gates_[at(i)].check(axes_[at(i)].commanded().position, hardness_);
+    const AxisControl& a = axes_[at(i)];
+    const bool by_itself = a.brakes() || a.led_by_drive();
+    const ErrorCode code = by_itself ? ErrorCode::Ok : gates_[at(i)].check(a.commanded().position, hardness_);
     if (code != ErrorCode::Ok && to_error_) {
       leave_path(error_, hardness_);  // the first error is what the user has to know
     } else if (code != ErrorCode::Ok) {
@@ -84,6 +85,8 @@ void Group::pass_gates() noexcept {
     if (braking_) {
       gates_[at(i)].brake(hardness_);
       axes_[at(i)].put(gates_[at(i)].state());
+    } else if (axes_[at(i)].led_by_drive()) {
+      gates_[at(i)].follow(axes_[at(i)].commanded().position, axes_[at(i)].commanded().velocity);
     } else if (axes_[at(i)].brakes()) {
       gates_[at(i)].brake(1);
       axes_[at(i)].braked(gates_[at(i)].state());

@@ -43,7 +43,14 @@ void Group::set_up_torques() noexcept {
   contact_ = ContactWatch(of_axes(parts_.settings.collision_limit));
 }
 
-// A drive that looks for its place moves by itself.
+// What an axis may push with; 0: what that is for its drive, or for the arm, is not known.
+double Group::most_torque(int axis) const noexcept {
+  const bool known = dynamics_.known() && rated_[axis] > 0;
+  const double effort = dynamics_.effort()[axis];
+  return !known ? 0 : effort > 0 ? effort : rated_[axis];
+}
+
+// A drive that looks for its place moves by itself. One that pushes is to, and what it pushes against may stay.
 void Group::watch_contact(const Inputs& in) noexcept {
   Joints measured = Joints::Zero();
   for (int i = 0; i < count(); ++i) {
@@ -55,6 +62,10 @@ void Group::watch_contact(const Inputs& in) noexcept {
     return;
   }
   const int axis = contact_.step(dynamics_, measured, torque_, period_);
+  if (std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.pushes(); })) {
+    contact_.release();
+    return;
+  }
   if (axis < 0 || !powered() || to_error_) {
     return;
   }
@@ -65,24 +76,54 @@ void Group::watch_contact(const Inputs& in) noexcept {
   trip(ErrorCode::Contact, axis + 1, parts_.settings.emergency_factor);
 }
 
-// 1/1000 of the rated torque, as the drive takes it (60B2h).
-void Group::feed_torques(Outputs& out) noexcept {
-  if (!dynamics_.known() || !(rated_.array() > 0).any() || !all_enabled()) {
-    feed_.rest();
-    return;
+// What each axis that pushes moves, and what is left of its effort.
+void Group::weigh_pushing() noexcept {
+  for (int i = 0; i < count(); ++i) {
+    if (!axes_[at(i)].pushes()) {
+      continue;
+    }
+    Joints one = Joints::Zero();
+    one[i] = 1;
+    TorqueControl::Load load;
+    load.inertia = dynamics_.inertial(commanded(), one)[i];
+    const double most = most_torque(i);
+    const double needed = needed_torques()[i];
+    load.lower = -most - needed;
+    load.upper = most - needed;
+    axes_[at(i)].carry(load);
   }
+}
+
+// For the motion that is commanded. What friction needs is not told where the drive says how fast the axis is: more
+// than it has would turn it on.
+Joints Group::needed_torques() const noexcept {
   Joints velocity = Joints::Zero();
   Joints acceleration = Joints::Zero();
+  Joints own = Joints::Zero();
   for (int i = 0; i < count(); ++i) {
     velocity[i] = axes_[at(i)].commanded().velocity;
     acceleration[i] = axes_[at(i)].commanded().acceleration;
+    own[i] = axes_[at(i)].pushes() ? 0 : velocity[i];
   }
-  const Joints needed = dynamics_.torques(commanded(), velocity, acceleration) + dynamics_.friction(velocity);
-  const Joints& told = feed_.step(needed, period_);
-  for (int i = 0; i < count(); ++i) {
+  return dynamics_.torques(commanded(), velocity, acceleration) + dynamics_.friction(own);
+}
+
+// 1/1000 of the rated torque, as the drive takes it (60B2h, 6071h).
+void Group::feed_torques(Outputs& out) noexcept {
+  const bool any = std::any_of(axes().begin(), axes().end(), [](const AxisControl& a) { return a.drive().enabled(); });
+  if (!dynamics_.known() || !(rated_.array() > 0).any() || !any) {
+    feed_.rest();
+    return;
+  }
+  const auto share = [this](int axis, double torque) {
     constexpr double kMost = 32767;
-    const double share = std::round(axes_[at(i)].command_way() * kThousandth * told[i] / rated_[i]);
-    out.drives[at(i)].torque_offset = static_cast<std::int16_t>(std::clamp(share, -kMost, kMost));
+    const double thousandths = axes_[at(axis)].command_way() * kThousandth * torque / rated_[axis];
+    return static_cast<std::int16_t>(std::clamp(std::round(thousandths), -kMost, kMost));
+  };
+  const Joints& told = feed_.step(needed_torques(), period_);
+  for (int i = 0; i < count(); ++i) {
+    out.drives[at(i)].torque_offset = share(i, told[i]);
+    out.drives[at(i)].torque = share(i, axes_[at(i)].torque());
   }
 }
 

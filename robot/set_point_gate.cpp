@@ -28,6 +28,11 @@ void SetPointGate::stand(double position) noexcept {
   steady_ = 0;
 }
 
+void SetPointGate::follow(double position, double velocity) noexcept {
+  state_ = {position, velocity, 0};
+  steady_ = 0;
+}
+
 LineLimits SetPointGate::harder(double hardness) const noexcept {
   return {limits_.velocity, limits_.acceleration * hardness, limits_.jerk * hardness * hardness};
 }

@@ -22,6 +22,8 @@ class SetPointGate {
 
   // The axis stands here: its drive has no power, or has just found its place. Real-time safe, as all here.
   void stand(double position) noexcept;
+  // The drive moves the axis by itself, which is here, and as fast; it brakes from here.
+  void follow(double position, double velocity) noexcept;
   // Whether the drive may get this set point next: within position, speed, acceleration and jerk, and such that the
   // axis can still come to rest before its end. An axis that stands beyond its end may come back. `hardness` multiplies
   // the acceleration. Changes nothing. Errors: Value (no number), JointLimit, Speed, Acceleration, Jerk.

@@ -49,7 +49,7 @@ robot::DriveIn from(const AXIS1_IN_t& axis) {
   return {axis.error, axis.status, axis.mode, axis.position, axis.probe, axis.probe_rise, axis.probe_fall, axis.torque};
 }
 AXIS1_OUT_t to(const robot::DriveOut& drive) {
-  return {drive.control, drive.mode, drive.position, drive.probe, drive.torque_offset};
+  return {drive.control, drive.mode, drive.position, drive.probe, drive.torque_offset, drive.torque};
 }
 
 // A .glb of an arm with more axes has variables of these names, which are found before these.

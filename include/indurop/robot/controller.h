@@ -59,6 +59,7 @@ struct DriveOut {
   std::int32_t position = 0;
   std::uint16_t probe = 0;         // function of the touch probe (60B8h)
   std::int16_t torque_offset = 0;  // what the motion needs (60B2h), 1/1000 of the rated torque
+  std::int16_t torque = 0;         // target torque of mode 10 (6071h), beside the offset
 };
 
 // What a service is asked for with, as ROBOT_MODULE_SERVICE.

@@ -91,7 +91,8 @@ enum class AxisService : std::int32_t {
   WriteParameter,   // parameter `option` of the standard becomes to[0]
   PositionProfile,  // table `job` of times: to[0] is the scale of time, to[1] that of values, to[2] is added to them
   VelocityProfile,
-  AccelerationProfile
+  AccelerationProfile,
+  TorqueControl  // pushes with to[0] N m (N), which grows by to[1] in a second, no faster than `velocity`
 };
 
 enum class ErrorCode : std::uint32_t {
@@ -126,7 +127,8 @@ enum class ErrorCode : std::uint32_t {
   Torque,        // an axis has not enough torque for it, however slow it is
   Collision,     // the target or the way there is too near to a zone, or to the arm itself
   Contact,       // something pushes against the arm
-  Belt           // the place of a belt is not told, jumps or goes too quickly
+  Belt,          // the place of a belt is not told, jumps or goes too quickly
+  NoTorque       // the torque of an axis cannot be told: no masses, no rated torque, or its drive has no such mode
 };
 
 // How the robot is run (ISO 10218-1), as a key switch says.

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The arm with masses (examples/robot_contact) in virtual time: it stops for each push of its visitor, on the right axis and
-soon, goes on, and stops for nothing else, also with other loads of its loops; and it is nearer to its set points if its drives
-are told what a motion needs."""
+soon, goes on, and stops for nothing else, also with other loads of its loops; it is nearer to its set points if its drives
+are told what a motion needs; and an axis of it pushes with a torque."""
 
 import argparse
 import csv
@@ -76,6 +76,7 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--example", type=pathlib.Path, required=True)
     parser.add_argument("--io-module", required=True)
+    parser.add_argument("--blocks", required=True)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     cell = Cell(parser.parse_args())
     failed = []
@@ -108,6 +109,10 @@ def main():
         '<value name="rated_torque">400 400 250 60 50 30</value>\n'
         '      <value name="collision_limit">25 25 20 8 8 6</value>', ""),)))
     expect("drives that are told the torque follow better", told < 0.5 * untold, f"{told:.3f} deg, else {untold:.3f}")
+    last = cell.run("torque", 25, quiet + ((f"{cell.options.example}/swing.so", cell.options.blocks),))[-1]
+    blocks = {name.split("::")[1]: value for name, value in last.items() if name.startswith("torque_blocks::ok_")}
+    expect("an axis pushes with a torque, by the blocks of a program",
+           len(blocks) > 5 and all(value in ("1", "true") for value in blocks.values()), blocks or last.keys())
     return 1 if failed else 0
 
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
 #include <utility>
 
 #include "group_cell.h"
@@ -12,8 +13,8 @@ namespace indurop::robot {
 
 class CommandCell {
  public:
-  explicit CommandCell(double period_ms = 10, Settings settings = {})
-      : cell("", period_ms, 0, true, std::move(settings)) {}
+  explicit CommandCell(double period_ms = 10, Settings settings = {}, const std::string& urdf = "")
+      : cell("", period_ms, 0, true, std::move(settings), urdf) {}
 
   // What a block sees of a command it has given.
   struct Given {

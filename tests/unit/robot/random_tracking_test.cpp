@@ -76,8 +76,7 @@ void tell(int good, int bad, double worst, const std::map<std::string, int>& why
 TEST_F(RandomBelts, The_path_is_on_the_product_and_no_limit_is_broken) {
   const int runs = number_of("INDUROP_ROBOT_BELTS", 40);
   const int seed = number_of("INDUROP_ROBOT_SEED", 1);
-  int good = 0;
-  int bad = 0;
+  int good = 0, bad = 0;
   std::map<std::string, int> why;
   double worst = 0;
   for (int run_number = seed; run_number < seed + runs && !failed; ++run_number) {
@@ -89,8 +88,7 @@ TEST_F(RandomBelts, The_path_is_on_the_product_and_no_limit_is_broken) {
     choose_origin(turns);
     ASSERT_TRUE(run(machine(500, 0, 400)));
     begin_tracking(from, on_it, turns);
-    KDL::Vector here;
-    KDL::Vector to;
+    KDL::Vector here, to;
     bool known = false;
     for (int k = 0; k < 5 && cell.out.state != GroupState::ErrorStop; ++k) {
       const Given motion = any_motion(to);

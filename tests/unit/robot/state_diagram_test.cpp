@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command_cell.h"
+#include "heavy_arm.h"
 
 namespace indurop::robot {
 namespace {
@@ -86,6 +87,7 @@ bool accepts(AxisState state, AxisService service) {
     case AxisService::PositionProfile:
     case AxisService::VelocityProfile:
     case AxisService::AccelerationProfile:
+    case AxisService::TorqueControl:
     case AxisService::Halt:
     case AxisService::GearIn:
     case AxisService::GearInPos:
@@ -126,10 +128,11 @@ bool accepts(GroupState state, Service service) {
 
 class Diagram : public CommandCell {
  public:
-  explicit Diagram(unsigned seed) : CommandCell(10, in_tick()), random_(seed) {}
+  explicit Diagram(unsigned seed, const std::string& urdf = "") : CommandCell(10, in_tick(), urdf), random_(seed) {}
   static Settings in_tick() {
     Settings settings;
     settings.plan_in_tick = true;
+    settings.rated_torque = {400, 400, 200, 60, 50, 30};
     return settings;
   }
 
@@ -191,7 +194,8 @@ class Diagram : public CommandCell {
 
 class AxisDiagram : public Diagram {
  public:
-  using Diagram::Diagram;
+  // With masses, so that it can push with a torque.
+  explicit AxisDiagram(unsigned seed) : Diagram(seed, heavy_cell_arm(joints_of({400, 400, 200, 60, 50, 30})).urdf) {}
   void run(int periods) {
     AxisState before = axis(0);
     for (int i = 0; i < periods && !testing::Test::HasFailure(); ++i) {
@@ -208,15 +212,18 @@ class AxisDiagram : public Diagram {
           << "from " << static_cast<int>(before) << " to " << static_cast<int>(axis(0));
       before = axis(0);
       followed_ += before == AxisState::SynchronizedMotion ? 1 : 0;
+      pushed_ += cell.out.drives[0].mode == 10 ? 1 : 0;
       look_at_answers();
       look_at_limits();
     }
   }
 
   [[nodiscard]] long followed() const { return followed_; }
+  [[nodiscard]] long pushed() const { return pushed_; }
 
  private:
   long followed_ = 0;  // so many periods
+  long pushed_ = 0;
   void give_one() {
     using enum AxisService;
     static constexpr AxisService kAll[] = {
@@ -224,7 +231,8 @@ class AxisDiagram : public Diagram {
         Stop,    Reset,   Home,     GearIn,       GearIn,       GearInPos,    CamIn,        Combine,     ShiftMaster,
         Reset,   Stop,    Decouple, Decouple,     TouchProbe,   AbortTrigger, ShiftMaster,  MoveRelative};
     static constexpr AxisService kMore[] = {MoveContinuousAbsolute, MoveContinuousRelative, PositionProfile,
-                                            VelocityProfile,        AccelerationProfile,    WriteParameter};
+                                            VelocityProfile,        AccelerationProfile,    WriteParameter,
+                                            TorqueControl};
     constexpr int kMany = std::size(kAll);
     if (one_of(4) == 0) {
       move_masters();
@@ -232,7 +240,7 @@ class AxisDiagram : public Diagram {
     }
     const int pick = one_of(5 * kMany + 10);
     const AxisService other = pick < 5 * kMany ? kAll[pick % kMany] : pick % 2 == 0 ? PowerOff : MoveSuperimposed;
-    const AxisService service = one_of(5) == 0 ? kMore[one_of(6)] : other;
+    const AxisService service = one_of(5) == 0 ? kMore[one_of(7)] : other;
     const bool at_once = service == ShiftMaster || service == MoveSuperimposed;
     const BufferMode mode = at_once ? BufferMode::Aborting : any_mode();
     const Given given = give(1, service, in(-100, 100), in(5, 150), mode);
@@ -277,6 +285,10 @@ class AxisDiagram : public Diagram {
       case AxisService::MoveContinuousRelative:
         c.option = 0;
         c.to[1] = one_of(5) == 0 ? 0 : in(-60, 60);
+        break;
+      case AxisService::TorqueControl:
+        c.option = 0;
+        c.to[1] = one_of(2) * in(10, 1000);
         break;
       case AxisService::WriteParameter:
         c.option = static_cast<std::int16_t>(2 + one_of(16));
@@ -354,13 +366,16 @@ TEST(StateDiagram, Of_an_axis_by_random_commands) {
   const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 40);
   const long first = from_environment("INDUROP_ROBOT_SEED", 1);
   long followed = 0;
+  long pushed = 0;
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
     AxisDiagram sut(static_cast<unsigned>(i));
     sut.run(4000);
     followed += sut.followed();
+    pushed += sut.pushed();
   }
   EXPECT_GT(followed, runs * 100);
+  EXPECT_GT(pushed, runs * 20);
 }
 
 TEST(StateDiagram, Of_the_group_by_random_commands) {
