@@ -138,6 +138,7 @@ class Group final : public Controller, private MotionPort {
   [[nodiscard]] bool is_on_product(int ticket) noexcept;
   void keep_to_product() noexcept;
   [[nodiscard]] Fault ride(Joints& q) noexcept;
+  [[nodiscard]] Fault too_heavy(const Joints& q) const noexcept;
   void steer_ride() noexcept;
   [[nodiscard]] Pose product_ahead() const noexcept;
   void report_product() noexcept;

@@ -122,7 +122,8 @@ void Group::feed_torques(Outputs& out) noexcept {
   };
   const Joints& told = feed_.step(needed_torques(), period_);
   for (int i = 0; i < count(); ++i) {
-    out.drives[at(i)].torque_offset = share(i, told[i]);
+    const double most = dynamics_.effort()[i] > 0 ? dynamics_.effort()[i] : HUGE_VAL;
+    out.drives[at(i)].torque_offset = share(i, std::clamp(told[i], -most, most));
     out.drives[at(i)].torque = share(i, axes_[at(i)].torque());
   }
 }

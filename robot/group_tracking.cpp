@@ -30,6 +30,7 @@ bool is_by_ride(ErrorCode code) noexcept {
     case ErrorCode::Acceleration:
     case ErrorCode::Jerk:
     case ErrorCode::Workspace:
+    case ErrorCode::Torque:
       return true;
     default:
       return false;
@@ -238,11 +239,32 @@ Fault Group::ride(Joints& q) noexcept {
   if ((places_.arm().forward(q).position - pose.position).norm() > kExact) {
     return {ErrorCode::Unreachable};
   }
+  if (const Fault heavy = too_heavy(q); !heavy.ok()) {
+    return heavy;
+  }
   if (tracking_.leaves() && tracking_.at_rest() && follower_.idle() && !ride_held_) {
     tracking_.drop();
     follower_.reset(q);
     ride_pace_ = 1;
     ride_speed_ = 0;
+  }
+  return {};
+}
+
+// Whether an axis has not enough torque there. The path was planned with the arm as it is where the product was; the
+// belt carries it to where it may weigh more.
+Fault Group::too_heavy(const Joints& q) const noexcept {
+  if (!dynamics_.limited()) {
+    return {};
+  }
+  const Joints velocity = (q - last_command_) / period_;
+  const Joints acceleration = (velocity - last_speed_) / period_;
+  const Joints needed = dynamics_.torques(q, velocity, acceleration) + dynamics_.friction(velocity);
+  for (int i = 0; i < count(); ++i) {
+    const double most = dynamics_.effort()[i];
+    if (most > 0 && std::abs(needed[i]) > most) {
+      return {ErrorCode::Torque, i + 1};
+    }
   }
   return {};
 }

@@ -59,7 +59,8 @@ inline KDL::Frame frame_of(const Eight& numbers) {
 
 class Belts : public testing::Test, public CommandCell {
  protected:
-  explicit Belts(Settings settings = in_tick()) : CommandCell(10, std::move(settings)) {}
+  explicit Belts(Settings settings = in_tick(), const std::string& urdf = "", const std::string& job = "")
+      : CommandCell(10, std::move(settings), urdf, job), judge(0.01, urdf.empty() ? cell_urdf() : urdf) {}
   static Settings in_tick() {
     Settings settings;
     settings.plan_in_tick = true;
@@ -152,7 +153,7 @@ class Belts : public testing::Test, public CommandCell {
   bool failed = false, table = false;
   KDL::Frame origin, object;
   KdlTip kdl;
-  Judge judge{0.01};
+  Judge judge;
 };
 
 }  // namespace indurop::robot

@@ -13,8 +13,9 @@ namespace indurop::robot {
 
 class CommandCell {
  public:
-  explicit CommandCell(double period_ms = 10, Settings settings = {}, const std::string& urdf = "")
-      : cell("", period_ms, 0, true, std::move(settings), urdf) {}
+  explicit CommandCell(double period_ms = 10, Settings settings = {}, const std::string& urdf = "",
+                       const std::string& job = "")
+      : cell(job, period_ms, 0, true, std::move(settings), urdf) {}
 
   // What a block sees of a command it has given.
   struct Given {
