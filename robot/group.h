@@ -100,6 +100,7 @@ class Group final : public Controller, private MotionPort {
   // Interrupts of jobs (group_interrupt.cpp).
   bool step_aside() noexcept override;
   [[nodiscard]] const Joints* left_at() const noexcept override;
+  [[nodiscard]] Pose tip_at(const Joints& q) const noexcept override { return places_.arm().forward(q); }
   bool come_back(Fault& fault) noexcept override;
   [[nodiscard]] bool is_back() const noexcept override { return return_ == Return::None; }
   void take_from_shelf() noexcept;

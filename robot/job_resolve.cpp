@@ -65,10 +65,11 @@ void JobParser::resolve() {
       const bool back = point < 0 && reference.to == JobReference::To::Target && reference.name == "BACK";
       (reference.to == JobReference::To::Mid ? step.mid : step.index) = back ? kBack : point;
       point < 0 && !back ? fail(reference, "point", names_of(book_.points)) : void();
-      if ((point >= 0 || back) && reference.to == JobReference::To::Target && step.formula >= 0 &&
-          (back || !book_.points[static_cast<std::size_t>(point)].target.is_pose)) {
+      if (point >= 0 && reference.to == JobReference::To::Target && step.formula >= 0 &&
+          !book_.points[static_cast<std::size_t>(point)].target.is_pose) {
         error_in(book_.jobs[reference.job].file, reference.line, reference.column,
-                 "an OFFSET goes from a point given as POSE; '" + reference.name + "' has joint angles");
+                 "an OFFSET goes from a point given as POSE; '" + reference.name +
+                     "' has joint angles; say it as POSE (indurop robot teach " + reference.name + " --pose)");
       }
     }
   }

@@ -216,7 +216,9 @@ bool JobRunner::shift(const Step& step, Signals& signals, Target& target) noexce
       return false;
     }
   }
-  const Quat& axes = step.by_tool ? target.pose.orientation : book_.points[static_cast<std::size_t>(step.index)].axes;
+  const Quat axes = step.by_tool          ? target.pose.orientation
+                    : step.index == kBack ? Quat::Identity()
+                                          : book_.points[static_cast<std::size_t>(step.index)].axes;
   target.pose.position += axes * offset / 1000;
   target.known = nullptr;
   return true;
@@ -239,6 +241,8 @@ JobRunner::Next JobRunner::move(const Step& step, Signals& signals, MotionPort& 
   }
   if (step.index == kBack) {
     command.target.joints = *port.left_at();
+    command.target.is_pose = step.formula >= 0;
+    command.target.pose = port.tip_at(command.target.joints);
   } else {
     command.target = book_.target(step.index, tool_);
   }

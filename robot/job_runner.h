@@ -33,6 +33,8 @@ class MotionPort {
   virtual bool step_aside() noexcept { return true; }
   // Where it was left; null: no interrupt is being served.
   [[nodiscard]] virtual const Joints* left_at() const noexcept { return nullptr; }
+  // The tip of the tool that is held, with the axes there.
+  [[nodiscard]] virtual Pose tip_at(const Joints&) const noexcept { return {}; }
   // All is settled: goes back to where the path was left. False: not yet. Errors: Away.
   virtual bool come_back(Fault&) noexcept { return true; }
   // It is there.

@@ -44,7 +44,8 @@ TEST(Interrupt, What_is_wrong_is_told_with_its_place) {
   EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:9:1: error: there are more than 8 ON")));
   EXPECT_THAT(errors_of("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
               ElementsAre(HasSubstr("there is no point 'BACK'")));
-  EXPECT_THAT(errors_of("MOVJ BACK OFFSET 0, 0, 1\n"), ElementsAre(HasSubstr("'BACK' has joint angles")));
+  EXPECT_THAT(errors_of("POINT A = JOINT 0 0 0 0 0 0\nMOVJ A OFFSET 0, 0, 1\n"),
+              ElementsAre(HasSubstr("'A' has joint angles; say it as POSE (indurop robot teach A --pose)")));
 }
 
 struct Outcome {
@@ -287,6 +288,31 @@ TEST(Interrupt, Anywhere_on_a_path_it_is_left_and_taken_up_within_all_limits) {
              farthest);
   EXPECT_GT(served, static_cast<int>(jobs));
   EXPECT_LT(farthest, 0.2);  // arcs are cut short between places 10 ms apart
+}
+
+// Where the path was left the tip is on it; the offset is seen from there.
+TEST(Interrupt, The_tool_is_drawn_back_from_where_the_path_was_left) {
+  struct Case {
+    const char* line;
+    Vec3 by;  // mm in the base: the tool looks down, turned about z
+  };
+  for (const Case& each :
+       {Case{"MOVL BACK OFFSET TOOL 0, 0, -50\n", {0, 0, 50}}, Case{"MOVL BACK OFFSET 20, 0, 30\n", {20, 0, 30}},
+        Case{"TOOL pen\nMOVL BACK OFFSET TOOL 0, 0, -50\nTOOL FLANGE\n", {0, 0, 50}},
+        Case{"MOVJ BACK OFFSET 0, 0, 40\n", {0, 0, 40}}}) {
+    Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
+                "SET busy ON\nWAIT 0.1s\nSPEED 30%\n" + std::string(each.line) +
+                    "SET busy = 2\nWAIT 0.2s\nMOVL BACK\nSET busy OFF\n");
+    ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
+    sut.signal("I1") = 1;
+    ASSERT_TRUE(sut.until([&] { return sut.signal("busy") == 1; }));
+    const Vec3 left = tip(sut.cell);
+    ASSERT_TRUE(sut.until([&] { return sut.signal("busy") == 2; })) << sut.cell.out.job.message;
+    EXPECT_LT((tip(sut.cell) - left - each.by).norm(), 1e-6) << each.line;
+    ASSERT_TRUE(sut.until([&] { return sut.ended(); }));
+    EXPECT_EQ(sut.cell.out.job.state, JobState::Ended) << sut.cell.out.job.message;
+    EXPECT_EQ(sut.broken, "");
+  }
 }
 
 TEST(Interrupt, One_that_ends_far_from_the_path_stops_the_job_with_what_to_do) {
