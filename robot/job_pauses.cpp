@@ -24,6 +24,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   tool_ = 0;
   load_ = 0;
   line_ = 0;
+  line_job_ = job;
   message_[0] = '\0';
   triggers_ = {};
   watched_ = {};
@@ -67,6 +68,7 @@ void JobRunner::go_back(int source) noexcept {
   });
   jump(static_cast<int>(found - steps.begin()));
   line_ = found->line;
+  line_job_ = frame().job;
   state_ = JobState::Paused;
   last_step_ = -1;
 }
@@ -83,6 +85,7 @@ void JobRunner::forget() noexcept {
   served_ = -1;
   last_step_ = last_job_ = -1;
   line_ = 0;
+  line_job_ = -1;
   message_[0] = '\0';
 }
 

@@ -77,9 +77,12 @@ JobReport JobRunner::report(int source) const noexcept {
   JobReport report;
   report.state = state_;
   report.job = static_cast<std::uint32_t>(job_ + 1);
-  report.line = running() && source > 0 ? line_of(source) : line_;
+  const bool moves = running() && source > 0;
+  const int called = moves ? source >> kLineBits : line_job_;
+  report.line = moves ? line_of(source) : line_;
   report.cycles = cycles_;
   report.name = job_ >= 0 ? job_of(job_).name.c_str() : "";
+  report.called = job_ >= 0 && called >= 0 ? job_of(called).name.c_str() : report.name;
   report.message = message_;
   return report;
 }
@@ -108,10 +111,12 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
       if (port.settled()) {
         state_ = JobState::Paused;
         line_ = step->line;
+        line_job_ = frame().job;
       }
       return;
     } else if (!touches_world(*step) || port.settled()) {
       line_ = step->line;
+      line_job_ = frame().job;
       last_job_ = frame().job;
       last_step_ = frame().step;
       next = run(*step, first ? seconds : 0, signals, port);

@@ -202,6 +202,7 @@ class JobRunner {
   int last_step_ = -1;   // done last, of last_job_
   int last_job_ = -1;
   std::uint32_t line_ = 0;
+  int line_job_ = -1;  // of whose file that is
   std::uint32_t cycles_ = 0;
   Fault fault_;
   char message_[160] = "";

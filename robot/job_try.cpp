@@ -70,6 +70,7 @@ bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t 
 void JobRunner::describe(const char* why, int source) noexcept {
   const int job = source > 0 ? source >> kLineBits : frame().job;
   line_ = source > 0 ? line_of(source) : line_;
+  line_job_ = job;
   const std::string& file = job_of(job).file;
   const char* name = file.c_str() + (file.find_last_of('/') + 1);
   std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);

@@ -223,6 +223,7 @@ void write_job() {
   job->name = out.job.name;
   job->cMessage = out.job.message;
   job->bResume = out.job.can_resume;
+  job->called = out.job.called;
 }
 
 void write_axis_states() {

@@ -202,7 +202,7 @@ struct ToolReport {
   std::array<double, 6> acceleration{};
 };
 
-// The job that runs or ran last; `line` is that of its file, from 1.
+// The job that runs or ran last. `line`, from 1, is of the file of `called`: of that job, or of one that it called.
 struct JobReport {
   JobState state = JobState::Idle;
   std::uint32_t job = 0;
@@ -211,6 +211,7 @@ struct JobReport {
   const char* name = "";     // lives as long as the controller
   const char* message = "";  // the same
   bool can_resume = false;   // JobResume goes on with it
+  const char* called = "";   // lives as long as the controller
 };
 
 // What one period puts out. Set points in `drives` keep every limit of the URDF; an error stops on the path, and what

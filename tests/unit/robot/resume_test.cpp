@@ -293,6 +293,32 @@ TEST(Resume, Single_steps_go_line_by_line_and_back) {
   EXPECT_LT((tip(cell) - Vec3(450, 100, 300)).norm(), 1e-6);
 }
 
+// Motions to H in one job and to A in the other, on lines that tell which.
+TEST(Resume, The_line_is_told_with_the_job_that_it_is_of) {
+  Cell cell;
+  cell.sut = controller_of(cell_urdf(),
+                           std::string(kPoints) + "LOOP 2\nMOVJ H\nCALL other\nEND\nMOVJ B\nMOVL NOWHERE\n" +
+                               "POINT NOWHERE = POSE 5000 0 0 RPY 180 0 180\n",
+                           {}, {{"other", "\n\n\nMOVJ A\nWAIT 0.1s\nMOVJ C\n"}});
+  cell.step();
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  cell.in.service.job = 1;
+  cell.ask(Service::JobStart);
+  std::vector<std::string> seen;
+  ASSERT_TRUE(cell.until([&] {
+    const std::string now = fmt::format("{}:{}", cell.out.job.called, cell.out.job.line);
+    if (cell.out.job.state != JobState::Idle && (seen.empty() || seen.back() != now)) {
+      seen.push_back(now);
+    }
+    return cell.out.state == GroupState::ErrorStop;
+  }));
+  EXPECT_THAT(seen, testing::IsSupersetOf({"main:8", "other:4", "other:6", "main:12"}));
+  EXPECT_THAT(seen, testing::Not(testing::Contains("main:4")));
+  EXPECT_THAT(seen, testing::Not(testing::Contains("other:8")));
+  EXPECT_EQ(seen.back(), "main:12");
+  EXPECT_STREQ(cell.out.job.name, "main");
+}
+
 TEST(Resume, A_breakpoint_pauses_each_time_before_its_line) {
   Cell cell(kPoints + std::string("LOOP 3\nMOVJ A\nSET I4 = I4 + 1\nEND\n"), 10, 0, true, {}, cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));

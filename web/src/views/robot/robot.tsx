@@ -43,13 +43,18 @@ function fixed(value: number | undefined, digits: number, unit: string): string 
   return `${Number(text) === 0 ? text.replace("-", "") : text} ${unit}`;
 }
 
+// "palletise, in part, " if a job that it called is running.
+function called(state: RobotState): string {
+  return state.job_called === state.job ? `${state.job}, ` : `${state.job}, in ${state.job_called}, `;
+}
+
 function Numbers({ state, names }: { state: RobotState; names: string[] }) {
   const { position, orientation } = state;
   return (
     <>
       <dl class="facts">
         <Figure name="State" value={state.group} bad={state.group.includes("error")} warn={state.group === "no power"} />
-        <Figure name="Job" value={state.job ? `${state.job}, line ${state.job_line}: ${state.job_state}` : "none yet"} bad={state.job_state === "failed"} />
+        <Figure name="Job" value={state.job ? `${called(state)}line ${state.job_line}: ${state.job_state}` : "none yet"} bad={state.job_state === "failed"} />
         <Figure name="Tool speed" value={fixed(state.tool_speed, 0, "mm/s")} />
         <Figure name="Pace on its path" value={fixed(state.override_now, 0, "%")} hint="What override, job and hold leave of the speed, at this moment" />
         <Figure name="To go" value={fixed(state.to_go, 1, "s")} />

@@ -23,6 +23,7 @@ export interface RobotState {
   error: number;
   job: string;
   job_line: number;
+  job_called: string;  // whose line that is: the job itself, or one that it called
   job_state: string;
   job_message: string;
   override_set: number;
@@ -48,7 +49,8 @@ function state_of(values: Record<string, any>): RobotState {
     joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
     orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, to_go: arm.to_go ?? NaN,
     group: words_of(GROUP_STATES, module.eState), error: module.nError ?? 0,
-    job: job.name ?? "", job_line: job.nLine ?? 0, job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
+    job: job.name ?? "", job_line: job.nLine ?? 0,
+    job_called: job.called || job.name || "", job_state: words_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
     automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
