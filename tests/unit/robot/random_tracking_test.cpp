@@ -13,6 +13,8 @@ namespace {
 // The path on the product is judged from the first motion on that has ended well.
 class RandomLines : public RandomBelts {
  protected:
+  int good = 0;
+  int bad = 0;
   Given any_motion(KDL::Vector& to) {
     to = {between(-40, 40), between(-40, 40), between(60, 200)};
     return product(to[0], to[1], to[2], between(50, 400));
@@ -29,7 +31,6 @@ void tell(int good, int bad, double worst, const std::map<std::string, int>& why
 TEST_F(RandomLines, The_path_is_on_the_product_and_no_limit_is_broken) {
   const int runs = number_of("INDUROP_ROBOT_BELTS", 40);
   const int seed = number_of("INDUROP_ROBOT_SEED", 1);
-  int good = 0, bad = 0;
   std::map<std::string, int> why;
   double worst = 0;
   for (int run_number = seed; run_number < seed + runs && !failed; ++run_number) {
@@ -41,7 +42,8 @@ TEST_F(RandomLines, The_path_is_on_the_product_and_no_limit_is_broken) {
     choose_origin(turns);
     ASSERT_TRUE(run(machine(500, 0, 400)));
     begin_tracking(from, on_it, turns);
-    KDL::Vector here, to;
+    KDL::Vector here;
+    KDL::Vector to;
     bool known = false;
     for (int k = 0; k < 5 && cell.out.state != GroupState::ErrorStop; ++k) {
       const Given motion = any_motion(to);

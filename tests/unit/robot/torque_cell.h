@@ -216,7 +216,7 @@ class TorqueCell : public CommandCell {
   HeavyArm heavy_;
   std::array<Bus, 6> drives_;
   std::array<DriveIn, 6> in_{};
-  int before_ = 0;  // told
+  std::int8_t before_ = 0;  // told
   double target_ = 0;
   double place_ = 0, speed_ = 0, acceleration_ = 0;
 };
