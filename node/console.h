@@ -23,12 +23,14 @@ class Console : public base::Log {
   void watch(scheduler::RunBlock& run);
   // Prints what has happened since the last call. `last`: also what was held back to be summed up.
   void report(rt::MonoTime now, bool last);
+  // What modules printed since the last call.
+  void print_messages(rt::MonoTime now);
+  // How many lines of theirs were dropped since the last call.
+  void report_losses();
 
  private:
-  void print_messages(rt::MonoTime now);
   void report_faults();
   void report_overruns(rt::MonoTime now, bool last);
-  void report_losses();
 
   struct Seen {
     std::uint64_t faults = 0;

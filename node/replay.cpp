@@ -298,6 +298,7 @@ bool Replay::start_modules() {
 // Started with what was there before any module was.
 bool Replay::replay(RecordedRuns& recorded) {
   bool started = false;
+  const auto start = [&] { return std::exchange(started, true) || start_modules(); };
   for (;;) {
     auto item = recorded.next();
     if (!item) {
@@ -319,18 +320,14 @@ bool Replay::replay(RecordedRuns& recorded) {
         modules_[index]->answers.emplace_back(told->words.bytes.begin(), told->words.bytes.end());
       }
     } else if (value != nullptr) {
-      if (!started && value->words.kind != tape::EntryKind::Run) {
-        if (!start_modules()) {
-          return false;
-        }
-        started = true;
-      }
-      if (!take(*value)) {
+      const bool first = value->words.kind == tape::EntryKind::Run;
+      if (!(first || start()) || !take(*value)) {
         return false;
       }
-    } else if (!run_again(std::get<RecordedRun>(**item).words)) {
+    } else if (!start() || !run_again(std::get<RecordedRun>(**item).words)) {
       return false;
     }
+    console_.print_messages(rt::MonoClock::now());
     if (signals_.wait(std::chrono::nanoseconds{0}) != 0) {
       console_.error("interrupted");
       return false;
@@ -366,6 +363,8 @@ Ending Replay::run() {
   processes_.end_all();
   runtime::stop_function_servers();
   (void)phases_.call_all("stop", &ModuleDescriptor::stop);
+  console_.print_messages(rt::MonoClock::now());
+  console_.report_losses();
   close_output();
   return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};
 }

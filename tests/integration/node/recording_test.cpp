@@ -104,6 +104,14 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   EXPECT_CONTAINS(twice.err, "takes the place of module walker, as ");
 }
 
+TEST_F(Recording, What_runs_print_is_printed_again) {
+  const std::vector<Module> talks = {{.file = "flood.so", .name = "flood", .properties = {{"lines", "5"}}}};
+  const Outcome recorded = run_to_end(talks, {"--sim", "--until", "1s", "--quiet", "--record", file()});
+  ASSERT_EQ(recorded.code, 0) << recorded.err;
+  ASSERT_THAT(recorded.out, testing::EndsWith("flood 5000\n"));
+  EXPECT_THAT(replay().out, testing::StartsWith(recorded.out));
+}
+
 TEST_F(Recording, Says_that_the_condition_of_another_file_is_not_asked) {
   ASSERT_EQ(run_to_end(threads(), {"--sim", "--until", "100ms", "--record", file()}).code, 0);
   const std::string folder = std::string(MODULE_DIR) + "/";
