@@ -9,7 +9,8 @@
 namespace indurop::base {
 
 struct Problem {
-  std::string text;  // what, and what to do; one line, without "error:"
+  std::string text;   // what, and what to do; one line, without "error:"
+  int sys_errno = 0;  // what the system said when a file could not be written; 0: it was something else
 };
 
 }  // namespace indurop::base

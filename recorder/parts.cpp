@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <limits>
 #include <optional>
 #include <system_error>
@@ -136,11 +137,12 @@ void Parts::remove_old_ones() {
   }
 }
 
-// Once more for each part that makes room.
+// Once more for each part that makes room. Whatever else is wrong with the disk, parts stay.
 template <class Work>
 Result<void, Problem> Parts::with_room(const Work& work) {
+  const auto full = [](int error) { return error == ENOSPC || error == EDQUOT; };
   auto done = work();
-  while (!done && remove_oldest()) {
+  while (!done && full(done.error().sys_errno) && remove_oldest()) {
     done = work();
   }
   return done;
@@ -207,6 +209,10 @@ std::optional<std::int64_t> Parts::waiting_ns() const noexcept {
 
 Result<void, Problem> Parts::flush() {
   return with_room([this] { return writer_->flush(); });
+}
+
+Result<void, Problem> Parts::attach(std::size_t node, std::string_view name, std::string_view text) {
+  return with_room([&] { return recorders_[node].attach(name, text); });
 }
 
 Result<void, Problem> Parts::close() {

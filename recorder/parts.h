@@ -51,9 +51,7 @@ class Parts {
   Result<void, base::Problem> take();
   Result<void, base::Problem> flush();
   // Beside the runs of the node of this number, in the part that is being written. Errors: those of the disk.
-  Result<void, base::Problem> attach(std::size_t node, std::string_view name, std::string_view text) {
-    return recorders_[node].attach(name, text);
-  }
+  Result<void, base::Problem> attach(std::size_t node, std::string_view name, std::string_view text);
   Result<void, base::Problem> close();
 
   // One for each node.

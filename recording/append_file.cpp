@@ -14,7 +14,7 @@ namespace indurop::recording {
 namespace {
 
 base::Problem failed(const std::filesystem::path& path, int error) {
-  return {base::cannot_write(path, base::file_problem(error))};
+  return {base::cannot_write(path, base::file_problem(error)), error};
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings without end: in parts, within bounds of the disk, on a full one, and of a recorder that is killed.
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <csignal>
 #include <fstream>
@@ -272,6 +274,23 @@ TEST_F(RecordingParts, A_full_disk_ends_the_recording_and_disturbs_nobody) {
   const std::uint64_t runs = module("counter").runs.load();
   EXPECT_TRUE(runs_reach("counter", runs + 100));
   EXPECT_EQ(module("counter").overruns.load(), 0U);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+// A file may grow no more: what was recorded before stays.
+TEST_F(RecordingParts, Only_a_full_disk_takes_the_oldest) {
+  Program& sut = start_and_wait(kCounter);
+  Environment environment = this->environment();
+  environment.prepare = [] { return std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR; };  // it gets an error instead
+  Program recorder(command({"-o", folder() / "run.mcap", "--split", "200ms", "--keep", "1h"}), environment);
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder() / "run.0003.mcap"); })) << recorder.err();
+  const rlimit few{2000, 2000};  // bytes: enough for what it says
+  ASSERT_EQ(::prlimit(recorder.pid(), RLIMIT_FSIZE, &few, nullptr), 0);
+  EXPECT_EQ(recorder.wait(), 1);
+  EXPECT_CONTAINS(recorder.err(), "File too large; the recording ends here");
+  EXPECT_FALSE(contains(recorder.err(), "removed")) << recorder.err();
+  EXPECT_EQ(replay(folder() / "run.0001.mcap").code, 0);
   sut.signal(SIGTERM);
   EXPECT_EQ(sut.wait(), 0);
 }
