@@ -2,10 +2,12 @@
 .DEFAULT_GOAL := all
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
+# Many tests wait for a period or a peer: one more than cores keeps the cores busy.
+TEST_JOBS ?= $(shell expr $(JOBS) + 1)
 PREFIX ?= /usr/local
 # On a shared integration machine ($CI is set there) a test that failed gets a second try; `make test` lists these tests and
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
-CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(JOBS) $(if $(CI),--repeat until-pass:2)
+CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
 .PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install clean help
 
