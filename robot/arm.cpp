@@ -166,7 +166,9 @@ int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
 
 // Additive recurrence.
 Joints Arm::spread(int number) const noexcept {
-  constexpr double kStride[] = {0.8567, 0.7339, 0.6287, 0.5386, 0.4614, 0.3953, 0.3387, 0.2901};
+  // What is behind the point of the roots of primes: no two of them, nor sums, come round together.
+  constexpr double kStride[] = {0.4142135623730951, 0.7320508075688772, 0.2360679774997898, 0.6457513110645907,
+                                0.3166247903553998, 0.6055512754639891, 0.1231056256176606, 0.3588989435406740};
   Joints q = Joints::Zero();
   for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);

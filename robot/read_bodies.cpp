@@ -2,6 +2,8 @@
 #include "robot/read_bodies.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -121,6 +123,37 @@ ReadBodies read_bodies(const ArmModel& model, const JobBook& book, const std::st
   read.clearance = Clearance(model.arm, bodies);
   tell(model, book, urdf, read.clearance, read.found);
   return read;
+}
+
+Diagnostics check_room(const Arm& arm, const Clearance& clearance, const std::string& urdf) {
+  constexpr int kPlaces = 500;
+  constexpr int kMany = 25;  // of 100
+  std::map<std::string, std::set<int>> touching;
+  Clearance::Places places(clearance.parts().size());
+  for (int i = 0; i < kPlaces; ++i) {
+    clearance.place(arm.spread(i), places);
+    for (std::size_t k = 0; k < clearance.pairs().size(); ++k) {
+      const Clearance::Pair& pair = clearance.pairs()[k];
+      if (pair.tool == 0 && clearance.least(pair, places) <= 0) {
+        char name[120];
+        clearance.name(static_cast<int>(k), name, sizeof name);
+        touching[name].insert(i);
+      }
+    }
+  }
+  Diagnostics warnings;
+  for (const auto& [name, where] : touching) {
+    if (const int percent = static_cast<int>(where.size()) * 100 / kPlaces; percent > kMany) {
+      warnings.push_back(
+          {Severity::Warning,
+           urdf,
+           {1, 1},
+           name + " are too near to each other at " + std::to_string(percent) +
+               " % of all places of the axes; bodies that fit closer, or a smaller clearance, leave more "
+               "room, and ignore_collisions names what may touch"});
+    }
+  }
+  return warnings;
 }
 
 // Which tool is held there is known when the job runs: what every tool touches is told here.

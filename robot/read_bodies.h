@@ -22,6 +22,9 @@ struct ReadBodies {
 ReadBodies read_bodies(const ArmModel& model, const JobBook& book, const std::string& urdf, const std::string& ignored,
                        double clearance);
 
+// What is too near to each other at many places of the axes, so that the robot would seldom move: warnings.
+std::vector<base::Diagnostic> check_room(const Arm& arm, const Clearance& clearance, const std::string& urdf);
+
 // Points at which the arm would touch something, however it is held there: warnings.
 std::vector<base::Diagnostic> check_clear(const JobBook& book, const Arm& arm, const Clearance& clearance);
 

@@ -336,6 +336,7 @@ Findings check_module(FileNames names, const PropertyText& property) {
   ReadFiles read = read_files(names);
   if (read.model) {
     add(check_axes(settings, read.model->arm, read.model->dynamics.known()));
+    take_over(check_room(read.model->arm, read.clearance, names.urdf), read.errors);
   }
   take_over(std::move(read.notes), read.errors);
   if (!read.kind.empty()) {

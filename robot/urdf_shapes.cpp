@@ -73,8 +73,8 @@ std::optional<Solid> BodyReader::solid_of(const urdf::Geometry& geometry, const 
     solid = Solid::ball(dynamic_cast<const urdf::Sphere&>(geometry).radius, place);
   } else {
     say(base::Diagnostic::Severity::Warning, at,
-        "link '" + link + "': this mesh is not looked at when collisions are; write a <box>, <cylinder> or <sphere> " +
-            "around it");
+        "link '" + link + "': this mesh is not looked at when collisions are; 'indurop-solids " + file_ +
+            " NEW.urdf' puts boxes, cylinders and balls around all of them");
     return {};
   }
   if (!(solid->half.allFinite() && solid->half.minCoeff() > 0)) {

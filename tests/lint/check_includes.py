@@ -26,6 +26,7 @@ THIRD_PARTY = {
     "urdf": ("urdf_parser/", "urdf_model/", "console_bridge/"),
     "kdl": ("kdl/",),
     "fcl": ("fcl/",),
+    "assimp": ("assimp/",),
     "gtest": ("gtest/", "gmock/"),
     "benchmark": ("benchmark/",),
     "ros": ("ros/", "std_msgs/"),

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
+#include <string>
 
 #include "robot/nearest.h"
+#include "robot/read_bodies.h"
 #include "robot_fixture.h"
 #include "solid_reference.h"
 
@@ -125,6 +128,43 @@ TEST(Clearance, Says_what_is_kept_apart_and_what_is_not) {
   EXPECT_EQ(text.find("link1 - link2"), std::string::npos) << text;
   EXPECT_NE(text.find("may touch (ignore_collisions): link0 - link2, link1 - table"), std::string::npos) << text;
   EXPECT_NE(text.find("touch with all joints at zero: link4 - link6"), std::string::npos) << text;
+}
+
+// As often as the second opinion finds it, but for those that are about a quarter.
+TEST(Clearance, Says_what_is_too_near_nearly_everywhere) {
+  constexpr int kPlaces = 400;
+  std::mt19937 random(4);
+  int told = 0;
+  int free = 0;
+  for (int round = 0; round < poses(12); ++round) {
+    const ReferenceArm arm = ReferenceArm::any(random);
+    const auto model = arm_from_urdf("any.urdf", arm.urdf());
+    ASSERT_TRUE(model.ok()) << base::to_text(model.error());
+    Bodies bodies;
+    bodies.links = model->bodies;
+    bodies.clearance = 0.005;
+    const Clearance sut(model->arm, bodies);
+    const std::string said = base::to_text(check_room(model->arm, sut, "any.urdf"));
+    std::map<std::string, int> near;
+    for (int i = 0; i < kPlaces; ++i) {
+      const auto places = arm.places(anywhere(model->arm, random, 0));
+      for (const Clearance::Pair& pair : sut.pairs()) {
+        const auto a = static_cast<std::size_t>(sut.parts()[static_cast<std::size_t>(pair.a)].joint);
+        const auto b = static_cast<std::size_t>(sut.parts()[static_cast<std::size_t>(pair.b)].joint);
+        near["link 'link" + std::to_string(b) + "' and link 'link" + std::to_string(a) + "' are too near"] +=
+            reference_distance(places[a], places[b]) < bodies.clearance ? 1 : 0;
+      }
+    }
+    for (const auto& [words, count] : near) {
+      const bool found = said.find("any.urdf:1:1: warning: " + words) != std::string::npos;
+      EXPECT_TRUE(found || count < 0.35 * kPlaces) << words << " " << count;
+      EXPECT_TRUE(!found || count > 0.12 * kPlaces) << words << " " << count;
+      told += found ? 1 : 0;
+      free += found ? 0 : 1;
+    }
+  }
+  EXPECT_GT(told, 0);
+  EXPECT_GT(free, told);
 }
 
 TEST(Clearance, What_a_body_cannot_be_is_told_with_its_line) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces out of the files that URDF's <mesh> names: STL, COLLADA, OBJ. With mesh.cpp the only place that knows
+// assimp.
+
+#pragma once
+
+#include <indurop/result.h>
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "base/problem.h"
+#include "robot/geometry.h"
+
+namespace indurop::solids {
+
+using robot::Vec3;
+
+using Triangle = std::array<Vec3, 3>;  // m
+using Surface = std::vector<Triangle>;
+
+// `scale` is that of <mesh>; units that a COLLADA file declares count, its upward axis does not, as in other programs
+// that read URDF. Errors: what is wrong with the file, one line that names no file.
+Result<Surface, base::Problem> read_mesh(const std::filesystem::path& file, const Vec3& scale);
+
+}  // namespace indurop::solids

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes with the solids around them, seen from three sides.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/solid.h"
+#include "tools/solids/mesh.h"
+
+namespace indurop::solids {
+
+struct DrawnMesh {
+  std::string title;
+  Surface surface;  // in the frame of its link
+  std::vector<robot::Solid> solids;
+};
+
+// An SVG document, a row for each.
+std::string draw(const std::vector<DrawnMesh>& meshes);
+
+}  // namespace indurop::solids
