@@ -83,7 +83,7 @@ std::optional<Line> read(const Place& place) noexcept {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
     const std::uint64_t version = place.version.load(std::memory_order_acquire);
-    Line line;
+    Line line{};
     detail::copy_from_shared(&line, &place.line, sizeof line);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (version % 2 == 0 && place.version.load(std::memory_order_relaxed) == version) {
