@@ -50,13 +50,13 @@ std::string text_of(const std::filesystem::path& file) {
 // Time the machine below took from each core.
 std::map<int, std::int64_t> stolen() {
   constexpr std::size_t kSteal = 8;
-  static const std::int64_t unit_ns = 1'000'000'000 / std::max<long>(::sysconf(_SC_CLK_TCK), 1);
+  static const std::int64_t kUnitNs = 1'000'000'000 / std::max<long>(::sysconf(_SC_CLK_TCK), 1);
   std::map<int, std::int64_t> out;
   std::istringstream lines(text_of("/proc/stat"));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("cpu") && line.size() > 3 && line[3] != ' ') {
       const auto words = words_of(line.substr(3));
-      out[number_in<int>(words, 0)] = number_in<std::int64_t>(words, kSteal) * unit_ns;
+      out[number_in<int>(words, 0)] = number_in<std::int64_t>(words, kSteal) * kUnitNs;
     }
   }
   return out;
@@ -107,7 +107,7 @@ std::map<int, KernelLook::Counted> KernelLook::threads() const {
     counted.core = number_in<std::int32_t>(words, kProcessor);
     const bool runs_modules = counted.name.starts_with("irp-tick") || counted.name.starts_with("irp-band");
     counted.matters = realtime_ ? number_in<int>(words, kRealtimePriority) > 0 : runs_modules;
-    out[std::atoi(entry.path().filename().c_str())] = std::move(counted);
+    out[number_in<int>({entry.path().filename().string()}, 0)] = std::move(counted);
   }
   return out;
 }

@@ -130,7 +130,7 @@ class Replay {
   void differs(Module& module, std::uint32_t index, Known& known, std::uint64_t tick,
                const std::vector<std::uint8_t>& now);
   void close_output();
-  void put_out(std::uint32_t variable, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
+  void put_out(std::uint32_t index, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
   Ending conclude();
   bool tell_left_out();
   void tell_differences();

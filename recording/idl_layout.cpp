@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -202,12 +203,9 @@ class Flattener {
     const auto& members = found->second.members;
     // What stands for its only member has no name of its own.
     const bool wraps = type.starts_with("indurop::value_") && members.size() == 1 && members[0].name == "value";
-    for (const Member& member : members) {
-      if (!add_elements(member, 0, wraps ? name : name + "." + member.name, depth + 1)) {
-        return false;
-      }
-    }
-    return true;
+    return std::all_of(members.begin(), members.end(), [&](const Member& member) {
+      return add_elements(member, 0, wraps ? name : name + "." + member.name, depth + 1);
+    });
   }
 
   std::vector<IdlLeaf> leaves;

@@ -328,7 +328,7 @@ void Reader::connect() {
       continue;
     }
     const std::string& wanted = driven_by_[i]->mimic->joint_name;
-    const auto found = std::find_if(axes_.begin(), axes_.end(), [&](const Axis& a) { return a.name == wanted; });
+    const auto* const found = std::find_if(axes_.begin(), axes_.end(), [&](const Axis& a) { return a.name == wanted; });
     if (found == axes_.end()) {
       error(place_of(driven_by_[i]->name),
             "joint '" + driven_by_[i]->name + "' follows '" + wanted + "', which is no axis between root and tool");

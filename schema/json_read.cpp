@@ -105,7 +105,7 @@ bool read_condition(const json& object, Alarm& to) {
       !read_limit((*when)[1], to.limit)) {
     return false;
   }
-  const std::string& symbol = (*when)[0].get_ref<const std::string&>();
+  const auto& symbol = (*when)[0].get_ref<const std::string&>();
   for (std::size_t i = 0; i <= static_cast<std::size_t>(Comparison::GreaterEqual); ++i) {
     to.comparison = static_cast<Comparison>(i);
     if (symbol == symbol_of(to.comparison)) {

@@ -13,7 +13,6 @@ namespace indurop::plc {
 namespace {
 
 using ast::Expression;
-using ast::Operator;
 using Meaning = Resolved::Meaning;
 
 Constant constant_of_literal(const ast::LiteralValue& value) {

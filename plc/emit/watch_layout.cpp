@@ -138,9 +138,9 @@ class Layout {
   }
 
   static const Type* type_of(const LibraryParameter& pin) {
-    static const TypeTable types;
+    static const TypeTable kTypes;
     const auto* known = std::get_if<Elementary>(&pin.type);
-    return known == nullptr || is_text(*known) ? nullptr : types.elementary(*known);
+    return known == nullptr || is_text(*known) ? nullptr : kTypes.elementary(*known);
   }
 
   WatchLayout out_;

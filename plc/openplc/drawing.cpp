@@ -18,7 +18,6 @@ using base::Json;
 using network::Connection;
 using network::Element;
 using network::Pin;
-using network::Point;
 using Kind = Element::Kind;
 
 std::string text_of(const Json& value) {

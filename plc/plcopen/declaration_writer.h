@@ -29,14 +29,14 @@ class DeclarationWriter {
   void lists(const std::vector<ast::Variable>& variables);
   void variable(const ast::Variable& one);
   void edge(const ast::Variable& one);
-  void holder(std::string_view name, const ast::TypeSpec& spec);
-  void spec(const ast::TypeSpec& spec);
-  void array(const ast::TypeSpec& spec);
-  void subrange(const ast::TypeSpec& spec);
-  void enumeration(const ast::TypeSpec& spec);
-  void structure(const ast::TypeSpec& spec);
-  void initial(const ast::Initial& value);
-  void value(const ast::Initial& value);
+  void holder(std::string_view name, const ast::TypeSpec& of);
+  void spec(const ast::TypeSpec& of);
+  void array(const ast::TypeSpec& of);
+  void subrange(const ast::TypeSpec& of);
+  void enumeration(const ast::TypeSpec& of);
+  void structure(const ast::TypeSpec& of);
+  void initial(const ast::Initial& of);
+  void value(const ast::Initial& of);
   void elementary(Elementary type);
   // "<what> is not part of PLCopen XML"
   void refuse(const Place& at, std::string_view what);

@@ -20,13 +20,13 @@ constexpr std::uint16_t kPingSeconds = 15;
 constexpr std::uint16_t kSilentSeconds = 30;
 
 const lws_retry_bo_t& idle_policy() {
-  static const lws_retry_bo_t policy = [] {
+  static const lws_retry_bo_t kPolicy = [] {
     lws_retry_bo_t made{};
     made.secs_since_valid_ping = kPingSeconds;
     made.secs_since_valid_hangup = kSilentSeconds;
     return made;
   }();
-  return policy;
+  return kPolicy;
 }
 
 void say(int level, const char* line) {

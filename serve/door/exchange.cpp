@@ -147,11 +147,9 @@ BodyLength read_length(lws* wsi) {
   out.unknown = text.empty();
   const char* const end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, out.bytes);
-  if (!out.unknown && parsed.ec == std::errc::invalid_argument) {
-    out.refusal = refusal(status::kBadRequest, "Content-Length is no number");
-  } else if (parsed.ec == std::errc::result_out_of_range || out.bytes > kMostBody) {
+  if (parsed.ec == std::errc::result_out_of_range || out.bytes > kMostBody) {
     out.refusal = refusal(status::kTooLarge, fmt::format("a body has at most {} bytes", kMostBody));
-  } else if (!out.unknown && parsed.ptr != end) {
+  } else if (!out.unknown && (parsed.ec != std::errc() || parsed.ptr != end)) {
     out.refusal = refusal(status::kBadRequest, "Content-Length is no number");
   }
   return out;

@@ -108,7 +108,8 @@ base::Json PlantWatch::troubles(const base::Json& boards) const {
     }
   }
   worst.insert(worst.end(), rest.begin(), rest.end());
-  return base::Json(worst);
+  base::Json list(worst);
+  return list;
 }
 
 base::Json PlantWatch::history() {

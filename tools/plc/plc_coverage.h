@@ -38,7 +38,7 @@ struct FileCoverage {
 using Coverage = std::map<std::string, FileCoverage>;  // by file
 
 // Adds what a file of counters says. Errors: it is none, or is damaged.
-Result<void, base::Problem> add_counters(const std::filesystem::path& file, Coverage& coverage);
+Result<void, base::Problem> add_counters(const std::filesystem::path& path, Coverage& coverage);
 // As lcov, genhtml and others read it. What is in a file of this machine is named by its whole path.
 std::string lcov_text(const Coverage& coverage);
 

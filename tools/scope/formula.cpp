@@ -348,8 +348,8 @@ double Formula::two(Op op, double a, double b) {
 }
 
 double Formula::value(std::span<const double> inputs) const {
-  std::array<double, kMostText>
-      stack;  // NOLINT(cppcoreguidelines-pro-type-member-init): each is written before it is read
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): each is written before it is read
+  std::array<double, kMostText> stack;
   std::size_t top = 0;
   for (const Step& step : steps_) {
     switch (step.op) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -32,14 +33,10 @@ void for_each_line(const Capture& capture, Use use) {
 }
 
 bool all_have_words(const std::vector<double>& line, const std::vector<std::string>& words) {
-  for (const double value : line) {
-    const bool has = std::isnan(value) || (value >= 0 && value < static_cast<double>(words.size()) &&
-                                           !words[static_cast<std::size_t>(value)].empty());
-    if (!has) {
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(line.begin(), line.end(), [&](double value) {
+    return std::isnan(value) ||
+           (value >= 0 && value < static_cast<double>(words.size()) && !words[static_cast<std::size_t>(value)].empty());
+  });
 }
 
 std::string text_of(const ScopeChannel& channel, double value) {

@@ -209,7 +209,7 @@ int scope(Context& context, Options& options) {
 
 Action declare(base::Options& app, Context& context) {
   auto options = std::make_shared<Options>();
-  constexpr double kMost = static_cast<double>(kMostScopeRows);
+  constexpr auto kMost = static_cast<double>(kMostScopeRows);
   app.add("names", "CHANNEL", options->order.channels, "Variables, parts of them, globs, or expressions")
       .required()
       .completes(base::Completion::Variable);

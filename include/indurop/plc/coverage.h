@@ -29,8 +29,8 @@ class Coverage {
   static constexpr std::size_t kHeadWords = 3;
 
   // `text`: what the counters mean; a static text.
-  Coverage(const char* module, std::size_t counters, std::string_view text) : own_(kHeadWords + counters, 0) {
-    counts_ = own_.data() + kHeadWords;
+  Coverage(const char* module, std::size_t counters, std::string_view text)
+      : own_(kHeadWords + counters, 0), counts_(own_.data() + kHeadWords) {
     const char* folder = std::getenv("INDUROP_PLC_COVERAGE");
     if (folder != nullptr && *folder != '\0') {
       open(std::string(folder) + "/" + module + "." + std::to_string(::getpid()) + ".", counters, text);

@@ -8,9 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace indurop::iec {
-
-namespace detail {
+namespace indurop::iec::detail {
 
 struct CodePoint {
   std::uint32_t number = 0;
@@ -89,6 +87,4 @@ constexpr char16_t first_wide(std::string_view utf8) noexcept {
   return first;
 }
 
-}  // namespace detail
-
-}  // namespace indurop::iec
+}  // namespace indurop::iec::detail

@@ -43,9 +43,9 @@ class PlcDebug : public CommandLine {
       return;
     }
     put(file("d.st"), kProgram);
-    static const Outcome built = indurop({"plc", "build", file("d.st"), "-o", file("out"), "--debug"});
-    ASSERT_EQ(built.code, 0) << built.err;
-    put(config(), "<root>\n" + built.out + "</root>\n");
+    static const Outcome kBuilt = indurop({"plc", "build", file("d.st"), "-o", file("out"), "--debug"});
+    ASSERT_EQ(kBuilt.code, 0) << kBuilt.err;
+    put(config(), "<root>\n" + kBuilt.out + "</root>\n");
   }
   static std::string config() { return file("out/module.xml"); }
   static std::string file(const std::string& name) { return (scratch() / name).string(); }

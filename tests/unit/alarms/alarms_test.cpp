@@ -55,8 +55,8 @@ TEST(AlarmState_, Follows_the_table_of_ISA_18_2) {
        {State::Normal, State::Unacknowledged, State::Acknowledged, State::Returned, State::Shelved}) {
     for (const Event event :
          {Event::Raised, Event::Cleared, Event::Acknowledged, Event::Shelved, Event::Unshelved, Event::Removed}) {
-      const auto line = std::find_if(kTable.begin(), kTable.end(),
-                                     [&](const Line& one) { return one.from == state && one.event == event; });
+      const auto* const line = std::find_if(kTable.begin(), kTable.end(),
+                                            [&](const Line& one) { return one.from == state && one.event == event; });
       const auto expected = line == kTable.end() ? std::nullopt : std::optional(line->to);
       EXPECT_EQ(after(state, event), expected) << word_of(state) << " " << word_of(event);
     }

@@ -143,7 +143,8 @@ TEST_F(AxisCommands, Deceleration_may_be_another_than_acceleration) {
   Command& c = command(give(1, AxisService::MoveAbsolute, 60, 60));
   c.acceleration = 200;
   c.deceleration = 50;
-  double up = 0, down = 0;
+  double up = 0;
+  double down = 0;
   ASSERT_TRUE(cell.until([&] {
     up = std::max(up, cell.out.axes[0].acceleration);
     down = std::min(down, cell.out.axes[0].acceleration);

@@ -11,7 +11,9 @@
 namespace indurop::robot {
 namespace {
 
-enum Number : std::uint32_t { kPick = 2, kPlace = 3 };  // in the order of module.xml
+// In the order of module.xml.
+constexpr std::uint32_t kPick = 2;
+constexpr std::uint32_t kPlace = 3;
 
 // The cell's arm with the cell's files and its gripper.
 class RobotCell {
@@ -49,7 +51,7 @@ class RobotCell {
     cell.ask(service);
     return until([&] { return cell.out.done == cell.in.service.number; }) && cell.out.error == ErrorCode::Ok;
   }
-  void begin(Number job) {
+  void begin(std::uint32_t job) {
     cell.in.service.job = job;
     cell.ask(Service::JobStart);
     step();

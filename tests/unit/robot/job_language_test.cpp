@@ -130,7 +130,7 @@ TEST(JobLanguage, A_job_that_calls_itself_for_ever_ends_with_its_line) {
 }
 
 TEST(JobLanguage, Mistakes_are_named_where_they_are) {
-  const std::pair<const char*, const char*> kCases[] = {
+  const std::pair<const char*, const char*> cases[] = {
       {"n = 3\n", "a.job:1:1: error: this job has no variable 'n'; declare it, VAR n = 0"},
       {"VAR n = n + 1\nVAR n\n", "a.job:2:5: error: there is already a variable 'n'"},
       {"VAR a.b = 1\n", "a.job:1:5: error: expected the name of a variable"},
@@ -149,7 +149,7 @@ TEST(JobLanguage, Mistakes_are_named_where_they_are) {
       {"CALL a 1\n", "a.job:1:6: error: job 'a' takes 0 values, here is 1"},
       {"CALL a 1 2\n", "a.job:1:10: error: expected ',' and another value, found '2'"},
   };
-  for (const auto& [text, wanted] : kCases) {
+  for (const auto& [text, wanted] : cases) {
     EXPECT_THAT(errors_of(text), HasSubstr(wanted)) << text;
   }
   std::string long_one = "SET O1 = 1";

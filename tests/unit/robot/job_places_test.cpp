@@ -100,7 +100,7 @@ TEST(JobPlaces, A_frame_may_be_taught_by_joint_angles) {
 }
 
 TEST(JobPlaces, Mistakes_are_named_where_they_are) {
-  const std::pair<const char*, const char*> kCases[] = {
+  const std::pair<const char*, const char*> cases[] = {
       {"POINT P = POSE 0 0 0 RPY 0 0 0 IN nowhere\n", "a.job:1:35: error: there is no frame 'nowhere'"},
       {"FRAME f = POSE 0 0 0\n", "a.job:1:21: error: expected RPY"},
       {"FRAME f = POSE 0 0 0 RPY 0 0 0\nFRAME f = POSE 0 0 0 RPY 0 0 0\n",
@@ -114,17 +114,17 @@ TEST(JobPlaces, Mistakes_are_named_where_they_are) {
       {"POINT P = POSE 0 0 0 RPY 0 0 0\nMOVL P OFFSET 0 0 -5\n", "a.job:2:17: error: expected ','"},
       {"FRAME f = 3\n", "a.job:1:11: error: expected POSE or POINTS"},
   };
-  for (const auto& [text, wanted] : kCases) {
+  for (const auto& [text, wanted] : cases) {
     EXPECT_THAT(base::to_text(parse_jobs({{"a.job", text}}).diagnostics), HasSubstr(wanted)) << text;
   }
 }
 
 TEST(JobPlaces, A_frame_of_points_on_one_line_is_no_frame) {
-  const std::pair<const char*, const char*> kCases[] = {
+  const std::pair<const char*, const char*> cases[] = {
       {"POINT Y = POSE 700 0 0 RPY 0 0 0\n", "a.job:1:7: error: frame 'f': its three points lie on one line"},
       {"POINT Y = POSE 500 0 0.5 RPY 0 0 0\n", "frame 'f': two of its points are the same place"},
   };
-  for (const auto& [third, wanted] : kCases) {
+  for (const auto& [third, wanted] : cases) {
     auto [book, errors] = parse_jobs({{"a.job",
                                        "FRAME f = POINTS O X Y\nPOINT O = POSE 500 0 0 RPY 0 0 0\n"
                                        "POINT X = POSE 600 0 0 RPY 0 0 0\n" +

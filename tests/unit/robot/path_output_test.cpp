@@ -132,7 +132,7 @@ TEST(Path_output, A_pulse_begins_anew_and_SET_takes_it_over) {
 }
 
 TEST(Path_output, Mistakes_are_named_where_they_are) {
-  const std::pair<const char*, const char*> kCases[] = {
+  const std::pair<const char*, const char*> cases[] = {
       {"SET I4 ON BEFORE 5 mm\n", "a.job:1:1: error: BEFORE and AFTER are about the motion in the line above"},
       {"MOVJ P\nSET I4 ON AFTER 5 mm\n", "a.job:2:17: error: the way of a MOVJ has no distance; give a time"},
       {"MOVL P\nSET I4 = I5 AFTER 5 mm\n", "a.job:2:1: error: what is set on the way is computed before"},
@@ -141,7 +141,7 @@ TEST(Path_output, Mistakes_are_named_where_they_are) {
       {"PULSE I4 0 s\n", "a.job:1:10: error: a pulse is longer than 0 s"},
       {"MOVL P\nSET I4 ON BEFORE -5 mm\n", "a.job:2:18: error: a distance is from 0 mm"},
   };
-  for (const auto& [text, wanted] : kCases) {
+  for (const auto& [text, wanted] : cases) {
     const std::string job = std::string(text) + "POINT P = POSE 0 0 0 RPY 0 0 0\n";
     EXPECT_THAT(base::to_text(parse_jobs({{"a.job", job}}).diagnostics), HasSubstr(wanted)) << text;
   }

@@ -28,7 +28,7 @@ long from_environment(const char* name, long otherwise) {
 // that the state between them is not seen.
 bool may_follow(AxisState from, AxisState to) {
   using enum AxisState;
-  static const std::set<std::pair<AxisState, AxisState>> arrows = {
+  static const std::set<std::pair<AxisState, AxisState>> kArrows = {
       {Disabled, Standstill},
       {Disabled, ErrorStop},
       {Standstill, Homing},
@@ -58,18 +58,18 @@ bool may_follow(AxisState from, AxisState to) {
       {ErrorStop, Standstill},
       {ErrorStop, Disabled},
   };
-  return from == to || to == Disabled || to == ErrorStop || arrows.contains({from, to});
+  return from == to || to == Disabled || to == ErrorStop || kArrows.contains({from, to});
 }
 
 bool may_follow(GroupState from, GroupState to) {
   using enum GroupState;
-  static const std::set<std::pair<GroupState, GroupState>> arrows = {
+  static const std::set<std::pair<GroupState, GroupState>> kArrows = {
       {Disabled, Standby},  {Standby, Moving},     {Standby, Homing},   {Standby, Stopping}, {Moving, Standby},
       {Moving, Stopping},   {Homing, Standby},     {Homing, Stopping},  {Stopping, Standby}, {Stopping, Disabled},
       {ErrorStop, Standby}, {ErrorStop, Disabled}, {Standby, Disabled}, {Moving, Disabled},  // which stands
       {Disabled, Stopping},  // an emergency while it gets power
   };
-  return from == to || to == ErrorStop || arrows.contains({from, to});
+  return from == to || to == ErrorStop || kArrows.contains({from, to});
 }
 
 // Whether a command that is given in this state may be carried out at all.
@@ -164,7 +164,9 @@ class Diagram : public CommandCell {
   }
   void release_stops() {
     for (Command& c : cell.in.commands) {
-      c.execute = one_of(20) == 0 ? 0 : c.execute;
+      if (one_of(20) == 0) {
+        c.execute = 0;
+      }
     }
   }
   // Differences between set points.
@@ -309,7 +311,9 @@ class AxisDiagram : public Diagram {
         c.option = c.job = 0;
         break;
       default:
-        c.option = service == AxisService::ShiftMaster ? c.option : 0;
+        if (service != AxisService::ShiftMaster) {
+          c.option = 0;
+        }
     }
   }
   void write_table(ProfileTable& table, double most) {
