@@ -21,7 +21,7 @@ without_tests = $(if $(wildcard build/CMakeCache.txt),,-DINDUROP_BUILD_TESTS=OFF
 with-tests:
 	@.ci/install-deps build test
 	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
-	@cmake --build --preset release -j $(JOBS) --target all fuzz_targets
+	@cmake --build --preset release -j $(JOBS)
 
 demo: ## install what is missing, build, run the chapter's example, a plant of two boards, the robot cell
 	@.ci/install-deps build
@@ -46,6 +46,7 @@ rt-proof: with-tests ## nothing lost, and the maximum: schedules for T seconds o
 
 fuzz: T = 10m
 fuzz: with-tests ## all fuzz targets for T each (T=90s, 10m, 2h); findings stay in build/tests/fuzz
+	@cmake --build --preset release -j $(JOBS) --target fuzz_targets
 	@tests/fuzz/fuzz.sh build $(T) $(JOBS)
 
 check-deps:
