@@ -71,7 +71,7 @@ function(indurop_test name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests INDUROP_LABEL ${arg_LABEL})
   target_precompile_headers(${name} REUSE_FROM indurop_test_headers)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT 120)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT 120)
 endfunction()
 
 # The same programs above rt/posix/ instead of the system that was chosen: nothing but the linker has work to do.
@@ -82,6 +82,7 @@ function(indurop_tests_above_posix)
     add_executable(${name}_posix $<TARGET_OBJECTS:${name}>)
     target_link_libraries(${name}_posix PRIVATE $<LINK_LIBRARY:WHOLE_ARCHIVE,indurop_rt_posix> ${libraries})
     set_target_properties(${name}_posix PROPERTIES LINKER_LANGUAGE CXX RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    gtest_discover_tests(${name}_posix TEST_PREFIX posix. DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${labels} TIMEOUT 120)
+    gtest_discover_tests(${name}_posix TEST_PREFIX posix. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS ${labels} TIMEOUT 120)
   endforeach()
 endfunction()
