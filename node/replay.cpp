@@ -172,7 +172,8 @@ bool Replay::begin(const RecordedRuns& recorded) {
   for (const std::string& name : recorded.unknown_variables()) {
     console_.warning("{} of the recording is not in this configuration", name);
   }
-  if (!recorded.complete()) {
+  closed_ = recorded.complete();
+  if (!closed_) {
     console_.warning("the recording was not closed: it is replayed as far as it goes");
   }
   return true;

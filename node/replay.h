@@ -157,6 +157,7 @@ class Replay {
   std::optional<ReplayOutput> output_;
   bool output_failed_ = false;
   bool damaged_ = false;  // parts of the recording could not be read
+  bool closed_ = false;   // the recording has its end
   std::uint64_t ticks_ = 0;
   std::uint64_t runs_ = 0;
   std::atomic<std::uint64_t> returned_{0};  // the same, for who looks whether one hangs

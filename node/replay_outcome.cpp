@@ -96,7 +96,9 @@ Ending Replay::conclude() {
   }
   const bool whole = tell_left_out() && !output_failed_ && !damaged_;
   if (runs_ == 0) {
-    console_.error("{} holds no run of these modules: nothing was compared", options_.replay.file.string());
+    console_.error(
+        "{} holds no run of these modules: nothing was compared{}", options_.replay.file.string(),
+        closed_ ? "" : "; its recorder ended before it had written the first runs, which it does each second");
     return {kFailed, "the recording cannot be replayed"};
   }
   if (differences_ == 0) {
