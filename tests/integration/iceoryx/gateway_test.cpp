@@ -3,6 +3,7 @@
 // names in /tmp and /dev/shm: each test process has these two folders for itself, and what killed programs leave goes
 // with them.
 
+#include <fcntl.h>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
@@ -32,15 +33,29 @@ bool right(const Reading& r) {
          r.backwards == -static_cast<std::int32_t>(r.count) && r.odd == r.count % 2;
 }
 
+// Gives this process a /tmp of its own, with the folder of /tmp that holds the build, if one does.
+bool mount_own_tmp() {
+  const std::string_view program = GATEWAY;
+  const std::string top(program.starts_with("/tmp/") ? program.substr(0, program.find('/', 5)) : "");
+  const int build = top.empty() ? -1 : ::open(top.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
+  if (::mount("tmpfs", "/tmp", "tmpfs", 0, "mode=1777") != 0) {
+    return false;
+  }
+  if (top.empty()) {
+    return true;
+  }
+  const std::string covered = "/proc/self/fd/" + std::to_string(build);
+  const bool seen = build >= 0 && ::mkdir(top.c_str(), 0755) == 0 &&
+                    ::mount(covered.c_str(), top.c_str(), nullptr, MS_BIND | MS_REC, nullptr) == 0;
+  ::close(build);
+  return seen;
+}
+
 std::string why_not_here() {
   if (!std::string_view(ROUDI).starts_with('/') || ::access(ROUDI, X_OK) != 0) {
     return "iox-roudi is missing (package iceoryx)";
   }
-  if (std::string_view(GATEWAY).starts_with("/tmp/")) {
-    return "the build is below /tmp, which these tests replace by an empty one";
-  }
-  if (!own_mounts() || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
-      ::mount("tmpfs", "/tmp", "tmpfs", 0, "mode=1777") != 0 ||
+  if (!own_mounts() || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 || !mount_own_tmp() ||
       ::mount("tmpfs", "/dev/shm", "tmpfs", 0, "mode=1777,size=256m") != 0) {
     return "a private /tmp and /dev/shm cannot be made here (root or user namespaces are needed)";
   }
