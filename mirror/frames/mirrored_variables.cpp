@@ -10,6 +10,29 @@
 
 namespace indurop::mirror {
 
+namespace {
+
+// Whether no other board that is alive and sends the variable has served longer (landing.h decides so, too).
+bool leads(const MirrorBlock& block, const IncomingRecord& record) {
+  const auto session = [&block](const IncomingRecord& of) {
+    const PeerRecord& peer = block.peers()[of.peer];
+    return peer.state.load() == PeerState::Alive ? peer.session.load() : 0;
+  };
+  const std::uint64_t own = session(record);
+  for (std::uint32_t i = 0; own != 0 && i < block.incoming; ++i) {
+    const IncomingRecord& other = block.variables()[i];
+    if (other.name_hash == record.name_hash && other.peer < block.peer_count) {
+      const std::uint64_t its = session(other);
+      if (its != 0 && its < own) {
+        return false;
+      }
+    }
+  }
+  return own != 0;
+}
+
+}  // namespace
+
 std::vector<MirroredVariable> mirrored_variables(const std::string& node, const MirrorBlock& block, rt::MonoTime now) {
   std::vector<MirroredVariable> variables;
   const auto store = vars::Store::attach(node, vars::Mode::ReadOnly);
@@ -29,7 +52,7 @@ std::vector<MirroredVariable> mirrored_variables(const std::string& node, const 
     const std::int64_t age =
         confirmed == abi::kNeverConfirmed ? -1 : std::max<std::int64_t>(0, detail::age_of(confirmed, now_ns).count());
     variables.push_back({variable.name, std::string(owner, ::strnlen(owner, kBoardName)), age,
-                         detail::is_valid(confirmed, variable.maxage_ns, now_ns)});
+                         detail::is_valid(confirmed, variable.maxage_ns, now_ns), leads(block, record)});
   }
   return variables;
 }

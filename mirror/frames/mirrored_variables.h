@@ -18,9 +18,11 @@ struct MirroredVariable {
   std::string owner;         // board
   std::int64_t age_ns = -1;  // since the owner last confirmed the value, changed or not; negative: it never did
   bool valid = false;
+  bool leads = false;  // its owner is alive and, of several boards that send the variable (<standby>), serves longest
 };
 
-// `node`: the board, whose mirror's block this is. Empty if it has no store. Not real-time safe.
+// One for each variable and each board that sends it. `node`: the board, whose mirror's block this is. Empty if it has
+// no store. Not real-time safe.
 std::vector<MirroredVariable> mirrored_variables(const std::string& node, const MirrorBlock& block, rt::MonoTime now);
 
 }  // namespace indurop::mirror

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "mirror/frames/mirror_block.h"
 #include "rt/clock.h"
@@ -42,6 +43,25 @@ Style style_of(const std::string& state) {
   return state == "alive" ? Style::Good : state == "absent" ? Style::Warn : Style::Bad;
 }
 
+// Of the variables that a standby sends too: whether this board leads them.
+std::string lead_of(const MirrorView& view, const std::string& board) {
+  std::map<std::string, int> owners;
+  for (const mirror::MirroredVariable& one : view.variables) {
+    ++owners[one.name];
+  }
+  int shared = 0;
+  int led = 0;
+  for (const mirror::MirroredVariable& one : view.variables) {
+    if (one.owner == board && owners[one.name] > 1) {
+      ++shared;
+      led += one.leads ? 1 : 0;
+    }
+  }
+  return shared == 0 ? ""
+         : led == 0  ? fmt::format("  standby of {} variable{}", shared, shared == 1 ? "" : "s")
+                     : fmt::format("  leads {} variable{} with a standby", led, led == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::optional<MirrorView> view_mirror(const std::string& node) {
@@ -77,25 +97,38 @@ std::optional<MirrorView> view_mirror(const std::string& node) {
 }
 
 std::vector<std::string> explain_old(const MirrorView& view, const std::set<std::string>& variables) {
+  std::map<std::string, std::string> leaders;  // by variable
+  for (const mirror::MirroredVariable& one : view.variables) {
+    if (one.leads) {
+      leaders[one.name] = one.owner;
+    }
+  }
   std::vector<std::string> lines;
   for (const PeerView& peer : view.peers) {
     const bool silent = peer.state != "alive";
     if (!silent && peer.heard_ns < kJustNowNs) {
       continue;
     }
-    std::string names;
+    std::string old;
+    std::map<std::string, std::string> taken_over;  // names by board that leads now
     for (const mirror::MirroredVariable& one : view.variables) {
       if (one.owner == peer.name && variables.contains(one.name)) {
+        const auto leader = leaders.find(one.name);
+        std::string& names = leader == leaders.end() || leader->second == peer.name ? old : taken_over[leader->second];
         names += (names.empty() ? "" : ", ") + one.name;
       }
     }
-    if (!names.empty()) {
-      const std::string heard = peer.heard_ns < 0 ? "never heard" : "last heard " + human_age(peer.heard_ns) + " ago";
+    const std::string heard = peer.heard_ns < 0 ? "never heard" : "last heard " + human_age(peer.heard_ns) + " ago";
+    if (!old.empty()) {
       lines.push_back(silent ? fmt::format("board {} is {} ({}): its last values, or their fallback: {}", peer.name,
-                                           peer.state, heard, names)
+                                           peer.state, heard, old)
                              : fmt::format("board {} was {}, and counts as there until its plant's lease is over: its "
                                            "last values: {}",
-                                           peer.name, heard, names));
+                                           peer.name, heard, old));
+    }
+    for (const auto& [leader, names] : taken_over) {
+      lines.push_back(fmt::format("board {} is {} ({}): its standby {} leads, with values of now: {}", peer.name,
+                                  peer.state, heard, leader, names));
     }
   }
   return lines;
@@ -120,6 +153,7 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
                           peer.heard_ns < 0 ? std::string("never heard") : "heard " + human_ns(peer.heard_ns) + " ago",
                           peer.frames, peer.lost_updates);
     }
+    line += lead_of(view, peer.name);
     if (peer.clock_known) {
       line += fmt::format("  clocks {} apart (+-{}){}", human_ns(std::abs(peer.clock_offset_ns)),
                           human_ns(peer.clock_bound_ns),
@@ -139,7 +173,8 @@ JsonValue json_of(const std::vector<mirror::MirroredVariable>& variables) {
     all.push_back({{"name", variable.name},
                    {"owner", variable.owner},
                    {"age_ns", variable.age_ns < 0 ? JsonValue() : JsonValue(variable.age_ns)},
-                   {"valid", variable.valid}});
+                   {"valid", variable.valid},
+                   {"leads", variable.leads}});
   }
   return all;
 }

@@ -171,6 +171,15 @@ TEST_F(Local, A_standby_keeps_the_loop_closed) {
       const auto before = number<double>("backup", "cell::encoder");
       EXPECT_TRUE(wait_until([&] { return number<double>("backup", "cell::encoder") > before + 1; }))
           << "the table turns on";
+      EXPECT_TRUE(wait_until([&] {
+        return indurop({"get", "cell::torque", "--node", board("sensor")})
+                   .finish()
+                   .err.find("its standby " + board("backup") + " leads") != std::string::npos;
+      }));
+      EXPECT_THAT(indurop({"get", "cell::torque", "--node", board("sensor")}).finish().err, Not(HasSubstr("fallback")))
+          << "the value is the standby's";
+      EXPECT_THAT(indurop({"status", "--node", board("sensor")}).finish().out,
+                  HasSubstr("leads 1 variable with a standby"));
       // Right after the change it may push the other way for a moment.
       EXPECT_TRUE(wait_until([&] { return torque("sensor") > 0 && torque("sensor") < 1; })) << torque("sensor");
     } else {
