@@ -4,6 +4,7 @@
 #include "scheduler/period_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -64,6 +65,26 @@ std::vector<std::int64_t> basic_period_candidates(std::span<const Nanos> periods
   std::sort(candidates.begin(), candidates.end(), std::greater<>());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   return candidates;
+}
+
+// A basic period that people write, if it changes the periods by 0.05 % each more than `basic` at most: 1 ms, not
+// 1000.001 us.
+std::int64_t round_basic_period(std::span<const Nanos> periods, std::int64_t basic, std::int64_t minimum) {
+  constexpr std::array<std::int64_t, 13> kUnits{10'000'000, 5'000'000, 2'000'000, 1'000'000, 500'000, 200'000, 100'000,
+                                                50'000,     20'000,    10'000,    5'000,     2'000,   1'000};
+  constexpr long double kSlack = 0.0005L;
+  const long double change = relative_change(periods, basic);
+  if (change == 0 || basic > kLongest - kUnits.front()) {
+    return basic;
+  }
+  const long double limit = change + kSlack * static_cast<long double>(periods.size());
+  for (const std::int64_t unit : kUnits) {
+    const std::int64_t round = (basic + unit / 2) / unit * unit;
+    if (round >= std::max<std::int64_t>(minimum, 1) && relative_change(periods, round) <= limit) {
+      return round;
+    }
+  }
+  return basic;
 }
 
 void fill_slots(PeriodTable& table, std::span<const PeriodicItem> items) {
@@ -134,6 +155,7 @@ std::vector<Nanos> adjust_periods(std::span<const Nanos> periods, Nanos minimum)
       best = basic;
     }
   }
+  best = round_basic_period(periods, best, minimum.count());
   std::vector<Nanos> adjusted;
   adjusted.reserve(periods.size());
   for (const Nanos period : periods) {

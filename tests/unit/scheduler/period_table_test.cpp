@@ -203,6 +203,12 @@ TEST(AdjustPeriods, Rounds_the_one_that_does_not_fit) {
               ElementsAre(microseconds(100), microseconds(150), milliseconds(1)));
 }
 
+TEST(AdjustPeriods, Proposes_periods_that_people_write) {
+  const std::vector<Nanos> periods{Nanos(1'000'003), microseconds(500), milliseconds(2)};
+  EXPECT_THAT(adjust_periods(periods, microseconds(50)),
+              ElementsAre(milliseconds(1), microseconds(500), milliseconds(2)));
+}
+
 TEST(AdjustPeriods, Raises_periods_below_the_minimum) {
   EXPECT_THAT(adjust_periods(std::vector<Nanos>{Nanos(1), Nanos(7)}, microseconds(50)),
               ElementsAre(microseconds(50), microseconds(50)));
