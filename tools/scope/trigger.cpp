@@ -23,7 +23,9 @@ Result<Trigger, base::Problem> Trigger::parse(std::string_view text, const FindO
   }
   auto formula = Formula::parse(text, find);
   if (!formula) {
-    return std::move(formula).error();
+    return base::Problem{formula.error().text +
+                         "; a trigger is an expression (and or not == != < <= > >= + - * / abs "
+                         "sqrt min max), then rises, falls or changes (default: rises)"};
   }
   return Trigger(std::move(formula).value(), edge);
 }

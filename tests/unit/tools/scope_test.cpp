@@ -116,6 +116,13 @@ TEST(ScopeTrigger, Edges_and_conditions_fire_once_each_time) {
   EXPECT_THAT(fires("mode == Moving falls", samples), ElementsAre(5)) << "a comparison with what is not known is false";
 }
 
+TEST(ScopeTrigger, What_is_wrong_is_said_with_all_that_can_be_written) {
+  const auto sut = Trigger::parse("a raises", find);
+  ASSERT_FALSE(sut);
+  EXPECT_THAT(sut.error().text, HasSubstr("rises, falls or changes"));
+  EXPECT_THAT(sut.error().text, HasSubstr("=="));
+}
+
 schema::Type scalar(schema::Base base) {
   schema::Type type;
   type.base = base;
