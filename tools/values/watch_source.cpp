@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "base/read_file.h"
 #include "base/text.h"
@@ -78,11 +79,8 @@ void WatchSource::sample(Context& context, std::size_t first, std::size_t count)
     if (!store_->read(*value.item.entry, value.item.place.offset, now).ok()) {
       continue;
     }
-    value.known = true;
-    if (now != value.bytes) {
-      value.bytes.swap(now);
-      value.changed = true;
-    }
+    value.changed = !std::exchange(value.known, true) || now != value.bytes;  // the first value is news, zero or not
+    value.bytes.swap(now);
   }
 }
 

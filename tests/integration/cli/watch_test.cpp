@@ -26,6 +26,14 @@ TEST_F(WithNode, Watch_prints_a_line_per_change) {
   EXPECT_EQ(sut.out.find("gain = 1 mm"), sut.out.rfind("gain = 1 mm"));
 }
 
+TEST_F(WithNode, Watch_in_a_pipe_begins_with_every_value_even_a_zero) {
+  EXPECT_EQ(indurop({"set", "starts", "0"}).code, 0);
+  const auto sut = indurop({"watch", "starts", "joints[2].z", "-n", "2", "--hz", "100"});
+  EXPECT_EQ(sut.code, 0) << sut.err;
+  EXPECT_THAT(sut.out, HasSubstr("starts = 0"));
+  EXPECT_THAT(sut.out, HasSubstr("joints[2].z = "));
+}
+
 TEST_F(WithNode, Watch_as_csv_has_a_heading_and_a_row_per_round) {
   const auto lines = lines_of(indurop({"watch", "tick", "mode", "-o", "csv", "-n", "3", "--hz", "200"}).out);
   ASSERT_EQ(lines.size(), 4U);
