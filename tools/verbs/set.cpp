@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop set: writes values once, after all of them were found good.
+#include <fmt/format.h>
+
 #include "deploy/link/link_keys.h"
 #include "tools/plant/board_forces.h"
 #include "tools/values/assignment.h"
 #include "tools/values/forcing.h"
+#include "tools/values/known_uses.h"
 #include "tools/values/node_choice.h"
 #include "tools/verbs/verbs.h"
 
@@ -32,6 +35,20 @@ int set_by_agent(Context& context, Options& options) {
   return set_on_board(context, options.board, options.words);
 }
 
+// A value that a module writes too does not stay: who that is, and what holds it.
+void note_writers(Context& context, const std::vector<Assignment>& assignments) {
+  const KnownUses uses = known_uses(context.node);
+  for (const Assignment& each : assignments) {
+    const auto use = uses.find(each.item.place.variable->name);
+    if (use != uses.end() && !use->second.writers.empty()) {
+      context.out.note(
+          fmt::format("{} is written by {} too, which may overwrite the value in the next run; to hold it: "
+                      "indurop force {}={}",
+                      use->first, fmt::join(use->second.writers, ", "), each.item.name, each.text));
+    }
+  }
+}
+
 int set(Context& context, Options& options) {
   if (options.board.board.wanted()) {
     return set_by_agent(context, options);
@@ -55,6 +72,9 @@ int set(Context& context, Options& options) {
   }
   if (const int code = set_values(context, *store, *assignments); code != kOk) {
     return code;
+  }
+  if (context.values->here()) {
+    note_writers(context, *assignments);
   }
   if (const std::string absence = context.values->absence(&*store); !absence.empty() && context.values->here()) {
     context.out.note(context.values->gone(absence) + ": the values wait for its next start");
@@ -81,8 +101,9 @@ const Verb kSetVerb{
     "set", "Variables", "Write variables or parts of them, once",
     "All values are checked before the first is written: type, array bounds, declared range. A declared range is\n"
     "never overridden. Each NAME=VALUE is one commit; write a struct or array as a whole to change several parts\n"
-    "at once. A module that writes the same variable overwrites the value in its next run; see\n"
-    "indurop force. With --remote, a board shows a variable and lets it be set (external=\"write\"); with --board\n"
+    "at once. A module that writes the same variable overwrites the value in its next run; the module\n"
+    "is named then, and indurop force holds the value. With --remote, a board shows a variable and lets it be set "
+    "(external=\"write\"); with --board\n"
     "its agent sets any, as for indurop force --board.\n"
     "Examples:\n"
     "  indurop set gain 2.5\n"

@@ -104,7 +104,10 @@ TEST_F(Modules, Of_a_process_share_variables_with_those_of_threads) {
 TEST_F(Modules, Variables_are_seen_and_set_by_the_command_line) {
   Program& sut = start_and_wait({{.file = "counter.so", .name = "counter"}});
   ASSERT_TRUE(runs_reach("counter", 5));
-  EXPECT_EQ(indurop({"set", "nt::counted", "1000000"}).code, 0);
+  const auto set = indurop({"set", "nt::counted", "1000000"});
+  EXPECT_EQ(set.code, 0);
+  EXPECT_CONTAINS(set.err, "nt::counted is written by counter too");
+  EXPECT_CONTAINS(set.err, "indurop force nt::counted=1000000");
   EXPECT_TRUE(wait_until([&] { return value<std::uint32_t>("nt::counted") > 1'000'000; }));
   const auto shown = indurop({"get", "nt::counted"});
   EXPECT_EQ(shown.code, 0);
