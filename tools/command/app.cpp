@@ -99,7 +99,21 @@ void add_common_options(base::Options& app, ColorWhen& color, bool& quiet) {
   app.version(fmt::format("indurop {}", INDUROP_VERSION));
 }
 
+// Whoever reads JSON gets an object, also of what failed before there was anything to print.
+void print_failure(Context& context, int code) {
+  const auto known =
+      std::find_if(kExitCodes.begin(), kExitCodes.end(), [code](const ExitCode& each) { return each.value == code; });
+  JsonValue whole = document();
+  whole["error"] = {{"exit_code", code},
+                    {"name", known == kExitCodes.end() ? JsonValue() : JsonValue(std::string(known->name))},
+                    {"messages", context.out.errors()}};
+  context.out.line(whole.dump());
+}
+
 int finish(Context& context, int code) {
+  if (code != kOk && context.format == Format::Json && !context.out.written()) {
+    print_failure(context, code);
+  }
   if (!context.out.flush() && !context.out.reader_gone()) {
     context.out.error(fmt::format("cannot write the output: {}", std::strerror(context.out.write_errno())));
     return code == kOk ? kFailed : code;
@@ -129,7 +143,7 @@ int run_verb(Context& context, const Verb& verb, std::vector<std::string> argume
       return finish(context, kOk);
     case base::Options::Outcome::Wrong:
       context.out.error(fmt::format("{} (see: indurop help {})", parsed.text, verb.name));
-      return kUsage;
+      return finish(context, kUsage);
     case base::Options::Outcome::Parsed:
       break;
   }

@@ -102,7 +102,7 @@ bool Output::flush() {
   return write_errno_ == 0;
 }
 
-void Output::message_line(std::string_view text) {
+void Output::send(std::string_view text) {
   if (diverted_ != nullptr) {
     diverted_->emplace_back(text);
     return;
@@ -111,12 +111,25 @@ void Output::message_line(std::string_view text) {
   static_cast<void>(write_all(STDERR_FILENO, std::string(text) + '\n'));  // nowhere left to say that stderr is broken
 }
 
+void Output::keep(std::string_view text) {
+  constexpr std::size_t kMaxErrors = 100;
+  if (errors_.size() < kMaxErrors) {
+    errors_.emplace_back(text);
+  }
+}
+
+void Output::message_line(std::string_view text) {
+  keep(text);
+  send(text);
+}
+
 void Output::message(std::string_view kind, Style style, std::string_view text) {
-  message_line(diverted_ != nullptr ? std::string(text)
-                                    : "indurop: " + painted(color_messages_, style, kind) + std::string(text));
+  send(diverted_ != nullptr ? std::string(text)
+                            : "indurop: " + painted(color_messages_, style, kind) + std::string(text));
 }
 
 void Output::error(std::string_view text) {
+  keep(text);
   message("error: ", Style::Bad, text);
 }
 

@@ -29,11 +29,19 @@ class Output {
   void configure(ColorWhen when, bool quiet);
 
   // Appends to the pending output; flush() or the end of the program sends it.
-  void write(std::string_view text) { pending_ += text; }
+  void write(std::string_view text) {
+    pending_ += text;
+    written_ = written_ || !text.empty();
+  }
   void line(std::string_view text = {}) {
     pending_ += text;
     pending_ += '\n';
+    written_ = true;
   }
+  // Whether anything went to stdout.
+  [[nodiscard]] bool written() const noexcept { return written_; }
+  // The first 100 messages of error() and message_line() so far, for output that a program reads.
+  [[nodiscard]] const std::vector<std::string>& errors() const noexcept { return errors_; }
   // False once stdout does not take anything any more.
   bool flush();
   // The reader of stdout has gone: stop working, it is no failure.
@@ -56,9 +64,13 @@ class Output {
 
  private:
   void message(std::string_view kind, Style style, std::string_view text);
+  void send(std::string_view text);
+  void keep(std::string_view text);
 
   std::vector<std::string>* diverted_ = nullptr;
+  std::vector<std::string> errors_;
   std::string pending_;
+  bool written_ = false;
   bool terminal_ = false;
   bool unicode_ = false;
   bool color_ = false;

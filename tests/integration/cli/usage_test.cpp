@@ -71,6 +71,22 @@ TEST_F(CommandLine, Without_a_node_it_says_how_to_start_one) {
   EXPECT_THAT(nodes.err, HasSubstr("no node"));
 }
 
+TEST_F(CommandLine, What_fails_is_said_in_json_too) {
+  for (const auto& [words, name] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"status", "-o", "json"}, "unreachable"},
+           {{"get", "x", "-o", "json"}, "unreachable"},
+           {{"get", "x", "-o", "json", "--hertz"}, "usage"}}) {
+    const auto sut = indurop(words);
+    EXPECT_NE(sut.code, 0);
+    EXPECT_THAT(sut.err, Not(IsEmpty())) << "people read it there";
+    const auto json = sut.json();
+    EXPECT_EQ(json["schema_version"], 1) << sut.out;
+    EXPECT_EQ(json["error"]["exit_code"], sut.code);
+    EXPECT_EQ(json["error"]["name"], name);
+    EXPECT_FALSE(json["error"]["messages"].empty());
+  }
+}
+
 TEST_F(CommandLine, Impossible_node_names_are_usage_errors) {
   EXPECT_EQ(indurop({"status", "--node", "../../etc/passwd"}).code, 2);
   EXPECT_EQ(indurop({"status"}, {.variables = {"INDUROP_NODE=a b"}}).code, 2);
