@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install clean help
+.PHONY: all with-tests demo test soak rt-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -91,7 +91,13 @@ docs: ## API pages of the public headers, in build/docs/html/index.html
 	@INDUROP_VERSION=$$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt) doxygen docs/Doxyfile
 
 install: all ## install to PREFIX (default /usr/local)
-	@cmake --install build --prefix "$(PREFIX)"
+	@cmake --install build --prefix "$(PREFIX)" --strip
+
+uninstall: ## remove what the last `make install` wrote
+	@test -f build/install_manifest.txt || { echo "make: nothing was installed from this folder"; exit 1; }
+	@xargs -d '\n' rm -fv <build/install_manifest.txt | wc -l | sed 's/$$/ files removed/'
+	@sed 's|/[^/]*$$||' build/install_manifest.txt | sort -ur | xargs -d '\n' rmdir --ignore-fail-on-non-empty -p 2>/dev/null || true
+	@rm build/install_manifest.txt
 
 clean: ## remove all build directories
 	@rm -rf build build-dev build-asan build-tsan build-bench
