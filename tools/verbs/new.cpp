@@ -53,7 +53,42 @@ std::string minor_version() {
   return whole.substr(0, whole.find('.', whole.find('.') + 1));
 }
 
-bool write_project(Context& context, const fs::path& folder, const std::string& name) {
+struct Options {
+  std::string where;
+  std::vector<std::string> with;
+  std::uint64_t boards = 1;
+
+  [[nodiscard]] bool plc() const { return std::find(with.begin(), with.end(), "plc") != with.end(); }
+};
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+Words words_of(const Options& options, const std::string& name, const fs::path& programs, const fs::path& package) {
+  // @PLC@ first: what stands for it has words of its own.
+  return {{"@PLC@", options.plc() ? plc_build() : ""},
+          {"@NAMESPACE@", namespace_of(name)},
+          {"@NAME@", name},
+          {"@GTEST@", "gtest/gtest.h"},
+          {"@PACKAGE@", package.string()},
+          {"@PROGRAMS@", programs.string()},
+          {"@VERSION@", minor_version()}};
+}
+
+bool write_file(Context& context, const fs::path& path, const std::string& text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  std::string problem = error ? fmt::format("cannot make {}: {}", path.parent_path().string(), error.message()) : "";
+  if (problem.empty()) {
+    const auto saved = base::replace_file(path, text, base::Durable::No);
+    problem = saved ? "" : base::cannot_write(path, saved.error());
+  }
+  if (!problem.empty()) {
+    context.out.error(problem);
+  }
+  return problem.empty();
+}
+
+bool write_project(Context& context, const fs::path& folder, const std::string& name, const Options& options) {
   const fs::path programs = base::program_folder();
   const fs::path package = package_folder(programs);
   if (package.empty()) {
@@ -61,31 +96,25 @@ bool write_project(Context& context, const fs::path& folder, const std::string& 
         "the CMake package of InduRoP was not found beside this program; if `make` does not find it either: "
         "make INDUROP_PACKAGE=<folder of InduRoPConfig.cmake>");
   }
-  const std::string space = namespace_of(name);
+  const auto modules = project_modules(options.plc());
+  std::vector<std::pair<std::string, std::string>> files{{"module.xml", module_xml(modules)}};
   for (const ProjectFile& file : project_files()) {
-    const fs::path path = folder / filled_in(file.path, {{"@NAMESPACE@", space}, {"@NAME@", name}});
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    std::string problem = error ? fmt::format("cannot make {}: {}", path.parent_path().string(), error.message()) : "";
-    if (problem.empty()) {
-      const std::string text = filled_in(file.text, {{"@NAME@", name},
-                                                     {"@NAMESPACE@", space},
-                                                     {"@GTEST@", "gtest/gtest.h"},
-                                                     {"@PACKAGE@", package.string()},
-                                                     {"@PROGRAMS@", programs.string()},
-                                                     {"@VERSION@", minor_version()}});
-      const auto saved = base::replace_file(path, text, base::Durable::No);
-      problem = saved ? "" : base::cannot_write(path, saved.error());
-    }
-    if (!problem.empty()) {
-      context.out.error(problem);
-      return false;
-    }
+    files.emplace_back(file.path, file.text);
   }
-  return true;
+  if (options.plc()) {
+    files.emplace_back(plc_file().path, plc_file().text);
+  }
+  if (options.boards > 1) {
+    files.emplace_back("plant.xml", plant_xml(modules, options.boards));
+  }
+  const Words words = words_of(options, name, programs, package);
+  return std::all_of(files.begin(), files.end(), [&](const auto& file) {
+    return write_file(context, folder / filled_in(file.first, words), filled_in(file.second, words));
+  });
 }
 
-int make_project(Context& context, const std::string& where) {
+int make_project(Context& context, const Options& options) {
+  const std::string& where = options.where;
   const fs::path folder(where);
   const std::string name = folder.filename().string();
   if (!good_name(name)) {
@@ -103,18 +132,23 @@ int make_project(Context& context, const std::string& where) {
     context.out.error(fmt::format("cannot make {}: {}", where, error.message()));
     return kFailed;
   }
-  if (!write_project(context, folder, name)) {
+  if (!write_project(context, folder, name, options)) {
     return kFailed;
   }
   context.out.line(fmt::format("made {}", where));
-  context.out.note(fmt::format("next: cd {} && make && indurop run", where));
+  context.out.note(
+      fmt::format("next: cd {} && make && indurop run{}", where, options.boards > 1 ? " plant.xml --local" : ""));
   return kOk;
 }
 
 Action declare(base::Options& app, Context& /*context*/) {
-  auto name = std::make_shared<std::string>();
-  app.add("name", "NAME", *name, "Name of the project, or the path of its folder").required();
-  return [name](Context& c) { return make_project(c, *name); };
+  constexpr std::uint64_t kMaxBoards = 64;
+  auto options = std::make_shared<Options>();
+  app.add("name", "NAME", options->where, "Name of the project, or the path of its folder").required();
+  app.add("--with", "WHAT", options->with, "plc: a program in Structured Text, too").choices({"plc"});
+  app.add("--boards", "N", options->boards, "Also a plant.xml that deals the modules out to N boards")
+      .range(1, kMaxBoards);
+  return [options](Context& c) { return make_project(c, *options); };
 }
 
 }  // namespace
@@ -124,7 +158,8 @@ const Verb kNewVerb{
     "A .glb file, two thread modules, a process module, a test, module.xml, CMakeLists.txt, Makefile, README.\n"
     "It never writes into a folder that is not empty.\n"
     "Examples:\n"
-    "  indurop new demo\n",
+    "  indurop new demo\n"
+    "  indurop new line --with plc --boards 3\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/verbs/new_templates.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 namespace indurop::tools {
@@ -23,7 +25,7 @@ indurop_add_glb(variables FILES @NAMESPACE@.glb)
 indurop_add_module(wave SOURCES src/wave.cpp GLB variables)
 indurop_add_module(smooth SOURCES src/smooth.cpp GLB variables)
 indurop_add_module(monitor PROCESS SOURCES src/monitor.cpp GLB variables)
-
+@PLC@
 # Tests in virtual time, where GoogleTest is installed (Debian: libgtest-dev): `make test`.
 find_package(InduRoP @VERSION@ REQUIRED COMPONENTS testing)
 find_package(GTest)
@@ -176,10 +178,31 @@ TEST(Monitor, Is_started_again_after_a_crash) {
 }
 )text";
 
-constexpr const char* kModuleXml = R"text(<?xml version="1.0" encoding="UTF-8"?>
-<!-- What runs, how often and in which order: the lowest priority value comes first in each period. -->
-<root>
-  <module>
+constexpr const char* kPlcProgram =
+    R"text((* PLC program, every 20 milliseconds: the lamp is on while the wave has been high for 200 ms. *)
+VAR_GLOBAL
+  lamp : BOOL;
+END_VAR
+
+PROGRAM logic
+VAR_EXTERNAL
+  smoothed : LREAL;
+END_VAR
+VAR
+  delay : TON;
+END_VAR
+  delay(IN := smoothed > 0.5, PT := T#200ms);
+  lamp := delay.Q;
+END_PROGRAM
+)text";
+
+constexpr const char* kPlcBuild = R"text(
+# A program of IEC 61131-3 becomes a thread module. Its variables are @NAMESPACE@_plc::..., and `indurop plc watch` shows it.
+indurop_add_plc(logic SOURCES src/logic.st GLB variables NAMESPACE @NAMESPACE@_plc WATCH)
+)text";
+
+// In the order of their priorities.
+constexpr std::array<ProjectModule, 3> kModules{{{"wave", R"text(  <module>
     <filename>./build/wave.so</filename>
     <moduletype>thread</moduletype>
     <operationtype>periodic</operationtype>
@@ -189,21 +212,36 @@ constexpr const char* kModuleXml = R"text(<?xml version="1.0" encoding="UTF-8"?>
       <value name="seconds per wave">2.0</value>
     </property>
   </module>
-  <module>
+)text"},
+                                                 {"smooth", R"text(  <module>
     <filename>./build/smooth.so</filename>
     <moduletype>thread</moduletype>
     <operationtype>periodic</operationtype>
     <period>10ms</period>
     <priority>2</priority>
   </module>
-  <module>
+)text"},
+                                                 {"monitor", R"text(  <module>
     <filename>./build/monitor.exe</filename>
     <moduletype>process</moduletype>
     <operationtype>periodic</operationtype>
     <period>100ms</period>
     <priority>3</priority>
   </module>
-</root>
+)text"}}};
+
+constexpr ProjectModule kPlcModule{"logic", R"text(  <module>
+    <filename>./build/logic.so</filename>
+    <moduletype>thread</moduletype>
+    <operationtype>periodic</operationtype>
+    <period>20ms</period>
+    <priority>4</priority>
+  </module>
+)text"};
+
+constexpr const char* kModuleXmlHead = R"text(<?xml version="1.0" encoding="UTF-8"?>
+<!-- What runs, how often and in which order: the lowest priority value comes first in each period. -->
+<root>
 )text";
 
 constexpr const char* kReadme = R"text(# @NAME@
@@ -235,21 +273,59 @@ If `indurop` is not found, put it into PATH: `export PATH=@PROGRAMS@:$PATH`.
 
 constexpr const char* kGitignore = "build/\n";
 
-constexpr std::array<ProjectFile, 10> kFiles{{{"CMakeLists.txt", kCMakeLists},
-                                              {"Makefile", kMakefile},
-                                              {"@NAMESPACE@.glb", kGlb},
-                                              {"src/wave.cpp", kWave},
-                                              {"src/smooth.cpp", kSmooth},
-                                              {"src/monitor.cpp", kMonitor},
-                                              {"tests/@NAME@_test.cpp", kTest},
-                                              {"module.xml", kModuleXml},
-                                              {"README.md", kReadme},
-                                              {".gitignore", kGitignore}}};
+constexpr std::array<ProjectFile, 9> kFiles{{{"CMakeLists.txt", kCMakeLists},
+                                             {"Makefile", kMakefile},
+                                             {"@NAMESPACE@.glb", kGlb},
+                                             {"src/wave.cpp", kWave},
+                                             {"src/smooth.cpp", kSmooth},
+                                             {"src/monitor.cpp", kMonitor},
+                                             {"tests/@NAME@_test.cpp", kTest},
+                                             {"README.md", kReadme},
+                                             {".gitignore", kGitignore}}};
 
 }  // namespace
 
 std::span<const ProjectFile> project_files() {
   return kFiles;
+}
+
+ProjectFile plc_file() {
+  return {"src/logic.st", kPlcProgram};
+}
+
+std::string plc_build() {
+  return kPlcBuild;
+}
+
+std::vector<ProjectModule> project_modules(bool with_plc) {
+  std::vector<ProjectModule> modules(kModules.begin(), kModules.end());
+  if (with_plc) {
+    modules.push_back(kPlcModule);
+  }
+  return modules;
+}
+
+std::string module_xml(const std::vector<ProjectModule>& modules) {
+  std::string text = kModuleXmlHead;
+  for (const ProjectModule& module : modules) {
+    text += module.xml;
+  }
+  return text + "</root>\n";
+}
+
+std::string plant_xml(const std::vector<ProjectModule>& modules, std::size_t boards) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<!-- Which module runs on which board. indurop run plant.xml --local runs all boards here. -->\n"
+      "<plant name=\"@NAME@\">\n";
+  for (std::size_t board = 0; board < boards; ++board) {
+    text += fmt::format("<board name=\"board{}\">\n", board + 1);
+    for (std::size_t i = board; i < modules.size(); i += boards) {
+      text += modules[i].xml;
+    }
+    text += "</board>\n";
+  }
+  return text + "</plant>\n";
 }
 
 }  // namespace indurop::tools

@@ -45,3 +45,14 @@ indurop stop || fail "stop"
 wait "$runner" || true
 runner=
 grep -q smoothed run.log || fail "the monitor printed nothing"
+
+# With a PLC program, and dealt out to three boards.
+cd "$folder"
+indurop new line --with plc --boards 3
+cd line
+make
+indurop check || fail "check of a fresh project with a PLC program"
+make test || fail "the tests of a fresh project with a PLC program"
+indurop check plant.xml || fail "check of a fresh plant"
+indurop run plant.xml --sim --until 2s || fail "the fresh plant in virtual time"
+[ "$(grep -c '<board' plant.xml)" = 3 ] || fail "not three boards"
