@@ -109,6 +109,9 @@ Result<std::string, base::Problem> deploy_key(Context& context, const config::Pl
 }
 
 int deploy_plant(Context& context, Options& options) {
+  if (const auto found = find_config(options.file); !found) {
+    return report(context.out, found.error());
+  }
   if (!config::is_plant_file(options.file)) {
     context.out.error(
         fmt::format("'{}' is not the manifest of a plant; deploy needs one (see indurop check)", options.file));

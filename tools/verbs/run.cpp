@@ -6,6 +6,7 @@
 
 #include "config/run_options.h"
 #include "config/xml/plant_reader.h"
+#include "tools/command/config_file.h"
 #include "tools/command/node_program.h"
 #include "tools/plant/run_detached.h"
 #include "tools/plant/run_local.h"
@@ -30,6 +31,11 @@ int run(Context& context, Request& request) {
   std::error_code ignored;
   if (options.config.empty() && std::filesystem::exists("module.xml", ignored)) {
     options.config = "module.xml";
+  }
+  if (!options.config.empty()) {
+    if (const auto found = find_config(options.config.string()); !found) {
+      return report(context.out, found.error());
+    }
   }
   const bool plant = !options.config.empty() && config::is_plant_file(options.config);
   if (request.local) {

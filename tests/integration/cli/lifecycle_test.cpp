@@ -108,9 +108,11 @@ TEST_F(CommandLine, Run_detached_returns_when_the_node_runs) {
 }
 
 TEST_F(CommandLine, Run_detached_tells_why_the_node_does_not_run) {
-  const auto sut = indurop({"run", "nothere.xml", "--detach"});
+  const std::string config = (scratch() / "broken.xml").string();
+  put(config, "<root>");
+  const auto sut = indurop({"run", config, "--detach"});
   EXPECT_EQ(sut.code, 4);
-  EXPECT_THAT(sut.err, HasSubstr("nothere.xml: error: no such file"));
+  EXPECT_THAT(sut.err, HasSubstr("broken.xml:1:"));
   EXPECT_EQ(indurop({"run", TWO_BOARDS "/plant.xml", "--local", "--detach"}).code, 2);
 }
 
@@ -122,8 +124,10 @@ TEST_F(CommandLine, Run_hands_arguments_and_exit_code_through) {
   fs::permissions(program, fs::perms::owner_all);
   const fs::path copy = folder / "indurop";
   fs::copy_file(INDUROP_PROGRAM, copy, fs::copy_options::overwrite_existing);
-  Program sut({copy.string(), "run", "a b.xml", "--duration", "5s", "-q"}, background());
-  EXPECT_TRUE(sut.prints("--duration 5000000000ns --quiet -- a b.xml\n")) << sut.out();
+  const std::string config = (scratch() / "a b.xml").string();
+  put(config, "<root/>");
+  Program sut({copy.string(), "run", config, "--duration", "5s", "-q"}, background());
+  EXPECT_TRUE(sut.prints("--duration 5000000000ns --quiet -- " + config + "\n")) << sut.out();
   EXPECT_EQ(sut.wait(), 4);
 }
 

@@ -87,6 +87,14 @@ TEST_F(CommandLine, What_fails_is_said_in_json_too) {
   }
 }
 
+TEST_F(CommandLine, A_file_that_is_not_there_gives_every_verb_one_message_and_code) {
+  for (const char* verb : {"run", "check", "plan", "deploy"}) {
+    const auto sut = indurop({verb, "no_such.xml"});
+    EXPECT_EQ(sut.code, 1) << verb;
+    EXPECT_THAT(sut.err, HasSubstr("there is no file 'no_such.xml'")) << verb;
+  }
+}
+
 TEST_F(CommandLine, Impossible_node_names_are_usage_errors) {
   EXPECT_EQ(indurop({"status", "--node", "../../etc/passwd"}).code, 2);
   EXPECT_EQ(indurop({"status"}, {.variables = {"INDUROP_NODE=a b"}}).code, 2);
