@@ -3,11 +3,13 @@
 
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace indurop::base {
 
 void Log::line(std::string_view kind, std::string_view text) const {
   std::fflush(stdout);
-  fmt::print(stderr, "{}: {}{}\n", who_, kind, text);
+  fmt::print(stderr, "{}: {}{}\n", who_, kind, printable(text, "\t"));
 }
 
 }  // namespace indurop::base

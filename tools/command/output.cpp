@@ -5,8 +5,12 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
+
+#include "base/printable.h"
 
 namespace indurop::tools {
 namespace {
@@ -31,6 +35,8 @@ bool wants_color(ColorWhen when, int fd) {
   return isatty(fd) == 1 && (no_color == nullptr || *no_color == '\0') &&
          (term == nullptr || std::string_view(term) != "dumb");
 }
+
+constexpr std::string_view kPlain = "\x1b[0m";
 
 const char* code_of(Style style) {
   switch (style) {
@@ -58,7 +64,52 @@ std::string painted(bool color, Style style, std::string_view text) {
   }
   std::string out = code_of(style);
   out += text;
-  out += "\x1b[0m";
+  out += kPlain;
+  return out;
+}
+
+constexpr std::array kOurStyles{Style::Bold, Style::Dim, Style::Good, Style::Warn, Style::Bad, Style::Accent};
+constexpr std::array<std::string_view, 4> kOfScreen{"\x1b[?25l", "\x1b[?25h", "\x1b[H\x1b[J", "\x1b[J"};
+
+// How long the escape sequence at the beginning is, if it is one of ours: of paint(), or of Screen, which writes its
+// own at the beginning of a line.
+std::size_t length_of_ours(std::string_view text, bool line_begins) {
+  for (const Style style : kOurStyles) {
+    if (const std::string_view code = code_of(style); text.starts_with(code)) {
+      return code.size();
+    }
+  }
+  constexpr std::string_view kRestOfLine = "\x1b[K";
+  for (const std::string_view code : {kPlain, kRestOfLine}) {
+    if (text.starts_with(code)) {
+      return code.size();
+    }
+  }
+  for (const std::string_view code : kOfScreen) {
+    if (line_begins && text.starts_with(code)) {
+      return code.size();
+    }
+  }
+  const std::size_t up = text.find_first_not_of("0123456789", 2);
+  return line_begins && text.starts_with("\x1b[") && up != std::string_view::npos && text[up] == 'A' ? up + 1 : 0;
+}
+
+// Whatever others wrote moves no cursor: all that is printed on a terminal goes through here.
+std::string harmless(std::string_view text, std::string_view kept) {
+  std::string out;
+  bool line_begins = true;
+  while (!text.empty()) {
+    const std::size_t escape = text.find('\x1b');
+    const std::string plain = base::printable(text.substr(0, escape), kept);
+    line_begins = plain.empty() ? line_begins : plain.back() == '\n';
+    out += plain;
+    text.remove_prefix(std::min(escape, text.size()));
+    if (!text.empty()) {
+      const std::size_t length = length_of_ours(text, line_begins);
+      out += length > 0 ? text.substr(0, length) : "?";
+      text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+  }
   return out;
 }
 
@@ -95,7 +146,7 @@ void Output::configure(ColorWhen when, bool quiet) {
 
 bool Output::flush() {
   if (write_errno_ == 0 && !pending_.empty()) {
-    write_errno_ = write_all(STDOUT_FILENO, pending_);
+    write_errno_ = write_all(STDOUT_FILENO, terminal_ ? harmless(pending_, "\n\t\r") : pending_);
     reader_gone_ = write_errno_ == EPIPE;
   }
   pending_.clear();
@@ -108,7 +159,7 @@ void Output::send(std::string_view text) {
     return;
   }
   flush();
-  static_cast<void>(write_all(STDERR_FILENO, std::string(text) + '\n'));  // nowhere left to say that stderr is broken
+  static_cast<void>(write_all(STDERR_FILENO, harmless(text, "\n\t") + '\n'));  // nowhere left to say that stderr is broken
 }
 
 void Output::keep(std::string_view text) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "base/printable.h"
 #include "base/text.h"
-#include "base/utf8.h"
 #include "rt/clock.h"
 
 namespace indurop::tools {
@@ -87,22 +87,7 @@ std::string local_time(std::int64_t wall_ns) {
 }
 
 std::string printable(std::string_view text) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = base::utf8_length(text.substr(i));
-    const auto lead = static_cast<unsigned char>(text[i]);
-    // C1 controls (U+0080..U+009F) are two bytes beginning with C2.
-    const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    if (length == 0 || lead < 0x20 || lead == 0x7F || c1) {
-      out += '?';
-      i += length == 0 ? 1 : length;
-    } else {
-      out.append(text.substr(i, length));
-      i += length;
-    }
-  }
-  return out;
+  return base::printable(text);
 }
 
 std::size_t display_width(std::string_view text) {
