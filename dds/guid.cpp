@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds/guid.h"
 
+#include <charconv>
 #include <memory>
 
 namespace indurop::dds {
@@ -36,6 +37,22 @@ bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark)
   const bool same = std::string_view(static_cast<const char*>(told), size) == mark;
   dds_free(told);
   return same;
+}
+
+bool is_numbered_by(const Guid& participant, std::string_view subject) noexcept {
+  // DDS Security 1.1, 9.3.3: a bit that is set, then the first 47 of the digest.
+  constexpr std::size_t kBytes = 6;
+  std::uint64_t number = 0;
+  std::uint64_t digest = 0;
+  if (subject.size() < 2 * kBytes ||
+      std::from_chars(subject.data(), subject.data() + 2 * kBytes, digest, 16).ptr != subject.data() + 2 * kBytes) {
+    return false;
+  }
+  for (std::size_t i = 0; i < kBytes; ++i) {
+    number = number << 8U | participant[i];
+  }
+  constexpr std::uint64_t kMark = std::uint64_t{1} << (8 * kBytes - 1);
+  return number == (kMark | digest >> 1U);
 }
 
 std::optional<std::uint32_t> readers_of(Handle writer) {

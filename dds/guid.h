@@ -29,6 +29,9 @@ Guid guid_of(Handle entity) noexcept;
 std::optional<Guid> participant_of(Handle reader, InstanceHandle publication);
 // Was that publication's writer made with QosChoice::mark `mark`? False: also if it is gone already.
 bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark);
+// A participant of DDS Security has a number that begins with the SHA-256 of its certificate's subject, and who lets it
+// in verifies that. `subject`: that digest as hexadecimal digits.
+bool is_numbered_by(const Guid& participant, std::string_view subject) noexcept;
 // Readers that `writer` is matched with. Empty: the writer is gone.
 std::optional<std::uint32_t> readers_of(Handle writer);
 // Has `participant` one of them?

@@ -16,6 +16,8 @@ constexpr std::int64_t kBlockNs = 100'000'000;
 }  // namespace
 
 struct CommandLink::Impl {
+  explicit Impl(DeployLink& by) : link(by) {}
+  DeployLink& link;
   dds::Endpoint in;
   dds::Endpoint out;
 };
@@ -30,7 +32,7 @@ Result<std::unique_ptr<CommandLink>, base::Problem> CommandLink::open(DeployLink
   const auto& out_type = agent ? indurop_deploy_Reply_desc : indurop_deploy_Command_desc;
   const dds::Qos qos = dds::make_qos({.block_ns = kBlockNs, .for_late_ones = false, .depth = kDepth});
   const dds::Listener listener = dds::wake_listener(link.wake_word());
-  auto impl = std::make_unique<Impl>();
+  auto impl = std::make_unique<Impl>(link);
   impl->in = dds::make_reader(link.participant(), in_type, schema::deploy_topics() + (agent ? "command" : "reply"), qos,
                               listener);
   impl->out =
@@ -65,7 +67,8 @@ std::vector<deploy::Command> CommandLink::take_commands() {
 std::vector<deploy::CommandReply> CommandLink::take_replies() {
   std::vector<deploy::CommandReply> replies;
   dds::take_all<indurop_deploy_Reply>(impl_->in.get(), [&](const auto& in, const dds::SampleInfo& info) {
-    if (info.valid && wire::known<Outcome>(in.outcome)) {
+    if (info.valid && wire::known<Outcome>(in.outcome) &&
+        impl_->link.speaks_for(impl_->in.get(), info.publication, in.board)) {
       replies.push_back(wire::word_of<CommandReply>(in));
     }
   });

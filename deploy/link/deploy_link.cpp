@@ -15,6 +15,7 @@
 #include "dds/other_releases.h"
 #include "dds/setup.h"
 #include "deploy/link/link_keys.h"
+#include "deploy/link/speakers.h"
 #include "deploy/link/wire_words.h"
 #include "rt/clock.h"
 #include "rt/machine.h"
@@ -27,6 +28,7 @@ namespace {
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
 constexpr std::int64_t kBlockNs = 100'000'000;  // a chunk waits so long for room
 constexpr std::int32_t kDepth = 512;            // messages a receiver may lag behind
+constexpr std::int32_t kReports = 8;            // of one name, so that one in a false name does not cover the true one
 constexpr std::int64_t kLettingInNs = 2'000'000'000;
 constexpr std::size_t kMostRoom = 2U << 20U;
 
@@ -38,10 +40,12 @@ std::string blob_topic(std::uint64_t requester) {
   return topic_name(fmt::format("blob/{:016x}", requester));
 }
 
-dds::Qos link_qos(bool state) {
+dds::Qos link_qos(bool state, bool writer) {
   return dds::make_qos({.block_ns = kBlockNs,
                         .for_late_ones = state,
-                        .depth = state ? 1 : kDepth,
+                        .depth = !state   ? kDepth
+                                 : writer ? 1
+                                          : kReports,
                         .lease_ns = kLeaseNs,
                         .dispose_at_end = true});
 }
@@ -49,6 +53,7 @@ dds::Qos link_qos(bool state) {
 }  // namespace
 
 struct DeployLink::Impl {
+  explicit Impl(const std::string& certificate) : speakers(certificate) {}
   Result<void, base::Problem> make();
   dds::Endpoint reader(const dds::TypeDescriptor& type, const std::string& topic, bool state);
   dds::Endpoint writer(const dds::TypeDescriptor& type, const std::string& topic, bool state);
@@ -57,6 +62,7 @@ struct DeployLink::Impl {
   rt::SignalWord wake{};  // used by listeners until the readers are gone
   dds::Participant participant;
   dds::OtherReleases others;
+  Speakers speakers;
   dds::Endpoint boards_out;
   dds::Endpoint orders_out;
   dds::Endpoint requests_out;
@@ -68,11 +74,11 @@ struct DeployLink::Impl {
 };
 
 dds::Endpoint DeployLink::Impl::reader(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
-  return dds::make_reader(participant.get(), type, topic, link_qos(state), dds::wake_listener(wake));
+  return dds::make_reader(participant.get(), type, topic, link_qos(state, false), dds::wake_listener(wake));
 }
 
 dds::Endpoint DeployLink::Impl::writer(const dds::TypeDescriptor& type, const std::string& topic, bool state) {
-  return dds::make_writer(participant.get(), type, topic, link_qos(state));
+  return dds::make_writer(participant.get(), type, topic, link_qos(state, true));
 }
 
 Result<void, base::Problem> DeployLink::Impl::make() {
@@ -123,7 +129,7 @@ Result<DeployLink::Opened, base::Problem> DeployLink::open(const LinkSettings& s
   dds::NetworkSettings network = settings.network;
   network.known_ports = true;
   network.lease_ns = kLeaseNs;
-  auto impl = std::make_unique<Impl>();
+  auto impl = std::make_unique<Impl>(network.security.certificate);
   impl->self = settings.self;
   impl->wake.init(false);
   auto joined = dds::join_network(network);
@@ -182,18 +188,23 @@ void DeployLink::forget(std::uint64_t requester) {
 
 std::vector<DeployLink::BoardNews> DeployLink::take_boards() {
   std::vector<BoardNews> news;
-  dds::take_all<indurop_deploy_BoardReport>(impl_->boards_in.get(),
-                                            [&](const auto& sample, const dds::SampleInfo& info) {
-                                              if (info.valid) {
-                                                news.push_back({wire::word_of<BoardReport>(sample), false});
-                                              }
-                                              if (!info.alive) {
-                                                BoardReport report;
-                                                report.board = sample.board;
-                                                report.agent = sample.agent;
-                                                news.push_back({std::move(report), true});
-                                              }
-                                            });
+  const dds::Handle reader = impl_->boards_in.get();
+  Speakers& speakers = impl_->speakers;
+  dds::take_all<indurop_deploy_BoardReport>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
+    BoardReport report;
+    if (info.valid) {
+      report = wire::word_of<BoardReport>(sample);
+      if (speakers.admit(reader, info.publication, report)) {
+        news.push_back({std::move(report), false});
+      }
+    }
+    if (!info.alive && speakers.leave(reader, info.publication, sample.board, sample.agent)) {
+      report = {};
+      report.board = sample.board;
+      report.agent = sample.agent;
+      news.push_back({std::move(report), true});
+    }
+  });
   return news;
 }
 
@@ -214,8 +225,10 @@ std::vector<DeployLink::OrderNews> DeployLink::take_orders() {
 
 std::vector<deploy::BlobRequest> DeployLink::take_requests() {
   std::vector<deploy::BlobRequest> requests;
-  dds::take_all<indurop_deploy_Request>(impl_->requests_in.get(), [&](const auto& sample, const dds::SampleInfo& info) {
-    if (info.valid && sample.source == impl_->self) {
+  const dds::Handle reader = impl_->requests_in.get();
+  dds::take_all<indurop_deploy_Request>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
+    if (info.valid && sample.source == impl_->self &&
+        impl_->speakers.speaks_as(reader, info.publication, sample.requester)) {
       requests.push_back(wire::word_of<BlobRequest>(sample));
     }
   });
@@ -224,8 +237,9 @@ std::vector<deploy::BlobRequest> DeployLink::take_requests() {
 
 std::vector<deploy::BlobChunk> DeployLink::take_chunks() {
   std::vector<deploy::BlobChunk> chunks;
-  dds::take_all<indurop_deploy_Chunk>(impl_->blobs_in.get(), [&](const auto& sample, const dds::SampleInfo& info) {
-    if (info.valid) {
+  const dds::Handle reader = impl_->blobs_in.get();
+  dds::take_all<indurop_deploy_Chunk>(reader, [&](const auto& sample, const dds::SampleInfo& info) {
+    if (info.valid && impl_->speakers.speaks_as(reader, info.publication, sample.source)) {
       chunks.push_back(wire::word_of<BlobChunk>(sample));
     }
   });
@@ -242,6 +256,14 @@ std::vector<deploy::OtherAgent> DeployLink::other_agents() {
     }
   }
   return agents;
+}
+
+std::vector<deploy::Impostor> DeployLink::impostors() const {
+  return impl_->speakers.impostors();
+}
+
+bool DeployLink::speaks_for(int reader, std::uint64_t publication, const std::string& board) {
+  return impl_->speakers.speaks_for(reader, publication, board);
 }
 
 int DeployLink::participant() const noexcept {

@@ -88,9 +88,14 @@ class DeployLink {
   // Agents in the network whose protocol is another one, as far as they are known by now.
   std::vector<deploy::OtherAgent> other_agents();
 
+  // In a plant with keys: who reports in the name of others, as far as it was heard.
+  [[nodiscard]] std::vector<deploy::Impostor> impostors() const;
+
   // For topics beside these (deploy/link/command_link.h): what they are made in, and what their readers wake.
   [[nodiscard]] int participant() const noexcept;
   [[nodiscard]] rt::SignalWord& wake_word() noexcept;
+  // Is what `reader` got from this publication said by that board? Always in an open plant.
+  [[nodiscard]] bool speaks_for(int reader, std::uint64_t publication, const std::string& board);
 
   // Until something came or CLOCK_MONOTONIC `deadline_ns`.
   void wait(rt::MonoTime deadline);

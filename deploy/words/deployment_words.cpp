@@ -63,4 +63,16 @@ std::string describe(const OtherAgent& agent, unsigned own_protocol) {
                      agent.host.empty() ? "" : " on " + agent.host, agent.protocol, own_protocol);
 }
 
+std::string describe(const Impostor& impostor) {
+  return impostor.board.empty()
+             ? fmt::format(
+                   "somebody with keys of the plant reports in the name of board {}, which is not believed: find "
+                   "out whose keys are in wrong hands (indurop keys list), and revoke them",
+                   impostor.claimed)
+             : fmt::format(
+                   "board {} reports in the name of board {}, which is not believed: its keys may be in wrong "
+                   "hands (indurop keys revoke {})",
+                   impostor.board, impostor.claimed, impostor.board);
+}
+
 }  // namespace indurop::deploy

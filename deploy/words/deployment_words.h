@@ -93,6 +93,16 @@ struct OtherAgent {
 // "the agent of board b on HOST speaks protocol 1 ...", and what to do.
 std::string describe(const OtherAgent& agent, unsigned own_protocol);
 
+// Somebody with keys of the plant who reports in the name of a board that its certificate does not have. Nothing of it
+// is believed.
+struct Impostor {
+  std::string claimed;
+  std::string board;  // that has these keys; empty: it is not known
+  std::uint64_t reports = 0;
+};
+// "board b reports in the name of board a ...", and what to do.
+std::string describe(const Impostor& impostor);
+
 struct Order {
   std::uint64_t deployer = 0;  // this run of the deployer
   std::string host;

@@ -52,7 +52,7 @@ Result<Answered, Failure> BoardCommander::give(deploy::DeployLink& link, std::ui
     }
     link.wait(rt::mono_time(std::min(say_ns, begin + timeout_ns)));
     for (const deploy::CommandReply& reply : commands_->take_replies()) {
-      if (reply.commander != command.commander || reply.agent != command.agent) {
+      if (reply.commander != command.commander || reply.board != command.board || reply.agent != command.agent) {
         continue;
       }
       if (reply.outcome == Outcome::Nonce && !taken) {

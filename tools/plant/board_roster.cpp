@@ -59,6 +59,7 @@ void BoardRoster::listen(deploy::DeployLink& link, std::int64_t now_ns, std::vec
     }
   }
   others_ = link.other_agents();
+  impostors_ = link.impostors();
 }
 
 void BoardRoster::gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context) {

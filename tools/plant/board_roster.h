@@ -50,6 +50,8 @@ class BoardRoster {
   [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, Entry>& all() const noexcept { return boards_; }
   // Agents that cannot be understood.
   [[nodiscard]] const std::vector<deploy::OtherAgent>& others() const noexcept { return others_; }
+  // Who reports in the name of boards it is not; nothing of that is here.
+  [[nodiscard]] const std::vector<deploy::Impostor>& impostors() const noexcept { return impostors_; }
   // Hosts of a name that more than one agent has, both of them alive; empty if it is one.
   [[nodiscard]] std::string twins(const std::string& board, std::int64_t now_ns) const;
 
@@ -57,6 +59,7 @@ class BoardRoster {
   void gather_until(deploy::DeployLink& link, std::int64_t time_ns, bool (*enough)(void*), void* context);
   std::map<std::pair<std::string, std::uint64_t>, Entry> boards_;  // by name and agent
   std::vector<deploy::OtherAgent> others_;
+  std::vector<deploy::Impostor> impostors_;
   std::int64_t newest_ns_ = 0;  // when somebody was heard for the first time
 };
 

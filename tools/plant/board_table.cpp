@@ -114,12 +114,23 @@ void note_others(Context& context, const BoardRoster& roster) {
   for (const deploy::OtherAgent& other : roster.others()) {
     context.out.error(printable(describe(other, schema::protocol())));
   }
+  for (const deploy::Impostor& impostor : roster.impostors()) {
+    context.out.error(printable(fmt::format("{}; heard {} times", describe(impostor), impostor.reports)));
+  }
 }
 
 JsonValue json_of_others(const BoardRoster& roster) {
   JsonValue all = JsonValue::array();
   for (const deploy::OtherAgent& other : roster.others()) {
     all.push_back({{"board", other.board}, {"host", other.host}, {"protocol", other.protocol}});
+  }
+  return all;
+}
+
+JsonValue json_of_impostors(const BoardRoster& roster) {
+  JsonValue all = JsonValue::array();
+  for (const deploy::Impostor& impostor : roster.impostors()) {
+    all.push_back({{"claimed", impostor.claimed}, {"board", impostor.board}, {"reports", impostor.reports}});
   }
   return all;
 }

@@ -19,9 +19,11 @@ using VariablesRead = std::map<std::uint64_t, std::vector<mirror::MirroredVariab
 
 // With `read` also what each board reads from the others and how old it is.
 Table board_table(const BoardRoster& roster, std::int64_t now_ns, const VariablesRead* read = nullptr);
-// Agents of other releases, which no table can show: a line for each on stderr, and as JSON.
+// Agents of other releases and who reports in the name of others, which no table can show: a line for each on stderr,
+// and as JSON.
 void note_others(Context& context, const BoardRoster& roster);
 JsonValue json_of_others(const BoardRoster& roster);
+JsonValue json_of_impostors(const BoardRoster& roster);
 // Boards that others name as members of their plant and that are not there.
 std::vector<std::string> boards_not_heard(const BoardRoster& roster);
 

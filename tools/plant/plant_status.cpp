@@ -74,7 +74,10 @@ int PlantStatus::show(Context& context) {
   }
   note_others(context, roster_);
   print_table(context, table,
-              {{"domain", link.network.domain}, {"not_heard", missing}, {"other_releases", json_of_others(roster_)}},
+              {{"domain", link.network.domain},
+               {"not_heard", missing},
+               {"other_releases", json_of_others(roster_)},
+               {"impostors", json_of_impostors(roster_)}},
               "boards");
   return table.empty() || !missing.empty() ? kUnreachable : kOk;
 }

@@ -107,6 +107,9 @@ base::Json PlantWatch::troubles(const base::Json& boards) const {
       worst.push_back(fmt::format("board {} belongs to the plant and is not heard", name));
     }
   }
+  for (const deploy::Impostor& impostor : roster_.impostors()) {
+    worst.push_back(describe(impostor));
+  }
   worst.insert(worst.end(), rest.begin(), rest.end());
   base::Json list(worst);
   return list;

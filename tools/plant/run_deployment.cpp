@@ -284,7 +284,7 @@ Result<std::vector<std::string>, Failure> present_boards(Context& context, deplo
   }
   const std::string seen =
       fmt::format("{} of {} boards heard within {}", present.size(), wanted.size(), human_age(timeout_ns));
-  if (!missing.empty()) {
+  if (!missing.empty() || !roster.impostors().empty()) {
     note_others(context, roster);
   }
   if (!missing.empty() && !allow_missing) {

@@ -39,7 +39,10 @@ int show(Context& context, Options& options) {
   }
   note_others(context, options.roster);
   print_table(context, table,
-              {{"domain", options.link.network.domain}, {"other_releases", json_of_others(options.roster)}}, "boards");
+              {{"domain", options.link.network.domain},
+               {"other_releases", json_of_others(options.roster)},
+               {"impostors", json_of_impostors(options.roster)}},
+              "boards");
   return table.empty() ? kUnreachable : kOk;
 }
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who says what in a plant with keys: a word of a board counts only from the participant whose certificate has the name
+// of that board. Words in the name of another board are counted. In an open plant every word counts.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dds/guid.h"
+#include "deploy/words/deployment_words.h"
+
+namespace indurop::deploy {
+
+class Speakers {
+ public:
+  // By the certificate of this participant; an empty path: the plant is open.
+  explicit Speakers(const std::string& certificate);
+
+  // May this report be believed? `publication`: of its writer, as `reader` knows it.
+  bool admit(dds::Handle reader, dds::InstanceHandle publication, const BoardReport& report);
+  // Nobody writes this agent's reports any more. False: only somebody else says so.
+  bool leave(dds::Handle reader, dds::InstanceHandle publication, const std::string& board, std::uint64_t agent);
+  bool speaks_for(dds::Handle reader, dds::InstanceHandle publication, const std::string& board);
+  // Is it the agent with this session, or if no agent has it, at least no board?
+  bool speaks_as(dds::Handle reader, dds::InstanceHandle publication, std::uint64_t session);
+
+  [[nodiscard]] std::vector<Impostor> impostors() const;
+
+ private:
+  [[nodiscard]] std::optional<dds::Guid> participant_of(dds::Handle reader, dds::InstanceHandle publication);
+  const std::string& digest_of(const std::string& board);
+  void note_impostor(const dds::Guid& who, const std::string& claimed);
+
+  struct Agent {
+    std::string board;
+    dds::InstanceHandle publication = 0;
+  };
+  struct Impersonation {
+    dds::Guid who{};
+    std::string claimed;
+    std::uint64_t reports = 0;
+  };
+  std::string plant_;                                      // empty: open
+  std::map<dds::InstanceHandle, dds::Guid> publications_;  // whose they are
+  std::map<std::string, std::string> digests_;             // of subjects, by board
+  std::map<std::uint64_t, Agent> agents_;                  // by session
+  std::set<dds::Guid> boards_;                             // participants that report
+  std::vector<Impersonation> impersonations_;
+};
+
+}  // namespace indurop::deploy
