@@ -5,7 +5,7 @@
 namespace indurop::schema {
 
 unsigned protocol() noexcept {
-  return 3;
+  return 4;
 }
 
 }  // namespace indurop::schema

@@ -45,6 +45,7 @@ struct Wire<BoardReport> {
       Pair{&BoardReport::plant, &Sample::plant},
       Pair{&BoardReport::current, &Sample::current},
       Pair{&BoardReport::current_size, &Sample::current_size},
+      Pair{&BoardReport::comment, &Sample::comment},
       Pair{&BoardReport::previous, &Sample::previous},
       Pair{&BoardReport::members, &Sample::members},
       Pair{&BoardReport::deployer, &Sample::deployer},

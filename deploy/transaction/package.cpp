@@ -5,11 +5,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "base/file_problem.h"
 #include "base/json.h"
+#include "base/read_file.h"
+#include "base/text.h"
 #include "config/check/io_access.h"
 #include "keys/digest.h"
 
@@ -22,6 +26,7 @@ constexpr int kFormat = 1;
 constexpr std::size_t kMostFiles = 10'000;
 constexpr std::size_t kMostBoards = 1'000;
 constexpr std::size_t kLongestPath = 1'000;
+constexpr std::size_t kLongestComment = 1'000;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36U;
 
 bool is_safe_path(const std::string& text) {
@@ -33,10 +38,12 @@ bool is_safe_path(const std::string& text) {
   return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
 }
 
+enum class Use { Program, Data };  // a module or a library of types; anything else
+
 // The longest folder all files lie below.
-std::filesystem::path common_folder(const std::vector<std::filesystem::path>& files) {
-  std::filesystem::path common = files.front().parent_path();
-  for (const auto& file : files) {
+std::filesystem::path common_folder(const std::map<std::filesystem::path, Use>& files) {
+  std::filesystem::path common = files.begin()->first.parent_path();
+  for (const auto& [file, use] : files) {
     std::filesystem::path shared;
     auto a = common.begin();
     for (auto b = file.begin(); a != common.end() && b != file.end() && *a == *b; ++a, ++b) {
@@ -62,6 +69,70 @@ std::vector<std::filesystem::path> files_named_by_properties(const config::Modul
     }
   }
   return files;
+}
+
+// What travels, and what it is named as.
+std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const std::filesystem::path& manifest) {
+  const std::filesystem::path folder = manifest.parent_path();
+  std::map<std::filesystem::path, Use> files;
+  const auto add_program = [&](const std::string& as_written) {
+    if (!std::filesystem::path(as_written).is_absolute()) {
+      files.emplace((folder / as_written).lexically_normal(), Use::Program);
+    }
+  };
+  const auto add_data = [&](const std::vector<std::filesystem::path>& named) {
+    for (const std::filesystem::path& file : named) {
+      files[file] = Use::Data;
+    }
+  };
+  for (const std::string& library : plant.types_as_written) {
+    add_program(library);
+  }
+  for (const config::Board& board : plant.boards) {
+    for (const config::Module& module : board.config.modules) {
+      add_program(module.file_as_written);
+      add_data(files_named_by_properties(module, folder));
+      add_data(io_files_of(module, folder));
+    }
+  }
+  add_data({manifest});
+  return files;
+}
+
+bool is_program(const std::filesystem::path& file) {
+  constexpr std::string_view kElf =
+      "\x7f"
+      "ELF";
+  const auto opened = base::open_file(file);
+  std::array<char, kElf.size()> begin{};
+  return opened && ::pread(opened->file.get(), begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
+         std::string_view(begin.data(), begin.size()) == kElf;
+}
+
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path inside = file.lexically_relative(std::filesystem::weakly_canonical(folder, error));
+  return !error && !inside.empty() && *inside.begin() != "..";
+}
+
+// Why some of the files must not travel; empty: all may. What links and ".." lead to counts.
+std::string refusal_of(const std::map<std::filesystem::path, Use>& files,
+                       const std::vector<std::filesystem::path>& allowed) {
+  std::vector<std::string> refused;
+  for (const auto& [file, use] : files) {
+    std::error_code error;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
+    const bool inside =
+        std::any_of(allowed.begin(), allowed.end(), [&](const auto& one) { return lies_in(real, one); });
+    if (!error && std::filesystem::exists(real, error) && !inside && !(use == Use::Program && is_program(real))) {
+      refused.push_back(real == file ? file.string() : fmt::format("{} ({})", file.string(), real.string()));
+    }
+  }
+  return refused.empty() ? std::string{}
+                         : fmt::format(
+                               "{} would be sent to all boards and is not in the manifest's folder; if the plant "
+                               "needs it, name the folder it may come from: --also FOLDER",
+                               base::enumerate(refused));
 }
 
 std::string problem_of(const Package& package) {
@@ -102,11 +173,14 @@ std::string to_text(const Package& package) {
     files.push_back(
         {{"path", file.path}, {"sha256", file.digest}, {"size", file.size}, {"executable", file.executable}});
   }
-  const Json whole = {{"indurop_package", kFormat},
-                      {"plant", package.plant},
-                      {"manifest", package.manifest},
-                      {"boards", package.boards},
-                      {"files", files}};
+  Json whole = {{"indurop_package", kFormat},
+                {"plant", package.plant},
+                {"manifest", package.manifest},
+                {"boards", package.boards},
+                {"files", files}};
+  if (!package.comment.empty()) {
+    whole["comment"] = package.comment;
+  }
   return whole.dump();
 }
 
@@ -123,9 +197,10 @@ Result<Package, base::Problem> read_package(std::string_view text) {
   }
   Package package;
   const Json& files = whole["files"];
+  (void)read(whole, "comment", package.comment);
   if (!read(whole, "plant", package.plant) || !read(whole, "manifest", package.manifest) ||
       !read(whole, "boards", package.boards) || package.boards.size() > kMostBoards || !files.is_array() ||
-      files.values().size() > kMostFiles) {
+      files.values().size() > kMostFiles || package.comment.size() > kLongestComment) {
     return damaged;
   }
   for (const Json& each : files.values()) {
@@ -141,33 +216,25 @@ Result<Package, base::Problem> read_package(std::string_view text) {
   return package;
 }
 
-Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant) {
+Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
+                                              const std::vector<std::filesystem::path>& also,
+                                              const std::string& comment) {
   const std::filesystem::path manifest = std::filesystem::absolute(plant.file).lexically_normal();
-  std::set<std::filesystem::path> travelling{manifest};
-  const auto add = [&](const std::string& as_written) {
-    if (!std::filesystem::path(as_written).is_absolute()) {
-      travelling.insert((manifest.parent_path() / as_written).lexically_normal());
-    }
-  };
-  for (const std::string& library : plant.types_as_written) {
-    add(library);
-  }
+  const std::filesystem::path folder = manifest.parent_path();
   PackedPlant packed;
   packed.package.plant = plant.name;
+  packed.package.comment = comment;
   for (const config::Board& board : plant.boards) {
     packed.package.boards.push_back(board.name);
-    for (const config::Module& module : board.config.modules) {
-      add(module.file_as_written);
-      for (const std::filesystem::path& file : files_named_by_properties(module, manifest.parent_path())) {
-        travelling.insert(file);
-      }
-      for (const std::filesystem::path& file : io_files_of(module, manifest.parent_path())) {
-        travelling.insert(file);
-      }
-    }
   }
-  const std::filesystem::path base = common_folder({travelling.begin(), travelling.end()});
-  for (const std::filesystem::path& file : travelling) {
+  const std::map<std::filesystem::path, Use> travelling = files_of(plant, manifest);
+  std::vector<std::filesystem::path> allowed{folder};
+  allowed.insert(allowed.end(), also.begin(), also.end());
+  if (std::string outside = refusal_of(travelling, allowed); !outside.empty()) {
+    return base::Problem{std::move(outside)};
+  }
+  const std::filesystem::path base = common_folder(travelling);
+  for (const auto& [file, use] : travelling) {
     PackageFile entry;
     entry.path = file.lexically_relative(base).string();
     auto digest = keys::digest_of_file(file);

@@ -30,6 +30,7 @@ struct Package {
   std::string manifest;             // path of the manifest among `files`
   std::vector<std::string> boards;  // of the plant, in file order
   std::vector<PackageFile> files;   // by path
+  std::string comment;              // of whoever deploys it
 };
 
 std::string to_text(const Package& package);
@@ -43,7 +44,11 @@ struct PackedPlant {
   std::map<std::string, std::filesystem::path> sources;  // digest -> file here
 };
 // Every board gets all files, for each checks the whole plant itself. File names beginning with '/' mean the board's
-// own files and do not travel. A problem if a file cannot be read. Not real-time safe.
-Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant);
+// own files and do not travel. What lies outside of the manifest's folder and of the folders `also`, links followed,
+// travels only if it is a module or a library of types: a project of somebody else must not take files of this machine
+// along. A problem names all files that cannot be read or must not travel. Not real-time safe.
+Result<PackedPlant, base::Problem> pack_plant(const config::Plant& plant,
+                                              const std::vector<std::filesystem::path>& also = {},
+                                              const std::string& comment = {});
 
 }  // namespace indurop::deploy

@@ -44,6 +44,7 @@ struct CommittedDeployment {
   std::string plant;
   std::string current;             // id, empty: nothing
   std::uint64_t current_size = 0;  // of its package's text
+  std::string comment;             // of whoever deployed it
   std::string previous;            // likewise
   std::vector<std::string> members;
   std::string grant;  // the deployer's signature of grant_text() of this; empty: unsigned

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text.h"
 #include "config/xml/plant_reader.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
@@ -22,6 +23,8 @@ struct Options {
   deploy::LinkSettings link;
   std::int64_t timeout_ns = 5'000'000'000;
   std::int64_t health_ns = 3'000'000'000;
+  std::vector<std::string> also;  // folders
+  std::string comment;
   bool allow_missing = false;
 };
 
@@ -35,6 +38,7 @@ std::vector<std::string> addresses(const config::Plant& plant) {
   return all;
 }
 
+constexpr std::size_t kLongestComment = 200;
 constexpr std::int64_t kLeftOutNs = 1'000'000'000;  // for boards that are not in the manifest to be heard
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
@@ -125,7 +129,7 @@ int deploy_plant(Context& context, Options& options) {
     context.out.error("nothing was deployed");
     return kCheckFailed;
   }
-  const auto packed = deploy::pack_plant(checked.plant);
+  const auto packed = deploy::pack_plant(checked.plant, {options.also.begin(), options.also.end()}, options.comment);
   if (!packed) {
     context.out.error(packed.error().text);
     return kFailed;
@@ -175,6 +179,15 @@ Action declare(base::Options& app, Context& context) {
                   "How long to wait for boards to be heard or to answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
                   "How long to watch the new deployment before it is committed (default: 3s)");
+  app.add("-m,--comment", "TEXT", options->comment, "What this deployment is, for history and boards")
+      .check([](const std::string& text) {
+        return base::characters(text) <= kLongestComment && printable(text) == text
+                   ? std::string()
+                   : fmt::format("a comment is one line of at most {} characters", kLongestComment);
+      });
+  app.add("--also", "FOLDER", options->also,
+          "Files of the plant may lie in this folder, too, not only in the manifest's; may be given several times")
+      .completes(base::Completion::Folder);
   app.flag("--allow-missing", options->allow_missing,
            "Deploy to the boards that are heard; the others take it over when they appear");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -193,7 +206,8 @@ const Verb kDeployVerb{
     "manifest.\n"
     "Examples:\n"
     "  indurop deploy plant.xml\n"
-    "  indurop deploy plant.xml --keys keys --health 5s\n",
+    "  indurop deploy plant.xml --keys keys --health 5s\n"
+    "  indurop deploy plant.xml -m 'gripper opens wider'\n",
     &declare};
 
 }  // namespace indurop::tools

@@ -107,7 +107,7 @@ class Packing : public testing::Test {
 };
 
 TEST_F(Packing, Files_keep_their_places_to_each_other) {
-  const auto sut = pack_plant(plant("../mods/x.so"));
+  const auto sut = pack_plant(plant("../mods/x.so"), {folder_});
   ASSERT_TRUE(sut) << sut.error().text;
   ASSERT_EQ(sut->package.files.size(), 2U);
   EXPECT_EQ(sut->package.manifest, "cell/plant.xml");
@@ -118,10 +118,38 @@ TEST_F(Packing, Files_keep_their_places_to_each_other) {
 }
 
 TEST_F(Packing, One_changed_byte_is_another_deployment) {
-  const std::string before = pack_plant(plant("../mods/x.so"))->id;
-  EXPECT_EQ(pack_plant(plant("../mods/x.so"))->id, before);
+  const std::string before = pack_plant(plant("../mods/x.so"), {folder_})->id;
+  EXPECT_EQ(pack_plant(plant("../mods/x.so"), {folder_})->id, before);
   put("mods/x.so", "Module");
-  EXPECT_NE(pack_plant(plant("../mods/x.so"))->id, before);
+  EXPECT_NE(pack_plant(plant("../mods/x.so"), {folder_})->id, before);
+}
+
+TEST_F(Packing, What_lies_outside_of_the_folder_does_not_travel_unless_it_was_allowed) {
+  put("secret.txt", "not for boards");
+  put("cell/plain.txt", "of the plant");
+  std::filesystem::create_symlink(folder_ / "secret.txt", folder_ / "cell/link.txt");
+  config::Plant with = plant("./x.so");
+  put("cell/x.so", "module");
+  auto& properties = with.boards[0].config.modules[0].properties;
+  for (const char* named : {"../secret.txt", "link.txt", "../cell/../secret.txt", "plain.txt link.txt"}) {
+    properties = {{"x", named}};
+    const auto sut = pack_plant(with);
+    ASSERT_FALSE(sut) << named;
+    EXPECT_THAT(sut.error().text, HasSubstr((folder_ / "secret.txt").string())) << named;
+    EXPECT_THAT(sut.error().text, HasSubstr("--also FOLDER"));
+    EXPECT_TRUE(pack_plant(with, {folder_})) << named;
+  }
+  properties = {{"x", "plain.txt"}};
+  EXPECT_TRUE(pack_plant(with));
+  // A module is named by the manifest, and is a program: others may have built it elsewhere.
+  EXPECT_THAT(pack_plant(plant("../secret.txt")).error().text, HasSubstr("secret.txt"));
+  std::filesystem::remove(folder_ / "cell/x.so");
+  std::filesystem::create_symlink(folder_ / "secret.txt", folder_ / "cell/x.so");
+  EXPECT_THAT(pack_plant(plant("./x.so")).error().text, HasSubstr("secret.txt"));
+  put("mods/x.so",
+      "\x7f"
+      "ELF and so on");
+  EXPECT_TRUE(pack_plant(plant("../mods/x.so")));
 }
 
 TEST_F(Packing, Files_of_the_board_itself_do_not_travel) {
@@ -139,15 +167,15 @@ TEST_F(Packing, The_files_of_an_io_module_travel_too) {
   config::Module& module = with.boards[0].config.modules[0];
   module.file = module.file_as_written;
   module.properties = {{"config", "io.xml"}};
-  const auto sut = pack_plant(with);
+  const auto sut = pack_plant(with, {folder_});
   ASSERT_TRUE(sut) << sut.error().text;
   ASSERT_EQ(sut->package.files.size(), 3U);
   EXPECT_EQ(sut->package.files[0].path, "cell/io.xml");
   EXPECT_EQ(sut->package.files[2].path, "mods/values.csv");
   module.properties = {{"config", "/etc/io.xml"}};
-  EXPECT_EQ(pack_plant(with)->package.files.size(), 1U) << "the board's own";
+  EXPECT_EQ(pack_plant(with, {folder_})->package.files.size(), 1U) << "the board's own";
   module.properties = {{"config", "gone.xml"}};
-  EXPECT_THAT(pack_plant(with).error().text, HasSubstr("gone.xml"));
+  EXPECT_THAT(pack_plant(with, {folder_}).error().text, HasSubstr("gone.xml"));
 }
 
 TEST_F(Packing, Files_that_properties_name_travel_too) {
@@ -156,7 +184,7 @@ TEST_F(Packing, Files_that_properties_name_travel_too) {
   config::Plant with = plant("../mods/x.so");
   with.boards[0].config.modules[0].properties = {
       {"jobs", "pick.job  gone.job"}, {"urdf", "../mods/arm.urdf"}, {"own", "/etc/hostname"}, {"folder", "../mods"}};
-  const auto sut = pack_plant(with);
+  const auto sut = pack_plant(with, {folder_});
   ASSERT_TRUE(sut) << sut.error().text;
   std::vector<std::string> paths;
   for (const PackageFile& file : sut->package.files) {
