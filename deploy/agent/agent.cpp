@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/agent.h"
 
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <set>
-
 #include "base/exit_code.h"
 #include "base/program_folder.h"
 #include "base/stop_signal.h"
@@ -16,15 +11,15 @@
 #include "deploy/agent/board_link.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
-#include "deploy/agent/box_watch.h"
+#include "deploy/agent/board_verify.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/offer.h"
+#include "deploy/agent/other_boards.h"
 #include "deploy/agent/service_manager.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/board_transaction.h"
 #include "rt/clock.h"
-#include "schema/topic_name.h"
 #include "vars/box_wish.h"
 
 namespace indurop::deploy {
@@ -35,35 +30,10 @@ using Do = BoardTransaction::Do;
 constexpr std::chrono::milliseconds kLook{20};
 constexpr std::chrono::milliseconds kTell{500};  // at least
 constexpr std::chrono::milliseconds kTellFast{50};
-constexpr std::size_t kOthersTold = 32;  // then it may be somebody who invents them
-
-std::vector<std::string> node_arguments(const AgentOptions& options) {
-  std::vector<std::string> words;
-  if (options.link.network.one_host) {
-    words.emplace_back("--one-host");
-  }
-  if (options.core) {
-    words.insert(words.end(), {"--core", std::to_string(*options.core)});
-  }
-  if (options.require_rt) {
-    words.emplace_back("--require-rt");
-  }
-  if (options.quiet) {
-    words.emplace_back("--quiet");
-  }
-  return words;
-}
 
 // As the transaction hears it: empty is success.
 std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
-}
-
-LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
-  LinkSettings settings = options.link;
-  settings.self = self;
-  settings.network.board = options.board;
-  return settings;
 }
 
 class Agent {
@@ -77,13 +47,18 @@ class Agent {
         deployment_(state, options.board, options.link.network.one_host),
         transaction_(options.board),
         fetcher_(state, self_, options.board),
-        process_(options.board, node_arguments(options), {state.folder() / "blackbox", options.board}, log),
+        process_(
+            options.board, node_arguments(options), {state.folder() / "blackbox", options.board},
+            [this](const std::string& id) { return verify(id); }, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
         alarms_(options.board, log),
         board_commands_(options.board, self_, keys_, process_, recorder_, log),
         values_(options.board),
-        server_(self_, [this](const std::string& name) { return offer(name, options_.board, state_, values_); }),
-        net_(link_settings(options, self_), keys_, log) {
+        verify_(state),
+        server_(self_,
+                [this](const std::string& name) { return offer(name, options_.board, state_, values_, verify_); }),
+        net_(link_settings(options, self_), keys_, log),
+        others_(options.board, log) {
     host_ = host_name();
   }
 
@@ -125,13 +100,24 @@ class Agent {
       log_.info("board {}: not part of plant {} any more", options_.board, committed.plant);
       return;
     }
-    if (const auto installed = state_.install(committed.current); installed) {
-      log_.info("board {}: resuming deployment {} of plant {}", options_.board, shown_id(committed.current),
-                committed.plant);
-      process_.want(state_.manifest(committed.current), committed.current);
-    } else {
-      log_.error("the committed deployment cannot be resumed: {}", installed.error().text);
+    log_.info("board {}: resuming deployment {} of plant {}", options_.board, shown_id(committed.current),
+              committed.plant);
+    note_damage(text_of(state_.repair(committed.current)));
+    process_.want(deployment_.manifest(committed.current), committed.current);
+  }
+
+  // Of what is committed. What this board cannot make again by itself it fetches from another one, see listen().
+  void note_damage(const std::string& problem) {
+    damaged_ = !problem.empty();
+    if (damaged_) {
+      log_.error("the committed deployment is damaged: {}", problem);
     }
+  }
+
+  std::string verify(const std::string& id) {
+    std::string problem = text_of(deployment_.verify(id));
+    damaged_ = damaged_ || (!problem.empty() && id == state_.committed().current);
+    return problem;
   }
 
   void connect(rt::MonoTime now) {
@@ -152,31 +138,11 @@ class Agent {
         perform(transaction_.hear(news.order, now, rt::WallClock::now()), now);
       }
     }
-    for (auto& news : link_->take_boards()) {
-      const auto key = std::pair(news.report.board, news.report.agent);
-      const bool same_plant = key.first != options_.board && news.report.plant == state_.committed().plant;
-      const auto why = news.gone ? box_watch_.gone(news.report) : box_watch_.hear(news.report);
-      if (why && same_plant) {
-        keep_box(*why);
-      }
-      if (news.gone) {
-        others_.erase(key);
-      } else {
-        others_[key] = std::move(news.report);
-      }
+    for (const std::string& why : others_.listen(*link_, state_.committed().plant)) {
+      keep_box(why);
     }
-    for (const OtherAgent& other : link_->other_agents()) {
-      if (told_others_.size() < kOthersTold && told_others_.insert(other.host + "/" + other.board).second) {
-        log_.warning("{}", describe(other, schema::protocol()));
-      }
-    }
-    for (const auto& [key, other] : others_) {
-      // It missed a deployment of its plant, which may be the one that leaves it out.
-      const bool dropped = other.plant == state_.committed().plant && deployment_.belongs(state_.committed().members);
-      const bool complete =
-          std::find(other.members.begin(), other.members.end(), key.first) != other.members.end();  // has all files
-      if (key.first != options_.board && complete && (deployment_.belongs(other.members) || dropped) &&
-          other.generation > state_.committed().generation &&
+    for (const auto& [key, other] : others_.all()) {
+      if (deployment_.lacks(other, damaged_) &&
           keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
         perform(transaction_.catch_up(other, now), now);
       }
@@ -232,6 +198,10 @@ class Agent {
       (void)link_->take_chunks();
     }
     busy_ = server_.serve(*link_, now);
+    if (const auto problem = verify_.step()) {
+      note_damage(*problem);
+    }
+    busy_ = busy_ || verify_.busy();
   }
 
   void follow(rt::MonoTime now) {
@@ -250,7 +220,7 @@ class Agent {
         return;
       case Do::Fetch:
         log_.info("deployment {} of {}: fetching", shown_id(order.deployment), order.host);
-        fetcher_.begin(transaction_.source(), order.deployment, order.size);
+        fetcher_.begin(others_.with_files_of(order.plant, transaction_.source()), order.deployment, order.size);
         break;
       case Do::Check:
         tell_now_ = true;
@@ -279,6 +249,7 @@ class Agent {
   }
 
   void commit(const Order& order) {
+    damaged_ = false;
     if (const auto committed = deployment_.commit(order); committed) {
       log_.info("deployment {}: committed", shown_id(order.deployment));
     } else {
@@ -317,6 +288,9 @@ class Agent {
     out.refused = refused_;
     out.refusal = refusal_;
     out.message = transaction_.message();
+    if (!out.message.empty() && out.phase == Phase::Steady && order.deployment != committed.current) {
+      out.message = fmt::format("deployment {} was taken back: {}", shown_id(order.deployment), out.message);
+    }
     if (out.message.empty() && process_.condition() != NodeCondition::Running) {
       out.message = process_.reason();
     }
@@ -364,21 +338,21 @@ class Agent {
   BoardAlarms alarms_;
   BoardCommands board_commands_;
   BoardValues values_;
+  BoardVerify verify_;
   BlobServer server_;
   ServiceManager service_manager_;
   BoardLink net_;
   DeployLink* link_ = nullptr;  // of net_, as commands_
   CommandLink* commands_ = nullptr;
-  std::map<std::pair<std::string, std::uint64_t>, BoardReport> others_;
-  std::set<std::string> told_others_;  // agents of other releases
+  OtherBoards others_;
   std::uint64_t refused_ = 0;
   std::string refusal_;
+  bool damaged_ = false;  // what is committed, and this board cannot make it again by itself
   bool busy_ = false;
   bool tell_now_ = true;
   rt::MonoTime told_;
   NodeCondition told_node_ = NodeCondition::None;
   std::uint64_t told_faults_ = 0;
-  BoxWatch box_watch_;
 };
 
 }  // namespace
@@ -386,7 +360,7 @@ class Agent {
 int run_agent(const AgentOptions& options) {
   base::StopSignal signals;
   const base::Log log("indurop-agent", options.board, options.quiet);
-  auto state = AgentState::open(options.board);
+  auto state = AgentState::open(options.board, [&log](const std::string& line) { log.error("{}", line); });
   if (!state) {
     log.error("{}", state.error().text);
     return kFailed;

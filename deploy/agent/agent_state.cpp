@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <stdio.h>  // renameat2
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include "base/json.h"
 #include "base/read_file.h"
 #include "base/replace_file.h"
+#include "base/text.h"
 #include "keys/digest.h"
 #include "rt/file_lock.h"
 #include "vars/retain.h"
@@ -27,53 +29,40 @@ namespace fs = std::filesystem;
 using base::Json;
 using base::Problem;
 
-constexpr const char* kCommitted = "committed.json";
 constexpr std::size_t kHistoryKept = 20;
-constexpr std::size_t kDeploymentsKept = 5;
 constexpr std::chrono::hours kPiecesKept{24};  // of a deployment that was cut short
-constexpr std::size_t kFolderDigits = 16;
+constexpr mode_t kFileMode = 0640;
+constexpr mode_t kProgramMode = 0750;
 
 Problem failed(const std::string& what, const fs::path& where, int number) {
   return {fmt::format("{} {}: {}", what, where.string(), std::strerror(number))};
 }
 
-std::string read_text(const fs::path& file) {
-  auto text = base::read_file(file);
-  return text ? std::move(*text) : std::string{};
+std::string package_name(const std::string& id) {
+  return fmt::format("the package of deployment {}", shown_id(id));
 }
 
-Json history_json(const std::vector<HistoryEntry>& history) {
-  Json entries = Json::array();
-  for (const HistoryEntry& entry : history) {
-    entries.push_back({{"deployment", entry.deployment},
-                       {"plant", entry.plant},
-                       {"generation", entry.generation},
-                       {"host", entry.host},
-                       {"wall_ns", entry.wall_ns},
-                       {"outcome", entry.outcome}});
+// One of files/ and one of a deployment's folder, as older releases made them, would change together.
+bool shares_files(const fs::path& folder, const Package& package) {
+  return std::any_of(package.files.begin(), package.files.end(), [&](const PackageFile& entry) {
+    std::error_code error;
+    return fs::hard_link_count(folder / entry.path, error) > 1 && !error;
+  });
+}
+
+// `fresh` becomes `target`, and what was there is removed. A node that runs from there keeps what it has open.
+Result<void, Problem> replace_folder(const fs::path& fresh, const fs::path& target) {
+  if (::rename(fresh.c_str(), target.c_str()) == 0) {
+    return {};
   }
-  return entries;
-}
-
-std::string dump(const Json& json) {
-  return json.dump(2) + "\n";
-}
-
-// Nothing if anything is missing but the grant, which plants without keys do not have.
-std::optional<Committed> from_json(const Json& whole) {
-  Committed out;
-  static_cast<void>(read(whole, "grant", out.grant));
-  bool good = read(whole, "generation", out.generation) && read(whole, "plant", out.plant) &&
-              read(whole, "current", out.current) && read(whole, "current_size", out.current_size) &&
-              read(whole, "previous", out.previous) && read(whole, "members", out.members) &&
-              whole["history"].is_array();
-  for (const Json& each : whole["history"].values()) {
-    HistoryEntry& entry = out.history.emplace_back();
-    good = good && read(each, "deployment", entry.deployment) && read(each, "plant", entry.plant) &&
-           read(each, "generation", entry.generation) && read(each, "host", entry.host) &&
-           read(each, "wall_ns", entry.wall_ns) && read(each, "outcome", entry.outcome);
+  std::error_code error;
+  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
+    fs::remove_all(target, error);  // a file system that cannot exchange
+    fs::rename(fresh, target, error);
+    return error ? Result<void, Problem>(failed("cannot make", target, error.value())) : Result<void, Problem>();
   }
-  return good ? std::optional(std::move(out)) : std::nullopt;
+  fs::remove_all(fresh, error);
+  return {};
 }
 
 // Removes what is in a folder, is not among `wanted` and is older than `age`.
@@ -91,7 +80,7 @@ void remove_others(const fs::path& folder, const std::set<std::string>& wanted, 
 
 }  // namespace
 
-Result<AgentState, Problem> AgentState::open(const std::string& board) {
+Result<AgentState, Problem> AgentState::open(const std::string& board, Tell tell) {
   const fs::path folder = vars::state_directory(board);
   std::error_code error;
   for (const fs::path& needed : {folder / "files", folder / "parts", folder / "deployments"}) {
@@ -101,12 +90,16 @@ Result<AgentState, Problem> AgentState::open(const std::string& board) {
                                  error.message())};
     }
   }
+  // What is deployed may hold what not every user of the machine is to read.
+  if (::chmod(folder.c_str(), kProgramMode) != 0) {
+    return failed("cannot keep others out of", folder, errno);
+  }
   const fs::path lock_file = folder / "agent.lock";
-  const int lock = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  const int lock = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kFileMode);
   if (lock < 0) {
     return failed("cannot open", lock_file, errno);
   }
-  AgentState state(folder, lock);
+  AgentState state(folder, lock, std::move(tell));
   if (!rt::lock_file(lock, rt::FileLock::Exclusive)) {
     return Problem{fmt::format("another agent of board {} runs on this host", board)};
   }
@@ -117,8 +110,9 @@ Result<AgentState, Problem> AgentState::open(const std::string& board) {
 }
 
 AgentState::AgentState(AgentState&& other) noexcept
-    : folder_(std::move(other.folder_)),
+    : files_(std::move(other.files_)),
       lock_(std::exchange(other.lock_, -1)),
+      tell_(std::move(other.tell_)),
       committed_(std::move(other.committed_)) {}
 
 AgentState::~AgentState() {
@@ -127,18 +121,32 @@ AgentState::~AgentState() {
   }
 }
 
+void AgentState::tell(const std::string& line) const {
+  if (tell_) {
+    tell_(line);
+  }
+}
+
 Result<void, Problem> AgentState::load() {
-  const fs::path file = folder_ / kCommitted;
-  std::error_code error;
-  if (!fs::exists(file, error)) {
+  const fs::path file = folder() / kCommittedFile;
+  const auto text = base::read_file(file);
+  if (!text) {
+    return text.error().sys_errno == ENOENT ? Result<void, Problem>()
+                                            : Result<void, Problem>(Problem{base::cannot_read(file, text.error())});
+  }
+  auto committed = read_committed(*text);
+  if (committed) {
+    committed_ = std::move(*committed);
     return {};
   }
-  std::optional<Committed> committed = from_json(Json::parse(read_text(file)).value_or(Json()));
-  if (!committed) {
-    return Problem{
-        fmt::format("{} is damaged; remove {} to begin without a deployment", file.string(), folder_.string())};
+  const fs::path aside = file.string() + ".damaged";
+  if (::rename(file.c_str(), aside.c_str()) != 0) {
+    return failed("cannot rename", file, errno);
   }
-  committed_ = std::move(*committed);
+  tell(
+      fmt::format("{} is damaged: {}. It is kept as {}, and this board begins without a deployment: it takes over "
+                  "that of the other boards of its plant, or deploy again",
+                  file.string(), committed.error().text, aside.filename().string()));
   return {};
 }
 
@@ -146,13 +154,8 @@ Result<void, Problem> AgentState::commit(Committed next) {
   if (next.history.size() > kHistoryKept) {
     next.history.erase(next.history.begin(), next.history.end() - kHistoryKept);
   }
-  const Json whole = {
-      {"indurop_state", 1},        {"generation", next.generation},     {"plant", next.plant},
-      {"current", next.current},   {"current_size", next.current_size}, {"grant", next.grant},
-      {"previous", next.previous}, {"members", next.members},           {"history", history_json(next.history)}};
-  const fs::path file = folder_ / kCommitted;
-  constexpr mode_t kMode = 0644;
-  if (const auto written = base::replace_file(file, dump(whole), base::Durable::Yes, kMode); !written) {
+  const fs::path file = folder() / kCommittedFile;
+  if (const auto written = base::replace_file(file, committed_text(next), base::Durable::Yes, kFileMode); !written) {
     return Problem{base::cannot_write(file, written.error())};
   }
   committed_ = std::move(next);
@@ -160,12 +163,22 @@ Result<void, Problem> AgentState::commit(Committed next) {
 }
 
 std::string AgentState::history_text() const {
-  return dump({{"current", committed_.current}, {"history", history_json(committed_.history)}});
+  const Json whole{{"current", committed_.current}, {"history", history_json(committed_.history)}};
+  return whole.dump(2) + "\n";
 }
 
-bool AgentState::has(const std::string& digest) const {
+bool AgentState::has_sound(const std::string& digest, const std::string& name) {
+  if (!has(digest)) {
+    return false;
+  }
+  const auto damage = files_.damage_of(digest, name);
+  if (!damage) {
+    return true;
+  }
   std::error_code error;
-  return keys::is_digest(digest) && fs::is_regular_file(file(digest), error);
+  fs::remove(file(digest), error);
+  tell(describe(*damage) + "; it is dropped");
+  return false;
 }
 
 Result<void, Problem> AgentState::keep(const std::string& digest) {
@@ -176,82 +189,99 @@ Result<void, Problem> AgentState::keep(const std::string& digest) {
   if (::rename(from.c_str(), file(digest).c_str()) != 0) {
     return failed("cannot rename", from, errno);
   }
-  (void)base::sync_to_disk(folder_ / "files");
+  (void)base::sync_to_disk(folder() / "files");
   return {};
 }
 
-Result<Package, Problem> AgentState::package(const std::string& id) const {
-  if (!has(id)) {
-    return Problem{fmt::format("deployment {} is not on this board any more", shown_id(id))};
+// Copies are not brought to the disk: they are verified each time before they are run.
+Result<void, Problem> AgentState::lay_out(const Package& package, const fs::path& fresh) {
+  std::error_code error;
+  fs::remove_all(fresh, error);
+  for (const PackageFile& entry : package.files) {
+    const fs::path name = fresh / entry.path;
+    fs::create_directories(name.parent_path(), error);
+    if (error) {
+      return failed("cannot make", name.parent_path(), error.value());
+    }
+    if (!has(entry.digest)) {
+      return Problem{fmt::format("{} is not on this board: {} is missing", entry.path, file(entry.digest).string())};
+    }
+    if (auto copied = clone_file(file(entry.digest), name); !copied) {
+      return copied;
+    }
+    if (::chmod(name.c_str(), entry.executable ? kProgramMode : kFileMode) != 0) {
+      return failed("cannot set the mode of", name, errno);
+    }
+    const auto copy = keys::digest_of_file(name);
+    if (!copy || copy->digest != entry.digest) {
+      const Damage damage{file(entry.digest), entry.path, entry.digest, copy ? copy->digest : std::string{}};
+      (void)has_sound(entry.digest, entry.path);
+      return Problem{describe(damage)};
+    }
   }
-  const std::string text = read_text(file(id));
-  if (keys::digest_of(text) != id) {
-    return Problem{fmt::format("the package of deployment {} is damaged on this board's disk", shown_id(id))};
-  }
-  return read_package(text);
-}
-
-fs::path AgentState::deployment(const std::string& id) const {
-  return folder_ / "deployments" / id.substr(0, kFolderDigits);
+  return {};
 }
 
 Result<void, Problem> AgentState::install(const std::string& id) {
   const auto content = package(id);
   if (!content) {
+    (void)has_sound(id, package_name(id));
     return content.error();
   }
-  const fs::path target = deployment(id);
-  const fs::path fresh = target.string() + ".new";
+  const fs::path target = files_.deployment(id);
   std::error_code error;
   if (fs::is_directory(target, error)) {
-    return {};  // it got its name when it was complete, and an id has one content
-  }
-  fs::remove_all(fresh, error);
-  std::set<fs::path> folders{fresh};
-  for (const PackageFile& entry : content->files) {
-    const fs::path name = fresh / entry.path;
-    for (fs::path folder = name.parent_path(); folder != fresh; folder = folder.parent_path()) {
-      folders.insert(folder);
+    const auto damage = files_.damage_in(id, *content);
+    if (!damage && !shares_files(target, *content)) {
+      return {};
     }
-    fs::create_directories(name.parent_path(), error);
-    if (error) {
-      return failed("cannot make", name.parent_path(), error.value());
-    }
-    // One copy of a file, whatever it is called; a file that is needed in two ways is marked executable.
-    if (::link(file(entry.digest).c_str(), name.c_str()) != 0) {
-      return failed("cannot make", name, errno);
-    }
-    if (entry.executable && ::chmod(name.c_str(), 0755) != 0) {
-      return failed("cannot make executable", name, errno);
+    if (damage) {
+      tell(describe(*damage) + "; it is made again from files/");
     }
   }
-  for (const fs::path& folder : folders) {
-    (void)base::sync_to_disk(folder);
+  const fs::path fresh = target.string() + ".new";
+  if (auto done = lay_out(*content, fresh); !done) {
+    return done;
   }
-  fs::rename(fresh, target, error);
-  if (error) {
-    return failed("cannot make", target, error.value());
+  return replace_folder(fresh, target);
+}
+
+Result<void, Problem> AgentState::keep_copy(const fs::path& copy, const std::string& digest) {
+  auto copied = clone_file(copy, part(digest));
+  return copied ? keep(digest) : copied;
+}
+
+Result<void, Problem> AgentState::repair(const std::string& id) {
+  const auto content = package(id);
+  std::vector<std::string> lost;
+  for (const PackageFile& entry : content ? content->files : std::vector<PackageFile>{}) {
+    if (has_sound(entry.digest, entry.path)) {
+      continue;
+    }
+    const fs::path copy = files_.deployment(id) / entry.path;
+    if (files_.damage_in(id, entry)) {
+      lost.push_back(fmt::format("{}: neither {} nor {} has the SHA-256 {}", entry.path, file(entry.digest).string(),
+                                 copy.string(), entry.digest));
+    } else if (auto kept = keep_copy(copy, entry.digest); !kept) {
+      lost.push_back(kept.error().text);
+    } else {
+      tell(fmt::format("{}: {} is made again from {}", entry.path, file(entry.digest).string(), copy.string()));
+    }
   }
-  (void)base::sync_to_disk(folder_ / "deployments");
-  return {};
+  return lost.empty() ? install(id) : Result<void, Problem>(Problem{base::enumerate(lost)});
 }
 
 fs::path AgentState::manifest(const std::string& id) const {
   const auto content = package(id);
-  if (!content) {
-    return {};
-  }
-  fs::path file = deployment(id) / content->manifest;
-  std::error_code error;
-  return fs::is_regular_file(file, error) ? file : fs::path{};
+  return content ? files_.deployment(id) / content->manifest : files_.deployment(id);
 }
 
 AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const {
   Needed needed;
   for (const std::string& id : ids) {
+    needed.folders.insert(files_.deployment(id).filename().string());
+    needed.files.insert(id);
     if (const auto content = package(id)) {
-      needed.files.insert(id);
-      needed.folders.insert(deployment(id).filename().string());
       for (const PackageFile& entry : content->files) {
         needed.files.insert(entry.digest);
       }
@@ -260,36 +290,31 @@ AgentState::Needed AgentState::needed_by(const std::set<std::string>& ids) const
   return needed;
 }
 
-std::set<std::string> AgentState::kept() const {
-  std::set<std::string> ids{committed_.current, committed_.previous};
-  for (auto entry = committed_.history.rbegin(); entry != committed_.history.rend() && ids.size() < kDeploymentsKept;
-       ++entry) {
-    if (entry->outcome == "committed") {
-      ids.insert(entry->deployment);
-    }
+// Of a deployment that runs and whose package is damaged it is not known which files it needs.
+void AgentState::remove_files_but(const std::set<std::string>& needed, bool old_only) const {
+  if (committed_.current.empty() || package(committed_.current)) {
+    remove_others(folder() / "files", needed, old_only ? kPiecesKept : std::chrono::hours{});
   }
-  return ids;
 }
 
 void AgentState::collect_garbage(const std::string& tried) {
-  std::set<std::string> ids = kept();
+  std::set<std::string> ids = kept_deployments(committed_);
   std::set<std::string> pieces;
   if (!tried.empty()) {
     ids.insert(tried);
     pieces = needed_by({tried}).files;
-    pieces.insert(tried);
   }
   const Needed needed = needed_by(ids);
-  remove_others(folder_ / "deployments", needed.folders);
-  remove_others(folder_ / "files", needed.files);
-  remove_others(folder_ / "parts", pieces);
+  remove_others(folder() / "deployments", needed.folders);
+  remove_files_but(needed.files, false);
+  remove_others(folder() / "parts", pieces);
 }
 
 void AgentState::collect_old_garbage() {
-  const Needed needed = needed_by(kept());
-  remove_others(folder_ / "deployments", needed.folders, kPiecesKept);
-  remove_others(folder_ / "files", needed.files, kPiecesKept);
-  remove_others(folder_ / "parts", {}, kPiecesKept);
+  const Needed needed = needed_by(kept_deployments(committed_));
+  remove_others(folder() / "deployments", needed.folders, kPiecesKept);
+  remove_files_but(needed.files, true);
+  remove_others(folder() / "parts", {}, kPiecesKept);
 }
 
 }  // namespace indurop::deploy

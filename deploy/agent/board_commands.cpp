@@ -286,6 +286,11 @@ CommandReply BoardCommands::begin_module(const Command& command) {
                  names.empty() ? fmt::format("it has no module {}, nor any other", command.target)
                                : fmt::format("it has no module {}; it has {}", command.target, names));
   }
+  if (command.action != Action::StopModule) {
+    if (const std::string damage = process_.verify(); !damage.empty()) {
+      return reply(command, Outcome::Refused, "its files are not what was deployed: " + damage);
+    }
+  }
   const auto ticket = scheduler::place_command(*module_, module_command_of(command.action));
   if (!ticket) {
     return reply(command, Outcome::Refused, "an earlier command about this module is not done yet; try again");

@@ -36,8 +36,9 @@ Result<void, Problem> first_error(const std::vector<base::Diagnostic>& diagnosti
   return Problem{more > 0 ? fmt::format("{} (and {} more)", text, more) : text};
 }
 
-HistoryEntry history_of(const Order& order, const std::string& plant, const std::string& outcome) {
-  return {order.deployment, plant, order.generation, order.host, rt::wall_ns(), outcome};
+HistoryEntry history_of(const Order& order, const std::string& plant, const std::string& outcome,
+                        const std::string& comment) {
+  return {order.deployment, plant, order.generation, order.host, rt::wall_ns(), outcome, comment};
 }
 
 }  // namespace
@@ -46,9 +47,22 @@ bool BoardDeployment::belongs(const std::vector<std::string>& members) const {
   return std::find(members.begin(), members.end(), board_) != members.end();
 }
 
+bool BoardDeployment::lacks(const BoardReport& other, bool damaged) const {
+  const Committed& committed = state_.committed();
+  const bool complete =
+      std::find(other.members.begin(), other.members.end(), other.board) != other.members.end();  // has all files
+  const bool left_out = other.plant == committed.plant && belongs(committed.members);
+  const bool same = other.generation == committed.generation && other.current == committed.current;
+  return other.board != board_ && complete && (belongs(other.members) || left_out) &&
+         (other.generation > committed.generation || (damaged && same));
+}
+
 std::filesystem::path BoardDeployment::manifest(const std::string& id) const {
   const auto package = state_.package(id);
-  return package && belongs(package->boards) ? state_.manifest(id) : std::filesystem::path{};
+  const Committed& committed = state_.committed();
+  // With a damaged package there is still something to be run, and a reason why it cannot be.
+  const bool part = package ? belongs(package->boards) : id == committed.current && belongs(committed.members);
+  return part && !id.empty() ? state_.manifest(id) : std::filesystem::path{};
 }
 
 // The deployment is of this board's plant and leaves it out, perhaps not for the first time.
@@ -90,14 +104,19 @@ Result<void, Problem> BoardDeployment::commit(const Order& order) {
   if (package) {
     next.plant = package->plant;
     next.members = package->boards;
+    next.comment = package->comment;
   }
+  // What this board had already, and has fetched again.
+  const bool again = next.current == order.deployment && state_.committed().generation == order.generation;
   if (next.current != order.deployment) {
     next.previous = next.current;
   }
   next.current = order.deployment;
   std::error_code error;
   next.current_size = std::filesystem::file_size(state_.file(order.deployment), error);
-  next.history.push_back(history_of(order, next.plant, "committed"));
+  if (!again) {
+    next.history.push_back(history_of(order, next.plant, "committed", next.comment));
+  }
   auto committed = state_.commit(std::move(next));
   if (committed) {
     state_.collect_garbage();
@@ -106,8 +125,9 @@ Result<void, Problem> BoardDeployment::commit(const Order& order) {
 }
 
 Result<void, Problem> BoardDeployment::note_rollback(const Order& order, const std::string& why) {
+  const auto package = state_.package(order.deployment);
   Committed same = state_.committed();
-  same.history.push_back(history_of(order, same.plant, "rolled back: " + why));
+  same.history.push_back(history_of(order, same.plant, "rolled back: " + why, package ? package->comment : ""));
   return state_.commit(std::move(same));
 }
 

@@ -20,8 +20,14 @@ class BoardDeployment {
       : state_(state), board_(std::move(board)), one_host_(one_host) {}
 
   [[nodiscard]] bool belongs(const std::vector<std::string>& members) const;
-  // Installed on this board; empty if there is none, or the board is not part of it.
+  // Another board has a deployment that this one takes over: it missed one of its plant, which may be the one that
+  // leaves it out, or what it has of the same is `damaged`.
+  [[nodiscard]] bool lacks(const BoardReport& other, bool damaged) const;
+  // Where it is when it is installed; empty if there is none, or the board is not part of it.
   [[nodiscard]] std::filesystem::path manifest(const std::string& id) const;
+  // Every file of it on this board is what was deployed, or is made so from what the board has besides: to be asked
+  // each time before it is run. A problem names the file.
+  Result<void, base::Problem> verify(const std::string& id) { return state_.install(id); }
   // Installs it and checks the whole plant on this board's copy: the first error, if there is one. One that leaves the
   // board out is always right.
   Result<void, base::Problem> check(const Order& order);

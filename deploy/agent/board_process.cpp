@@ -61,11 +61,12 @@ std::string describe(int status) {
 
 }  // namespace
 
-BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box,
+BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, Verify verify,
                            const base::Log& log)
     : board_(std::move(board)),
       arguments_(std::move(arguments)),
       black_box_(std::move(black_box)),
+      verify_(std::move(verify)),
       log_(log),
       program_(open_node_program()) {}
 
@@ -120,16 +121,24 @@ bool BoardProcess::adopt() {
   }
   auto file = vars::RunFile::open(board_, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   const auto* block = file ? block_of(file.value()) : nullptr;
-  running_ = block != nullptr && block->node_pid.load() == pid ? block->config_file : "";
+  running_ = block != nullptr && block->node_pid.load() == pid
+                 ? std::string(block->deployment, ::strnlen(block->deployment, sizeof block->deployment))
+                 : std::string{};
   pid_ = pid;
   adopted_ = true;
   asked_to_stop_ = false;
   condition_ = NodeCondition::Running;
-  log_.info("{} the node that is running (pid {})", running_ == wanted_ ? "taking over" : "ending", pid);
+  log_.info("{} the node that is running (pid {})", running_ == deployment_ ? "taking over" : "ending", pid);
   return true;
 }
 
 void BoardProcess::launch(rt::MonoTime now) {
+  if (std::string damage = verify(); !damage.empty()) {
+    condition_ = NodeCondition::Failed;
+    reason_ = "it is not run, for it is not what was deployed: " + damage;
+    log_.error("{}", reason_);
+    return;
+  }
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     start_at_ = now + kRestart;
@@ -159,7 +168,7 @@ void BoardProcess::launch(rt::MonoTime now) {
   pid_ = *pid;
   adopted_ = false;
   asked_to_stop_ = false;
-  running_ = wanted_;
+  running_ = deployment_;
   run_.reset();
   condition_ = NodeCondition::Starting;
 }
@@ -266,7 +275,7 @@ void BoardProcess::step(rt::MonoTime now) {
     note_end(status, now);
   }
   if (pid_ > 0) {
-    if (running_ != wanted_ || asked_to_stop_ || !held_.empty()) {
+    if (wanted_.empty() || running_ != deployment_ || asked_to_stop_ || !held_.empty()) {
       signal_stop(now);
     } else if (look() && condition_ == NodeCondition::Starting &&
                present(run_).state.load() == scheduler::NodeState::Running) {
@@ -340,7 +349,7 @@ NodeFigures BoardProcess::figures() {
 // A node that already runs what is wanted goes on, and what happened to it before is not the fault of what follows.
 void BoardProcess::remember_faults() {
   faults_before_.clear();
-  if (running_ != wanted_ || !look()) {
+  if (running_ != deployment_ || !look()) {
     return;
   }
   const scheduler::RunBlock& block = present(run_);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +30,12 @@ class BoardProcess {
   static constexpr std::chrono::seconds kRestartWindow{60};
   static constexpr std::size_t kRestarts = 3;  // within the window
 
-  // `arguments`: of every node started, besides the manifest and the board.
-  BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, const base::Log& log);
+  // Why the files of a deployment must not be run; empty: they are what was deployed.
+  using Verify = std::function<std::string(const std::string& deployment)>;
+
+  // `arguments`: of every node started, besides the manifest and the board. `verify` is asked before every start.
+  BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, Verify verify,
+               const base::Log& log);
   BoardProcess(const BoardProcess&) = delete;
   BoardProcess& operator=(const BoardProcess&) = delete;
   ~BoardProcess();
@@ -42,6 +47,8 @@ class BoardProcess {
   void release();
   [[nodiscard]] const std::string& held() const noexcept { return held_; }  // the reason, empty: not held
   [[nodiscard]] bool has_node() const noexcept { return pid_ > 0; }
+  // Of what should run.
+  [[nodiscard]] std::string verify() const { return deployment_.empty() ? std::string{} : verify_(deployment_); }
   void step(rt::MonoTime now);
   // Ends the node and waits for that.
   void end();
@@ -77,11 +84,12 @@ class BoardProcess {
   std::string board_;
   std::vector<std::string> arguments_;
   BlackBox black_box_;
+  Verify verify_;
   const base::Log& log_;
   int program_;  // indurop-node
   std::filesystem::path wanted_;
   std::string deployment_;  // its id
-  std::filesystem::path running_;
+  std::string running_;     // likewise, of the present node; empty: it was started by hand
   std::string held_;
   pid_t pid_ = -1;
   bool adopted_ = false;

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "deploy/words/deployment_words.h"
 
@@ -21,6 +23,7 @@ using base::Problem;
 
 constexpr std::uint64_t kLargestPackage = 16U << 20U;
 constexpr std::uint64_t kReserve = 1U << 20U;  // left free on the disk
+constexpr std::chrono::seconds kSilent{3};     // then another source is asked
 
 double mib(std::uint64_t bytes) {
   return static_cast<double>(bytes) / (1U << 20U);
@@ -41,9 +44,12 @@ void Fetcher::close_part() {
   digest_.reset();
 }
 
-void Fetcher::begin(std::uint64_t source, const std::string& id, std::uint64_t size) {
+void Fetcher::begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size) {
   cancel();
-  source_ = source;
+  sources_ = std::move(sources);
+  source_ = 0;
+  without_.clear();
+  heard_ = {};
   id_ = id;
   active_ = true;
   planned_ = false;
@@ -54,9 +60,9 @@ void Fetcher::begin(std::uint64_t source, const std::string& id, std::uint64_t s
   wanted_.clear();
   if (!keys::is_digest(id) || size > kLargestPackage) {
     problem_ = "the deployment offered has no sound id or size";
-  } else if (!state_.has(id) && size == 0) {
+  } else if (const bool here = state_.has_sound(id, "the package"); !here && size == 0) {
     problem_ = fmt::format("deployment {} is not on this board any more", shown_id(id));
-  } else if (!state_.has(id)) {
+  } else if (!here) {
     wanted_.push_back({id, size, "the package"});
   }
 }
@@ -84,7 +90,7 @@ Fetcher::Attempt Fetcher::plan_files() {
   std::set<std::string> seen;
   const bool needed = std::find(package->boards.begin(), package->boards.end(), board_) != package->boards.end();
   for (const PackageFile& file : package->files) {
-    if (needed && !state_.has(file.digest) && seen.insert(file.digest).second) {
+    if (needed && seen.insert(file.digest).second && !state_.has_sound(file.digest, file.path)) {
       wanted_.push_back({file.digest, file.size, file.path});
       progress_.bytes += file.size;
     }
@@ -103,7 +109,7 @@ Fetcher::Attempt Fetcher::plan_files() {
 
 Fetcher::Attempt Fetcher::open_part(const Wanted& wanted) {
   const auto path = state_.part(wanted.digest);
-  part_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  part_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
   if (part_ < 0) {
     return Problem{fmt::format("cannot write {}: {}", path.string(), std::strerror(errno))};
   }
@@ -129,11 +135,12 @@ Fetcher::Attempt Fetcher::open_part(const Wanted& wanted) {
 
 Fetcher::Attempt Fetcher::take(const BlobChunk& chunk, rt::MonoTime now) {
   const Wanted& wanted = wanted_[at_];
-  if (chunk.source != source_ || chunk.blob != wanted.digest) {
+  if (chunk.source != sources_[source_] || chunk.blob != wanted.digest) {
     return {};
   }
+  heard_ = now;
   if (chunk.missing) {
-    return Problem{fmt::format("{} is not where it was offered", wanted.name)};
+    return next_source();
   }
   if (!blob_->take(chunk.offset, chunk.data.size(), now)) {
     return {};
@@ -151,19 +158,36 @@ Fetcher::Attempt Fetcher::take(const BlobChunk& chunk, rt::MonoTime now) {
   return {};
 }
 
+// This one does not have the file as it should be.
+Fetcher::Attempt Fetcher::next_source() {
+  without_.insert(source_);
+  if (without_.size() == sources_.size()) {
+    return Problem{
+        fmt::format("{} (SHA-256 {}) is not on this board as it was deployed, and nobody that was asked has it",
+                    wanted_[at_].name, wanted_[at_].digest)};
+  }
+  ask_another();
+  return {};
+}
+
+void Fetcher::ask_another() {
+  close_part();
+  do {
+    source_ = (source_ + 1) % sources_.size();
+  } while (without_.contains(source_));
+}
+
 Fetcher::Attempt Fetcher::finish_part() {
   const Wanted& wanted = wanted_[at_];
   const bool sound = digest_->finish() == wanted.digest;
   close_part();
   if (!sound) {
     ::unlink(state_.part(wanted.digest).c_str());
-    if (again_) {
-      return Problem{fmt::format("{} did not arrive as it was sent (SHA-256 differs)", wanted.name)};
-    }
-    again_ = true;  // the part may be a leftover of a crash
-    return {};
+    again_ = !again_;  // the part may be a leftover of a crash; a second time, the source has another file
+    return again_ ? Attempt{} : next_source();
   }
   again_ = false;
+  without_.clear();
   if (auto kept = state_.keep(wanted.digest); !kept) {
     return kept;
   }
@@ -226,8 +250,16 @@ Fetcher::State Fetcher::step(DeployLink& link, rt::MonoTime now) {
     cancel();
     return problem_.empty() ? State::Done : State::Failed;
   }
+  if (heard_ == rt::MonoTime{}) {
+    heard_ = now;
+  }
+  if (now - heard_ > kSilent) {
+    heard_ = now;
+    ask_another();
+    return State::Working;
+  }
   if (const auto range = blob_->ask(now)) {
-    link.request({self_, source_, wanted_[at_].digest, range->offset, range->length, range->restart});
+    link.request({self_, sources_[source_], wanted_[at_].digest, range->offset, range->length, range->restart});
   }
   return State::Working;
 }

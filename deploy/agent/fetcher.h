@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gets what a board lacks of a deployment, file after file, from a deployer or another board. What is here already is
-// not fetched again; a file that was cut off goes on where it ended.
+// Gets what a board lacks of a deployment, file after file, from a deployer or another board. What is here already and
+// is what its digest says is not fetched again; a file that was cut off goes on where it ended.
 
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ class Fetcher {
   Fetcher& operator=(const Fetcher&) = delete;
   ~Fetcher();
 
+  // `sources`: sessions that may have its files, at least one; the next is asked where one has not, or is silent.
   // `size`: of the package's text.
-  void begin(std::uint64_t source, const std::string& id, std::uint64_t size);
+  void begin(std::vector<std::uint64_t> sources, const std::string& id, std::uint64_t size);
   void cancel();
   enum class State { Working, Done, Failed };
   // Takes what has come and asks for more. Failed: problem() says why.
@@ -52,13 +54,18 @@ class Fetcher {
   Attempt open_part(const Wanted& wanted);
   Attempt take(const BlobChunk& chunk, rt::MonoTime now);
   Attempt finish_part();
+  Attempt next_source();
+  void ask_another();
   Attempt plan_files();
   void close_part();
 
   AgentState& state_;
   std::uint64_t self_;
   std::string board_;
-  std::uint64_t source_ = 0;
+  std::vector<std::uint64_t> sources_;
+  std::size_t source_ = 0;         // that is asked now
+  std::set<std::size_t> without_;  // those that do not have the file that is wanted now
+  rt::MonoTime heard_;             // when something came, or another one was asked
   std::string id_;
   bool active_ = false;
   bool planned_ = false;  // the package is here, wanted_ are its files

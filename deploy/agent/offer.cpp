@@ -11,7 +11,7 @@
 namespace indurop::deploy {
 
 std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state,
-                                      BoardValues& values) {
+                                      BoardValues& values, BoardVerify& verify) {
   const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
   if (name == kHistoryBlob) {
     return text(state.history_text());
@@ -31,6 +31,9 @@ std::optional<BlobServer::Blob> offer(const std::string& name, const std::string
   }
   if (name == kAlarmsBlob) {
     return text(alarms_text(board));
+  }
+  if (name.starts_with(kVerifyBlob)) {
+    return text(verify.answer(name));
   }
   if (name == kBoxesBlob) {
     return text(boxes_text(board));

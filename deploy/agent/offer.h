@@ -8,12 +8,13 @@
 
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_values.h"
+#include "deploy/agent/board_verify.h"
 #include "deploy/link/blob_server.h"
 
 namespace indurop::deploy {
 
 // Nothing: it has none of that name.
 std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state,
-                                      BoardValues& values);
+                                      BoardValues& values, BoardVerify& verify);
 
 }  // namespace indurop::deploy

@@ -18,6 +18,30 @@ std::string check_board(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> node_arguments(const AgentOptions& options) {
+  std::vector<std::string> words;
+  if (options.link.network.one_host) {
+    words.emplace_back("--one-host");
+  }
+  if (options.core) {
+    words.insert(words.end(), {"--core", std::to_string(*options.core)});
+  }
+  if (options.require_rt) {
+    words.emplace_back("--require-rt");
+  }
+  if (options.quiet) {
+    words.emplace_back("--quiet");
+  }
+  return words;
+}
+
+LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
+  LinkSettings settings = options.link;
+  settings.self = self;
+  settings.network.board = options.board;
+  return settings;
+}
+
 Result<AgentOptions, int> parse_options(int argc, char** argv) {
   AgentOptions options;
   base::Options line("indurop-agent",

@@ -5,8 +5,10 @@
 
 #include <indurop/result.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "deploy/link/deploy_link.h"
 
@@ -19,6 +21,11 @@ struct AgentOptions {
   bool require_rt = false;
   bool quiet = false;  // only warnings and errors
 };
+
+// Of every node that the agent starts.
+std::vector<std::string> node_arguments(const AgentOptions& options);
+// `self`: session of the agent.
+LinkSettings link_settings(const AgentOptions& options, std::uint64_t self);
 
 // Parses the command line. Else the exit code to end with (help, version, usage error; said already).
 Result<AgentOptions, int> parse_options(int argc, char** argv);

@@ -158,6 +158,8 @@ inline constexpr const char* kValuesBlob = "values";
 inline constexpr const char* kMessagesBlob = "messages";
 // Likewise: its alarms (deploy/agent/board_alarms.h).
 inline constexpr const char* kAlarmsBlob = "alarms";
+// Likewise: its files compared with their digests (deploy/agent/board_verify.h): this and a name of the question.
+inline constexpr std::string_view kVerifyBlob = "verify/";
 // Likewise: the list of its black boxes (deploy/agent/boxes_text.h), and one of them: this and its name.
 inline constexpr const char* kBoxesBlob = "boxes";
 inline constexpr std::string_view kBoxBlob = "box/";

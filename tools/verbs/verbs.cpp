@@ -13,7 +13,7 @@ std::span<const Verb> all_verbs() {
       kAlarmsVerb,   kServeVerb,  kVarsVerb,      kGetVerb,      kSetVerb,     kForceVerb,    kUnforceVerb, kForcesVerb,
       kLockVerb,     kRecipeVerb, kRobotVerb,     kWatchVerb,    kScopeVerb,   kStreamVerb,   kChartVerb,   kHzVerb,
       kTypeofVerb,   kRecordVerb, kRecordingVerb, kReplayVerb,   kJitterVerb,  kOverrunsVerb, kExplainVerb, kAgeVerb,
-      kBlackboxVerb, kLogVerb,    kDeployVerb,    kRollbackVerb, kHistoryVerb, kBoardsVerb};
+      kBlackboxVerb, kLogVerb,    kDeployVerb,    kRollbackVerb, kHistoryVerb, kVerifyVerb,   kBoardsVerb};
   return kVerbs;
 }
 

@@ -52,6 +52,7 @@ extern const Verb kTopVerb;
 extern const Verb kTypeofVerb;
 extern const Verb kUnforceVerb;
 extern const Verb kVarsVerb;
+extern const Verb kVerifyVerb;
 extern const Verb kWatchVerb;
 
 }  // namespace indurop::tools

@@ -54,7 +54,7 @@ class AgentStateTest : public testing::Test {
     Committed next = state_->committed();
     next.previous = next.current;
     next.current = id;
-    next.history.push_back({id, "cell", ++next.generation, "desk", 0, "committed"});
+    next.history.push_back({id, "cell", ++next.generation, "desk", 0, "committed", {}});
     const auto committed = state_->commit(std::move(next));
     ASSERT_TRUE(committed) << committed.error().text;
   }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/agent/other_boards.h"
+
+#include "schema/topic_name.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::size_t kMostWarnings = 32;  // then it may be somebody who invents them
+
+}  // namespace
+
+void OtherBoards::warn(const std::string& about) {
+  if (warned_.size() < kMostWarnings && warned_.insert(about).second) {
+    log_.warning("{}", about);
+  }
+}
+
+std::vector<std::string> OtherBoards::listen(DeployLink& link, const std::string& plant) {
+  std::vector<std::string> boxes;
+  for (auto& news : link.take_boards()) {
+    const auto key = std::pair(news.report.board, news.report.agent);
+    const bool same_plant = key.first != board_ && news.report.plant == plant;
+    const auto why = news.gone ? box_watch_.gone(news.report) : box_watch_.hear(news.report);
+    if (why && same_plant) {
+      boxes.push_back(*why);
+    }
+    if (news.gone) {
+      boards_.erase(key);
+    } else {
+      boards_[key] = std::move(news.report);
+    }
+  }
+  for (const OtherAgent& other : link.other_agents()) {
+    warn(describe(other, schema::protocol()));
+  }
+  for (const Impostor& impostor : link.impostors()) {
+    warn(describe(impostor));
+  }
+  return boxes;
+}
+
+std::vector<std::uint64_t> OtherBoards::with_files_of(const std::string& plant, std::uint64_t first) const {
+  std::vector<std::uint64_t> all{first};
+  for (const auto& [key, other] : boards_) {
+    if (key.first != board_ && key.second != first && other.plant == plant) {
+      all.push_back(key.second);
+    }
+  }
+  return all;
+}
+
+}  // namespace indurop::deploy

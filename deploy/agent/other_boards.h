@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The agents of other boards that this one hears, and what people should know of them.
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/log.h"
+#include "deploy/agent/box_watch.h"
+#include "deploy/link/deploy_link.h"
+#include "deploy/words/deployment_words.h"
+
+namespace indurop::deploy {
+
+class OtherBoards {
+ public:
+  OtherBoards(std::string board, const base::Log& log) : board_(std::move(board)), log_(log) {}
+
+  // Takes what has come. Why boards of `plant` keep their black boxes, if any does.
+  std::vector<std::string> listen(DeployLink& link, const std::string& plant);
+  // Newest word of each, by board and agent; this one's own is among them.
+  [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, BoardReport>& all() const noexcept {
+    return boards_;
+  }
+  // Sessions that may have files of a deployment of the plant: `first`, then the agents of its boards.
+  [[nodiscard]] std::vector<std::uint64_t> with_files_of(const std::string& plant, std::uint64_t first) const;
+  void clear() { boards_.clear(); }
+
+ private:
+  void warn(const std::string& about);
+
+  std::string board_;
+  const base::Log& log_;
+  std::map<std::pair<std::string, std::uint64_t>, BoardReport> boards_;
+  std::set<std::string> warned_;
+  BoxWatch box_watch_;
+};
+
+}  // namespace indurop::deploy

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/disk/state_check.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+
+#include "base/read_file.h"
+#include "deploy/disk/committed_file.h"
+#include "deploy/words/deployment_words.h"
+
+namespace indurop::deploy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kStep = std::size_t{4} << 20U;
+
+}  // namespace
+
+base::Json json_of(const StateReport& report) {
+  base::Json damaged = base::Json::array();
+  for (const Damage& one : report.damaged) {
+    damaged.push_back(
+        {{"file", one.file.string()}, {"name", one.name}, {"sha256", one.expected}, {"found", one.found}});
+  }
+  return {{"files", report.files},
+          {"bytes", report.bytes},
+          {"deployments", report.deployments},
+          {"damaged", std::move(damaged)}};
+}
+
+StateCheck::StateCheck(const fs::path& folder) : files_(folder) {
+  plan();
+}
+
+void StateCheck::plan() {
+  const fs::path committed_file = files_.folder() / kCommittedFile;
+  Committed committed;
+  if (const auto text = base::read_file(committed_file); text || text.error().sys_errno != ENOENT) {
+    ++report_.files;
+    report_.bytes += text ? text->size() : 0;
+    auto read = text ? read_committed(*text) : base::Problem{text.error().text};
+    if (read) {
+      committed = std::move(*read);
+    } else {
+      report_.damaged.push_back({committed_file, read.error().text, {}, {}});
+    }
+  }
+  std::map<std::string, std::string> names;  // of files/, by digest
+  for (const std::string& id : kept_deployments(committed)) {
+    const bool needed = id == committed.current || id == committed.previous;
+    if (!needed && !files_.has(id)) {
+      continue;  // this board was away then
+    }
+    report_.deployments.push_back(id);
+    names.emplace(id, fmt::format("the package of deployment {}", shown_id(id)));
+    plan_deployment(id);
+    if (const auto package = files_.package(id)) {
+      for (const PackageFile& entry : package->files) {
+        names.emplace(entry.digest, entry.path);
+      }
+    }
+  }
+  std::error_code error;
+  for (fs::directory_iterator at(files_.folder() / "files", error), end; at != end; at.increment(error)) {
+    if (const std::string digest = at->path().filename(); keys::is_digest(digest)) {
+      names.emplace(digest, "a file of a deployment before");
+    }
+  }
+  for (const auto& [digest, name] : names) {
+    wanted_.push_back({files_.file(digest), name, digest, {}});
+  }
+}
+
+void StateCheck::plan_deployment(const std::string& id) {
+  const auto package = files_.package(id);
+  std::error_code error;
+  if (!package || !fs::is_directory(files_.deployment(id), error)) {
+    return;  // of the former files/ tells; the latter is made when it is to run
+  }
+  for (const PackageFile& entry : package->files) {
+    wanted_.push_back({files_.deployment(id) / entry.path, entry.path, entry.digest, {}});
+  }
+}
+
+void StateCheck::begin_next() {
+  auto opened = base::open_file(wanted_.front().file);
+  if (!opened) {
+    note({});
+    return;
+  }
+  open_ = std::move(opened->file);
+  digest_.emplace();
+  ++report_.files;
+}
+
+void StateCheck::note(std::string found) {
+  Damage& one = wanted_.front();
+  one.found = std::move(found);
+  if (one.found != one.expected) {
+    report_.damaged.push_back(std::move(one));
+  }
+  wanted_.pop_front();
+  open_ = {};
+  digest_.reset();
+}
+
+bool StateCheck::step() {
+  std::vector<std::uint8_t> block(std::size_t{256} << 10U);
+  for (std::size_t done = 0; done < kStep && !wanted_.empty();) {
+    if (!digest_) {
+      begin_next();
+      continue;
+    }
+    const ssize_t got = ::read(open_.get(), block.data(), block.size());
+    if (got > 0) {
+      digest_->add({block.data(), static_cast<std::size_t>(got)});
+      done += static_cast<std::size_t>(got);
+      report_.bytes += static_cast<std::uint64_t>(got);
+    } else if (got == 0 || errno != EINTR) {
+      note(got == 0 ? digest_->finish() : std::string{});
+    }
+  }
+  return wanted_.empty();
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything in the state folder of a board that has a digest, compared with it: committed.json, files/, and the
+// folders of the deployments that are kept. Only reads; in small pieces, so that an agent goes on meanwhile.
+
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/descriptor.h"
+#include "base/json.h"
+#include "deploy/disk/deployment_files.h"
+#include "keys/digest.h"
+
+namespace indurop::deploy {
+
+struct StateReport {
+  std::uint64_t files = 0;  // that were read
+  std::uint64_t bytes = 0;
+  std::vector<std::string> deployments;  // ids, that the board keeps
+  std::vector<Damage> damaged;
+};
+// {"files", "bytes", "deployments", "damaged": [{"file", "name", "sha256", "found"}]}
+base::Json json_of(const StateReport& report);
+
+class StateCheck {
+ public:
+  explicit StateCheck(const std::filesystem::path& folder);
+
+  // Some megabytes more. True: all is done.
+  bool step();
+  [[nodiscard]] const StateReport& report() const noexcept { return report_; }
+
+ private:
+  void plan();
+  void plan_deployment(const std::string& id);
+  void begin_next();
+  void note(std::string found);
+
+  DeploymentFiles files_;
+  std::deque<Damage> wanted_;  // `found` is empty
+  base::Descriptor open_;
+  std::optional<keys::Digest> digest_;
+  StateReport report_;
+};
+
+}  // namespace indurop::deploy

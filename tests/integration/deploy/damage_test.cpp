@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of a board that the disk has changed by one bit: they are not run, and come again from another board or from
+// whoever deploys.
+
+#include <algorithm>
+#include <fstream>
+
+#include "agents_fixture.h"
+#include "keys/digest.h"
+
+namespace indurop::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Damaged : public AgentsTest {
+ protected:
+  Damaged()
+      : v1_(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}})),
+        v2_(manifest("v2.xml", {{"a", "other"}, {"b", "other"}})),
+        steady_(keys::digest_of_file(folder() / "steady.so")->digest) {}
+  void start_both() {
+    start_agent("a");
+    start_agent("b");
+  }
+  std::string deployed(const std::string& file) {
+    const Outcome done = deploy(file);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.code == 0 ? done.json()["deployment"].get<std::string>() : "";
+  }
+  [[nodiscard]] fs::path state(const std::string& name) const { return folder() / "state" / board(name); }
+  static void flip(const fs::path& file) {
+    std::fstream at(file, std::ios::in | std::ios::out | std::ios::binary);
+    ASSERT_TRUE(at) << file;
+    at.seekg(1000);
+    const auto byte = static_cast<char>(at.get() ^ 4);
+    at.seekp(1000);
+    at.put(byte);
+  }
+  // Every copy of a module on a board.
+  [[nodiscard]] std::vector<fs::path> copies(const std::string& name) const {
+    std::vector<fs::path> all{state(name) / "files" / steady_};
+    for (const auto& entry : fs::recursive_directory_iterator(state(name) / "deployments")) {
+      if (entry.path().filename() == "steady.so") {
+        all.push_back(entry.path());
+      }
+    }
+    return all;
+  }
+  void flip_copies(const std::string& name) {
+    const auto all = copies(name);
+    ASSERT_EQ(all.size(), 2U);
+    std::for_each(all.begin(), all.end(), flip);
+  }
+  [[nodiscard]] bool is_sound(const std::string& name) const {
+    const auto all = copies(name);
+    return std::all_of(all.begin(), all.end(), [this](const fs::path& file) {
+      const auto found = keys::digest_of_file(file);
+      return found && found->digest == steady_;
+    });
+  }
+  void power_off(const std::string& name) {
+    stop_agent(name, SIGKILL);
+    kill_node(board(name));
+    EXPECT_TRUE(wait_until([&] { return vars::running_node(board(name)) == 0; }));
+  }
+  std::string v1_;
+  std::string v2_;
+  std::string steady_;  // its SHA-256
+};
+
+TEST_F(Damaged, A_deployment_brings_what_is_damaged_again) {
+  start_both();
+  const std::string id = deployed(v1_);
+  flip_copies("a");
+  EXPECT_EQ(deployed(v1_), id);
+  EXPECT_TRUE(is_sound("a"));
+  EXPECT_TRUE(runs("a", id));
+}
+
+TEST_F(Damaged, A_board_that_resumes_takes_it_from_its_other_copy_or_from_another_board) {
+  start_both();
+  const std::string id = deployed(v1_);
+  power_off("a");
+  flip(copies("a")[1]);
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return runs("a", id); }));
+  EXPECT_TRUE(is_sound("a"));
+  power_off("a");
+  flip_copies("a");
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return runs("a", id); }));
+  EXPECT_TRUE(is_sound("a"));
+  EXPECT_EQ(indurop({"history", "--board", board("a"), "-o", "json"}).json()["deployments"].size(), 1U);
+}
+
+TEST_F(Damaged, Alone_it_does_not_run_and_says_what_is_damaged_until_another_board_comes) {
+  start_both();
+  const std::string id = deployed(v1_);
+  power_off("a");
+  power_off("b");
+  flip_copies("a");
+  start_agent("a");
+  ASSERT_TRUE(wait_until([&] { return report("a")["state"] == "failed"; }));
+  EXPECT_THAT(report("a")["message"].get<std::string>(), AllOf(HasSubstr("steady.so"), HasSubstr(steady_)));
+  EXPECT_EQ(vars::running_node(board("a")), 0);
+  start_agent("b");
+  EXPECT_TRUE(wait_until([&] { return runs("a", id) && runs("b", id); }));
+  EXPECT_TRUE(is_sound("a"));
+}
+
+TEST_F(Damaged, A_rollback_takes_it_from_another_board_or_is_refused_with_file_and_digest) {
+  start_both();
+  const std::string first = deployed(v1_);
+  const std::string second = deployed(v2_);
+  flip_copies("a");
+  const Outcome back = indurop({"rollback", "--health", "500ms"});
+  EXPECT_EQ(back.code, 0) << back.err;
+  EXPECT_TRUE(runs("a", first) && is_sound("a"));
+  EXPECT_EQ(deployed(v2_), second);
+  flip_copies("a");
+  flip_copies("b");
+  const Outcome refused = indurop({"rollback", "--health", "500ms"});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("steady.so"), HasSubstr(steady_)));
+  EXPECT_TRUE(wait_until([&] { return runs("a", second) && runs("b", second); }));
+}
+
+TEST_F(Damaged, Verify_names_it_and_an_agent_that_is_asked_repairs_it) {
+  start_both();
+  const std::string id = deployed(v1_);
+  EXPECT_EQ(indurop_here({"verify"}).code, 0);
+  flip(copies("a")[0]);
+  const Outcome here = indurop_here({"verify"});
+  EXPECT_EQ(here.code, 4);
+  EXPECT_THAT(here.err, AllOf(HasSubstr(board("a") + ": steady.so"), HasSubstr(steady_)));
+  const Outcome plant = indurop({"verify", "--plant", "-o", "json"});
+  EXPECT_EQ(plant.code, 4) << plant.err;
+  EXPECT_THAT(plant.err, AllOf(HasSubstr(board("a") + ": steady.so"), HasSubstr(steady_)));
+  ASSERT_EQ(plant.json()["boards"].size(), 2U);
+  EXPECT_TRUE(is_sound("a"));
+  EXPECT_EQ(indurop({"verify", "--plant"}).code, 0);
+  flip_copies("a");
+  EXPECT_EQ(indurop({"verify", "--board", board("a")}).code, 4);
+  EXPECT_TRUE(wait_until([&] { return is_sound("a"); })) << "from board b";
+  EXPECT_TRUE(wait_until([&] { return runs("a", id); }));
+}
+
+TEST_F(Damaged, What_is_committed_is_not_believed_and_comes_from_another_board) {
+  start_both();
+  const std::string id = deployed(v1_);
+  const fs::path file = state("a") / "committed.json";
+  power_off("a");
+  std::fstream at(file, std::ios::in | std::ios::out);
+  std::string text((std::istreambuf_iterator<char>(at)), {});
+  text[text.find(id) + 1] ^= 1;
+  at.close();
+  std::ofstream(file) << text;
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return agent("a").err().find("committed.json is damaged") != std::string::npos; }));
+  EXPECT_TRUE(wait_until([&] { return runs("a", id); }));
+}
+
+TEST_F(Damaged, A_module_is_not_started_again_from_a_damaged_file) {
+  start_agent("a");
+  deployed(manifest("alone.xml", {{"a", "steady"}}));
+  flip_copies("a");
+  EXPECT_EQ(indurop({"stop", "steady@" + board("a")}).code, 0);
+  const Outcome refused = indurop({"start", "steady@" + board("a")});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("its files are not what was deployed"));
+}
+
+}  // namespace
+}  // namespace indurop::test
