@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,11 @@ struct PastDeployment {
   std::string host;
   std::int64_t wall_ns = 0;
   std::string outcome;
+  std::string comment;
 };
 
-// Oldest first; empty if the agent does not answer within two seconds, or has none. `self`: session of the link.
-std::vector<PastDeployment> fetch_history(deploy::DeployLink& link, std::uint64_t self, std::uint64_t agent);
+// By agent, oldest first; without agents that do not answer within two seconds. `self`: session of the link.
+std::map<std::uint64_t, std::vector<PastDeployment>> fetch_histories(deploy::DeployLink& link, std::uint64_t self,
+                                                                     const std::vector<std::uint64_t>& agents);
 
 }  // namespace indurop::tools

@@ -91,6 +91,14 @@ const BoardRoster::Entry* BoardRoster::find(const std::string& board) const {
   return best;
 }
 
+std::vector<std::uint64_t> BoardRoster::agents() const {
+  std::vector<std::uint64_t> all;
+  for (const auto& [key, entry] : boards_) {
+    all.push_back(key.second);
+  }
+  return all;
+}
+
 std::string BoardRoster::twins(const std::string& board, std::int64_t now_ns) const {
   std::string hosts;
   int count = 0;

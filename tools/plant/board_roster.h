@@ -48,6 +48,8 @@ class BoardRoster {
   // Newest word of the board; null if it is not there.
   [[nodiscard]] const Entry* find(const std::string& board) const;
   [[nodiscard]] const std::map<std::pair<std::string, std::uint64_t>, Entry>& all() const noexcept { return boards_; }
+  // Their sessions.
+  [[nodiscard]] std::vector<std::uint64_t> agents() const;
   // Agents that cannot be understood.
   [[nodiscard]] const std::vector<deploy::OtherAgent>& others() const noexcept { return others_; }
   // Who reports in the name of boards it is not; nothing of that is here.

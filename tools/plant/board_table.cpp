@@ -30,6 +30,12 @@ Style style_of(deploy::NodeCondition condition) {
   return Style::Warn;
 }
 
+// What is said of a deployment that was taken back is past for a board that runs another one well.
+Style style_of_message(const deploy::BoardReport& board) {
+  const bool well = board.phase == deploy::Phase::Steady && board.node == deploy::NodeCondition::Running;
+  return !well ? Style::Bad : board.proposed != board.current ? Style::Dim : Style::Warn;
+}
+
 Cell number(std::uint64_t value, Style if_any = Style::None) {
   return {std::to_string(value), value, value > 0 ? if_any : Style::Dim};
 }
@@ -37,8 +43,10 @@ Cell number(std::uint64_t value, Style if_any = Style::None) {
 std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry, std::int64_t now) {
   const deploy::BoardReport& board = entry.report;
   std::string message = printable(board.message);
+  Style look = style_of_message(board);
   if (const std::string hosts = roster.twins(board.board, now); !hosts.empty()) {
     message = fmt::format("two agents have this name, on {}", hosts);
+    look = Style::Bad;
   }
   const bool steady = board.phase == deploy::Phase::Steady;
   return {Cell(printable(board.board), Style::Bold),
@@ -47,6 +55,7 @@ std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry
           {steady ? "" : deploy::to_text(board.phase), deploy::to_text(board.phase), Style::Warn},
           Cell(printable(board.plant)),
           {board.current.empty() ? "-" : deploy::shown_id(board.current), board.current},
+          Cell(printable(board.comment)),
           {"", board.previous},
           {"", board.generation},
           number(board.tick),
@@ -56,7 +65,7 @@ std::vector<Cell> row(const BoardRoster& roster, const BoardRoster::Entry& entry
           {"", board.clock_offset_ns},
           {"", board.release},
           {human_age(now - entry.heard_ns), now - entry.heard_ns},
-          Cell(message, Style::Bad)};
+          Cell(message, look)};
 }
 
 Cell read_cell(const std::vector<mirror::MirroredVariable>& variables) {
@@ -85,6 +94,7 @@ Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRe
                                {"DEPLOYING", "phase"},
                                {"PLANT", "plant"},
                                {"DEPLOYMENT", "deployment"},
+                               {"COMMENT", "comment", Align::Left, 4},
                                {"", "previous"},
                                {"", "generation"},
                                {"TICK", "tick", kRight, 2},

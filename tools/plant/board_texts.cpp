@@ -48,6 +48,8 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
   const auto all_done = [&] {
     return std::all_of(texts.begin(), texts.end(), [](const auto& entry) { return entry.second.done(); });
   };
+  // An answer to a question before that came late tells what was then.
+  (void)link.take_chunks();
   const std::int64_t end = rt::now_ns() + kPatienceNs;
   while (!all_done() && !interrupted() && rt::now_ns() < end) {
     for (auto& [agent, text] : texts) {

@@ -126,8 +126,10 @@ base::Json PlantWatch::history() {
     bool current = false;
   };
   std::vector<Row> rows;
+  auto histories = fetch_histories(*link_, settings_.self, roster_.agents());
+  roster_.listen(*link_, rt::now_ns());
   for (const auto& [key, entry] : roster_.all()) {
-    for (PastDeployment& past : fetch_history(*link_, settings_.self, key.second)) {
+    for (PastDeployment& past : histories[key.second]) {
       const bool current = past.outcome == "committed" && past.deployment == entry.report.current &&
                            past.generation == entry.report.generation;
       const auto same = std::find_if(rows.begin(), rows.end(), [&past](const Row& row) {
@@ -153,6 +155,7 @@ base::Json PlantWatch::history() {
     one["host"] = row.past.host;
     one["boards"] = base::Json(row.boards);
     one["outcome"] = row.past.outcome;
+    one["comment"] = row.past.comment;
     all.push_back(std::move(one));
   }
   return all;

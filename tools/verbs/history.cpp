@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <tuple>
 
+#include "rt/clock.h"
 #include "tools/command/units.h"
 #include "tools/plant/board_history.h"
 #include "tools/plant/board_roster.h"
+#include "tools/plant/board_table.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
@@ -50,14 +52,22 @@ int history(Context& context, Options& options) {
   BoardRoster roster;
   roster.gather(*link, options.wait_ns,
                 [&] { return options.board.empty() ? roster.complete() : roster.find(options.board) != nullptr; });
+  const auto histories = fetch_histories(*link, options.link.self, roster.agents());
+  roster.listen(*link, rt::now_ns());
   std::vector<Row> rows;
+  std::vector<std::string> missing = options.board.empty() ? boards_not_heard(roster) : std::vector<std::string>();
   bool heard = false;
   for (const auto& [key, entry] : roster.all()) {
     if (!options.board.empty() && key.first != options.board) {
       continue;
     }
     heard = true;
-    for (const PastDeployment& past : fetch_history(*link, options.link.self, key.second)) {
+    const auto told = histories.find(key.second);
+    if (told == histories.end()) {
+      missing.push_back(key.first);
+      continue;
+    }
+    for (const PastDeployment& past : told->second) {
       const bool current = past.deployment == entry.report.current && past.generation == entry.report.generation;
       merge(rows, key.first, past, current && past.outcome == "committed");
     }
@@ -77,7 +87,8 @@ int history(Context& context, Options& options) {
                {"WHEN", "wall_ns"},
                {"FROM", "host"},
                {"BOARDS", "boards"},
-               {"OUTCOME", "outcome"}});
+               {"OUTCOME", "outcome"},
+               {"COMMENT", "comment"}});
   for (const Row& row : rows) {
     const bool committed = row.past.outcome == "committed";
     table.add({{"", row.past.generation},
@@ -87,13 +98,18 @@ int history(Context& context, Options& options) {
                {local_time(row.past.wall_ns), row.past.wall_ns},
                Cell(printable(row.past.host)),
                {fmt::format("{}", fmt::join(row.boards, ", ")), row.boards},
-               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad}});
+               {printable(row.past.outcome), row.past.outcome, committed ? Style::Good : Style::Bad},
+               Cell(printable(row.past.comment))});
   }
-  if (table.empty()) {
+  for (const std::string& board : missing) {
+    context.out.error(fmt::format("board {} was not heard or did not answer: what it remembers is not in this list",
+                                  printable(board)));
+  }
+  if (table.empty() && missing.empty()) {
     context.out.note("nothing was deployed yet");
   }
-  print_table(context, table, JsonValue::object(), "deployments");
-  return kOk;
+  print_table(context, table, {{"missing", missing}}, "deployments");
+  return missing.empty() ? kOk : kUnreachable;
 }
 
 Action declare(base::Options& app, Context& context) {
@@ -110,6 +126,7 @@ Action declare(base::Options& app, Context& context) {
 const Verb kHistoryVerb{
     "history", "Plants", "Show what was deployed to the boards before, and what became of it",
     "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n"
+    "Exit code 6 if a board is not heard or does not answer: it is named, and the list is without it.\n"
     "Examples:\n"
     "  indurop history\n"
     "  indurop history --board press_1 -o json\n",

@@ -65,7 +65,7 @@ std::string choose_target(Context& context, deploy::DeployLink& link, const Boar
                           const std::vector<std::string>& boards, const Options& options) {
   const deploy::BoardReport& first = roster.find(boards.front())->report;
   if (!options.id.empty()) {
-    const auto ids = ids_like(fetch_history(link, options.link.self, first.agent), options.id);
+    const auto ids = ids_like(fetch_histories(link, options.link.self, {first.agent})[first.agent], options.id);
     if (ids.size() == 1) {
       return *ids.begin();
     }
@@ -116,7 +116,7 @@ int roll_back(Context& context, Options& options) {
   roster.gather(*link, kHearNs, [&] { return roster.complete(); });
   const auto meant = choose_plant(roster, options);
   if (!meant) {
-    return report(context.out, meant.error());
+    return report(context.out, with_keys_hint(meant.error(), options.link));
   }
   const std::string& plant = *meant;
   // The members as the newest deployment has them.

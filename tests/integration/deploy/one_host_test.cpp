@@ -47,6 +47,10 @@ TEST_F(Deploying, A_module_that_faults_on_one_board_rolls_all_back) {
   EXPECT_EQ(bad.json()["result"], "rolled back");
   EXPECT_THAT(bad.err, HasSubstr(board("b") + ": module faulty faulted: SIGSEGV"));
   EXPECT_TRUE(wait_until([&] { return runs("a", good) && runs("b", good); }));
+  // What is said of it is past.
+  const std::string taken_back = "deployment " + bad.json()["deployment"].get<std::string>().substr(0, 12) +
+                                 " was taken back: module faulty faulted: SIGSEGV";
+  EXPECT_THAT(report("b")["message"].get<std::string>(), HasSubstr(taken_back));
 }
 
 TEST_F(Deploying, The_first_deployment_that_does_not_do_leaves_nothing_running) {
@@ -101,6 +105,37 @@ TEST_F(Deploying, Rollback_goes_back_and_history_tells_it) {
   EXPECT_EQ(past["deployments"][3]["current"], true);
   EXPECT_EQ(past["deployments"][3]["boards"].size(), 2U);
   EXPECT_EQ(indurop({"rollback", "ffffffff"}).code, 1);
+}
+
+TEST_F(Deploying, A_comment_stays_with_its_deployment) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  EXPECT_EQ(deploy(file, {"-m", "two\nlines"}).code, 2);
+  EXPECT_EQ(deploy(file, {"-m", "as it was: 20 °C"}).code, 0);
+  EXPECT_EQ(report("a")["comment"], "as it was: 20 °C");
+  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}}), {"--comment", "wider"}).code, 0);
+  EXPECT_EQ(indurop({"rollback", "--health", "500ms"}).code, 0);
+  EXPECT_EQ(report("b")["comment"], "as it was: 20 °C");
+  std::vector<std::string> comments;
+  for (const Json& past : indurop({"history", "-o", "json"}).json()["deployments"]) {
+    comments.push_back(past["comment"]);
+  }
+  EXPECT_THAT(comments, testing::ElementsAre("as it was: 20 °C", "wider", "as it was: 20 °C"));
+  stop_agent("a", SIGKILL);  // it is on the disk
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return report("a").is_object() && report("a")["comment"] == "as it was: 20 °C"; }));
+}
+
+TEST_F(Deploying, A_board_whose_history_is_not_told_is_named) {
+  start_both();
+  deployed(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
+  agent("b").signal(SIGSTOP);
+  const Outcome past = indurop({"history", "-o", "json"});
+  agent("b").signal(SIGCONT);
+  EXPECT_EQ(past.code, 6);
+  EXPECT_THAT(past.err, HasSubstr("board " + board("b") + " was not heard or did not answer"));
+  EXPECT_EQ(past.json()["missing"], Json({board("b")}));
+  EXPECT_EQ(past.json()["deployments"].size(), 1U);
 }
 
 TEST_F(Deploying, Of_two_deployers_at_once_one_is_told_that_it_is_busy) {

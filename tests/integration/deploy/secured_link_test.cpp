@@ -140,6 +140,7 @@ TEST_F(SecuredLink, Who_has_no_keys_hears_nothing_and_is_told_what_to_do) {
   const Outcome deployed = deploy(file(), {"--timeout", "1s"});
   EXPECT_EQ(deployed.code, 6);
   EXPECT_THAT(deployed.err, HasSubstr("--keys DIR"));
+  EXPECT_THAT(indurop({"rollback"}).err, HasSubstr("--keys DIR"));
   EXPECT_EQ(indurop({"stop", "@" + board("a"), "--timeout", "1s"}).code, 6);
   EXPECT_EQ(indurop({"boards", "--keys", path("nowhere")}).code, 2);
 }

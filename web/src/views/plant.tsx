@@ -18,7 +18,7 @@ function Row({ row }: { row: FarBoard }) {
   return (
     <tr>
       <th scope="row">{local ? <a href={address("variables", { board: row.board })}>{row.board}</a> : row.board}
-        {row.message && <span class="fault-text">{row.message}</span>}</th>
+        {row.message && <span class={`fault-text ${row.state === "running" && row.phase === "steady" ? "past" : ""}`}>{row.message}</span>}</th>
       <td class={row.heard ? (row.state === "running" ? "" : "warn") : "bad"}>{row.heard ? row.state : "not heard"}
         {row.heard && row.phase !== "steady" ? `, ${row.phase}` : ""}</td>
       <td>{row.host}</td>
