@@ -120,8 +120,7 @@ std::string pem_of(X509* certificate) {
   return ::PEM_write_bio_X509(out.get(), certificate) == 1 ? content(out) : std::string{};
 }
 
-std::string entry_of(const X509* certificate, int field) {
-  X509_NAME* name = ::X509_get_subject_name(certificate);
+std::string entry_of(const X509_NAME* name, int field) {
   const int at = ::X509_NAME_get_index_by_NID(name, field, -1);
   if (at < 0) {
     return {};
@@ -273,12 +272,16 @@ std::optional<CertificateFacts> read_certificate(const std::string& certificate)
   ::X509_NAME_print_ex(subject.get(), ::X509_get_subject_name(read.get()), 0, XN_FLAG_RFC2253);
   const Number serial(::ASN1_INTEGER_to_BN(::X509_get0_serialNumber(read.get()), nullptr));
   const std::unique_ptr<char, void (*)(char*)> digits(::BN_bn2hex(serial.get()), [](char* p) { OPENSSL_free(p); });
-  return CertificateFacts{
-      content(subject),
-      entry_of(read.get(), NID_organizationName),
-      entry_of(read.get(), NID_commonName),
-      digits == nullptr ? std::string{} : digits.get(),
-      {to_instant(::X509_get0_notBefore(read.get())), to_instant(::X509_get0_notAfter(read.get()))}};
+  const X509_NAME* const name = ::X509_get_subject_name(read.get());
+  const X509_NAME* const issuer = ::X509_get_issuer_name(read.get());
+  return CertificateFacts{content(subject),
+                          entry_of(name, NID_organizationName),
+                          entry_of(name, NID_commonName),
+                          digits == nullptr ? std::string{} : digits.get(),
+                          {to_instant(::X509_get0_notBefore(read.get())), to_instant(::X509_get0_notAfter(read.get()))},
+                          entry_of(name, NID_organizationalUnitName),
+                          {entry_of(issuer, NID_organizationName), entry_of(issuer, NID_organizationalUnitName),
+                           entry_of(issuer, NID_commonName)}};
 }
 
 bool issued_by(const std::string& certificate, const std::string& authority) {
@@ -298,6 +301,12 @@ bool is_revoked(const std::string& certificate, const std::string& revocation_li
   const Crl list = read_crl(revocation_list);
   X509_REVOKED* found = nullptr;
   return read != nullptr && list != nullptr && ::X509_CRL_get0_by_cert(list.get(), &found, read.get()) == 1;
+}
+
+bool revocation_list_of(const std::string& revocation_list, const std::string& authority) {
+  const Crl list = read_crl(revocation_list);
+  const Cert issuer = read_cert(authority);
+  return list != nullptr && issuer != nullptr && ::X509_CRL_verify(list.get(), ::X509_get0_pubkey(issuer.get())) == 1;
 }
 
 std::string signed_text(const std::string& document, const std::string& authority) {

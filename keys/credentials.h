@@ -39,6 +39,8 @@ struct CertificateFacts {
   std::string common_name;
   std::string serial;  // hexadecimal
   Validity validity;
+  std::string unit;
+  Identity issuer;
 };
 
 // Private key; secret.
@@ -63,6 +65,8 @@ std::optional<CertificateFacts> read_certificate(const std::string& certificate)
 bool issued_by(const std::string& certificate, const std::string& authority);
 bool belongs_to(const std::string& certificate, const std::string& key);
 bool is_revoked(const std::string& certificate, const std::string& revocation_list);
+// Is it a list that this authority signed?
+bool revocation_list_of(const std::string& revocation_list, const std::string& authority);
 // The text of a document of sign_document(); empty if this authority did not sign it as it is.
 std::string signed_text(const std::string& document, const std::string& authority);
 

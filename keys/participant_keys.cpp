@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include "base/read_file.h"
 #include "base/text.h"
@@ -57,14 +59,31 @@ Result<ParticipantKeys, base::Problem> keys_meant(const fs::path& folder, Role r
   std::error_code error;
   const fs::path absolute = fs::absolute(folder, error).lexically_normal();
   const char* const inside = role == Role::Deployer ? "deployer" : "viewer";
-  for (const fs::path& place : {absolute, absolute / inside}) {
+  std::vector<fs::path> places{absolute, absolute / inside};
+  std::vector<fs::path> further;
+  for (const auto& entry : fs::directory_iterator(absolute / (std::string(inside) + "s"), error)) {
+    further.push_back(entry.path());
+  }
+  std::sort(further.begin(), further.end());
+  places.insert(places.end(), further.begin(), further.end());
+  std::string revoked;
+  for (const fs::path& place : places) {
     const ParticipantKeys keys(place);
-    if (fs::exists(keys.certificate, error)) {
-      if (std::string missing = missing_file(keys); !missing.empty()) {
-        return base::Problem{std::move(missing)};
-      }
-      return keys;
+    if (!fs::exists(keys.certificate, error)) {
+      continue;
     }
+    if (std::string missing = missing_file(keys); !missing.empty()) {
+      return base::Problem{std::move(missing)};
+    }
+    if (place != absolute && is_revoked(read_text(keys.certificate), read_text(keys.revoked))) {
+      revoked = place.string();
+      continue;
+    }
+    return keys;
+  }
+  if (!revoked.empty()) {
+    return base::Problem{
+        fmt::format("the keys in {} were revoked; make others with indurop keys add --{} NAME", revoked, inside)};
   }
   return base::Problem{
       fmt::format("there are no keys in {}: it has neither identity.pem nor the folder {} (indurop keys "
@@ -75,11 +94,11 @@ Result<ParticipantKeys, base::Problem> keys_meant(const fs::path& folder, Role r
 KeyCheck check_keys(const fs::path& folder, const Holder& holder, Instant now) {
   const ParticipantKeys keys(folder);
   if (std::string missing = missing_file(keys); !missing.empty()) {
-    return {KeyFault::Missing, std::move(missing), {}, {}};
+    return {KeyFault::Missing, std::move(missing), {}, {}, {}};
   }
   const std::string certificate = read_text(keys.certificate);
   const std::string authority = read_text(keys.authority);
-  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority}; };
+  const auto wrong = [&](std::string text) { return KeyCheck{KeyFault::Wrong, std::move(text), {}, authority, {}}; };
   const auto facts = read_certificate(certificate);
   if (!facts) {
     return wrong(keys.certificate.string() + " is not a certificate");
@@ -103,7 +122,7 @@ KeyCheck check_keys(const fs::path& folder, const Holder& holder, Instant now) {
   if (permissions.find(">" + facts->subject + "<") == std::string::npos) {
     return wrong(fmt::format("{} is not for {}", keys.permissions.string(), facts->subject));
   }
-  KeyCheck check{KeyFault::None, {}, facts->validity, authority};
+  KeyCheck check{KeyFault::None, {}, facts->validity, authority, exposed_key(keys.key)};
   if (is_revoked(certificate, read_text(keys.revoked))) {
     check.fault = KeyFault::Wrong;
     check.problem = fmt::format("{} was revoked", keys.certificate.string());
@@ -121,6 +140,17 @@ KeyCheck check_keys(const fs::path& folder, const Holder& holder, Instant now) {
 
 KeyCheck check_board_keys(const fs::path& folder, const std::string& plant, const std::string& board, Instant now) {
   return check_keys(folder, {Role::Board, plant, board}, now);
+}
+
+std::string exposed_key(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status found = fs::status(file, error);
+  constexpr fs::perms kOthers = fs::perms::group_read | fs::perms::others_read;
+  if (error || !fs::exists(found) || (found.permissions() & kOthers) == fs::perms::none) {
+    return {};
+  }
+  return fmt::format("{} is a private key that others than its owner can read; chmod 600 '{}'", file.string(),
+                     file.string());
 }
 
 Instant valid_from() {

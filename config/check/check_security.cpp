@@ -17,6 +17,9 @@ constexpr std::chrono::days kSoon{30};
 std::string check_board(const Plant& plant, const std::string& board, bool runs_here, base::Diagnostics& report) {
   const keys::Instant now = keys::instant_now();
   const keys::KeyCheck check = keys::check_board_keys(keys_folder(plant, board), plant.name, board, now);
+  if (!check.exposed.empty()) {
+    report.warning(plant.security_place, check.exposed);
+  }
   const std::string whose = "keys of board " + base::in_quotes(board) + ": " + check.problem;
   switch (check.fault) {
     case keys::KeyFault::None:

@@ -57,6 +57,7 @@ std::string BoardLink::join() {
       note = fmt::format("keys of plant {}: {}; indurop keys renew {}, and copy permissions.p7s and identity.pem here",
                          own_.plant, check.problem, settings_.network.board);
     }
+    note = note.empty() ? check.exposed : note;
     settings_.network.security = security_of(keys::ParticipantKeys(own_.folder));
   }
   auto opened = DeployLink::open(settings_);

@@ -10,7 +10,7 @@
 
 #include "base/read_file.h"
 #include "base/text.h"
-#include "keys/credentials.h"
+#include "keys/deploy_list.h"
 #include "keys/plant_keys.h"
 #include "vars/shm_file.h"
 
@@ -97,8 +97,8 @@ std::string DeployKeys::refusal(const std::string& plant, const std::string& tex
   if (signature.empty()) {
     return fmt::format("it is not signed, and this board has a key of plant {}", plant);
   }
-  return keys::signature_holds(text, signature, key) ? std::string{}
-                                                     : fmt::format("it is not signed with the key of plant {}", plant);
+  return keys::signed_by_any(text, signature, key) ? std::string{}
+                                                   : fmt::format("it is not signed with the key of plant {}", plant);
 }
 
 }  // namespace indurop::deploy

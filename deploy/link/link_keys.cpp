@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/link/link_keys.h"
 
+#include <cstdio>
+
 namespace indurop::deploy {
+
+namespace {
+
+// On the terminal, as whoever gave --keys is there.
+void warn_of(const keys::ParticipantKeys& keys) {
+  if (const std::string exposed = keys::exposed_key(keys.key); !exposed.empty()) {
+    (void)std::fprintf(stderr, "warning: %s\n", exposed.c_str());
+  }
+}
+
+}  // namespace
 
 dds::Security security_of(const keys::ParticipantKeys& keys) {
   return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
@@ -13,6 +26,7 @@ Result<void, base::Problem> use_keys(LinkSettings& settings) {
   if (!keys) {
     return keys.error();
   }
+  warn_of(*keys);
   settings.network.security = security_of(*keys);
   settings.keys = keys->folder;
   return {};
@@ -25,6 +39,7 @@ base::Option add_keys_option(base::Options& line, dds::Security& security, keys:
     if (!keys) {
       return keys.error().text;
     }
+    warn_of(*keys);
     security = security_of(*keys);
     if (given != nullptr) {
       *given = text;

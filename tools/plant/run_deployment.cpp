@@ -246,6 +246,9 @@ Result<std::string, base::Problem> read_deploy_key(Context& context, const std::
   const auto text = base::read_file(file);
   const std::string key = text ? *text : std::string{};
   if (!key.empty() && !keys::signature_of("probe", key).empty()) {
+    if (const std::string exposed = keys::exposed_key(file); !exposed.empty()) {
+      context.out.note("warning: " + exposed);
+    }
     return key;
   }
   return base::Problem{

@@ -5,50 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
-#include "config/xml/plant_reader.h"
-#include "config/xml/plant_rules.h"
 #include "keys/plant_keys.h"
-#include "tools/command/config_file.h"
 #include "tools/command/suggest.h"
+#include "tools/verbs/keys_request.h"
 #include "tools/verbs/verbs.h"
 
 namespace indurop::tools {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int kDefaultDays = 3650;
-constexpr int kMostDays = 36500;
-
-struct Request {
-  std::string folder;               // --dir
-  std::string plant = "plant.xml";  // of init
-  std::vector<std::string> boards;  // of add, renew, revoke
-  std::string tool;                 // of add
-  std::vector<std::string> read;    // patterns of variables
-  std::vector<std::string> write;
-  int days = kDefaultDays;
-};
-
-keys::Instant until(const Request& request) {
-  return keys::instant_now() + std::chrono::days(request.days);
-}
-
-// --dir, else what the manifest here says, else "keys".
-keys::PlantKeys keys_of(const Request& request) {
-  if (!request.folder.empty()) {
-    return keys::PlantKeys(request.folder);
-  }
-  std::error_code ignored;
-  if (fs::exists(request.plant, ignored)) {
-    const config::ReadPlant read = config::read_plant(request.plant);
-    return keys::PlantKeys(read.plant.security.empty() ? fs::path(request.plant).parent_path() / "keys"
-                                                       : read.plant.security.lexically_proximate(fs::current_path()));
-  }
-  return keys::PlantKeys("keys");
-}
 
 const char* to_text(keys::Role role) {
   switch (role) {
@@ -64,19 +28,7 @@ const char* to_text(keys::Role role) {
   return "";
 }
 
-// Keys must be there, and for changes the authority's private one.
-bool usable(Context& context, const keys::PlantKeys& keys) {
-  if (keys.plant().empty()) {
-    context.out.error(
-        fmt::format("there are no keys in {}; make them with indurop keys init PLANT, or say with --dir "
-                    "where they are",
-                    keys.folder().string()));
-    return false;
-  }
-  return true;
-}
-
-int list(Context& context, const Request& request) {
+int list(Context& context, const KeysRequest& request) {
   const keys::PlantKeys keys = keys_of(request);
   if (!usable(context, keys)) {
     return kFailed;
@@ -91,6 +43,7 @@ int list(Context& context, const Request& request) {
                {"READS", "reads", Align::Left, 3},
                {"SETS", "sets", Align::Left, 3}});
   bool ok = true;
+  std::vector<std::string> exposed;
   for (const keys::KeyListing& each : keys.list(now)) {
     const auto days = std::chrono::floor<std::chrono::days>(each.validity.until - now).count();
     table.add({Cell(to_text(each.role)), Cell(each.name), Cell(keys::utc_text(each.validity.until)),
@@ -98,118 +51,15 @@ int list(Context& context, const Request& request) {
                Cell(fmt::format("{}", fmt::join(each.variables.read, " ")), each.variables.read),
                Cell(fmt::format("{}", fmt::join(each.variables.write, " ")), each.variables.write)});
     ok = ok && (each.problem.empty() || each.revoked);
+    if (!each.exposed.empty()) {
+      exposed.push_back(each.exposed);
+    }
   }
   print_table(context, table, {{"plant", keys.plant()}, {"folder", keys.folder().string()}}, "keys");
+  for (const std::string& key : exposed) {
+    context.out.note("warning: " + key);
+  }
   return ok ? kOk : kFailed;
-}
-
-void say_what_is_there(Context& context, const keys::PlantKeys& keys) {
-  std::string names;
-  for (const keys::KeyListing& each : keys.list(keys::instant_now())) {
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  context.out.error(
-      fmt::format("{} holds the keys of plant {} already, for {}; private keys are never replaced. A board that has "
-                  "come: indurop keys add BOARD; an end that is near: indurop keys renew; all: indurop keys list",
-                  keys.folder().string(), keys.plant(), names));
-}
-
-int init(Context& context, const Request& request) {
-  std::error_code ignored;
-  if (!fs::exists(request.plant, ignored)) {
-    context.out.error(fmt::format("there is no file '{}'; name the manifest of the plant", request.plant));
-    return kFailed;
-  }
-  const config::ReadPlant read = config::read_plant(request.plant);
-  if (!read.ok()) {
-    print_diagnostics(context, read.diagnostics, false);
-    return kCheckFailed;
-  }
-  const keys::PlantKeys keys = keys_of(request);
-  if (keys.exist()) {
-    say_what_is_there(context, keys);
-    return kFailed;
-  }
-  std::vector<std::string> boards;
-  for (const config::Board& board : read.plant.boards) {
-    boards.push_back(board.name);
-  }
-  if (const auto done = keys.make(read.plant.name, boards, until(request)); !done) {
-    context.out.error(done.error().text);
-    return kFailed;
-  }
-  context.out.line(fmt::format("made the keys of plant {} in {}: for {}, a viewer and a deployer, valid until {}",
-                               read.plant.name, keys.folder().string(), counted(boards.size(), "board"),
-                               keys::utc_text(until(request)).substr(0, 10)));
-  if (read.plant.security.empty()) {
-    const fs::path here = fs::absolute(request.plant, ignored).lexically_normal().parent_path();
-    const fs::path there = fs::absolute(keys.folder(), ignored).lexically_normal();
-    context.out.note(fmt::format("next: write <security>{}</security> into {}",
-                                 there.lexically_proximate(here).string(), request.plant));
-  }
-  context.out.note(
-      fmt::format("copy {}/boards/BOARD to /etc/indurop/keys/{}/BOARD of each board, for its node's user "
-                  "alone; keep {}/ca.key away from the plant",
-                  keys.folder().string(), read.plant.name, keys.folder().string()));
-  return kOk;
-}
-
-bool is_name(Context& context, const char* what, const std::string& name) {
-  if (!config::is_node_name(name)) {
-    context.out.error(
-        fmt::format("'{}' is not a valid {} name: use up to 40 letters, digits, '_' and '-'", name, what));
-    return false;
-  }
-  return true;
-}
-
-int add_tool(Context& context, const Request& request, const keys::PlantKeys& keys) {
-  if (!request.boards.empty() || (request.read.empty() && request.write.empty())) {
-    context.out.error(
-        "say what the tool may do, and no board: indurop keys add --tool NAME --read 'cell::*' --write cell::target");
-    return kUsage;
-  }
-  if (!is_name(context, "tool", request.tool)) {
-    return kUsage;
-  }
-  if (const auto done = keys.add_tool(request.tool, {request.read, request.write}, until(request)); !done) {
-    context.out.error(done.error().text);
-    return kFailed;
-  }
-  context.out.line(fmt::format("made {}", keys.tool(request.tool).string()));
-  context.out.note(
-      fmt::format("copy it to where the tool runs, for its user alone. Other lists: change variables.txt in it, then "
-                  "indurop keys renew {}, and copy permissions.p7s and identity.pem",
-                  request.tool));
-  return kOk;
-}
-
-int add(Context& context, const Request& request) {
-  const keys::PlantKeys keys = keys_of(request);
-  if (!usable(context, keys)) {
-    return kFailed;
-  }
-  if (!request.tool.empty()) {
-    return add_tool(context, request, keys);
-  }
-  if (request.boards.empty() || !request.read.empty() || !request.write.empty()) {
-    context.out.error(request.boards.empty() ? "name a board: indurop keys add BOARD, or a tool: --tool NAME"
-                                             : "--read and --write are for tools: --tool NAME");
-    return kUsage;
-  }
-  for (const std::string& board : request.boards) {
-    if (!is_name(context, "board", board)) {
-      return kUsage;
-    }
-  }
-  for (const std::string& board : request.boards) {
-    if (const auto done = keys.add(board, until(request)); !done) {
-      context.out.error(done.error().text);
-      return kFailed;
-    }
-    context.out.line(fmt::format("made {}", keys.board(board).string()));
-  }
-  return kOk;
 }
 
 // Those that are named, boards before others of the same name; empty after an error.
@@ -231,7 +81,7 @@ std::vector<keys::KeyListing> chosen(Context& context, const keys::PlantKeys& ke
   return found;
 }
 
-int renew(Context& context, const Request& request) {
+int renew(Context& context, const KeysRequest& request) {
   const keys::PlantKeys keys = keys_of(request);
   if (!usable(context, keys)) {
     return kFailed;
@@ -245,8 +95,8 @@ int renew(Context& context, const Request& request) {
   }
   for (const keys::KeyListing& each : whose) {
     if (each.revoked) {
-      context.out.error(fmt::format("{} was revoked; move {} away and give it new keys: indurop keys add {}", each.name,
-                                    each.folder.string(), each.name));
+      context.out.error(fmt::format("{} was revoked; move {} away and give it new keys: {}", each.name,
+                                    each.folder.string(), keys::how_to_add(each.role, each.name)));
       return kFailed;
     }
     if (const auto done = keys.renew(each, until(request)); !done) {
@@ -259,7 +109,7 @@ int renew(Context& context, const Request& request) {
   return whose.empty() ? kFailed : kOk;
 }
 
-int revoke(Context& context, const Request& request) {
+int revoke(Context& context, const KeysRequest& request) {
   const keys::PlantKeys keys = keys_of(request);
   if (!usable(context, keys)) {
     return kFailed;
@@ -270,16 +120,67 @@ int revoke(Context& context, const Request& request) {
       context.out.error(done.error().text);
       return kFailed;
     }
-    context.out.line(fmt::format("{} is revoked: copy revoked.pem to every board, and restart its node", each.name));
+    context.out.line(fmt::format("{} is revoked: copy revoked.pem{} to every board, and restart its node", each.name,
+                                 each.role == keys::Role::Deployer ? " and deploy.pub" : ""));
   }
   return whose.empty() ? kFailed : kOk;
 }
 
-void add_common(base::Options& verb, Request& request) {
+int finish_rotation(Context& context, const keys::PlantKeys& keys) {
+  const auto ended = keys.finish_rotation();
+  if (!ended) {
+    context.out.error(ended.error().text);
+    return kFailed;
+  }
+  if (*ended == 0) {
+    context.out.note("there is no former key: nothing was changed");
+    return kOk;
+  }
+  context.out.line(fmt::format("{} no more: copy {}/deploy.pub to every board",
+                               *ended == 1 ? "1 former key counts" : fmt::format("{} former keys count", *ended),
+                               keys.folder().string()));
+  return kOk;
+}
+
+int rotate(Context& context, const KeysRequest& request) {
+  const keys::PlantKeys keys = keys_of(request);
+  if (!usable(context, keys)) {
+    return kFailed;
+  }
+  if (request.finish) {
+    if (!request.boards.empty()) {
+      context.out.error("--finish is for all deployers: name none");
+      return kUsage;
+    }
+    return finish_rotation(context, keys);
+  }
+  const auto whose =
+      chosen(context, keys, request.boards.empty() ? std::vector<std::string>{"deployer"} : request.boards);
+  for (const keys::KeyListing& each : whose) {
+    if (each.role != keys::Role::Deployer || each.revoked) {
+      context.out.error(fmt::format("{} is {}", each.name, each.revoked ? "revoked" : "no deployer"));
+      return kFailed;
+    }
+  }
+  for (const keys::KeyListing& each : whose) {
+    if (const auto done = keys.rotate(each); !done) {
+      context.out.error(done.error().text);
+      return kFailed;
+    }
+    context.out.line(fmt::format("{} has a new key for deployments; its former one counts, too", each.name));
+    context.out.note(fmt::format(
+        "next: copy {0}/deploy.pub to every board, then {1}/deploy.key to where {2} deploys; deploy once with it; then "
+        "indurop keys rotate --finish",
+        keys.folder().string(), each.folder.string(), each.name));
+  }
+  return whose.empty() ? kFailed : kOk;
+}
+
+void add_common(base::Options& verb, KeysRequest& request) {
   verb.add("--dir", "DIR", request.folder, "Folder of the keys (default: <security> of ./plant.xml, else ./keys)");
 }
 
-void add_days(base::Options& verb, Request& request) {
+void add_days(base::Options& verb, KeysRequest& request) {
   verb.add("--days", "N", request.days, fmt::format("How long they are valid (default: {})", kDefaultDays))
       .range(1, kMostDays);
 }
@@ -297,9 +198,9 @@ void add_patterns(base::Options& verb, const char* name, std::vector<std::string
 }
 
 Action declare(base::Options& app, Context& context) {
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<KeysRequest>();
   auto chosen_action = std::make_shared<Action>();
-  const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const Request&)) {
+  const auto verb = [&](const char* name, const char* help, int (*action)(Context&, const KeysRequest&)) {
     base::Options& made = app.command(name, help, [request, chosen_action, action] {
       *chosen_action = [request, action](Context& c) { return action(c, *request); };
     });
@@ -307,13 +208,15 @@ Action declare(base::Options& app, Context& context) {
     return &made;
   };
   base::Options* made =
-      verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init);
+      verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init_keys);
   made->add("plant", "PLANT", request->plant, "Manifest of the plant (default: plant.xml)");
   add_days(*made, *request);
-  made = verb("add", "Make the keys of a further board, or of a tool", &add);
+  made = verb("add", "Make the keys of a further board, viewer, deployer or tool", &add_keys);
   made->add("boards", "BOARD", request->boards, "Names of the boards");
   made->add("--tool", "NAME", request->tool,
             "A program that takes part in <external secure=\"on\">, instead of boards");
+  made->add("--viewer", "NAME", request->viewer, "Somebody who looks, instead of boards");
+  made->add("--deployer", "NAME", request->deployer, "Somebody who deploys, instead of boards");
   add_patterns(*made, "--read", request->read, "Variables it may read: names and patterns, with commas between them");
   add_patterns(*made, "--write", request->write, "Variables it may set, and read");
   add_days(*made, *request);
@@ -324,6 +227,10 @@ Action declare(base::Options& app, Context& context) {
   add_days(*made, *request);
   made = verb("revoke", "Make certificates void", &revoke);
   made->add("names", "NAME", request->boards, "Whose").required();
+  made =
+      verb("rotate", "Give deployers a new key that signs deployments; the former one counts until --finish", &rotate);
+  made->add("names", "NAME", request->boards, "Whose (default: deployer)");
+  made->flag("--finish", request->finish, "Former keys count no more: all boards have deploy.pub");
   return [chosen_action](Context& c) { return (*chosen_action)(c); };
 }
 
@@ -336,7 +243,8 @@ const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plan
                      "Examples:\n"
                      "  indurop keys init plant.xml --dir keys\n"
                      "  indurop keys list --dir keys\n"
-                     "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n",
+                     "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
+                     "  indurop keys add --deployer anna\n",
                      &declare};
 
 }  // namespace indurop::tools

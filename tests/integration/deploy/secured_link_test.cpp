@@ -189,5 +189,38 @@ TEST_F(SecuredLink, A_viewer_looks_and_commands_nothing) {
   EXPECT_THAT(stop.err, HasSubstr("deploy.key is missing"));
 }
 
+// What somebody brings to the boards after keys have changed.
+TEST_F(SecuredLink, A_deployer_that_was_revoked_is_replaced) {
+  start_with_keys();
+  speak_with_keys(path("keys/deployer"));
+  ASSERT_EQ(deploy(file()).code, 0);
+  const auto keys_verb = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "keys");
+    words.insert(words.end(), {"--dir", path("keys")});
+    const Outcome done = indurop_here(words);
+    EXPECT_EQ(done.code, 0) << done.err;
+  };
+  keys_verb({"add", "--deployer", "bob"});
+  keys_verb({"revoke", "deployer"});
+  const auto plant = folder() / "etc" / ("p" + std::to_string(::getpid()));
+  for (const char* name : {"a", "b"}) {
+    for (const char* shared : {"deploy.pub", "revoked.pem"}) {
+      std::filesystem::copy_file(folder() / "keys" / shared, plant / board(name) / shared,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  const std::string next = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
+  speak_with_keys(path("keys/deployers/bob"));
+  ASSERT_TRUE(wait_until([&] { return report("a").is_object() && report("b").is_object(); }));
+  const Outcome done = deploy(next);
+  EXPECT_EQ(done.code, 0) << done.err;
+  // The key that signs is not enough any more, whoever's certificate comes with it.
+  std::filesystem::copy_file(folder() / "keys/deployer/deploy.key", folder() / "keys/deployers/bob/deploy.key",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Outcome refused = deploy(manifest("v3.xml", {{"a", "steady"}, {"b", "other"}}));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("it is not signed with the key of plant"));
+}
+
 }  // namespace
 }  // namespace indurop::test
